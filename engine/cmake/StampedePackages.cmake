@@ -1,0 +1,21 @@
+# Debian's libraries as targets. All third-party headers are system headers: their warnings are not ours.
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
+find_package(assimp REQUIRED)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(Threads REQUIRED)
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
+pkg_check_modules(LUA REQUIRED IMPORTED_TARGET lua5.4-c++)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
+
+# Debian's ompl.pc forces C++14 and names a folder that does not exist, so OMPL is found by hand.
+find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+find_library(OMPL_LIBRARY ompl REQUIRED)
+add_library(stampede_ompl INTERFACE)
+target_include_directories(stampede_ompl SYSTEM INTERFACE ${OMPL_INCLUDE_DIR})
+target_link_libraries(stampede_ompl INTERFACE ${OMPL_LIBRARY})

@@ -1,0 +1,41 @@
+# How every folder is compiled, and stampede_room(): a folder is one static library whose link line is the rule.
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+find_program(LLD ld.lld)
+if(LLD)
+  add_link_options(-fuse-ld=lld)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")  # assertions of the standard library and of Eigen stay on
+
+option(STAMPEDE_WERROR "Treat warnings as errors" ON)
+set(STAMPEDE_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
+
+add_library(stampede_options INTERFACE)
+target_compile_options(stampede_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${STAMPEDE_WERROR}>:-Werror>
+  -ffp-contract=off)  # same sums in debug and optimised builds
+target_compile_definitions(stampede_options INTERFACE $<$<CONFIG:Release>:NDEBUG> $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+target_include_directories(stampede_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/engine/include
+  ${PROJECT_SOURCE_DIR}/db/include ${PROJECT_SOURCE_DIR}/scripting/include)
+if(STAMPEDE_SANITIZE)
+  add_compile_options(-fsanitize=${STAMPEDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g)
+  add_link_options(-fsanitize=${STAMPEDE_SANITIZE})
+endif()
+
+# stampede_room(base SOURCES a.cpp … USES rooms and packages its headers need … INSIDE those only its sources need …)
+function(stampede_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;INSIDE" ${ARGN})
+  add_library(stampede_${name} STATIC ${ROOM_SOURCES})
+  target_link_libraries(stampede_${name} PUBLIC stampede_options ${ROOM_USES} PRIVATE ${ROOM_INSIDE})
+endfunction()

@@ -1,0 +1,134 @@
+// One simulated scene: bodies, joints, contacts, the robot's controllers. One owner thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/model/scene.h"
+#include "engine/model/trajectory.h"
+
+namespace stampede {
+
+enum class ControllerKind { joint_position, joint_impedance, cartesian_impedance };
+std::string_view to_string(ControllerKind kind);
+std::optional<ControllerKind> controller_from(std::string_view name);
+
+// Everything that changes a world from outside is one of these: writer, reader and replayer share the list.
+// Operations take effect at the step at which they are applied.
+namespace operation {
+struct Boundary {};  // drops all contact caches, so that a snapshot taken here restores bit for bit
+struct Controller {
+  ControllerKind kind = ControllerKind::joint_position;
+  double stiffness = 0;  // 0: the default of the kind (N m/rad; cartesian: N/m); damping is critical
+};
+struct Follow {  // the arm's reference from this step on; every controller derives its set-points from it
+  Trajectory trajectory;
+};
+struct Hand {
+  double opening = 0;  // m, both fingers together
+  double force = 20;   // N
+};
+struct Setpoint {  // a reference for this step on, from an agent
+  JointVector position, velocity;
+};
+struct Place {  // teleports a free body (scene sampling only)
+  int body = 0;
+  Transform world_from_body = Transform::Identity();
+};
+}  // namespace operation
+using Operation = std::variant<operation::Boundary, operation::Controller, operation::Follow, operation::Hand,
+                               operation::Setpoint, operation::Place>;
+
+struct Command {
+  std::int64_t step = 0;  // applied before this physics step
+  Operation operation;
+};
+std::string_view operation_kind(const Operation& operation);       // `boundary`, `follow` …
+std::string operation_to_bytes(const Operation& operation);        // full precision, little-endian
+Operation operation_from_bytes(std::string_view kind, std::string_view bytes);  // throws Error
+
+// A body and one of its parts; body -1 is the robot.
+struct PartRef {
+  int body = 0;
+  int part = 0;
+  friend auto operator<=>(const PartRef&, const PartRef&) = default;
+};
+
+// A touching pair over the last closed window (one frame). a < b.
+struct Contact {
+  PartRef a, b;
+  double mean_force = 0, peak_force = 0;  // normal, N; mean over the window's steps
+  Vector3 normal = Vector3::Zero();       // unit, world, from b to a, force-weighted
+  Vector3 point = Vector3::Zero();        // world, force-weighted
+  Vector3 force = Vector3::Zero();        // mean contact force on a, friction included, world, N
+};
+
+// All that tells one moment of a world from another. Opaque, copyable, comparable by hash.
+class Snapshot {
+ public:
+  struct Data;
+  std::shared_ptr<const Data> data;
+};
+
+class CollisionSpace;
+
+class World {
+ public:
+  explicit World(std::shared_ptr<const Scene> scene);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const Scene& scene() const;
+  const Arm& arm() const;
+  std::int64_t step_count() const;
+  double dt() const;
+
+  void apply(const Operation& operation);        // also appends to the log
+  void step();                                   // one physics step of 1/physics_hz
+  const std::vector<Command>& log() const;       // since construction, or as restore left it
+
+  // Poses are of part frames, not centres of mass.
+  const Transform& world_from_part(PartRef part) const;  // current after each step
+  Vector3 linear_velocity(PartRef part) const;           // of the centre of mass, world, m/s
+  Vector3 angular_velocity(PartRef part) const;          // world, rad/s
+  double joint_position(PartRef part) const;
+  double joint_velocity(PartRef part) const;
+  double joint_effort(PartRef part) const;  // applied by the motor or controller in the last step
+  bool latched(PartRef part) const;
+
+  JointVector arm_position() const;
+  JointVector arm_velocity() const;
+  JointState reference() const;             // the arm's set-point at this step
+  bool following() const;                   // the reference has not reached its trajectory's end
+  Transform world_from_tip() const;
+  double opening() const;                   // m
+  double commanded_opening() const;
+
+  // Contacts of the last closed window; close_window() ends one (called once per frame).
+  const std::vector<Contact>& contacts() const;
+  void close_window();
+  // The body held by friction in the last window: both pads touch it, at least 0.5 N mean each, normals opposed
+  // within 45 degrees. Nothing: std::nullopt.
+  std::optional<PartRef> grasped() const;
+
+  // Restoring gives the same future, bit for bit, also in another World of an equal scene. Snapshots are taken
+  // right after a Boundary operation. Restore also shortens the log to its length at the snapshot.
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+  std::string state_hash() const;           // of all positions and velocities
+
+  // The world as it is now, frozen, for motion planning.
+  std::unique_ptr<CollisionSpace> collision_space() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stampede
