@@ -1,0 +1,59 @@
+// A motion: what the robot does between two decisions, advanced once per physics step.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/reason.h"
+#include "engine/sim/world.h"
+
+namespace stampede {
+
+enum class MotionStatus { running, done, failed };
+
+struct MotionResult {
+  MotionStatus status = MotionStatus::running;
+  Reason reason = Reason::none;  // set when failed
+};
+
+// A point the tool passes without stopping, as planned; the recorder finds the step of closest passage.
+struct PlannedVia {
+  std::string name;  // `approach`
+  Transform world_from_tip;
+  std::int64_t step = 0;  // planned passage, in steps from the motion's start
+};
+
+// Embedders may write their own: a policy is a Motion too.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  virtual std::string kind() const = 0;  // `move_through`, `close_hand` …: the label of its segment
+  // Called before each physics step, the first time at the motion's first step. May apply operations to the world
+  // (and nothing else). done/failed: no further call; the motion ends before that step.
+  virtual MotionResult step(World& world) = 0;
+  virtual std::vector<PlannedVia> vias() const { return {}; }
+};
+
+// Follows a planned trajectory; done when its end is reached and the arm is within tolerance of it (or fails with
+// tracking_error after a settle allowance). With `keep` set, losing the held part fails with `dropped`.
+struct FollowOptions {
+  std::string kind = "move";
+  std::vector<PlannedVia> vias;
+  std::optional<PartRef> keep;       // must stay grasped
+  double tolerance_rad = 0.01;
+  double settle_s = 0.5;             // allowance after the trajectory's end
+  bool stop_on_contact = false;      // done at the first new contact of hand or held part above contact_force
+  double contact_force = 3;          // N
+  bool tolerate_error = false;       // arriving short of the target is no failure (pressing, pushing, pulling)
+};
+std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options);
+
+// Opens or closes the hand. Closing on an object (`expect`) is done when it is grasped steadily for 0.1 s and
+// fails with grasp_missed when the fingers stop without it.
+std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<PartRef> expect);
+
+std::unique_ptr<Motion> make_wait(std::int64_t steps);
+
+}  // namespace stampede

@@ -1,0 +1,78 @@
+// From tool targets to timed joint paths: collision-free, blended, within the robot's limits.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/base/reason.h"
+#include "engine/motion/motion.h"
+#include "engine/sim/collision_space.h"
+
+namespace stampede {
+
+struct MotionLimits {
+  double speed = 1.0;               // share of the joint velocity limits, (0, 1]
+  double acceleration = 0.5;        // share of the joint acceleration limits; jerk limits always hold in full
+  double resolution_rad = 0.01;     // spacing at which every path is certified (greatest joint difference)
+  int iterations = 4000;            // tree extensions before no_path
+  int shortcuts = 60;               // attempts of the shortener
+  double padding_m = 0.005;         // obstacles grow by this while planning; certification is without
+};
+
+struct PlannedMotion {
+  Reason reason = Reason::none;     // none: trajectory is valid
+  std::string detail;               // for people: what touches what, which target has no IK solution
+  Trajectory trajectory;
+  std::vector<PlannedVia> vias;
+};
+
+struct ToolTarget {
+  std::string name;                 // of the via-point; the last one is the goal
+  Transform world_from_tip;
+};
+
+// Joint path between two configurations: our own RRT-Connect (Kuffner, LaValle, ICRA 2000,
+// doi:10.1109/ROBOT.2000.844730) on OMPL's base classes, seeded by `key`, then shortened, and certified.
+// Shapes: waypoints, first = start, last = goal. Result: empty with a reason. Repeatable: a pure function of its
+// arguments, whatever ran before or runs beside it.
+struct JointPath {
+  Reason reason = Reason::none;
+  std::string detail;
+  std::vector<JointVector> waypoints;
+};
+JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal, const MotionLimits& limits,
+                    RandomKey key);
+
+// Times a joint path: corners are rounded (blends stay within the certified tube or shrink), the path is passed at
+// the highest speed that respects velocity, acceleration and jerk limits. `stops`: waypoint indices at which to halt.
+Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
+                     int physics_hz);
+
+// A planned motion through all targets, stopping only at the last. Free motion up to the first target; between
+// targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
+PlannedMotion plan_through(CollisionSpace& space, const JointVector& start, const std::vector<ToolTarget>& targets,
+                           const MotionLimits& limits, RandomKey key);
+
+// A planned free motion to joint positions.
+PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                          const MotionLimits& limits, RandomKey key);
+
+// The tip follows world_from_tip(s), s in [0, 1], by IK at dense samples with joint continuity (no sample more than
+// 0.3 rad from the last). `collide`: check for collisions. Speed limits of the tool, m/s and rad/s, hold as well.
+struct LineOptions {
+  double tool_speed = 0.25;   // m/s
+  double tool_turn = 1.0;     // rad/s
+  bool collide = false;
+  int samples = 0;            // 0: one each 5 mm or 0.02 rad
+};
+PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
+                             const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
+                             const MotionLimits& limits, RandomKey key);
+// Straight line with slerp from where the tip is.
+PlannedMotion plan_line(CollisionSpace& space, const JointVector& start, const Transform& world_from_tip,
+                        const LineOptions& line, const MotionLimits& limits, RandomKey key);
+
+}  // namespace stampede
