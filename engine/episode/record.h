@@ -1,0 +1,176 @@
+// One finished episode as plain values: what the runner produces, the catalogue stores and the replayer checks.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/reason.h"
+#include "engine/geometry/transform.h"
+#include "engine/sim/world.h"
+#include "engine/symbolic/symbols.h"
+
+namespace stampede {
+
+enum class Outcome { success, failure };
+std::string_view to_string(Outcome outcome);
+
+// A span of steps and frames, half-open. end_frame = first frame at or after end_step.
+struct Span {
+  std::int64_t start_step = 0, end_step = 0;
+  std::int64_t first_frame = 0, end_frame = 0;
+};
+
+struct ParameterRecord {  // a continuous parameter of a segment
+  std::string name;       // `height`, `grasp`, `controller`
+  std::vector<double> values;
+  std::string text;       // instead of values: the controller's name
+  std::string unit, frame;
+  std::string chosen_by;  // default stream planner agent
+};
+
+struct SegmentRecord {
+  std::string kind;       // subgoal skill motion
+  int ordinal = 0;        // in the episode, by start then depth
+  int parent = -1;        // ordinal, -1: none
+  std::string robot;
+  std::string skill;      // name of subgoal, skill or motion
+  std::string case_name;
+  std::vector<std::string> arguments;
+  std::string controller;
+  Span span;
+  Outcome outcome = Outcome::success;
+  Reason reason = Reason::none;
+  std::string detail;     // for people
+  std::optional<bool> precondition_held, effect_held;  // nothing: none declared or not reached
+  std::vector<std::string> missing_effects;            // literals that did not come true
+  std::string label;      // `pick up the red block`
+  std::vector<ParameterRecord> parameters;
+};
+
+// A try that was undone. Its steps and frames count from the start of the try on a time line that no longer exists.
+struct AttemptRecord {
+  SegmentRecord segment;
+  int before_segment = 0;  // ordinal of the segment that took its place in the end (or the segment count)
+  int try_number = 0;      // per skill position
+};
+
+struct ViaRecord {
+  int segment = 0;         // ordinal of the motion segment
+  std::string name;
+  Pose pose;               // as planned, world
+  Pose passed;             // tip at the closest passage
+  std::int64_t step = 0;   // of closest passage
+  double speed = 0;        // greatest |joint velocity| there, rad/s
+  double tool_speed = 0;   // m/s
+};
+
+struct FactRecord {
+  Fact fact;
+  std::int64_t start_step = 0, end_step = 0;
+  std::int64_t first_frame = 0, end_frame = 0;
+  bool open_start = false, open_end = false;
+  bool observed = true;
+  std::optional<double> margin;  // at the start of the interval
+};
+
+struct ContactRecord {
+  std::string object_a, part_a, object_b, part_b;
+  std::int64_t first_frame = 0, end_frame = 0;
+  double peak_force = 0;  // N
+};
+
+struct GraspRecord {
+  int segment = 0;
+  std::string object;
+  Pose object_from_tip;
+  double width = 0;       // opening measured when held, m
+  bool held = false;
+};
+
+struct HandRecord {
+  Pose tip;                          // world
+  std::array<double, 6> twist{};     // linear m/s, angular rad/s, world
+  double opening = 0;                // m
+  std::array<double, 2> touch{};     // normal force at each pad, N
+};
+
+struct ActionRecord {                // commanded over [frame, frame+1)
+  std::vector<double> joint_position;  // reference at the end of the interval, rad
+  Pose tool_pose;                      // of that reference
+  double gripper = 0;                  // commanded opening, m
+};
+
+// Row t: the observation before action t, the reward and done after it; the last frame has no action.
+struct FrameRecord {
+  std::int64_t step = 0;
+  double reward = 0;
+  bool done = false;
+  std::vector<double> joint_position, joint_velocity, joint_effort;  // per EpisodeRecord::joints
+  std::vector<Pose> object_pose;                                     // per EpisodeRecord::posed
+  std::vector<HandRecord> hands;                                     // per EpisodeRecord::hands
+  std::optional<ActionRecord> action;
+};
+
+struct JointName {
+  std::string name;    // `panda.joint1`, `chest.top_drawer`
+  PartRef part;
+  std::string kind, unit;
+  double lower = 0, upper = 0;
+  bool driven = false;
+};
+
+struct LanguageRecord {
+  std::string level;   // task world skill
+  std::string text;
+  int segment = -1;    // skill level: the segment
+};
+
+struct DocumentRecord {
+  std::string kind;    // pddl_domain pddl_problem plan
+  std::string text;
+};
+
+// Source of a definition that took part, for the catalogue's definition tables.
+struct DefinitionRecord {
+  std::string kind;    // task skill predicate object world robot types
+  std::string name, path, source, hash;
+};
+
+struct EpisodeRecord {
+  std::string key;     // hash of definitions, task, variation, seed and every option that alters data
+  std::string task, world, variation;
+  std::map<std::string, std::string> axes;   // of the variation
+  std::int64_t seed = 0;
+  std::string split;   // train test
+  Outcome outcome = Outcome::failure;
+  Reason reason = Reason::none;
+  std::string detail;
+  std::map<std::string, std::string> options;  // that alter data, as text
+  std::vector<DefinitionRecord> definitions;
+  int physics_hz = 240, frame_hz = 20;
+  std::int64_t steps = 0;
+  std::string scene_document;
+  std::vector<Object> objects;
+  std::vector<std::string> posed;      // names of objects whose pose is in frames
+  std::vector<JointName> joints;
+  std::vector<std::string> hands;
+  std::vector<FrameRecord> frames;
+  std::vector<Command> commands;
+  std::vector<SegmentRecord> segments;
+  std::vector<AttemptRecord> attempts;
+  std::vector<ViaRecord> vias;
+  std::vector<FactRecord> facts;
+  std::vector<ContactRecord> contacts;
+  std::vector<GraspRecord> grasps;
+  std::vector<LanguageRecord> language;
+  std::vector<DocumentRecord> documents;
+  std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
+  std::string state_hash;              // World::state_hash at the end
+  double draws = 1;                    // starts drawn until init held
+  double wall_s = 0, physics_wall_s = 0;  // host times: outside every hash
+};
+
+}  // namespace stampede

@@ -1,0 +1,51 @@
+// One run from reset to verdict.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "engine/episode/interfaces.h"
+
+namespace stampede {
+
+enum class OnFailure { undo, stop, recover };
+std::string_view to_string(OnFailure value);
+std::optional<OnFailure> on_failure_from(std::string_view text);
+
+// Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
+struct RunOptions {
+  std::int64_t seed = 0;
+  std::string split = "train";
+  OnFailure on_failure = OnFailure::undo;
+  int tries_per_skill = 6;        // runs of one skill before the one before it is undone too
+  int tries_per_episode = 60;
+  int plans = 4;                  // different plans tried
+  int draws = 100;                // starts drawn until init holds
+  std::string controller;         // empty: each skill's own
+  std::map<std::string, std::string> as_text() const;
+};
+
+// Runs one episode to its end, good or bad. Repeatable: the same record, bit for bit, but for host times.
+// `stop`: ends early with Reason::interrupted when true (checked between skills and every frame).
+EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
+                          const std::atomic<bool>* stop = nullptr);
+
+// Makes and settles a start in which init holds, without running it. Throws nothing; a reason when none was found.
+struct Start {
+  Reason reason = Reason::none;
+  std::string detail;       // which literal failed, and how often
+  std::shared_ptr<const Scene> scene;
+  int draws = 0;
+};
+Start make_start(Task& task, Symbols& symbols, const RunOptions& options);
+
+// The task-level problem of a start: what the planner is asked.
+Problem problem_of(Task& task, Symbols& symbols, const WorldView& view);
+
+// Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
+// difference in words (frame, value, stored, now).
+std::string replay_episode(const EpisodeRecord& episode);
+
+}  // namespace stampede
