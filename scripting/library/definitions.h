@@ -1,0 +1,41 @@
+// Reaching the Lua side of definitions: one fresh state per episode, from the library's cached bytecode.
+#pragma once
+
+#include <memory>
+
+#include "scripting/library/library.h"
+#include "scripting/lua/sandbox.h"
+
+namespace stampede {
+
+// The words of the authoring language (task, skill, predicate, object, world, robot, is, is_not, act, one_of, between,
+// sample_of, any_order, any_of, all_of, forall, exists, in_order, when, stream, each, colours, deg, pddl …) defined in
+// a sandbox, so that a definition file can run there. Written mostly in Lua (scripting/library/prelude.lua, embedded).
+class DefinitionState {
+ public:
+  explicit DefinitionState(std::shared_ptr<const Library> library, const SandboxLimits& limits = {});
+  ~DefinitionState();
+  Sandbox& sandbox();
+  lua_State* state();
+  const Library& library() const;
+
+  // Pushes the definition's table: fields as the author wrote them, plus `kind` and `name`. Each file runs once per
+  // state. Values that are to be drawn (one_of …), literals (is.on(…)) and calls (act.pick(…)) are tables with a field
+  // `tag` = "one_of" | "between" | "sample_of" | "literal" | "call" | "stream" | "formula" …; prelude.lua documents
+  // each form. Throws Error.
+  void push(DefinitionKind kind, std::string_view name);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// A formula, literal or effect value on top of the stack (left there) as C++. `place` starts error messages.
+// Strings with ? are variables; in a skill or predicate, strings that name a parameter are variables too
+// (`parameters`); anything else is an object. Groups (`block*`) expand by `expand` (task goals and init).
+Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,
+                     const Domain& domain,
+                     const std::function<std::vector<std::string>(const std::string& group)>& expand = {});
+Literal read_literal(lua_State* state, int index, const std::string& place);
+
+}  // namespace stampede

@@ -1,0 +1,84 @@
+// All Lua files of a set of roots: found, compiled, checked, and turned into vocabulary that C++ understands.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/episode/interfaces.h"
+
+struct lua_State;
+
+namespace stampede {
+
+enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, module };
+std::string_view to_string(DefinitionKind kind);
+
+struct ScriptFile {
+  DefinitionKind kind = DefinitionKind::task;
+  std::string name;         // the file's name without .lua
+  std::filesystem::path path;
+  std::string shown_path;   // relative to its root, for messages and catalogues
+  std::string description;  // its first comment line
+  std::string source, bytecode, hash;
+};
+
+// Every complaint of a file set at once, sorted by file and line.
+class LibraryError : public Error {
+ public:
+  explicit LibraryError(std::vector<Error> errors);
+  const std::vector<Error>& errors() const { return errors_; }
+
+ private:
+  std::vector<Error> errors_;
+};
+
+// Later roots win over earlier ones, file by file: `--root` first, then each `--path`.
+struct Roots {
+  std::vector<std::filesystem::path> folders;
+};
+
+// Immutable after load and shared by all workers.
+class Library {
+ public:
+  // Throws LibraryError with all complaints.
+  static std::shared_ptr<const Library> load(const Roots& roots);
+  // As load, but complaints are returned and the sound files kept (for `stampede check`).
+  static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints);
+
+  const Roots& roots() const { return roots_; }
+  const ScriptFile* file(DefinitionKind kind, std::string_view name) const;
+  std::vector<const ScriptFile*> files(DefinitionKind kind) const;  // by name
+  std::vector<const ScriptFile*> all_files() const;                 // by kind, then name
+  const ScriptFile* module(std::string_view require_name) const;    // what require "name" finds inside the roots
+
+  // The vocabulary: types, traits, predicates, actions of all skills. One domain for all worlds of a library;
+  // an action's name is its skill, or skill_case. The hand is an object of type `hand`; predicates and actions that
+  // name it have it as a parameter like any other (`hand_empty(hand)`, `holding(hand, obj)`).
+  const Domain& domain() const { return domain_; }
+  const std::map<std::string, PredicateTraits>& predicate_traits() const { return predicate_traits_; }
+  const SkillInfo* skill(std::string_view name) const;
+
+  struct TaskInfo {
+    std::string name, world, description;
+    std::vector<std::map<std::string, std::string>> variations;  // axis -> value as text, in the file's order
+    std::vector<std::string> variation_texts;                    // canonical: `colour=red,height=3`; `` for none
+    std::vector<std::string> instructions;
+  };
+  const TaskInfo* task(std::string_view name) const;
+  std::string hash() const;  // of all files: part of every episode's key
+
+ private:
+  friend class LibraryBuilder;
+  Roots roots_;
+  std::vector<ScriptFile> files_;
+  Domain domain_;
+  std::map<std::string, PredicateTraits> predicate_traits_;
+  std::map<std::string, SkillInfo, std::less<>> skills_;
+  std::map<std::string, TaskInfo, std::less<>> tasks_;
+};
+
+}  // namespace stampede

@@ -1,0 +1,30 @@
+// The Lua side of one episode: implements Task, Symbols and SkillLibrary over one fresh state.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/episode/interfaces.h"
+#include "scripting/library/library.h"
+
+namespace stampede {
+
+// One episode's scripts. Lifetime: outlives the episode's runner; used by one thread. Throws Error for bad scripts.
+class EpisodeScripts {
+ public:
+  // `variation`: a canonical text of the task. `goal`, `where`: further formulas (PDDL) or empty, reserved.
+  EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task, std::string_view variation,
+                 std::int64_t seed);
+  ~EpisodeScripts();
+  Task& task();
+  Symbols& symbols();
+  SkillLibrary& skills();
+  // Files that took part: the task, its world, robot, objects, all predicates and skills of the domain, modules.
+  std::vector<DefinitionRecord> definitions() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stampede
