@@ -1,0 +1,86 @@
+#include "engine/geometry/mesh.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+
+#include "engine/base/error.h"
+#include "engine/geometry/hull.h"
+
+namespace stampede {
+namespace {
+
+const char* const kFormats = "write it again as OBJ, STL, DAE, PLY or GLB with triangles, in metres";
+
+void append(const aiMesh& source, const aiMatrix4x4& root_from_node, const Vector3& scale, Mesh& mesh) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (unsigned i = 0; i < source.mNumVertices; ++i) {
+    const aiVector3D v = root_from_node * source.mVertices[i];
+    mesh.vertices.push_back(Vector3(v.x, v.y, v.z).cwiseProduct(scale));
+  }
+  const bool mirrored = scale.prod() < 0;  // keep triangles facing outwards
+  for (unsigned i = 0; i < source.mNumFaces; ++i) {
+    const aiFace& face = source.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines have no place in a solid
+    std::array<int, 3> corners{};
+    for (unsigned k = 0; k < 3; ++k) corners[k] = first + static_cast<int>(face.mIndices[mirrored ? 2 - k : k]);
+    mesh.triangles.push_back(corners);
+  }
+}
+
+void walk(const aiScene& scene, const aiNode& node, const aiMatrix4x4& root_from_parent, const Vector3& scale,
+          std::vector<Mesh>& meshes) {
+  const aiMatrix4x4 root_from_node = root_from_parent * node.mTransformation;
+  Mesh mesh;
+  mesh.node = node.mName.C_Str();
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) append(*scene.mMeshes[node.mMeshes[i]], root_from_node, scale, mesh);
+  if (!mesh.triangles.empty()) meshes.push_back(std::move(mesh));
+  for (unsigned i = 0; i < node.mNumChildren; ++i) walk(scene, *node.mChildren[i], root_from_node, scale, meshes);
+}
+
+void check_finite(const std::filesystem::path& file, const Mesh& mesh) {
+  for (const Vector3& vertex : mesh.vertices)
+    if (!vertex.allFinite())
+      throw Error(file.string(), "node '" + mesh.node + "' has a coordinate that is not a finite number", kFormats);
+}
+
+}  // namespace
+
+std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw Error(file.string(), "there is no such mesh file",
+                "check the name; it is looked for beside the file that uses it");
+  if (!scale.allFinite() || (scale.array() == 0).any())
+    throw Error(file.string(), "its scale must be three finite numbers other than 0", "write 0.001 for millimetres");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                                          aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                                          aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS);
+  // Normals and texture coordinates go first: they would keep equal corners apart.
+  const aiScene* const scene = importer.ReadFile(
+      file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  if (scene == nullptr || scene->mRootNode == nullptr)
+    throw Error(file.string(), std::string("not a readable mesh: ") + importer.GetErrorString(), kFormats);
+  std::vector<Mesh> meshes;
+  walk(*scene, *scene->mRootNode, aiMatrix4x4(), scale, meshes);
+  if (meshes.empty()) throw Error(file.string(), "the mesh has no triangles", kFormats);
+  for (const Mesh& mesh : meshes) check_finite(file, mesh);
+  return meshes;
+}
+
+std::vector<std::vector<Vector3>> load_hulls(const std::filesystem::path& file, const Vector3& scale, int most_points) {
+  std::vector<std::vector<Vector3>> hulls;
+  for (const Mesh& mesh : load_meshes(file, scale)) {
+    std::optional<Hull> hull = convex_hull(mesh.vertices, most_points);
+    if (!hull)
+      throw Error(file.string(), "node '" + mesh.node + "' is flat: it spans no volume",
+                  "give the node thickness, or remove it");
+    hulls.push_back(std::move(hull->points));
+  }
+  return hulls;
+}
+
+}  // namespace stampede

@@ -1,0 +1,275 @@
+#include "engine/model/urdf.h"
+
+#include <console_bridge/console.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <cmath>
+#include <fstream>
+#include <mutex>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/geometry/mesh.h"
+
+namespace stampede {
+namespace {
+
+// urdfdom reports to a process-wide log. While a thread captures, its messages go to it; others pass as before.
+thread_local std::string* captured = nullptr;
+
+class CapturingHandler : public console_bridge::OutputHandler {
+ public:
+  CapturingHandler() : previous_(console_bridge::getOutputHandler()) {}
+  void log(const std::string& text, console_bridge::LogLevel level, const char* file, int line) override {
+    if (captured == nullptr) {
+      if (previous_ != nullptr) previous_->log(text, level, file, line);
+      return;
+    }
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (!captured->empty()) *captured += "; ";
+    *captured += text;
+  }
+
+ private:
+  console_bridge::OutputHandler* previous_;
+};
+
+class Capture {
+ public:
+  explicit Capture(std::string& text) {
+    static CapturingHandler handler;
+    static std::once_flag once;
+    std::call_once(once, [] { console_bridge::useOutputHandler(&handler); });
+    captured = &text;
+  }
+  ~Capture() { captured = nullptr; }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+};
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code ignored;
+  if (!stream || !std::filesystem::is_regular_file(file, ignored))
+    throw Error(file.string(), "this URDF file cannot be read", "check its name and permissions");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  TiXmlDocument xml;  // urdfdom reads it again, but does not tell the line of a mistake
+  xml.Parse(text.c_str());
+  if (xml.Error())
+    throw Error(file.string() + ":" + std::to_string(xml.ErrorRow()), std::string("malformed XML: ") + xml.ErrorDesc(),
+                "close every element and quote every attribute");
+  std::string messages;
+  urdf::ModelInterfaceSharedPtr model;
+  {
+    const Capture capture(messages);
+    try {
+      model = urdf::parseURDF(text);
+    } catch (const std::exception& error) {
+      messages += error.what();
+    }
+  }
+  if (!model)
+    throw Error(file.string(), messages.empty() ? "not a URDF model" : messages,
+                "correct the element that is named; a URDF is one tree of links below <robot>");
+  return model;
+}
+
+Transform from(const urdf::Pose& pose) {
+  const auto& q = pose.rotation;
+  return make_transform({pose.position.x, pose.position.y, pose.position.z}, Quaternion(q.w, q.x, q.y, q.z));
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, const urdf::ModelInterface& model) : file_(file), model_(model) {}
+
+  Body read() {
+    body_.name = model_.getName();
+    add(*model_.getRoot(), -1);
+    if (body_.parts.size() != model_.links_.size())
+      for (const auto& [name, link] : model_.links_)
+        if (!seen_.contains(name))
+          fail("link '" + name + "'", "does not hang on the root link '" + model_.getRoot()->name + "'",
+               "connect it by a joint, without a cycle");
+    return std::move(body_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& element, const std::string& what, const std::string& hint) const {
+    throw Error(file_.string(), element + ": " + what, hint);
+  }
+
+  void add(const urdf::Link& link, int parent) {
+    const std::string element = "link '" + link.name + "'";
+    if (!seen_.insert(link.name).second)
+      fail(element, "has two parents or lies on a cycle", "let each link be the child of one joint");
+    Part part;
+    part.name = link.name;
+    part.parent = parent;
+    if (parent >= 0) part.joint = read_joint(*link.parent_joint);
+    read_inertia(link, part);
+    add_shapes(link, element, part);
+    const int index = static_cast<int>(body_.parts.size());
+    body_.parts.push_back(std::move(part));
+    for (const auto& child : link.child_links) add(*child, index);
+  }
+
+  Joint read_joint(const urdf::Joint& source) const {
+    const std::string element = "joint '" + source.name + "'";
+    Joint joint;
+    joint.name = source.name;
+    joint.parent_from_joint = from(source.parent_to_joint_origin_transform);
+    joint.kind = kind_of(source, element);
+    if (joint.kind == JointKind::fixed) return joint;
+    joint.axis = {source.axis.x, source.axis.y, source.axis.z};
+    if (!(joint.axis.norm() > 1e-6)) fail(element, "its axis has no length", "write <axis xyz=\"0 0 1\"/>");
+    joint.axis.normalize();
+    if (source.dynamics) {
+      joint.damping = source.dynamics->damping;
+      joint.friction = source.dynamics->friction;
+    }
+    if (source.limits) {
+      joint.lower = source.limits->lower;
+      joint.upper = source.limits->upper;
+      joint.effort = source.limits->effort;
+      joint.velocity = source.limits->velocity;
+    }
+    if (source.type == urdf::Joint::CONTINUOUS) {  // two turns either way stand for no end
+      joint.upper = 4 * std::numbers::pi;
+      joint.lower = -joint.upper;
+    }
+    if (joint.lower > joint.upper) fail(element, "its lower limit lies above its upper", "swap them");
+    if (joint.damping < 0 || joint.friction < 0 || joint.effort < 0 || joint.velocity < 0)
+      fail(element, "damping, friction, effort and velocity cannot be negative", "give 0 or more");
+    joint.initial = std::min(std::max(0.0, joint.lower), joint.upper);
+    if (source.mimic && !model_.getJoint(source.mimic->joint_name))
+      fail(element, "mimics joint '" + source.mimic->joint_name + "', which does not exist",
+           "name a joint of this file");
+    return joint;
+  }
+
+  JointKind kind_of(const urdf::Joint& source, const std::string& element) const {
+    switch (source.type) {
+      case urdf::Joint::FIXED:
+        return JointKind::fixed;
+      case urdf::Joint::REVOLUTE:
+      case urdf::Joint::CONTINUOUS:
+        return JointKind::hinge;
+      case urdf::Joint::PRISMATIC:
+        return JointKind::slider;
+      default:
+        fail(element, "floating and planar joints are not supported", "use revolute, continuous, prismatic or fixed");
+    }
+  }
+
+  void read_inertia(const urdf::Link& link, Part& part) const {
+    const std::string element = "link '" + link.name + "'";
+    if (!link.inertial) {
+      if (part.parent >= 0 && part.joint.kind != JointKind::fixed)
+        fail(element, "it moves but has no mass", "give it an <inertial> with mass and inertia");
+      return;
+    }
+    const urdf::Inertial& source = *link.inertial;
+    const Transform part_from_inertia = from(source.origin);
+    Matrix3 inertia;
+    inertia << source.ixx, source.ixy, source.ixz, source.ixy, source.iyy, source.iyz, source.ixz, source.iyz,
+        source.izz;
+    const Matrix3 rotation = part_from_inertia.linear();
+    part.mass = source.mass;
+    part.centre_of_mass = part_from_inertia.translation();
+    part.inertia = source.origin.rotation.w == 1.0 ? inertia : Matrix3(rotation * inertia * rotation.transpose());
+    // Positive leading minors (Sylvester): what a solid body has.
+    const bool solid =
+        inertia(0, 0) > 0 && inertia.topLeftCorner<2, 2>().determinant() > 0 && inertia.determinant() > 0;
+    if (!(part.mass > 0) || !solid)
+      fail(element, "its mass must be above 0 and its inertia positive definite", "correct its <inertial>");
+  }
+
+  void add_shapes(const urdf::Link& link, const std::string& element, Part& part) const {
+    const bool has_visuals = !link.visual_array.empty();
+    for (const auto& collision : link.collision_array) {
+      Shape shape;
+      shape.visible = !has_visuals;
+      shape.part_from_shape = from(collision->origin);
+      add_geometry(collision->geometry.get(), element, shape, part);
+    }
+    for (const auto& visual : link.visual_array) {
+      Shape shape;
+      shape.collides = false;
+      shape.part_from_shape = from(visual->origin);
+      if (visual->material) {
+        const urdf::Color& c = visual->material->color;
+        shape.colour = {c.r, c.g, c.b, c.a};
+      }
+      add_geometry(visual->geometry.get(), element, shape, part);
+    }
+  }
+
+  void add_geometry(const urdf::Geometry* geometry, const std::string& element, Shape shape, Part& part) const {
+    if (const auto* box = dynamic_cast<const urdf::Box*>(geometry)) {
+      shape.kind = ShapeKind::box;
+      shape.size = {box->dim.x, box->dim.y, box->dim.z};
+      if (!(shape.size.minCoeff() > 0)) fail(element, "a box needs three sizes above 0", "correct its <box size>");
+    } else if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(geometry)) {
+      shape.kind = ShapeKind::sphere;
+      shape.radius = sphere->radius;
+      if (!(shape.radius > 0)) fail(element, "a sphere needs a radius above 0", "correct its <sphere radius>");
+    } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(geometry)) {
+      shape.kind = ShapeKind::cylinder;
+      shape.radius = cylinder->radius;
+      shape.length = cylinder->length;
+      if (!(shape.radius > 0 && shape.length > 0))
+        fail(element, "a cylinder needs a radius and a length above 0", "correct its <cylinder>");
+    } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(geometry)) {
+      return add_mesh(*mesh, element, shape, part);
+    } else {
+      fail(element, "a shape without geometry", "use <box>, <sphere>, <cylinder> or <mesh>");
+    }
+    part.shapes.push_back(std::move(shape));
+  }
+
+  void add_mesh(const urdf::Mesh& mesh, const std::string& element, Shape shape, Part& part) const {
+    shape.kind = ShapeKind::hull;
+    try {
+      for (auto& points : load_hulls(resolve(mesh.filename), {mesh.scale.x, mesh.scale.y, mesh.scale.z})) {
+        shape.points = std::move(points);
+        part.shapes.push_back(shape);
+      }
+    } catch (const Error& error) {
+      fail(element, "mesh " + error.where() + ": " + error.message(), error.hint());
+    }
+  }
+
+  // package://NAME/PATH and file://PATH as ROS writes them; a package is looked for beside the URDF.
+  std::filesystem::path resolve(std::string name) const {
+    if (name.starts_with("file://")) name.erase(0, 7);
+    if (name.starts_with("package://")) {
+      name.erase(0, 10);
+      if (const auto slash = name.find('/'); slash != std::string::npos) name.erase(0, slash + 1);
+    }
+    return file_.parent_path() / name;
+  }
+
+  const std::filesystem::path& file_;
+  const urdf::ModelInterface& model_;
+  Body body_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+Body body_from_urdf(const std::filesystem::path& file) {
+  const urdf::ModelInterfaceSharedPtr model = parse(file);
+  return Reader(file, *model).read();
+}
+
+}  // namespace stampede
