@@ -1,6 +1,7 @@
 // One finished episode as plain values: what the runner produces, the catalogue stores and the replayer checks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -31,6 +32,12 @@ struct ParameterRecord {  // a continuous parameter of a segment
   std::string chosen_by;  // default stream planner agent
 };
 
+struct EffectRecord {     // a literal that an action's effect declares, ground for this call
+  Fact fact;
+  bool negated = false;
+  friend bool operator==(const EffectRecord&, const EffectRecord&) = default;
+};
+
 struct SegmentRecord {
   std::string kind;       // subgoal skill motion
   int ordinal = 0;        // in the episode, by start then depth
@@ -45,6 +52,8 @@ struct SegmentRecord {
   Reason reason = Reason::none;
   std::string detail;     // for people
   std::optional<bool> precondition_held, effect_held;  // nothing: none declared or not reached
+  std::vector<EffectRecord> declared_effects;          // conditional and quantified ones already decided
+  std::vector<std::string> forgotten;                  // predicates that contact leaves uncertain
   std::vector<std::string> missing_effects;            // literals that did not come true
   std::string label;      // `pick up the red block`
   std::vector<ParameterRecord> parameters;
@@ -111,6 +120,7 @@ struct FrameRecord {
   std::vector<double> joint_position, joint_velocity, joint_effort;  // per EpisodeRecord::joints
   std::vector<Pose> object_pose;                                     // per EpisodeRecord::posed
   std::vector<HandRecord> hands;                                     // per EpisodeRecord::hands
+  std::vector<Pose> camera_pose;                                     // world, per EpisodeRecord::cameras; or empty
   std::optional<ActionRecord> action;
 };
 
@@ -131,6 +141,16 @@ struct LanguageRecord {
 struct DocumentRecord {
   std::string kind;    // pddl_domain pddl_problem plan
   std::string text;
+};
+
+// What a further sensor said, at its own rate: values[i * components … ) was read at steps[i].
+struct ChannelRecord {
+  std::string name;                    // `wrench`
+  std::string unit;
+  std::vector<std::string> components; // `force_x` …
+  double rate_hz = 0;
+  std::vector<std::int64_t> steps;
+  std::vector<double> values;
 };
 
 // Source of a definition that took part, for the catalogue's definition tables.
@@ -157,6 +177,9 @@ struct EpisodeRecord {
   std::vector<std::string> posed;      // names of objects whose pose is in frames
   std::vector<JointName> joints;
   std::vector<std::string> hands;
+  std::vector<Camera> cameras;                        // of the scene
+  std::map<std::string, std::string> predicates;      // of the domain -> basic derived fixed
+  std::vector<ChannelRecord> channels;
   std::vector<FrameRecord> frames;
   std::vector<Command> commands;
   std::vector<SegmentRecord> segments;
