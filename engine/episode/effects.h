@@ -1,0 +1,17 @@
+// Declared effects of a ground action, as literals to be tested.
+#pragma once
+
+#include <vector>
+
+#include "engine/episode/interfaces.h"
+
+namespace stampede {
+
+// Conditions are read in `before`. Forall is expanded over `objects`. In order, without doubles.
+std::vector<Literal> ground_effects(const Action& action, const std::vector<std::string>& arguments, const Facts& before,
+                                    const Domain& domain, const std::vector<TypedObject>& objects);
+
+// The formula's binding of an action's parameters.
+Binding bind(const Action& action, const std::vector<std::string>& arguments);
+
+}  // namespace stampede

@@ -1,0 +1,252 @@
+#include "engine/episode/fact_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stampede {
+namespace {
+
+// Objects a parameter can be bound to: right type, all traits.
+std::vector<std::string> candidates(const Parameter& parameter, const Domain& domain, const WorldView& view,
+                                    const std::vector<TypedObject>& objects) {
+  std::vector<std::string> names;
+  for (const TypedObject& typed : objects) {
+    if (!parameter.type.empty() && !domain.is_a(typed.type, parameter.type)) continue;
+    const Object* thing = view.scene().object(typed.name);
+    if (thing == nullptr) continue;
+    const auto has = [&](const std::string& trait) {
+      return std::find(thing->traits.begin(), thing->traits.end(), trait) != thing->traits.end();
+    };
+    if (std::all_of(parameter.traits.begin(), parameter.traits.end(), has)) names.push_back(typed.name);
+  }
+  return names;
+}
+
+void combine(const std::vector<std::vector<std::string>>& choices, Fact& fact, std::vector<Fact>& out) {
+  if (fact.arguments.size() == choices.size()) {
+    out.push_back(fact);
+    return;
+  }
+  for (const std::string& choice : choices[fact.arguments.size()]) {
+    if (std::find(fact.arguments.begin(), fact.arguments.end(), choice) != fact.arguments.end()) continue;
+    fact.arguments.push_back(choice);
+    combine(choices, fact, out);
+    fact.arguments.pop_back();
+  }
+}
+
+std::int64_t frame_at(std::int64_t step, int steps_per_frame) { return (step + steps_per_frame - 1) / steps_per_frame; }
+
+}  // namespace
+
+FactTracker::FactTracker(Symbols& symbols, const WorldView& view) : symbols_(symbols), dt_(view.world().dt()) {
+  enumerate(view);
+  add_static(view);
+  state_.atoms.resize(names_.size());
+}
+
+void FactTracker::enumerate(const WorldView& view) {
+  const Domain& domain = symbols_.domain();
+  for (const Object& thing : view.scene().objects) objects_.push_back({thing.name, thing.type});
+  for (const Predicate& predicate : domain.predicates) {
+    if (predicate.kind == PredicateKind::derived) {
+      derived_names_.insert(predicate.name);
+      continue;
+    }
+    const bool attribute = std::any_of(view.scene().objects.begin(), view.scene().objects.end(),
+                                       [&](const Object& thing) { return thing.attributes.contains(predicate.name); });
+    if (attribute) continue;  // known without reading the world
+    std::vector<std::vector<std::string>> choices;
+    for (const Parameter& parameter : predicate.parameters)
+      choices.push_back(candidates(parameter, domain, view, objects_));
+    Group group{predicate.name, symbols_.traits(predicate.name), predicate.kind == PredicateKind::fixed, names_.size(), 0};
+    Fact fact{predicate.name, {}};
+    combine(choices, fact, names_);
+    group.count = names_.size() - group.first;
+    groups_.push_back(group);
+  }
+}
+
+void FactTracker::add_static(const WorldView& view) {
+  const Domain& domain = symbols_.domain();
+  std::set<std::string> values;
+  for (const Object& thing : view.scene().objects) {
+    for (const std::string& trait : thing.traits) static_.insert({trait, {thing.name}});
+    for (const auto& [key, value] : thing.attributes) {
+      const Predicate* predicate = domain.predicate(key);
+      if (predicate == nullptr || predicate->parameters.size() != 2) continue;
+      static_.insert({key, {thing.name, value}});
+      if (values.insert(value).second) objects_.push_back({value, predicate->parameters[1].type});
+    }
+  }
+  std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+}
+
+std::set<std::pair<std::string, std::string>> FactTracker::touching_pairs(const WorldView& view) const {
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const Contact& contact : view.world().contacts()) {
+    for (const Object& first : view.scene().objects) {
+      if (!view.owns(first, contact.a)) continue;
+      for (const Object& second : view.scene().objects)
+        if (view.owns(second, contact.b)) pairs.insert(std::minmax(first.name, second.name));
+    }
+  }
+  return pairs;
+}
+
+bool FactTracker::can_hold(const Group& group, const Fact& fact, const WorldView& view,
+                           const std::set<std::pair<std::string, std::string>>& touching) const {
+  constexpr double kNear = 0.05;  // m between bounding spheres
+  if (group.traits.requires_pairs == Pairs::all || fact.arguments.size() < 2) return true;
+  const std::string &a = fact.arguments[fact.arguments.size() - 2], &b = fact.arguments.back();
+  if (touching.contains(std::minmax(a, b))) return true;
+  if (group.traits.requires_pairs == Pairs::touching) return false;
+  const double gap = (view.world_from(a).translation() - view.world_from(b).translation()).norm();
+  return gap < (view.size(a).norm() + view.size(b).norm()) / 2 + kNear;
+}
+
+std::map<Fact, Symbols::Value> FactTracker::read_all(const WorldView& view, bool filtered) const {
+  std::map<Fact, Symbols::Value> values;
+  const auto touching = touching_pairs(view);
+  for (const Group& group : groups_)
+    for (std::size_t i = group.first; i < group.first + group.count; ++i)
+      values[names_[i]] = !filtered || can_hold(group, names_[i], view, touching) ? symbols_.value(names_[i], view)
+                                                                                   : Symbols::Value{};
+  return values;
+}
+
+void FactTracker::begin(const std::map<Fact, Symbols::Value>& values) {
+  state_ = State{};
+  state_.atoms.resize(names_.size());
+  state_.facts = static_;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto found = values.find(names_[i]);
+    if (found == values.end() || !found->second.holds) continue;
+    state_.atoms[i] = {true, true, 0, 0, found->second.margin};
+    state_.facts.insert(names_[i]);
+  }
+  changed_ = true;
+  refresh_derived(0);
+}
+
+void FactTracker::step(const WorldView& view) {
+  for (const Group& group : groups_) {
+    if (!group.traits.momentary) continue;
+    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+      if (group.traits.remember && state_.atoms[i].holds) continue;
+      update(i, group, symbols_.value(names_[i], view), view.world().step_count());
+    }
+  }
+  refresh_derived(view.world().step_count());
+}
+
+void FactTracker::frame(const WorldView& view) {
+  const std::int64_t step = view.world().step_count();
+  const auto touching = touching_pairs(view);
+  for (const Group& group : groups_) {
+    if (group.traits.momentary || group.fixed) continue;
+    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+      const Atom& atom = state_.atoms[i];
+      if (group.traits.remember && atom.holds) continue;
+      const bool read = atom.raw || atom.holds || can_hold(group, names_[i], view, touching);
+      update(i, group, read ? symbols_.value(names_[i], view) : Symbols::Value{}, step);
+    }
+  }
+  refresh_derived(step);
+}
+
+void FactTracker::update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step) {
+  Atom& atom = state_.atoms[index];
+  if (value.holds != atom.raw) {
+    atom.raw = value.holds;
+    atom.raw_since_step = step;
+    if (value.holds) atom.margin = value.margin;
+  }
+  if (atom.raw == atom.holds) return;
+  const double settle = group.traits.momentary ? 0 : group.traits.settle_s;
+  if (static_cast<double>(step - atom.raw_since_step) * dt_ + 1e-9 >= settle)
+    commit(index, atom.raw, atom.raw_since_step, atom.margin);
+}
+
+void FactTracker::commit(std::size_t index, bool holds, std::int64_t at_step, std::optional<double> margin) {
+  Atom& atom = state_.atoms[index];
+  if (atom.holds) {
+    FactRecord record;
+    record.fact = names_[index];
+    record.start_step = atom.since_step;
+    record.end_step = at_step;
+    record.margin = margin;
+    state_.closed.push_back(std::move(record));
+  }
+  atom.holds = holds;
+  atom.since_step = at_step;
+  if (holds)
+    state_.facts.insert(names_[index]);
+  else
+    state_.facts.erase(names_[index]);
+  changed_ = true;
+}
+
+Facts FactTracker::basic() const {
+  Facts basic;
+  for (const Fact& fact : state_.facts)
+    if (!derived_names_.contains(fact.predicate)) basic.insert(fact);
+  return basic;
+}
+
+void FactTracker::refresh_derived(std::int64_t step) {
+  if (!changed_) return;
+  changed_ = false;
+  Facts now = with_derived(basic(), symbols_.domain(), objects_);
+  for (auto since = state_.derived_since.begin(); since != state_.derived_since.end();) {
+    if (now.contains(since->first)) {
+      ++since;
+      continue;
+    }
+    FactRecord record;
+    record.fact = since->first;
+    record.start_step = since->second;
+    record.end_step = step;
+    state_.closed.push_back(std::move(record));
+    since = state_.derived_since.erase(since);
+  }
+  for (const Fact& fact : now)
+    if (derived_names_.contains(fact.predicate)) state_.derived_since.try_emplace(fact, step);
+  state_.facts = std::move(now);
+}
+
+bool FactTracker::pending(const Fact& fact) const {
+  const auto found = std::find(names_.begin(), names_.end(), fact);
+  if (found == names_.end()) return false;
+  const Atom& atom = state_.atoms[static_cast<std::size_t>(found - names_.begin())];
+  return atom.raw != atom.holds;
+}
+
+std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_per_frame) const {
+  std::vector<FactRecord> records = state_.closed;
+  const auto open = [&](const Fact& fact, std::int64_t start, std::optional<double> margin) {
+    FactRecord record;
+    record.fact = fact;
+    record.start_step = start;
+    record.end_step = end_step;
+    record.open_end = true;
+    record.margin = margin;
+    records.push_back(std::move(record));
+  };
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (state_.atoms[i].holds) open(names_[i], state_.atoms[i].since_step, state_.atoms[i].margin);
+  for (const auto& [fact, start] : state_.derived_since) open(fact, start, std::nullopt);
+  for (const Fact& fact : static_) open(fact, 0, std::nullopt);
+  std::erase_if(records, [](const FactRecord& record) { return record.end_step <= record.start_step && !record.open_end; });
+  for (FactRecord& record : records) {
+    record.open_start = record.start_step == 0;
+    record.first_frame = frame_at(record.start_step, steps_per_frame);
+    record.end_frame = frame_at(record.end_step, steps_per_frame) + (record.open_end ? 1 : 0);
+  }
+  std::sort(records.begin(), records.end(), [](const FactRecord& a, const FactRecord& b) {
+    return std::tie(a.fact, a.start_step) < std::tie(b.fact, b.start_step);
+  });
+  return records;
+}
+
+}  // namespace stampede

@@ -1,0 +1,79 @@
+// Which facts hold, debounced: verdicts, plans and stored intervals all read the same values.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/episode/interfaces.h"
+
+namespace stampede {
+
+// Follows every ground atom of the domain's basic predicates. Copy its State to undo.
+class FactTracker {
+ public:
+  FactTracker(Symbols& symbols, const WorldView& view);
+
+  // Starts from values read elsewhere (after settling, in the world the start was made in).
+  void begin(const std::map<Fact, Symbols::Value>& values);
+  // Reads every atom that can hold; for begin() and for tests of init.
+  std::map<Fact, Symbols::Value> read_all(const WorldView& view, bool filtered = true) const;
+
+  void step(const WorldView& view);   // momentary predicates; after every physics step
+  void frame(const WorldView& view);  // the others; after every frame
+
+  // All that holds now: basic, fixed, traits and attributes, and derived.
+  const Facts& facts() const { return state_.facts; }
+  Facts basic() const;                 // facts() without derived ones: PDDL's :init
+  bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
+  const std::vector<TypedObject>& objects() const { return objects_; }
+
+  // Intervals up to now; open ones end at `end_step`, and say so.
+  std::vector<FactRecord> intervals(std::int64_t end_step, int steps_per_frame) const;
+
+  struct Atom {
+    bool holds = false;
+    bool raw = false;
+    std::int64_t since_step = 0;          // of the debounced value
+    std::int64_t raw_since_step = 0;
+    std::optional<double> margin;
+  };
+  struct State {
+    std::vector<Atom> atoms;
+    Facts facts;
+    std::map<Fact, std::int64_t> derived_since;
+    std::vector<FactRecord> closed;       // finished intervals, in the order in which they ended
+  };
+  State save() const { return state_; }
+  void restore(State state) { state_ = std::move(state); }
+
+ private:
+  struct Group {                          // the atoms of one predicate
+    std::string predicate;
+    PredicateTraits traits;
+    bool fixed = false;
+    std::size_t first = 0, count = 0;
+  };
+  void enumerate(const WorldView& view);
+  void add_static(const WorldView& view);
+  void update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step);
+  void commit(std::size_t index, bool holds, std::int64_t at_step, std::optional<double> margin);
+  void refresh_derived(std::int64_t step);
+  std::set<std::pair<std::string, std::string>> touching_pairs(const WorldView& view) const;
+  bool can_hold(const Group& group, const Fact& fact, const WorldView& view,
+                const std::set<std::pair<std::string, std::string>>& touching) const;
+
+  Symbols& symbols_;
+  double dt_ = 0;
+  std::vector<TypedObject> objects_;
+  std::vector<Fact> names_;               // per atom
+  std::vector<Group> groups_;
+  Facts static_;                          // traits and attributes
+  std::set<std::string> derived_names_;
+  bool changed_ = false;
+  State state_;
+};
+
+}  // namespace stampede

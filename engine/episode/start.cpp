@@ -1,0 +1,192 @@
+// Making a start: literals of init are made true by sampling, settled in physics and tested again.
+#include <algorithm>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/episode/fact_tracker.h"
+#include "engine/episode/start.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kLeastSettle = 0.25, kMostSettle = 3.0;  // s
+constexpr int kSamples = 8;                               // ways asked of one literal
+
+std::string text_of(const Literal& literal) {
+  return literal.negated ? "(not " + to_text(literal.fact) + ")" : to_text(literal.fact);
+}
+
+// Keeps things that have no place yet out of everyone's way; nothing is stepped while they are there.
+void park(Scene& scene, const std::vector<std::string>& unplaced) {
+  double offset = 100;
+  for (const std::string& name : unplaced) {
+    const Object* thing = scene.object(name);
+    if (thing == nullptr) continue;
+    const int body = scene.body_index(thing->body);
+    if (body >= 0) scene.bodies[static_cast<std::size_t>(body)].world_from_body = translation(offset, 0, 0);
+    offset += 10;
+  }
+}
+
+// One draw under construction: a scene, and a frozen world of it to ask.
+class Draft {
+ public:
+  explicit Draft(Scene scene) : scene_(std::move(scene)) { rebuild(); }
+
+  const WorldView& view() const { return *view_; }
+  CollisionSpace& space() { return *space_; }
+  Scene& scene() { return scene_; }
+
+  void place(const Placement& placement) {
+    const Object* thing = scene_.object(placement.object);
+    if (thing == nullptr) throw Error("", "sample placed '" + placement.object + "', which the scene does not have");
+    if (const double* position = std::get_if<double>(&placement.value)) {
+      auto& body = scene_.bodies[static_cast<std::size_t>(scene_.body_index(thing->body))];
+      body.parts[static_cast<std::size_t>(thing->part)].joint.initial = *position;
+      return rebuild();
+    }
+    const Transform& pose = std::get<Transform>(placement.value);
+    if (thing->kind == ObjectKind::region) {
+      Region& region = scene_.regions[static_cast<std::size_t>(scene_.region_index(thing->name))];
+      region.part_from_region = region.body.empty() ? pose : region.part_from_region;
+      return rebuild();
+    }
+    const int index = scene_.body_index(thing->body);
+    Body& body = scene_.bodies[static_cast<std::size_t>(index)];
+    body.world_from_body = pose;
+    if (!body.free) return rebuild();
+    world_->apply(operation::Place{index, pose});
+    space_->move_body(index, pose);
+  }
+
+ private:
+  void rebuild() {
+    world_ = std::make_unique<World>(std::make_shared<const Scene>(scene_));
+    view_ = std::make_unique<WorldView>(*world_);
+    space_ = world_->collision_space();
+  }
+  Scene scene_;
+  std::unique_ptr<World> world_;
+  std::unique_ptr<WorldView> view_;
+  std::unique_ptr<CollisionSpace> space_;
+};
+
+bool all_at_rest(const WorldView& view) {
+  for (const Object& thing : view.scene().objects)
+    if (thing.kind == ObjectKind::body && !view.at_rest(thing.name)) {
+      const int body = view.scene().body_index(thing.body);
+      if (body >= 0 && view.scene().bodies[static_cast<std::size_t>(body)].free) return false;
+    }
+  return true;
+}
+
+// The scene as it is now: what a fresh world starts from.
+Scene settled(const WorldView& view) {
+  Scene scene = view.scene();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body& body = scene.bodies[i];
+    const int index = static_cast<int>(i);
+    if (body.free) body.world_from_body = view.world().world_from_part({index, 0});
+    for (std::size_t part = 1; part < body.parts.size(); ++part)
+      if (body.parts[part].joint.kind != JointKind::fixed)
+        body.parts[part].joint.initial = view.world().joint_position({index, static_cast<int>(part)});
+  }
+  return scene;
+}
+
+class StartMaker {
+ public:
+  StartMaker(Task& task, Symbols& symbols, const RunOptions& options)
+      : task_(task), symbols_(symbols), options_(options) {}
+
+  PreparedStart make() {
+    PreparedStart start;
+    for (int draw = 0; draw < options_.draws; ++draw) {
+      start.draws = draw + 1;
+      if (try_draw(draw, start)) return start;
+    }
+    start.reason = Reason::init_impossible;
+    for (const auto& [text, count] : failures_)
+      start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
+    return start;
+  }
+
+ private:
+  bool refuse(const std::string& what) {
+    ++failures_[what];
+    return false;
+  }
+
+  bool try_draw(int draw, PreparedStart& start) {
+    Scene scene = task_.scene(draw);
+    park(scene, task_.unplaced());
+    Draft draft(std::move(scene));
+    if (!place_all(draft, draw)) return false;
+
+    World world(std::make_shared<const Scene>(draft.scene()));
+    WorldView view(world);
+    const int per_frame = world.scene().physics_hz / world.scene().frame_hz;
+    const auto seconds = [&] { return static_cast<double>(world.step_count()) * world.dt(); };
+    while (seconds() < kMostSettle && (seconds() < kLeastSettle || !all_at_rest(view))) {
+      for (int i = 0; i < per_frame; ++i) world.step();
+      world.close_window();
+      view.close_frame();
+    }
+    if (!all_at_rest(view)) return refuse("coming to rest");
+    return accept(view, start);
+  }
+
+  bool place_all(Draft& draft, int draw) {
+    const RandomKey key = RandomKey("init").with(task_.name()).with(task_.variation()).with(options_.seed).with(draw);
+    std::vector<std::string> unplaced = task_.unplaced();
+    int number = 0;
+    for (const Literal& literal : task_.init()) {
+      if (literal.negated) continue;
+      const auto ways = symbols_.sample(literal.fact, draft.view(), draft.space(), key.with(number++), kSamples);
+      const std::string& subject = literal.fact.arguments.empty() ? literal.fact.predicate : literal.fact.arguments[0];
+      const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject);
+      if (ways.empty()) {
+        if (waiting != unplaced.end()) return refuse(text_of(literal));
+        continue;  // nothing to place: the literal is only tested
+      }
+      const bool joint = std::holds_alternative<double>(ways.front().value);
+      if (!joint && waiting == unplaced.end()) continue;
+      draft.place(ways.front());
+      if (waiting != unplaced.end()) unplaced.erase(waiting);
+    }
+    if (unplaced.empty()) return true;
+    throw Error("task " + task_.name(), "no literal of init places '" + unplaced.front() + "'",
+                "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
+  }
+
+  bool accept(const WorldView& view, PreparedStart& start) {
+    FactTracker tracker(symbols_, view);
+    auto values = tracker.read_all(view);
+    tracker.begin(values);
+    for (const Literal& literal : task_.init())
+      if (tracker.facts().contains(literal.fact) == literal.negated) return refuse(text_of(literal));
+    if (holds(task_.goal(), tracker.facts(), symbols_.domain(), tracker.objects()) && task_.also(view))
+      return refuse("the goal not holding at the start");
+    start.scene = std::make_shared<const Scene>(settled(view));
+    start.values = std::move(values);
+    start.history = view.history();
+    return true;
+  }
+
+  Task& task_;
+  Symbols& symbols_;
+  const RunOptions& options_;
+  std::map<std::string, int> failures_;
+};
+
+}  // namespace
+
+PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options) {
+  return StartMaker(task, symbols, options).make();
+}
+
+Start make_start(Task& task, Symbols& symbols, const RunOptions& options) {
+  return prepare_start(task, symbols, options);
+}
+
+}  // namespace stampede

@@ -1,0 +1,16 @@
+// A start and what was read in the world it settled in.
+#pragma once
+
+#include <map>
+
+#include "engine/episode/runner.h"
+
+namespace stampede {
+
+struct PreparedStart : Start {
+  std::map<Fact, Symbols::Value> values;  // facts read after settling, as the episode begins with them
+  WorldView::History history;
+};
+PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options);
+
+}  // namespace stampede

@@ -1,0 +1,211 @@
+#include "engine/episode/world_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/motion/candidates.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::size_t kRestFrames = 5;       // 0.25 s at 20 Hz
+constexpr double kRestDistance = 1e-3;       // m
+constexpr double kRestAngle = 0.0175;        // rad
+constexpr double kSupportShare = 0.25;       // of the object's weight
+
+std::array<Vector3, 2> world_bounds(const Transform& world_from_part, const Part& part) {
+  const auto [low, high] = bounding_box(part);
+  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3 local(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z());
+    const Vector3 point = world_from_part * local;
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  return {lower, upper};
+}
+
+}  // namespace
+
+WorldView::WorldView(World& world) : world_(&world) {
+  const auto& objects = scene().objects;
+  for (std::size_t i = 0; i < objects.size(); ++i) index_[objects[i].name] = static_cast<int>(i);
+}
+
+const Object& WorldView::object(std::string_view name) const {
+  const auto found = index_.find(name);
+  if (found == index_.end()) {
+    std::vector<std::string> names;
+    for (const Object& object : scene().objects) names.push_back(object.name);
+    throw Error("", "the scene has no object '" + std::string(name) + "'", did_you_mean(name, names));
+  }
+  return scene().objects[static_cast<std::size_t>(found->second)];
+}
+
+double WorldView::time_s() const { return static_cast<double>(world_->step_count()) * world_->dt(); }
+
+PartRef WorldView::part_of(std::string_view name) const {
+  const Object& thing = object(name);
+  switch (thing.kind) {
+    case ObjectKind::body:
+    case ObjectKind::part:
+      return {scene().body_index(thing.body), thing.part};
+    case ObjectKind::hand:
+      return {-1, scene().robot.tip_part};
+    case ObjectKind::region:
+      break;
+  }
+  throw Error("", "'" + std::string(name) + "' is a region: it has no body");
+}
+
+bool WorldView::owns(const Object& thing, PartRef part) const {
+  const Robot& robot = scene().robot;
+  switch (thing.kind) {
+    case ObjectKind::body:
+      return part.body >= 0 && part.body == scene().body_index(thing.body);
+    case ObjectKind::part:
+      return part.body >= 0 && part == PartRef{scene().body_index(thing.body), thing.part};
+    case ObjectKind::hand:
+      return part.body == -1 && (std::count(robot.pads.begin(), robot.pads.end(), part.part) > 0 ||
+                                 std::count(robot.fingers.begin(), robot.fingers.end(), part.part) > 0 ||
+                                 part.part == robot.tip_part);
+    case ObjectKind::region:
+      return false;
+  }
+  return false;
+}
+
+Transform WorldView::world_from(std::string_view name) const {
+  const Object& thing = object(name);
+  return thing.kind == ObjectKind::hand ? world_->world_from_tip() : world_from_object(*world_, thing);
+}
+
+Vector3 WorldView::velocity(std::string_view name) const {
+  return object(name).kind == ObjectKind::region ? Vector3::Zero().eval() : world_->linear_velocity(part_of(name));
+}
+
+Vector3 WorldView::size(std::string_view name) const {
+  const Object& thing = object(name);
+  if (thing.kind == ObjectKind::region) {
+    const int region = scene().region_index(name);
+    if (region >= 0) return scene().regions[static_cast<std::size_t>(region)].size;
+  }
+  return thing.size;
+}
+
+double WorldView::bottom(std::string_view name) const {
+  const Object& thing = object(name);
+  if (thing.kind == ObjectKind::region || thing.kind == ObjectKind::hand)
+    return world_from(name).translation().z() - size(name).z() / 2;
+  const PartRef ref = part_of(name);
+  const Part& part = scene().bodies[static_cast<std::size_t>(ref.body)].parts[static_cast<std::size_t>(ref.part)];
+  return world_bounds(world_->world_from_part(ref), part)[0].z();
+}
+
+double WorldView::top(std::string_view name) const {
+  const Object& thing = object(name);
+  if (thing.kind == ObjectKind::region || thing.kind == ObjectKind::hand)
+    return world_from(name).translation().z() + size(name).z() / 2;
+  const PartRef ref = part_of(name);
+  const Part& part = scene().bodies[static_cast<std::size_t>(ref.body)].parts[static_cast<std::size_t>(ref.part)];
+  return world_bounds(world_->world_from_part(ref), part)[1].z();
+}
+
+double WorldView::joint(std::string_view part) const { return world_->joint_position(part_of(part)); }
+
+double WorldView::joint_velocity(std::string_view part) const { return world_->joint_velocity(part_of(part)); }
+
+std::pair<double, double> WorldView::joint_range(std::string_view name) const {
+  const PartRef ref = part_of(name);
+  const Body& body = ref.body < 0 ? scene().robot.body : scene().bodies[static_cast<std::size_t>(ref.body)];
+  const Joint& joint = body.parts[static_cast<std::size_t>(ref.part)].joint;
+  return {joint.lower, joint.upper};
+}
+
+double WorldView::joint_fraction(std::string_view part) const {
+  const auto [lower, upper] = joint_range(part);
+  return upper > lower ? (joint(part) - lower) / (upper - lower) : 0;
+}
+
+bool WorldView::touching(std::string_view a, std::string_view b) const { return contact_force(a, b) > 0; }
+
+double WorldView::contact_force(std::string_view a, std::string_view b) const {
+  const Object &first = object(a), &second = object(b);
+  double force = 0;
+  for (const Contact& contact : world_->contacts())
+    if ((owns(first, contact.a) && owns(second, contact.b)) || (owns(first, contact.b) && owns(second, contact.a)))
+      force += contact.mean_force;
+  return force;
+}
+
+bool WorldView::supports(std::string_view surface, std::string_view name) const {
+  const Object &below = object(surface), &above = object(name);
+  if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand) return false;
+  const PartRef ref = part_of(name);
+  double upward = 0;
+  for (const Contact& contact : world_->contacts()) {
+    if (contact.a == ref && owns(below, contact.b)) upward += contact.force.z();
+    if (contact.b == ref && owns(below, contact.a)) upward -= contact.force.z();
+  }
+  if (upward <= 0) return false;
+  const double mass = scene().bodies[static_cast<std::size_t>(ref.body)].parts[0].mass;
+  return upward >= kSupportShare * mass * scene().gravity.norm() && !grasped(name);
+}
+
+bool WorldView::at_rest(std::string_view name) const {
+  const PartRef ref = part_of(name);
+  if (ref.body < 0 || history_.poses.size() < kRestFrames) return false;
+  const auto& body = scene().bodies[static_cast<std::size_t>(ref.body)];
+  if (!body.free) return std::abs(world_->joint_velocity(ref)) < 0.01;
+  const auto before = history_.poses.end() - static_cast<std::ptrdiff_t>(kRestFrames);
+  const Transform& then = (*before)[static_cast<std::size_t>(ref.body)];
+  const Transform& now = world_->world_from_part(ref);
+  return (now.translation() - then.translation()).norm() < kRestDistance &&
+         angle_between(Quaternion(now.linear()), Quaternion(then.linear())) < kRestAngle;
+}
+
+bool WorldView::grasped(std::string_view name) const {
+  const auto held = world_->grasped();
+  return held && owns(object(name), *held);
+}
+
+std::string WorldView::grasped_object() const {
+  const auto held = world_->grasped();
+  if (!held) return {};
+  std::string whole;
+  for (const Object& thing : scene().objects) {
+    if (!owns(thing, *held)) continue;
+    if (thing.kind == ObjectKind::part) return thing.name;  // the part is more exact than its body
+    whole = thing.name;
+  }
+  return whole;
+}
+
+double WorldView::opening() const { return world_->opening(); }
+
+bool WorldView::inside(std::string_view region_name, std::string_view name, bool whole) const {
+  const Transform region_from_object = world_from(region_name).inverse() * world_from(name);
+  const Vector3 half = size(region_name) / 2;
+  if (!whole) return (region_from_object.translation().cwiseAbs() - half).maxCoeff() <= 0;
+  const Vector3 reach = region_from_object.linear().cwiseAbs() * size(name) / 2;
+  return (region_from_object.translation().cwiseAbs() + reach - half).maxCoeff() <= 1e-3;
+}
+
+double WorldView::region_distance(std::string_view region_name, const Vector3& point) const {
+  const Vector3 beyond = (world_from(region_name).inverse() * point).cwiseAbs() - size(region_name) / 2;
+  const double outside = beyond.cwiseMax(0).norm();
+  return outside > 0 ? outside : beyond.maxCoeff();
+}
+
+void WorldView::close_frame() {
+  std::vector<Transform> poses;
+  for (std::size_t body = 0; body < scene().bodies.size(); ++body)
+    poses.push_back(world_->world_from_part({static_cast<int>(body), 0}));
+  history_.poses.push_back(std::move(poses));
+  if (history_.poses.size() > kRestFrames) history_.poses.pop_front();
+}
+
+}  // namespace stampede
