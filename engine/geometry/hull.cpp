@@ -99,7 +99,7 @@ class Quickhull {
       return index;
     };
     const Vector3 line = (at(b) - at(a)).normalized();
-    const int c = best([&](const Vector3& p) { return line.cross(p - at(a)).norm(); });
+    int c = best([&](const Vector3& p) { return line.cross(p - at(a)).norm(); });
     if (c < 0) return false;
     const Vector3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
     const int d = best([&](const Vector3& p) { return std::abs(normal.dot(p - at(a))); });

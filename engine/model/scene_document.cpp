@@ -153,7 +153,7 @@ class Writer {
     return json;
   }
   template <typename Struct>
-  requires std::is_class_v<Struct>
+  requires requires(Writer& archive, Struct& item) { fields(archive, item); }
   static Json write(Struct& value, const std::string& path) {
     Writer writer(path);
     fields(writer, value);
@@ -252,7 +252,7 @@ class Reader {
     for (const auto& [key, item] : json.items()) read(item, value[key], path + "." + key);
   }
   template <typename Struct>
-  requires std::is_class_v<Struct>
+  requires requires(Reader& archive, Struct& item) { fields(archive, item); }
   static void read(const Json& json, Struct& value, const std::string& path) {
     Reader reader(json, path);
     fields(reader, value);
