@@ -1,0 +1,121 @@
+-- One row an episode, and what is in its scene. Child rows are keyed (episode, ordinal).
+CREATE TABLE episode (
+  id INTEGER PRIMARY KEY,
+  key TEXT NOT NULL UNIQUE,  -- hash of definitions, task, variation, seed and every option that alters data
+  task TEXT NOT NULL,
+  world TEXT NOT NULL,
+  variation TEXT,
+  seed INTEGER,
+  split TEXT NOT NULL CHECK (split IN ('train', 'test')),
+  outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
+  reason TEXT NOT NULL CHECK (reason IN (
+      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
+      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
+      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
+      'budget', 'interrupted', 'name')),
+  detail TEXT NOT NULL,
+  frames INTEGER NOT NULL,
+  steps INTEGER NOT NULL,
+  duration_s REAL NOT NULL,
+  physics_hz INTEGER NOT NULL,
+  frame_hz INTEGER NOT NULL,
+  draws REAL NOT NULL,
+  state_hash TEXT,
+  source TEXT NOT NULL CHECK (source IN ('sim', 'real')),
+  scene TEXT REFERENCES scene (hash),
+  engine_run TEXT NOT NULL REFERENCES engine_run (hash),
+  FOREIGN KEY (task, variation) REFERENCES variation (task, variation),
+  CHECK ((source = 'real') = (variation IS NULL)),
+  CHECK ((source = 'real') = (seed IS NULL)),
+  CHECK ((source = 'real') = (state_hash IS NULL)),
+  CHECK (seed < 1000000 OR split = 'test'),
+  CHECK ((outcome = 'success') = (reason = 'none'))
+) STRICT;
+CREATE INDEX episode_by_task ON episode (task, variation, seed);
+
+CREATE TABLE timing (  -- of the host: the only table outside the content hash
+  episode INTEGER PRIMARY KEY REFERENCES episode (id),
+  wall_s REAL NOT NULL,
+  physics_wall_s REAL NOT NULL
+) STRICT;
+
+CREATE TABLE object (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('body', 'part', 'region', 'hand')),
+  class TEXT NOT NULL,
+  type TEXT NOT NULL,
+  body TEXT NOT NULL,
+  part INTEGER NOT NULL,
+  size_x REAL NOT NULL,
+  size_y REAL NOT NULL,
+  size_z REAL NOT NULL,
+  mask_id INTEGER NOT NULL,  -- in instance masks; 0 is the background
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE object_trait (
+  episode INTEGER NOT NULL,
+  object INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  trait TEXT NOT NULL,
+  PRIMARY KEY (episode, object, ordinal),
+  FOREIGN KEY (episode, object) REFERENCES object (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE object_attribute (  -- authored texts and numbers
+  episode INTEGER NOT NULL,
+  object INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  value ANY NOT NULL,
+  PRIMARY KEY (episode, object, name, value),
+  FOREIGN KEY (episode, object) REFERENCES object (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE posed (  -- whose pose object_state holds
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE joint (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  body INTEGER NOT NULL,  -- index in the scene; -1: the robot
+  part INTEGER NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('fixed', 'hinge', 'slider')),
+  unit TEXT NOT NULL,
+  lower REAL NOT NULL,
+  upper REAL NOT NULL,
+  driven INTEGER NOT NULL CHECK (driven IN (0, 1)),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE hand (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE camera (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  width INTEGER NOT NULL,
+  height INTEGER NOT NULL,
+  vertical_fov_rad REAL NOT NULL,
+  focal_x REAL NOT NULL,  -- pixels
+  focal_y REAL NOT NULL,
+  centre_x REAL NOT NULL,
+  centre_y REAL NOT NULL,
+  near_m REAL NOT NULL,
+  far_m REAL NOT NULL,
+  mount_body TEXT NOT NULL,  -- empty: the world
+  mount_part INTEGER NOT NULL,
+  mount TEXT NOT NULL,       -- JSON: mount_from_camera, position xyz and quaternion xyzw
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;

@@ -1,0 +1,189 @@
+-- What happened, in words: segments, undone tries, facts, contacts, language, documents.
+CREATE TABLE segment (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion')),
+  parent INTEGER,
+  robot TEXT NOT NULL,
+  skill TEXT NOT NULL,
+  case_name TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  arguments TEXT NOT NULL,  -- JSON list of names
+  controller TEXT NOT NULL,
+  start_step INTEGER NOT NULL,
+  end_step INTEGER NOT NULL,
+  first_frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
+  reason TEXT NOT NULL CHECK (reason IN (
+      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
+      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
+      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
+      'budget', 'interrupted', 'name')),
+  detail TEXT NOT NULL,
+  precondition_held INTEGER CHECK (precondition_held IN (0, 1)),
+  effect_held INTEGER CHECK (effect_held IN (0, 1)),
+  missing_effects TEXT NOT NULL,  -- JSON list of literals
+  forgotten TEXT NOT NULL,        -- JSON list of predicates
+  label TEXT NOT NULL,
+  labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
+  CHECK (start_step <= end_step AND first_frame <= end_frame),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX segment_by_skill ON segment (skill, kind, outcome);
+
+CREATE TABLE attempt (  -- a try that was undone; its steps and frames count on a time line that no longer exists
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  segment_ordinal INTEGER NOT NULL,  -- of the segment that it was, while it was
+  before_segment INTEGER NOT NULL,   -- the segment that took its place, or the number of segments
+  try_number INTEGER NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion')),
+  parent INTEGER,
+  robot TEXT NOT NULL,
+  skill TEXT NOT NULL,
+  case_name TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  arguments TEXT NOT NULL,  -- JSON list of names
+  controller TEXT NOT NULL,
+  start_step INTEGER NOT NULL,
+  end_step INTEGER NOT NULL,
+  first_frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
+  reason TEXT NOT NULL CHECK (reason IN (
+      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
+      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
+      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
+      'budget', 'interrupted', 'name')),
+  detail TEXT NOT NULL,
+  precondition_held INTEGER CHECK (precondition_held IN (0, 1)),
+  effect_held INTEGER CHECK (effect_held IN (0, 1)),
+  missing_effects TEXT NOT NULL,  -- JSON list of literals
+  forgotten TEXT NOT NULL,        -- JSON list of predicates
+  label TEXT NOT NULL,
+  labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
+  CHECK (start_step <= end_step AND first_frame <= end_frame),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX attempt_by_skill ON attempt (skill, kind, outcome);
+
+CREATE TABLE segment_parameter (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),  -- 1: segment is the ordinal of an attempt
+  segment INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  component INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  value REAL,
+  text TEXT,
+  unit TEXT NOT NULL,
+  frame TEXT NOT NULL,
+  chosen_by TEXT NOT NULL CHECK (chosen_by IN ('default', 'stream', 'planner', 'agent')),
+  PRIMARY KEY (episode, undone, segment, ordinal, component)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE segment_effect (  -- declared effects, ground
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),
+  segment INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  negated INTEGER NOT NULL CHECK (negated IN (0, 1)),
+  predicate TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  fact TEXT NOT NULL,  -- (on block1 table)
+  PRIMARY KEY (episode, undone, segment, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE via (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  segment INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
+  passed_x REAL NOT NULL, passed_y REAL NOT NULL, passed_z REAL NOT NULL, passed_qx REAL NOT NULL, passed_qy REAL NOT NULL, passed_qz REAL NOT NULL, passed_qw REAL NOT NULL,
+  step INTEGER NOT NULL,
+  speed REAL NOT NULL,
+  tool_speed REAL NOT NULL,
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE fact (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  predicate TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  fact TEXT NOT NULL,  -- (on block1 table)
+  start_step INTEGER NOT NULL,
+  end_step INTEGER NOT NULL,
+  first_frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  open_start INTEGER NOT NULL CHECK (open_start IN (0, 1)),
+  open_end INTEGER NOT NULL CHECK (open_end IN (0, 1)),
+  observed INTEGER NOT NULL CHECK (observed IN (0, 1)),
+  margin REAL,
+  PRIMARY KEY (episode, ordinal),
+  CHECK (start_step <= end_step AND first_frame <= end_frame)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX fact_by_predicate ON fact (predicate, arg1, arg2);
+
+CREATE TABLE contact (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  object_a TEXT NOT NULL,
+  part_a TEXT NOT NULL,
+  object_b TEXT NOT NULL,
+  part_b TEXT NOT NULL,
+  first_frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  peak_force REAL NOT NULL,
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE grasp (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  segment INTEGER NOT NULL,
+  object TEXT NOT NULL,
+  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
+  width REAL NOT NULL,
+  held INTEGER NOT NULL CHECK (held IN (0, 1)),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE language (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  level TEXT NOT NULL CHECK (level IN ('task', 'world', 'skill')),
+  segment INTEGER,
+  text TEXT NOT NULL,
+  source TEXT NOT NULL CHECK (source IN ('template', 'model')),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE document (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('pddl_domain', 'pddl_problem', 'plan', 'bddl_behavior', 'bddl_libero')),
+  text TEXT NOT NULL REFERENCES text_store (hash),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE keyframe (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  method TEXT NOT NULL,
+  frame INTEGER NOT NULL,
+  PRIMARY KEY (episode, method, frame)
+) STRICT, WITHOUT ROWID;
