@@ -1,0 +1,183 @@
+// The only file that includes CLI11.
+#include "scripting/program/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ostream>
+
+#include "engine/base/error.h"
+#include "scripting/commands/commands.h"
+#include "scripting/library/library.h"
+#include "scripting/program/help.h"
+#include "scripting/program/json_text.h"
+
+namespace stampede::program {
+
+bool Arguments::has(std::string_view name) const {
+  const auto found = values_.find(name);
+  return found != values_.end() && found->second.given;
+}
+
+std::string Arguments::text(std::string_view name) const {
+  const std::vector<std::string>& values = list(name);
+  return values.empty() ? std::string() : values.back();
+}
+
+const std::vector<std::string>& Arguments::list(std::string_view name) const {
+  static const std::vector<std::string> none;
+  const auto found = values_.find(name);
+  return found == values_.end() ? none : found->second.values;
+}
+
+std::optional<std::int64_t> Arguments::integer(std::string_view name) const {
+  const std::string value = text(name);
+  if (value.empty()) return std::nullopt;
+  return std::stoll(value);
+}
+
+void Arguments::set(std::string name, std::vector<std::string> values, bool given) {
+  values_[std::move(name)] = {std::move(values), given};
+}
+
+namespace {
+
+struct Usage {  // thrown for command lines that make no sense
+  std::string message, hint;
+};
+
+std::vector<OptionRow> all_options(const CommandRow& command) {
+  std::vector<OptionRow> options = command.options;
+  options.insert(options.end(), common_options().begin(), common_options().end());
+  return options;
+}
+
+void check_value(const OptionRow& option, const std::string& value) {
+  if (option.takes == Takes::integer) {
+    std::int64_t number = 0;
+    if (!CLI::detail::lexical_cast(value, number)) {
+      throw Usage{option.name + " takes a whole number, not '" + value + "'", ""};
+    }
+  }
+  if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
+    std::string all;
+    for (const std::string& choice : option.choices) all += (all.empty() ? "" : ", ") + choice;
+    throw Usage{option.name + " cannot be '" + value + "'", "it is one of " + all};
+  }
+}
+
+// CLI11's own words for a mistake, with the nearest option as cure where there is one.
+[[noreturn]] void throw_usage(const CLI::ParseError& error, const CommandRow& command, const CLI::App& app) {
+  const std::vector<std::string> rest = app.remaining();
+  std::string hint = "see stampede " + command.name + " --help";
+  if (const auto word = std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.rfind("--", 0) == 0; });
+      word != rest.end()) {
+    std::vector<std::string> names;
+    for (const OptionRow& option : all_options(command)) names.push_back(option.name);
+    const std::string near = nearest(*word, names);
+    if (!near.empty()) hint = "did you mean " + near + "?";
+    throw Usage{"stampede " + command.name + " has no option " + *word, hint};
+  }
+  if (!rest.empty()) throw Usage{"too many arguments: '" + rest.front() + "' has no place", hint};
+  throw Usage{error.what(), hint};
+}
+
+Arguments parse(const CommandRow& command, std::vector<std::string> words) {
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras(false);
+  std::map<std::string, std::vector<std::string>> values;  // nodes stay where they are: CLI11 keeps references
+  std::map<std::string, CLI::Option*> options;
+  for (const OptionRow& row : all_options(command)) {
+    if (row.takes == Takes::flag) {
+      options[row.name] = app.add_flag(row.name);
+      continue;
+    }
+    options[row.name] = app.add_option(row.name, values[row.name])->expected(1)->multi_option_policy(
+        row.repeats ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
+    if (row.repeats) options[row.name]->allow_extra_args(false);
+  }
+  for (const PositionalRow& row : command.positionals) {
+    CLI::Option* option = app.add_option(row.name, values[row.name]);
+    option->expected(0, row.repeats ? 1 << 20 : 1);
+    options[row.name] = option;
+  }
+  std::reverse(words.begin(), words.end());  // CLI11 takes vectors from the back
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw_usage(error, command, app);
+  }
+  Arguments arguments;
+  for (const OptionRow& row : all_options(command)) {
+    const bool given = options[row.name]->count() > 0;
+    for (const std::string& value : values[row.name]) check_value(row, value);
+    if (!given && !row.initial.empty()) values[row.name] = {row.initial};
+    arguments.set(row.name, values[row.name], given);
+  }
+  const bool helped = arguments.has("--help");
+  for (const PositionalRow& row : command.positionals) {
+    if (row.required && values[row.name].empty() && !helped) {
+      throw Usage{"stampede " + command.name + " needs " + row.name, row.help};
+    }
+    arguments.set(row.name, values[row.name], !values[row.name].empty());
+  }
+  return arguments;
+}
+
+ExitCode complain(const std::string& kind, const std::string& message, ExitCode code, Console& console) {
+  console.out.flush();
+  console.err << kind << message << std::endl;
+  return code;
+}
+
+ExitCode dispatch(const std::vector<std::string>& words, Console& console) {
+  if (words.empty()) throw Usage{"which command?", "see stampede --help"};
+  if (words[0] == "--help" || words[0] == "help" || words[0] == "-h") {
+    console.out << program_help(all_commands());
+    return kDone;
+  }
+  if (words[0] == "--version") {
+    console.out << "stampede " STAMPEDE_VERSION "\n";
+    return kDone;
+  }
+  std::vector<std::string> names;
+  for (const CommandRow& command : all_commands()) {
+    names.push_back(command.name);
+    if (command.name != words[0]) continue;
+    const Arguments arguments = parse(command, {words.begin() + 1, words.end()});
+    if (arguments.has("--help")) {
+      console.out << command_help(command);
+      return kDone;
+    }
+    return command.run(arguments, console);
+  }
+  const std::string near = nearest(words[0], names);
+  throw Usage{"there is no command '" + words[0] + "'",
+              near.empty() ? "see stampede --help" : "did you mean '" + near + "'?"};
+}
+
+}  // namespace
+
+ExitCode run_program(const std::vector<std::string>& words, Console& console) {
+  try {
+    const ExitCode code = dispatch(words, console);
+    console.out.flush();
+    if (!console.out) return complain("stampede: ", "the answer could not be written", kBadInput, console);
+    return code;
+  } catch (const Usage& usage) {
+    return complain("stampede: ", usage.message + (usage.hint.empty() ? "" : "\n    " + usage.hint), kUsage, console);
+  } catch (const LibraryError& error) {
+    for (const Error& one : error.errors()) console.err << one.what() << "\n";
+    return complain("stampede: ", std::to_string(error.errors().size()) + " mistakes in scripts", kBadInput, console);
+  } catch (const CatalogueError& error) {
+    return complain("", error.what(), kCatalogue, console);
+  } catch (const UsageError& error) {
+    return complain("stampede: ", error.what(), kUsage, console);
+  } catch (const Error& error) {
+    return complain("", error.what(), kBadInput, console);
+  } catch (const std::exception& error) {
+    return complain("stampede: a bug of ours: ", error.what(), kBug, console);
+  }
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,128 @@
+#include "scripting/program/episode_job.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/base/hash.h"
+#include "scripting/program/help.h"
+
+namespace stampede {
+namespace {
+
+// Fisher and Yates; the key holds the task alone, so that every run of a task meets its variations in one order.
+std::vector<std::string> shuffled(std::vector<std::string> variations, const std::string& task) {
+  Random random(RandomKey("variations").with(task));
+  for (std::size_t i = variations.size(); i > 1; --i) {
+    std::swap(variations[i - 1], variations[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
+  }
+  return variations;
+}
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+bool agrees(const std::map<std::string, std::string>& axes, const std::vector<std::string>& parts) {
+  return std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos) return false;
+    const auto axis = axes.find(part.substr(0, equals));
+    return axis != axes.end() && axis->second == part.substr(equals + 1);
+  });
+}
+
+}  // namespace
+
+const Library::TaskInfo& task_info(const Library& library, const std::string& name) {
+  if (const Library::TaskInfo* task = library.task(name)) return *task;
+  std::vector<std::string> names;
+  for (const ScriptFile* file : library.files(DefinitionKind::task)) names.push_back(file->name);
+  const std::string near = program::nearest(name, names);
+  throw Error("", "there is no task '" + name + "'",
+              near.empty() ? "stampede list tasks names them all" : "did you mean '" + near + "'?");
+}
+
+std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text) {
+  if (text.empty()) return task.variation_texts;
+  const std::vector<std::string> parts = split_at_commas(text);
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < task.variation_texts.size(); ++i) {
+    if (task.variation_texts[i] == text || agrees(task.variations[i], parts)) found.push_back(task.variation_texts[i]);
+  }
+  if (!found.empty()) return found;
+  const std::string near = program::nearest(text, task.variation_texts);
+  throw Error("--variation", "task '" + task.name + "' has no variation '" + text + "'",
+              near.empty() ? "stampede list " + task.name + " names them all" : "did you mean '" + near + "'?");
+}
+
+std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& request) {
+  std::vector<EpisodeJob> jobs;
+  for (const std::string& name : std::set<std::string>(request.tasks.begin(), request.tasks.end())) {
+    const Library::TaskInfo& task = task_info(library, name);
+    std::vector<std::string> variations = shuffled(task.variation_texts, name);
+    if (!request.variation.empty()) {
+      const std::vector<std::string> wanted = matching_variations(task, request.variation);
+      std::erase_if(variations, [&](const std::string& v) { return std::ranges::find(wanted, v) == wanted.end(); });
+    }
+    for (std::int64_t i = 0; i < request.episodes; ++i) {
+      const auto index = static_cast<std::size_t>(i) % variations.size();
+      jobs.push_back({name, variations[index], request.first_seed + i});
+    }
+  }
+  std::sort(jobs.begin(), jobs.end());
+  return jobs;
+}
+
+void check_split(const std::string& split, std::int64_t first_seed, std::int64_t last_seed) {
+  const bool test = split == "test";
+  const std::string border = std::to_string(kFirstTestSeed);
+  if (first_seed < 0) throw Error("--seed", "a seed is 0 or more, not " + std::to_string(first_seed));
+  if (!test && last_seed >= kFirstTestSeed) {
+    throw Error("--seed", "seeds from " + border + " up belong to the test split",
+                "say --split test, or stay below " + border);
+  }
+  if (test && first_seed < kFirstTestSeed) {
+    throw Error("--seed", "the test split has seeds from " + border + " up, not " + std::to_string(first_seed),
+                "leave --seed out, or leave --split test out");
+  }
+}
+
+std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,
+                        const RunOptions& options) {
+  std::set<std::string> hashes;
+  for (const DefinitionRecord& one : definitions) hashes.insert(one.kind + " " + one.name + " " + one.hash);
+  Hasher hasher;
+  for (const std::string& one : hashes) hasher.text(one);
+  hasher.text(job.task).text(job.variation).number(job.seed);
+  for (const auto& [name, value] : options.as_text()) hasher.text(name).text(value);
+  return hasher.digest();
+}
+
+PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options)
+    : job_(std::move(job)),
+      options_(std::move(options)),
+      scripts_(std::move(library), job_.task, job_.variation, job_.seed) {
+  options_.seed = job_.seed;
+  definitions_ = scripts_.definitions();
+  key_ = episode_key(definitions_, job_, options_);
+}
+
+EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
+  EpisodeRecord record = run_episode(scripts_.task(), scripts_.symbols(), scripts_.skills(), options_, stop);
+  record.key = key_;
+  record.task = job_.task;
+  record.variation = job_.variation;
+  record.seed = job_.seed;
+  record.split = options_.split;
+  record.definitions = definitions_;
+  return record;
+}
+
+}  // namespace stampede

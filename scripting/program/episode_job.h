@@ -1,0 +1,70 @@
+// Which episodes a run consists of, their keys, and one of them from scripts to record.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/episode/runner.h"
+#include "scripting/library/library.h"
+#include "scripting/runtime/episode_scripts.h"
+
+namespace stampede {
+
+// Seeds from here on are the test split's.
+inline constexpr std::int64_t kFirstTestSeed = 1'000'000;
+
+struct EpisodeJob {
+  std::string task, variation;
+  std::int64_t seed = 0;
+  friend auto operator<=>(const EpisodeJob&, const EpisodeJob&) = default;
+};
+
+struct JobRequest {
+  std::vector<std::string> tasks;
+  std::int64_t episodes = 1;     // per task, good or bad
+  std::int64_t first_seed = 0;
+  std::string variation;         // canonical text or a part of one (`colour=red`); empty: all
+};
+
+// Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone.
+// Result: sorted by task, variation, seed: the order in which they are stored. A task named twice counts once.
+// Throws Error for unknown tasks and for a variation that no task's axes have, with the nearest as cure.
+std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& request);
+
+// The variations of a task that agree with every `axis=value` of the text.
+std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text);
+
+// Throws Error with the nearest name as cure.
+const Library::TaskInfo& task_info(const Library& library, const std::string& name);
+
+// Throws Error when the seed does not belong to the split.
+void check_split(const std::string& split, std::int64_t first_seed, std::int64_t last_seed);
+
+// What tells the episode from every other, known before it runs: a hash of definitions, task, variation, seed and
+// every option that alters data.
+std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,
+                        const RunOptions& options);
+
+// One episode's scripts and key. Lifetime: used by one thread.
+class PreparedEpisode {
+ public:
+  PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options);
+  const EpisodeJob& job() const { return job_; }
+  const std::string& key() const { return key_; }
+  const RunOptions& options() const { return options_; }
+  EpisodeScripts& scripts() { return scripts_; }
+  // Runs it; the record has key, split and definitions filled in.
+  EpisodeRecord run(const std::atomic<bool>* stop);
+
+ private:
+  EpisodeJob job_;
+  RunOptions options_;
+  EpisodeScripts scripts_;
+  std::vector<DefinitionRecord> definitions_;
+  std::string key_;
+};
+
+}  // namespace stampede

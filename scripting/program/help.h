@@ -1,0 +1,19 @@
+// Help texts, shell completion and the command reference, all from the table of commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scripting/program/command.h"
+
+namespace stampede::program {
+
+std::string program_help(const std::vector<CommandRow>& commands);
+std::string command_help(const CommandRow& command);
+std::string command_reference(const std::vector<CommandRow>& commands);  // Markdown
+std::string bash_completion(const std::vector<CommandRow>& commands);
+
+// The candidate nearest to a mistyped word, or empty when none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace stampede::program

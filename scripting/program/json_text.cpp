@@ -1,0 +1,108 @@
+#include "scripting/program/json_text.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace stampede::program {
+
+std::string json_quoted(std::string_view text) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    switch (c) {
+      case '"':
+        result += "\\\"";
+        break;
+      case '\\':
+        result += "\\\\";
+        break;
+      case '\n':
+        result += "\\n";
+        break;
+      case '\t':
+        result += "\\t";
+        break;
+      default:
+        if (byte < 0x20) {
+          result += {'\\', 'u', '0', '0', kDigits[byte >> 4], kDigits[byte & 15]};
+        } else {
+          result += c;
+        }
+    }
+  }
+  return result + "\"";
+}
+
+void JsonText::new_line() { text_ += "\n" + std::string(2 * open_.size(), ' '); }
+
+void JsonText::before_value() {
+  if (after_key_) {
+    after_key_ = false;
+    return;
+  }
+  if (open_.empty()) return;
+  if (has_items_.back()) text_ += ',';
+  has_items_.back() = true;
+  new_line();
+}
+
+JsonText& JsonText::open(char bracket) {
+  before_value();
+  text_ += bracket;
+  open_.push_back(bracket == '{' ? '}' : ']');
+  has_items_.push_back(false);
+  return *this;
+}
+
+JsonText& JsonText::end() {
+  const char bracket = open_.back();
+  const bool items = has_items_.back();
+  open_.pop_back();
+  has_items_.pop_back();
+  if (items) new_line();
+  text_ += bracket;
+  return *this;
+}
+
+JsonText& JsonText::key(std::string_view name) {
+  before_value();
+  text_ += json_quoted(name) + ": ";
+  after_key_ = true;
+  return *this;
+}
+
+JsonText& JsonText::value(std::string_view text) {
+  before_value();
+  text_ += json_quoted(text);
+  return *this;
+}
+
+JsonText& JsonText::value(double number) {
+  if (!std::isfinite(number)) return null();
+  before_value();
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
+  text_.append(buffer, result.ptr);
+  return *this;
+}
+
+JsonText& JsonText::value(std::int64_t number) {
+  before_value();
+  text_ += std::to_string(number);
+  return *this;
+}
+
+JsonText& JsonText::value(bool truth) {
+  before_value();
+  text_ += truth ? "true" : "false";
+  return *this;
+}
+
+JsonText& JsonText::null() {
+  before_value();
+  text_ += "null";
+  return *this;
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,47 @@
+// Many episodes by several worker threads into one sink.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scripting/program/episode_job.h"
+
+namespace stampede {
+
+struct TaskTally {
+  std::int64_t episodes = 0, succeeded = 0, existing = 0;
+  std::map<std::string, std::int64_t> reasons;           // of the failed ones
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> variations;  // succeeded, episodes
+  double simulated_s = 0;
+};
+
+struct RunTally {
+  std::int64_t total = 0;      // asked for
+  std::int64_t finished = 0;   // in this run
+  std::int64_t succeeded = 0;  // of these
+  std::int64_t existing = 0;   // were there already
+  bool interrupted = false;
+  std::map<std::string, TaskTally> tasks;
+  std::int64_t done() const { return finished + existing; }
+};
+
+struct RunSettings {
+  RunOptions options;
+  int workers = 1;
+  std::function<bool(const std::string& key)> exists;         // empty: nothing does
+  std::function<void(const std::string& key)> expect;         // called for every key, in order, before any runs
+  std::function<void(const EpisodeRecord&, const RunTally&)> progress;  // one at a time, from worker threads
+  const std::atomic<bool>* stop = nullptr;
+};
+
+// Runs the episodes and hands each finished one to `sink`, in any order. Interrupted ones leave no trace.
+// Throws: what a worker threw first, after the others have ended.
+RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<EpisodeJob>& jobs,
+                  const RunSettings& settings, EpisodeSink& sink);
+
+}  // namespace stampede
