@@ -26,10 +26,7 @@ class Hasher {
   Hasher& bytes(const void* data, std::size_t size);
   Hasher& text(std::string_view text);  // its length is hashed too, so ("ab","c") differs from ("a","bc")
   template <typename Number>
-    requires std::is_arithmetic_v<Number>
-  Hasher& number(Number value) {
-    return bytes(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<Number> Hasher& number(Number value) { return bytes(&value, sizeof value); }
   std::string digest() const;  // as content_hash; more may be added afterwards
 
  private:

@@ -27,11 +27,11 @@ class RandomKey {
 class Random {
  public:
   explicit Random(RandomKey key) : key_(key.value()) {}
-  std::uint64_t bits();                          // 64 independent bits
-  double uniform();                              // [0, 1), 53 bits
-  double between(double low, double high);       // [low, high)
-  std::int64_t below(std::int64_t n);            // 0 … n-1 without bias; n >= 1
-  double normal();                               // mean 0, deviation 1 (Box-Muller; two draws each)
+  std::uint64_t bits();                     // 64 independent bits
+  double uniform();                         // [0, 1), 53 bits
+  double between(double low, double high);  // [low, high)
+  std::int64_t below(std::int64_t n);       // 0 … n-1 without bias; n >= 1
+  double normal();                          // mean 0, deviation 1 (Box-Muller; two draws each)
 
  private:
   std::uint64_t key_;

@@ -43,17 +43,18 @@ struct Expansion {
 
 }  // namespace
 
-Binding bind(const Action& action, const std::vector<std::string>& arguments) {
+Binding binding_of(const Action& action, const std::vector<std::string>& arguments) {
   Binding binding;
   for (std::size_t i = 0; i < action.parameters.size() && i < arguments.size(); ++i)
     binding[action.parameters[i].name] = arguments[i];
   return binding;
 }
 
-std::vector<Literal> ground_effects(const Action& action, const std::vector<std::string>& arguments, const Facts& before,
-                                    const Domain& domain, const std::vector<TypedObject>& objects) {
+std::vector<Literal> ground_effects(const Action& action, const std::vector<std::string>& arguments,
+                                    const Facts& before, const Domain& domain,
+                                    const std::vector<TypedObject>& objects) {
   std::vector<Literal> literals;
-  Binding binding = bind(action, arguments);
+  Binding binding = binding_of(action, arguments);
   for (const Effect& effect : action.effects) Expansion{before, domain, objects, literals}.expand(effect, 0, binding);
   return literals;
 }

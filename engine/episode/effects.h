@@ -8,10 +8,10 @@
 namespace stampede {
 
 // Conditions are read in `before`. Forall is expanded over `objects`. In order, without doubles.
-std::vector<Literal> ground_effects(const Action& action, const std::vector<std::string>& arguments, const Facts& before,
-                                    const Domain& domain, const std::vector<TypedObject>& objects);
+std::vector<Literal> ground_effects(const Action& action, const std::vector<std::string>& arguments,
+                                    const Facts& before, const Domain& domain, const std::vector<TypedObject>& objects);
 
 // The formula's binding of an action's parameters.
-Binding bind(const Action& action, const std::vector<std::string>& arguments);
+Binding binding_of(const Action& action, const std::vector<std::string>& arguments);
 
 }  // namespace stampede

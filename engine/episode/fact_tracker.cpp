@@ -59,7 +59,8 @@ void FactTracker::enumerate(const WorldView& view) {
     std::vector<std::vector<std::string>> choices;
     for (const Parameter& parameter : predicate.parameters)
       choices.push_back(candidates(parameter, domain, view, objects_));
-    Group group{predicate.name, symbols_.traits(predicate.name), predicate.kind == PredicateKind::fixed, names_.size(), 0};
+    Group group{predicate.name, symbols_.traits(predicate.name), predicate.kind == PredicateKind::fixed, names_.size(),
+                0};
     Fact fact{predicate.name, {}};
     combine(choices, fact, names_);
     group.count = names_.size() - group.first;
@@ -110,8 +111,8 @@ std::map<Fact, Symbols::Value> FactTracker::read_all(const WorldView& view, bool
   const auto touching = touching_pairs(view);
   for (const Group& group : groups_)
     for (std::size_t i = group.first; i < group.first + group.count; ++i)
-      values[names_[i]] = !filtered || can_hold(group, names_[i], view, touching) ? symbols_.value(names_[i], view)
-                                                                                   : Symbols::Value{};
+      values[names_[i]] =
+          !filtered || can_hold(group, names_[i], view, touching) ? symbols_.value(names_[i], view) : Symbols::Value{};
   return values;
 }
 
@@ -237,7 +238,8 @@ std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_
     if (state_.atoms[i].holds) open(names_[i], state_.atoms[i].since_step, state_.atoms[i].margin);
   for (const auto& [fact, start] : state_.derived_since) open(fact, start, std::nullopt);
   for (const Fact& fact : static_) open(fact, 0, std::nullopt);
-  std::erase_if(records, [](const FactRecord& record) { return record.end_step <= record.start_step && !record.open_end; });
+  std::erase_if(records,
+                [](const FactRecord& record) { return record.end_step <= record.start_step && !record.open_end; });
   for (FactRecord& record : records) {
     record.open_start = record.start_step == 0;
     record.first_frame = frame_at(record.start_step, steps_per_frame);

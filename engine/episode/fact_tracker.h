@@ -26,7 +26,7 @@ class FactTracker {
 
   // All that holds now: basic, fixed, traits and attributes, and derived.
   const Facts& facts() const { return state_.facts; }
-  Facts basic() const;                 // facts() without derived ones: PDDL's :init
+  Facts basic() const;                   // facts() without derived ones: PDDL's :init
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
   const std::vector<TypedObject>& objects() const { return objects_; }
 
@@ -36,7 +36,7 @@ class FactTracker {
   struct Atom {
     bool holds = false;
     bool raw = false;
-    std::int64_t since_step = 0;          // of the debounced value
+    std::int64_t since_step = 0;  // of the debounced value
     std::int64_t raw_since_step = 0;
     std::optional<double> margin;
   };
@@ -44,13 +44,13 @@ class FactTracker {
     std::vector<Atom> atoms;
     Facts facts;
     std::map<Fact, std::int64_t> derived_since;
-    std::vector<FactRecord> closed;       // finished intervals, in the order in which they ended
+    std::vector<FactRecord> closed;  // finished intervals, in the order in which they ended
   };
   State save() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
 
  private:
-  struct Group {                          // the atoms of one predicate
+  struct Group {  // the atoms of one predicate
     std::string predicate;
     PredicateTraits traits;
     bool fixed = false;
@@ -68,9 +68,9 @@ class FactTracker {
   Symbols& symbols_;
   double dt_ = 0;
   std::vector<TypedObject> objects_;
-  std::vector<Fact> names_;               // per atom
+  std::vector<Fact> names_;  // per atom
   std::vector<Group> groups_;
-  Facts static_;                          // traits and attributes
+  Facts static_;  // traits and attributes
   std::set<std::string> derived_names_;
   bool changed_ = false;
   State state_;

@@ -33,30 +33,30 @@ class Task {
  public:
   virtual ~Task() = default;
   virtual std::string name() const = 0;
-  virtual std::string variation() const = 0;                      // canonical text
+  virtual std::string variation() const = 0;  // canonical text
   virtual std::map<std::string, std::string> axes() const = 0;
   // The scene of draw number `draw`, all drawn values in it; literals of init() then place what has no pose.
   virtual Scene scene(int draw) = 0;
-  virtual std::vector<std::string> unplaced() const = 0;          // free objects that a literal of init must place
-  virtual std::vector<Literal> init() const = 0;                  // in the order in which they are made true
+  virtual std::vector<std::string> unplaced() const = 0;  // free objects that a literal of init must place
+  virtual std::vector<Literal> init() const = 0;          // in the order in which they are made true
   virtual Formula goal() const = 0;
-  virtual std::vector<Formula> stages() const { return {}; }      // in_order { … }; goal() is their conjunction
+  virtual std::vector<Formula> stages() const { return {}; }  // in_order { … }; goal() is their conjunction
   virtual std::optional<std::vector<PlanStep>> steps() const { return std::nullopt; }  // action or skill, arguments
   virtual std::vector<std::pair<std::string, Formula>> subgoals() const { return {}; }
-  virtual bool also(const WorldView&) { return true; }            // a further test beside the goal
-  virtual bool fails(const WorldView&) { return false; }          // ends the episode as failed
-  virtual double reward(const WorldView&) { return 0; }           // shaped, added to 1 at success
-  virtual double hold_s() const { return 1.0; }                   // the goal must stay true for this long at the end
+  virtual bool also(const WorldView&) { return true; }    // a further test beside the goal
+  virtual bool fails(const WorldView&) { return false; }  // ends the episode as failed
+  virtual double reward(const WorldView&) { return 0; }   // shaped, added to 1 at success
+  virtual double hold_s() const { return 1.0; }           // the goal must stay true for this long at the end
   virtual double horizon_s() const { return 120; }
-  virtual std::vector<std::string> instructions() const = 0;      // filled in for this variation
+  virtual std::vector<std::string> instructions() const = 0;  // filled in for this variation
 };
 
 enum class Pairs { all, touching, near };  // which argument pairs of a predicate can hold at all
 
 struct PredicateTraits {
-  double settle_s = 0;      // a shorter change is noise
-  bool momentary = false;   // read at every physics step, no settle time
-  bool remember = false;    // stays true once true
+  double settle_s = 0;     // a shorter change is noise
+  bool momentary = false;  // read at every physics step, no settle time
+  bool remember = false;   // stays true once true
   Pairs requires_pairs = Pairs::all;
 };
 
@@ -83,8 +83,8 @@ struct ContinuousInfo {
   Source source = Source::value;
   std::vector<double> initial, lower, upper;  // value: equal lengths (lower, upper may be infinite)
   std::string unit, frame;
-  std::string object;      // grasps: the parameter that names the object
-  Fact literal;            // sample: predicate and parameter names whose sample gives poses of its first argument
+  std::string object;  // grasps: the parameter that names the object
+  Fact literal;        // sample: predicate and parameter names whose sample gives poses of its first argument
 };
 
 struct SkillInfo {
@@ -93,9 +93,9 @@ struct SkillInfo {
   std::vector<ContinuousInfo> continuous;
   ControllerKind controller = ControllerKind::joint_position;
   double stiffness = 0;
-  std::string label;                   // "pick up the {obj}"
-  std::vector<std::string> forgets;    // predicates whose facts contact leaves uncertain
-  std::vector<std::string> actions;    // names in the domain, one per case
+  std::string label;                 // "pick up the {obj}"
+  std::vector<std::string> forgets;  // predicates whose facts contact leaves uncertain
+  std::vector<std::string> actions;  // names in the domain, one per case
 };
 
 struct ContinuousValue {
@@ -106,35 +106,54 @@ struct ContinuousValue {
 
 struct SkillCall {
   std::string skill, case_name;
-  std::vector<std::string> arguments;            // names of objects, one per parameter
-  std::vector<ContinuousValue> continuous;       // one per declared parameter, in order
+  std::vector<std::string> arguments;       // names of objects, one per parameter
+  std::vector<ContinuousValue> continuous;  // one per declared parameter, in order
   ControllerKind controller = ControllerKind::joint_position;
   double stiffness = 0;
 };
 
 // What a skill asks of the robot, one at a time. Frames: poses are of the tip in the world.
 namespace robot_call {
-struct MoveThrough { std::vector<ToolTarget> targets; };      // planned; stops at the last only
+struct MoveThrough {
+  std::vector<ToolTarget> targets;
+};  // planned; stops at the last only
 struct MoveLine {
   Transform target;
-  double speed = 0.25;          // m/s
+  double speed = 0.25;  // m/s
   bool stop_on_contact = false;
-  double force = 3;             // N, that stops it
-  bool tolerate = false;        // falling short is no failure
-  bool collide = false;         // plan around nothing, but refuse a line that touches
+  double force = 3;       // N, that stops it
+  bool tolerate = false;  // falling short is no failure
+  bool collide = false;   // plan around nothing, but refuse a line that touches
   std::string kind = "move_line";
 };
-struct MoveJoints { JointVector target; };                    // planned
-struct Hand { double opening = 0; double force = 20; std::string expect; };  // expect: object to be grasped
-struct MovePart { std::string object; double position = 0; double speed = 0.1; };  // the held handle's joint; arcs too
-struct Wait { double seconds = 0; };
-struct RunSkill { SkillCall call; };                          // a child skill segment
+struct MoveJoints {
+  JointVector target;
+};  // planned
+struct Hand {
+  double opening = 0;
+  double force = 20;
+  std::string expect;
+};  // expect: object to be grasped
+struct MovePart {
+  std::string object;
+  double position = 0;
+  double speed = 0.1;
+};  // the held handle's joint; arcs too
+struct Wait {
+  double seconds = 0;
+};
+struct RunSkill {
+  SkillCall call;
+};  // a child skill segment
 struct Done {};
-struct Fail { Reason reason = Reason::script_error; std::string detail; };
+struct Fail {
+  Reason reason = Reason::script_error;
+  std::string detail;
+};
 }  // namespace robot_call
-using RobotCall = std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
-                               robot_call::MovePart, robot_call::Wait, robot_call::RunSkill, robot_call::Done,
-                               robot_call::Fail>;
+using RobotCall =
+    std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
+                 robot_call::MovePart, robot_call::Wait, robot_call::RunSkill, robot_call::Done, robot_call::Fail>;
 
 // One run of a skill. next() is called with the view as it is when the previous call has ended well; a call that
 // failed ends the run. Never copied: undo starts a new one.

@@ -5,9 +5,9 @@
 namespace stampede {
 namespace {
 
-constexpr double kStill = 0.1;        // rad/s
-constexpr double kOpenShare = 0.9;    // of the widest opening: counts as open
-constexpr int kBuffer = 4;            // frames after a stop in which none is accepted
+constexpr double kStill = 0.1;      // rad/s
+constexpr double kOpenShare = 0.9;  // of the widest opening: counts as open
+constexpr int kBuffer = 4;          // frames after a stop in which none is accepted
 
 }  // namespace
 

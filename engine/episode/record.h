@@ -27,35 +27,35 @@ struct Span {
 struct ParameterRecord {  // a continuous parameter of a segment
   std::string name;       // `height`, `grasp`, `controller`
   std::vector<double> values;
-  std::string text;       // instead of values: the controller's name
+  std::string text;  // instead of values: the controller's name
   std::string unit, frame;
   std::string chosen_by;  // default stream planner agent
 };
 
-struct EffectRecord {     // a literal that an action's effect declares, ground for this call
+struct EffectRecord {  // a literal that an action's effect declares, ground for this call
   Fact fact;
   bool negated = false;
   friend bool operator==(const EffectRecord&, const EffectRecord&) = default;
 };
 
 struct SegmentRecord {
-  std::string kind;       // subgoal skill motion
-  int ordinal = 0;        // in the episode, by start then depth
-  int parent = -1;        // ordinal, -1: none
+  std::string kind;  // subgoal skill motion
+  int ordinal = 0;   // in the episode, by start then depth
+  int parent = -1;   // ordinal, -1: none
   std::string robot;
-  std::string skill;      // name of subgoal, skill or motion
+  std::string skill;  // name of subgoal, skill or motion
   std::string case_name;
   std::vector<std::string> arguments;
   std::string controller;
   Span span;
   Outcome outcome = Outcome::success;
   Reason reason = Reason::none;
-  std::string detail;     // for people
+  std::string detail;                                  // for people
   std::optional<bool> precondition_held, effect_held;  // nothing: none declared or not reached
   std::vector<EffectRecord> declared_effects;          // conditional and quantified ones already decided
   std::vector<std::string> forgotten;                  // predicates that contact leaves uncertain
   std::vector<std::string> missing_effects;            // literals that did not come true
-  std::string label;      // `pick up the red block`
+  std::string label;                                   // `pick up the red block`
   std::vector<ParameterRecord> parameters;
 };
 
@@ -67,13 +67,13 @@ struct AttemptRecord {
 };
 
 struct ViaRecord {
-  int segment = 0;         // ordinal of the motion segment
+  int segment = 0;  // ordinal of the motion segment
   std::string name;
-  Pose pose;               // as planned, world
-  Pose passed;             // tip at the closest passage
-  std::int64_t step = 0;   // of closest passage
-  double speed = 0;        // greatest |joint velocity| there, rad/s
-  double tool_speed = 0;   // m/s
+  Pose pose;              // as planned, world
+  Pose passed;            // tip at the closest passage
+  std::int64_t step = 0;  // of closest passage
+  double speed = 0;       // greatest |joint velocity| there, rad/s
+  double tool_speed = 0;  // m/s
 };
 
 struct FactRecord {
@@ -95,18 +95,18 @@ struct GraspRecord {
   int segment = 0;
   std::string object;
   Pose object_from_tip;
-  double width = 0;       // opening measured when held, m
+  double width = 0;  // opening measured when held, m
   bool held = false;
 };
 
 struct HandRecord {
-  Pose tip;                          // world
-  std::array<double, 6> twist{};     // linear m/s, angular rad/s, world
-  double opening = 0;                // m
-  std::array<double, 2> touch{};     // normal force at each pad, N
+  Pose tip;                       // world
+  std::array<double, 6> twist{};  // linear m/s, angular rad/s, world
+  double opening = 0;             // m
+  std::array<double, 2> touch{};  // normal force at each pad, N
 };
 
-struct ActionRecord {                // commanded over [frame, frame+1)
+struct ActionRecord {                  // commanded over [frame, frame+1)
   std::vector<double> joint_position;  // reference at the end of the interval, rad
   Pose tool_pose;                      // of that reference
   double gripper = 0;                  // commanded opening, m
@@ -125,7 +125,7 @@ struct FrameRecord {
 };
 
 struct JointName {
-  std::string name;    // `panda.joint1`, `chest.top_drawer`
+  std::string name;  // `panda.joint1`, `chest.top_drawer`
   PartRef part;
   std::string kind, unit;
   double lower = 0, upper = 0;
@@ -133,21 +133,21 @@ struct JointName {
 };
 
 struct LanguageRecord {
-  std::string level;   // task world skill
+  std::string level;  // task world skill
   std::string text;
-  int segment = -1;    // skill level: the segment
+  int segment = -1;  // skill level: the segment
 };
 
 struct DocumentRecord {
-  std::string kind;    // pddl_domain pddl_problem plan
+  std::string kind;  // pddl_domain pddl_problem plan
   std::string text;
 };
 
 // What a further sensor said, at its own rate: values[i * components … ) was read at steps[i].
 struct ChannelRecord {
-  std::string name;                    // `wrench`
+  std::string name;  // `wrench`
   std::string unit;
-  std::vector<std::string> components; // `force_x` …
+  std::vector<std::string> components;  // `force_x` …
   double rate_hz = 0;
   std::vector<std::int64_t> steps;
   std::vector<double> values;
@@ -155,16 +155,16 @@ struct ChannelRecord {
 
 // Source of a definition that took part, for the catalogue's definition tables.
 struct DefinitionRecord {
-  std::string kind;    // task skill predicate object world robot types
+  std::string kind;  // task skill predicate object world robot types
   std::string name, path, source, hash;
 };
 
 struct EpisodeRecord {
-  std::string key;     // hash of definitions, task, variation, seed and every option that alters data
+  std::string key;  // hash of definitions, task, variation, seed and every option that alters data
   std::string task, world, variation;
-  std::map<std::string, std::string> axes;   // of the variation
+  std::map<std::string, std::string> axes;  // of the variation
   std::int64_t seed = 0;
-  std::string split;   // train test
+  std::string split;  // train test
   Outcome outcome = Outcome::failure;
   Reason reason = Reason::none;
   std::string detail;
@@ -174,11 +174,11 @@ struct EpisodeRecord {
   std::int64_t steps = 0;
   std::string scene_document;
   std::vector<Object> objects;
-  std::vector<std::string> posed;      // names of objects whose pose is in frames
+  std::vector<std::string> posed;  // names of objects whose pose is in frames
   std::vector<JointName> joints;
   std::vector<std::string> hands;
-  std::vector<Camera> cameras;                        // of the scene
-  std::map<std::string, std::string> predicates;      // of the domain -> basic derived fixed
+  std::vector<Camera> cameras;                    // of the scene
+  std::map<std::string, std::string> predicates;  // of the domain -> basic derived fixed
   std::vector<ChannelRecord> channels;
   std::vector<FrameRecord> frames;
   std::vector<Command> commands;
@@ -191,9 +191,9 @@ struct EpisodeRecord {
   std::vector<LanguageRecord> language;
   std::vector<DocumentRecord> documents;
   std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
-  std::string state_hash;              // World::state_hash at the end
-  double draws = 1;                    // starts drawn until init held
-  double wall_s = 0, physics_wall_s = 0;  // host times: outside every hash
+  std::string state_hash;                                      // World::state_hash at the end
+  double draws = 1;                                            // starts drawn until init held
+  double wall_s = 0, physics_wall_s = 0;                       // host times: outside every hash
 };
 
 }  // namespace stampede

@@ -19,11 +19,11 @@ struct RunOptions {
   std::int64_t seed = 0;
   std::string split = "train";
   OnFailure on_failure = OnFailure::undo;
-  int tries_per_skill = 6;        // runs of one skill before the one before it is undone too
+  int tries_per_skill = 6;  // runs of one skill before the one before it is undone too
   int tries_per_episode = 60;
-  int plans = 4;                  // different plans tried
-  int draws = 100;                // starts drawn until init holds
-  std::string controller;         // empty: each skill's own
+  int plans = 4;           // different plans tried
+  int draws = 100;         // starts drawn until init holds
+  std::string controller;  // empty: each skill's own
   std::map<std::string, std::string> as_text() const;
 };
 
@@ -35,7 +35,7 @@ EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, co
 // Makes and settles a start in which init holds, without running it. Throws nothing; a reason when none was found.
 struct Start {
   Reason reason = Reason::none;
-  std::string detail;       // which literal failed, and how often
+  std::string detail;  // which literal failed, and how often
   std::shared_ptr<const Scene> scene;
   int draws = 0;
 };

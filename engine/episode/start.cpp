@@ -1,10 +1,11 @@
 // Making a start: literals of init are made true by sampling, settled in physics and tested again.
+#include "engine/episode/start.h"
+
 #include <algorithm>
 #include <map>
 
 #include "engine/base/error.h"
 #include "engine/episode/fact_tracker.h"
-#include "engine/episode/start.h"
 
 namespace stampede {
 namespace {

@@ -11,16 +11,17 @@
 namespace stampede {
 namespace {
 
-constexpr std::size_t kRestFrames = 5;       // 0.25 s at 20 Hz
-constexpr double kRestDistance = 1e-3;       // m
-constexpr double kRestAngle = 0.0175;        // rad
-constexpr double kSupportShare = 0.25;       // of the object's weight
+constexpr std::size_t kRestFrames = 5;  // 0.25 s at 20 Hz
+constexpr double kRestDistance = 1e-3;  // m
+constexpr double kRestAngle = 0.0175;   // rad
+constexpr double kSupportShare = 0.25;  // of the object's weight
 
 std::array<Vector3, 2> world_bounds(const Transform& world_from_part, const Part& part) {
   const auto [low, high] = bounding_box(part);
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 local(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z());
+    const Vector3 local(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                        corner & 4 ? high.z() : low.z());
     const Vector3 point = world_from_part * local;
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
@@ -69,9 +70,9 @@ bool WorldView::owns(const Object& thing, PartRef part) const {
     case ObjectKind::part:
       return part.body >= 0 && part == PartRef{scene().body_index(thing.body), thing.part};
     case ObjectKind::hand:
-      return part.body == -1 && (std::count(robot.pads.begin(), robot.pads.end(), part.part) > 0 ||
-                                 std::count(robot.fingers.begin(), robot.fingers.end(), part.part) > 0 ||
-                                 part.part == robot.tip_part);
+      return part.body == -1 &&
+             (std::count(robot.pads.begin(), robot.pads.end(), part.part) > 0 ||
+              std::count(robot.fingers.begin(), robot.fingers.end(), part.part) > 0 || part.part == robot.tip_part);
     case ObjectKind::region:
       return false;
   }
@@ -143,7 +144,8 @@ double WorldView::contact_force(std::string_view a, std::string_view b) const {
 
 bool WorldView::supports(std::string_view surface, std::string_view name) const {
   const Object &below = object(surface), &above = object(name);
-  if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand) return false;
+  if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand)
+    return false;
   const PartRef ref = part_of(name);
   double upward = 0;
   for (const Contact& contact : world_->contacts()) {

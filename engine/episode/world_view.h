@@ -23,14 +23,14 @@ class WorldView {
   const Object& object(std::string_view name) const;
   double time_s() const;
 
-  Transform world_from(std::string_view object) const;   // body, part, region centre, or the hand's tip
-  Vector3 velocity(std::string_view object) const;       // linear, world, m/s
-  Vector3 size(std::string_view object) const;           // bounding box in its own frame, m
-  double bottom(std::string_view object) const;          // lowest and highest world z of its bounding box, m
+  Transform world_from(std::string_view object) const;  // body, part, region centre, or the hand's tip
+  Vector3 velocity(std::string_view object) const;      // linear, world, m/s
+  Vector3 size(std::string_view object) const;          // bounding box in its own frame, m
+  double bottom(std::string_view object) const;         // lowest and highest world z of its bounding box, m
   double top(std::string_view object) const;
 
-  double joint(std::string_view part) const;             // position, rad or m
-  double joint_fraction(std::string_view part) const;    // 0 at the lower limit … 1 at the upper
+  double joint(std::string_view part) const;           // position, rad or m
+  double joint_fraction(std::string_view part) const;  // 0 at the lower limit … 1 at the upper
   double joint_velocity(std::string_view part) const;
   std::pair<double, double> joint_range(std::string_view part) const;
 
@@ -39,18 +39,19 @@ class WorldView {
   // The upward share of contact force on `object` that comes from `surface`: at least a quarter of its weight, and
   // the hand does not hold it.
   bool supports(std::string_view surface, std::string_view object) const;
-  bool at_rest(std::string_view object) const;           // moved less than 1 mm and 1 deg in 0.25 s, relative to what supports it
-  bool grasped(std::string_view object) const;           // by friction between the pads
-  std::string grasped_object() const;                    // or empty
-  double opening() const;                                // m
+  bool at_rest(
+      std::string_view object) const;  // moved less than 1 mm and 1 deg in 0.25 s, relative to what supports it
+  bool grasped(std::string_view object) const;  // by friction between the pads
+  std::string grasped_object() const;           // or empty
+  double opening() const;                       // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?
   bool inside(std::string_view region, std::string_view object, bool whole = false) const;
   // Signed distance of a point to the region's box, negative inside, m.
   double region_distance(std::string_view region, const Vector3& point) const;
 
-  void close_frame();                                    // after World::close_window: extends the history
+  void close_frame();  // after World::close_window: extends the history
   struct History {
-    std::deque<std::vector<Transform>> poses;            // per frame, per scene body
+    std::deque<std::vector<Transform>> poses;  // per frame, per scene body
   };
   const History& history() const { return history_; }
   void restore(History history) { history_ = std::move(history); }
@@ -58,11 +59,11 @@ class WorldView {
 
   // The free body's object that a body index stands for; empty: a fixture part etc.
   PartRef part_of(std::string_view object) const;
-  bool owns(const Object& object, PartRef part) const;   // does a contact on `part` count as on `object`?
+  bool owns(const Object& object, PartRef part) const;  // does a contact on `part` count as on `object`?
 
  private:
   World* world_;
-  std::map<std::string, int, std::less<>> index_;        // object name -> index in scene().objects
+  std::map<std::string, int, std::less<>> index_;  // object name -> index in scene().objects
   History history_;
 };
 

@@ -1,0 +1,21 @@
+// Sentences by template: what things are called, what holds, what a skill does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/episode/interfaces.h"
+
+namespace stampede {
+
+// `red cube`, `top drawer of the chest`; with its number where others share the words: `second red cube`.
+std::string phrase(const Scene& scene, const std::string& object);
+
+// Fills {name} from the binding, as phrases for objects and as they are otherwise; `the {obj}` reads well.
+std::string fill(const std::string& text, const std::vector<Parameter>& parameters,
+                 const std::vector<std::string>& arguments, const Scene& scene);
+
+// One sentence a fact that a person would mention: basic and derived facts with a label, robot's own left out.
+std::vector<std::string> describe_world(const Facts& facts, const Domain& domain, const Scene& scene);
+
+}  // namespace stampede

@@ -1,0 +1,142 @@
+#include "engine/episode/planning.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/base/error.h"
+#include "engine/episode/effects.h"
+
+namespace stampede {
+namespace {
+
+std::string stage_name(std::size_t number) { return "stage_" + std::to_string(number); }
+
+void collect(const Formula& formula, std::vector<Literal>& literals) {
+  if (formula.kind == Formula::Kind::conjunction) {
+    for (const Formula& part : formula.parts) collect(part, literals);
+    return;
+  }
+  const bool negated = formula.kind == Formula::Kind::negation;
+  const Formula& inner = negated ? formula.parts.front() : formula;
+  if (inner.kind != Formula::Kind::atom)
+    throw Error("goal", "in_order takes conjunctions of literals", "write the parts without any_of, exists or forall");
+  Literal literal{{inner.predicate, {}}, negated};
+  for (const Term& term : inner.terms) literal.fact.arguments.push_back(term.name);
+  literals.push_back(std::move(literal));
+}
+
+Formula formula_of(const Literal& literal) {
+  std::vector<Term> terms;
+  for (const std::string& name : literal.fact.arguments) terms.push_back({false, name});
+  Formula formula = atom(literal.fact.predicate, std::move(terms));
+  return literal.negated ? negation(std::move(formula)) : formula;
+}
+
+// When this effect makes `literal` true: its own condition and equal arguments.
+std::vector<Formula> matching(const Effect& effect, const Literal& literal) {
+  std::vector<Formula> conditions;
+  if (effect.when.kind != Formula::Kind::always) conditions.push_back(effect.when);
+  for (std::size_t i = 0; i < effect.terms.size(); ++i) {
+    Formula same;
+    same.kind = Formula::Kind::equal;
+    same.terms = {effect.terms[i], {false, literal.fact.arguments[i]}};
+    conditions.push_back(std::move(same));
+  }
+  return conditions;
+}
+
+void advance_stages(Action& action, const std::vector<std::vector<Literal>>& stages) {
+  std::vector<Effect> added;
+  for (const Effect& effect : action.effects)
+    for (std::size_t stage = 0; stage < stages.size(); ++stage)
+      for (const Literal& literal : stages[stage]) {
+        if (effect.predicate != literal.fact.predicate || effect.negated != literal.negated) continue;
+        std::vector<Formula> conditions = matching(effect, literal);
+        for (const Literal& other : stages[stage])
+          if (other.fact != literal.fact) conditions.push_back(formula_of(other));
+        const auto with = [&](Formula condition, const std::string& predicate) {
+          std::vector<Formula> all = conditions;
+          if (condition.kind != Formula::Kind::always) all.push_back(std::move(condition));
+          added.push_back({effect.forall, conjunction(std::move(all)), predicate, {}, false});
+        };
+        with(stage == 0 ? Formula{} : atom(stage_name(stage), {}), stage_name(stage + 1));
+        if (stage > 0) with(negation(atom(stage_name(stage), {})), "out_of_order");
+      }
+  action.effects.insert(action.effects.end(), added.begin(), added.end());
+}
+
+}  // namespace
+
+PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached) {
+  PlanningTask planning{domain, {}};
+  planning.problem.name = task.name();
+  planning.problem.objects = facts.objects();
+  planning.problem.init = facts.basic();
+  planning.problem.goal = task.goal();
+  const std::vector<Formula> stages = task.stages();
+  if (stages.empty()) return planning;
+
+  std::vector<std::vector<Literal>> literals(stages.size());
+  for (std::size_t i = 0; i < stages.size(); ++i) collect(stages[i], literals[i]);
+  for (Action& action : planning.domain.actions) advance_stages(action, literals);
+  std::vector<Formula> goal = {task.goal(), atom(stage_name(stages.size()), {}), negation(atom("out_of_order", {}))};
+  for (std::size_t i = 1; i <= stages.size(); ++i)
+    planning.domain.predicates.push_back({stage_name(i), {}, {}, {}, {}});
+  planning.domain.predicates.push_back({"out_of_order", {}, {}, {}, {}});
+  std::sort(planning.domain.predicates.begin(), planning.domain.predicates.end(),
+            [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
+  for (int i = 1; i <= reached; ++i) planning.problem.init.insert({stage_name(static_cast<std::size_t>(i)), {}});
+  planning.problem.goal = conjunction(std::move(goal));
+  return planning;
+}
+
+namespace {
+
+using Visit = std::function<void(const std::vector<std::string>&)>;
+
+void complete(const Action& action, std::vector<std::string>& arguments, std::size_t index, const FactTracker& facts,
+              const Domain& domain, const Visit& visit) {
+  if (index == action.parameters.size()) return visit(arguments);
+  if (!arguments[index].empty()) return complete(action, arguments, index + 1, facts, domain, visit);
+  const Parameter& parameter = action.parameters[index];
+  for (const TypedObject& candidate : facts.objects()) {
+    if (!parameter.type.empty() && !domain.is_a(candidate.type, parameter.type)) continue;
+    const auto has = [&](const std::string& trait) { return facts.facts().contains({trait, {candidate.name}}); };
+    if (!std::all_of(parameter.traits.begin(), parameter.traits.end(), has)) continue;
+    if (std::find(arguments.begin(), arguments.end(), candidate.name) != arguments.end()) continue;
+    arguments[index] = candidate.name;
+    complete(action, arguments, index + 1, facts, domain, visit);
+    arguments[index].clear();
+  }
+}
+
+}  // namespace
+
+PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTracker& facts) {
+  std::vector<PlanStep> fitting;
+  for (const Action& action : domain.actions) {
+    if (action.name != step.action && action.skill != step.action) continue;
+    std::vector<std::string> arguments = step.arguments;
+    arguments.resize(action.parameters.size());
+    const bool whole = std::none_of(arguments.begin(), arguments.end(), [](const auto& name) { return name.empty(); });
+    complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
+      if (whole || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
+        fitting.push_back({action.name, names});
+    });
+  }
+  if (fitting.size() > 1)
+    std::erase_if(fitting, [&](const PlanStep& candidate) {
+      const Action* action = domain.action(candidate.action);
+      return !holds(action->precondition, facts.facts(), domain, facts.objects(),
+                    binding_of(*action, candidate.arguments));
+    });
+  if (fitting.size() == 1) return fitting.front();
+  std::string candidates;
+  for (const PlanStep& candidate : fitting) candidates += to_text(Plan{candidate}) + " ";
+  throw Error("steps",
+              fitting.empty() ? "no binding of '" + step.action + "' meets its precondition"
+                              : "'" + step.action + "' is ambiguous: " + candidates,
+              "name the missing parameters");
+}
+
+}  // namespace stampede

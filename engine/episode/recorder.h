@@ -1,0 +1,61 @@
+// Turns a running world into frames, segments and contacts.
+#pragma once
+
+#include <map>
+#include <tuple>
+
+#include "engine/episode/record.h"
+#include "engine/episode/world_view.h"
+
+namespace stampede {
+
+// What a frame observes; the runner records with it and the replayer compares with it.
+class FrameReader {
+ public:
+  explicit FrameReader(const WorldView& view);
+  FrameRecord read(const WorldView& view) const;  // without action, reward and done
+  ActionRecord action(const World& world) const;  // the reference as it is now
+  const std::vector<JointName>& joints() const { return joints_; }
+  const std::vector<std::string>& posed() const { return posed_; }
+
+ private:
+  std::vector<JointName> joints_;
+  std::vector<std::string> posed_;
+};
+
+// Where a checkpoint cuts the record off again. Copyable.
+class Recorder {
+ public:
+  explicit Recorder(const WorldView& view);
+
+  void first_frame(const WorldView& view);           // at step 0
+  void frame(const WorldView& view, double reward);  // closes the interval since the last frame
+  void contacts(const WorldView& view);              // of the window just closed
+
+  int open_segment(SegmentRecord segment, std::int64_t step);  // its ordinal
+  void close_segment(int ordinal, std::int64_t step, Outcome outcome, Reason reason, std::string detail);
+  SegmentRecord& segment(int ordinal) { return segments[static_cast<std::size_t>(ordinal)]; }
+  std::int64_t frame_at(std::int64_t step) const { return (step + steps_per_frame_ - 1) / steps_per_frame_; }
+
+  struct Mark {
+    std::size_t frames, segments, vias, grasps, contacts_closed;
+    std::map<std::pair<std::string, std::string>, ContactRecord> contacts_open;
+  };
+  Mark mark() const;
+  void cut(const Mark& mark);                                  // everything after the mark never happened
+  void finish(EpisodeRecord& episode, std::int64_t end_step);  // moves all into the episode
+
+  std::vector<FrameRecord> frames;
+  std::vector<SegmentRecord> segments;
+  std::vector<AttemptRecord> attempts;  // never cut
+  std::vector<ViaRecord> vias;
+  std::vector<GraspRecord> grasps;
+
+ private:
+  FrameReader reader_;
+  int steps_per_frame_;
+  std::vector<ContactRecord> contacts_closed_;
+  std::map<std::pair<std::string, std::string>, ContactRecord> contacts_open_;
+};
+
+}  // namespace stampede

@@ -1,0 +1,83 @@
+#include "engine/episode/rollout.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace stampede {
+
+Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, const std::atomic<bool>* stop)
+    : task_(task),
+      symbols_(symbols),
+      stop_(stop),
+      world_(start.scene),
+      view_(world_),
+      facts_(symbols, view_),
+      recorder_(view_),
+      steps_per_frame_(start.scene->physics_hz / start.scene->frame_hz),
+      horizon_steps_(std::llround(task.horizon_s() * start.scene->physics_hz)),
+      stages_(task.stages()),
+      goal_(task.goal()) {
+  view_.restore(start.history);
+  facts_.begin(start.values);
+  recorder_.first_frame(view_);
+}
+
+Reason Rollout::advance() {
+  const auto before = std::chrono::steady_clock::now();  // a host time: reported, never decided upon
+  world_.step();
+  physics_wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  facts_.step(view_);
+  if (at_frame())
+    if (const Reason reason = close_frame(); reason != Reason::none) return reason;
+  return check_stages();
+}
+
+Reason Rollout::close_frame() {
+  world_.close_window();
+  view_.close_frame();
+  facts_.frame(view_);
+  recorder_.contacts(view_);
+  recorder_.frame(view_, task_.reward(view_));
+  if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return Reason::interrupted;
+  if (task_.fails(view_)) return Reason::failed_by_task;
+  return step() >= horizon_steps_ ? Reason::timeout : Reason::none;
+}
+
+Reason Rollout::check_stages() {
+  const int count = static_cast<int>(stages_.size());
+  while (stage_ < count && holds_now(stages_[static_cast<std::size_t>(stage_)])) ++stage_;
+  for (int later = stage_ + 1; later < count; ++later)
+    if (holds_now(stages_[static_cast<std::size_t>(later)])) return Reason::out_of_order;
+  return Reason::none;
+}
+
+bool Rollout::holds_now(const Formula& formula) const {
+  return holds(formula, facts_.facts(), symbols_.domain(), facts_.objects());
+}
+
+bool Rollout::goal_holds() {
+  return stage_ == static_cast<int>(stages_.size()) && holds_now(goal_) && task_.also(view_);
+}
+
+std::string Rollout::unmet_goal() const {
+  std::string text;
+  for (const std::string& literal : unmet(goal_, facts_.facts(), symbols_.domain(), facts_.objects()))
+    text += (text.empty() ? "" : ", ") + literal;
+  return text.empty() ? text : text + " does not hold";
+}
+
+Rollout::Checkpoint Rollout::checkpoint() {
+  world_.apply(operation::Boundary{});
+  return {world_.snapshot(), view_.history(), facts_.save(), recorder_.mark(), keep, stage_};
+}
+
+void Rollout::restore(const Checkpoint& checkpoint) {
+  world_.restore(checkpoint.world);
+  view_.restore(checkpoint.history);
+  facts_.restore(checkpoint.facts);
+  recorder_.cut(checkpoint.record);
+  keep = checkpoint.keep;
+  stage_ = checkpoint.stage;
+}
+
+}  // namespace stampede

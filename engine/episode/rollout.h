@@ -1,0 +1,67 @@
+// A world that is being run and recorded: steps, frames, facts and the progress of the goal move together.
+#pragma once
+
+#include <atomic>
+
+#include "engine/episode/fact_tracker.h"
+#include "engine/episode/recorder.h"
+#include "engine/episode/start.h"
+
+namespace stampede {
+
+class Rollout {
+ public:
+  Rollout(Task& task, Symbols& symbols, const PreparedStart& start, const std::atomic<bool>* stop);
+
+  World& world() { return world_; }
+  const WorldView& view() const { return view_; }
+  FactTracker& facts() { return facts_; }
+  Recorder& recorder() { return recorder_; }
+  const Domain& domain() const { return symbols_.domain(); }
+  std::int64_t step() const { return world_.step_count(); }
+  int steps_per_frame() const { return steps_per_frame_; }
+  double physics_wall_s() const { return physics_wall_s_; }
+
+  // One physics step and what follows from it. A reason other than none ends the episode.
+  Reason advance();
+  bool at_frame() const { return step() % steps_per_frame_ == 0; }
+  bool goal_holds();               // formula, stages and `also`, on debounced facts
+  std::string unmet_goal() const;  // for people; empty when the formula holds
+  bool holds_now(const Formula& formula) const;
+  // How many parts of an ordered goal have come true.
+  int stage() const { return stage_; }
+
+  // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
+  std::optional<PartRef> keep;
+
+  struct Checkpoint {
+    Snapshot world;
+    WorldView::History history;
+    FactTracker::State facts;
+    Recorder::Mark record;
+    std::optional<PartRef> keep;
+    int stage = 0;
+  };
+  Checkpoint checkpoint();  // at a skill boundary: drops contact caches first
+  void restore(const Checkpoint& checkpoint);
+
+ private:
+  Reason close_frame();
+  Reason check_stages();
+
+  Task& task_;
+  Symbols& symbols_;
+  const std::atomic<bool>* stop_;
+  World world_;
+  WorldView view_;
+  FactTracker facts_;
+  Recorder recorder_;
+  int steps_per_frame_;
+  std::int64_t horizon_steps_;
+  std::vector<Formula> stages_;
+  Formula goal_;
+  int stage_ = 0;
+  double physics_wall_s_ = 0;
+};
+
+}  // namespace stampede

@@ -1,0 +1,315 @@
+#include "engine/episode/runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/episode/keyframes.h"
+#include "engine/episode/language.h"
+#include "engine/episode/planning.h"
+#include "engine/episode/skill_driver.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kGoalPatience = 1.0;  // s for the goal's facts to become steady after the last skill
+
+class EpisodeRunner {
+ public:
+  EpisodeRunner(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
+                const std::atomic<bool>* stop)
+      : task_(task), symbols_(symbols), skills_(skills), options_(options), stop_(stop), subgoals_(task.subgoals()) {}
+
+  EpisodeRecord run();
+
+ private:
+  // A skill boundary to which the episode can go back.
+  struct Place {
+    Rollout::Checkpoint checkpoint;
+    std::size_t subgoal = 0;
+    int subgoal_segment = 0;
+  };
+
+  void describe_episode(const PreparedStart& start);
+  SkillResult make_plan(const std::set<PlanStep>& forbidden);
+  SkillResult behave();
+  SkillResult with_undo();
+  SkillResult straight();
+  SkillResult with_recovery();
+  SkillResult one_step(std::size_t position, int attempt);
+  SkillResult finish_goal();
+  void open_subgoal();
+  void after_skill();
+  Place here();
+  void back_to(const Place& place, int try_number);
+  void close(const SkillResult& result);
+  std::int64_t frames(double seconds) const;
+
+  Task& task_;
+  Symbols& symbols_;
+  SkillLibrary& skills_;
+  const RunOptions& options_;
+  const std::atomic<bool>* stop_;
+  EpisodeRecord record_;
+  std::optional<Rollout> rollout_;
+  std::optional<SkillDriver> driver_;
+  std::vector<std::pair<std::string, Formula>> subgoals_;
+  std::size_t subgoal_ = 0;
+  int subgoal_segment_ = 0;
+  Plan plan_;
+  bool explicit_steps_ = false;
+};
+
+EpisodeRecord EpisodeRunner::run() {
+  const auto began = std::chrono::steady_clock::now();  // host time, outside every hash
+  const PreparedStart start = prepare_start(task_, symbols_, options_);
+  describe_episode(start);
+  if (start.reason != Reason::none) {
+    record_.reason = start.reason;
+    record_.detail = start.detail;
+    return std::move(record_);
+  }
+  rollout_.emplace(task_, symbols_, start, stop_);
+  driver_.emplace(*rollout_, symbols_, skills_, options_,
+                  RandomKey("skill").with(task_.name()).with(task_.variation()).with(options_.seed));
+  for (const std::string& sentence : describe_world(rollout_->facts().facts(), symbols_.domain(), *start.scene))
+    record_.language.push_back({"world", sentence, -1});
+  open_subgoal();
+  SkillResult result = make_plan({});
+  record_.documents.push_back({"plan", to_text(plan_)});
+  if (result.ok()) result = behave();
+  close(result);
+  record_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return std::move(record_);
+}
+
+void EpisodeRunner::describe_episode(const PreparedStart& start) {
+  record_.task = task_.name();
+  record_.variation = task_.variation();
+  record_.axes = task_.axes();
+  record_.seed = options_.seed;
+  record_.split = options_.split;
+  record_.options = options_.as_text();
+  record_.draws = start.draws;
+  for (const std::string& sentence : task_.instructions()) record_.language.push_back({"task", sentence, -1});
+  for (const Predicate& predicate : symbols_.domain().predicates)
+    record_.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
+                                         : predicate.kind == PredicateKind::derived ? "derived"
+                                                                                    : "fixed";
+  if (!start.scene) return;
+  const Scene& scene = *start.scene;
+  record_.world = scene.world;
+  record_.physics_hz = scene.physics_hz;
+  record_.frame_hz = scene.frame_hz;
+  record_.scene_document = scene_to_document(scene);
+  record_.objects = scene.objects;
+  record_.cameras = scene.cameras;
+  record_.hands = {scene.robot.name + "." + scene.robot.hand};
+}
+
+std::int64_t EpisodeRunner::frames(double seconds) const {
+  return std::llround(std::ceil(seconds * record_.frame_hz - 1e-9));
+}
+
+SkillResult EpisodeRunner::make_plan(const std::set<PlanStep>& forbidden) {
+  const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
+  if (record_.documents.empty()) {
+    record_.documents.push_back({"pddl_domain", to_pddl(planning.domain)});
+    record_.documents.push_back({"pddl_problem", to_pddl(planning.problem, planning.domain)});
+  }
+  if (const auto steps = task_.steps()) {
+    explicit_steps_ = true;
+    plan_ = *steps;
+    return {};
+  }
+  const PlanOutcome outcome = solve(planning.domain, planning.problem, {}, forbidden);
+  if (!outcome.solved) return {Reason::no_plan, outcome.explanation};
+  plan_ = outcome.plan;
+  return {};
+}
+
+SkillResult EpisodeRunner::behave() {
+  switch (options_.on_failure) {
+    case OnFailure::undo:
+      return with_undo();
+    case OnFailure::stop:
+      return straight();
+    case OnFailure::recover:
+      return with_recovery();
+  }
+  return {};
+}
+
+SkillResult EpisodeRunner::one_step(std::size_t position, int attempt) {
+  const PlanStep step =
+      explicit_steps_ ? resolve_step(plan_[position], symbols_.domain(), rollout_->facts()) : plan_[position];
+  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), attempt);
+  if (result.ok()) after_skill();
+  return result;
+}
+
+SkillResult EpisodeRunner::finish_goal() {
+  return driver_->wait_for_goal(frames(kGoalPatience), frames(task_.hold_s()), subgoal_segment_);
+}
+
+SkillResult EpisodeRunner::straight() {
+  for (std::size_t i = 0; i < plan_.size(); ++i)
+    if (SkillResult result = one_step(i, 0); !result.ok()) return result;
+  return finish_goal();
+}
+
+SkillResult EpisodeRunner::with_recovery() {
+  for (int tries = 0, position = 0;; ++position) {
+    SkillResult result;
+    for (std::size_t i = 0; result.ok() && i < plan_.size(); ++i, ++position) {
+      const PlanStep step = explicit_steps_ ? resolve_step(plan_[i], symbols_.domain(), rollout_->facts()) : plan_[i];
+      result = driver_->run(step, subgoal_segment_, position, tries);
+      if (result.ok()) after_skill();
+    }
+    if (result.ok()) result = finish_goal();
+    if (result.ok() || result.ends_episode || explicit_steps_ || ++tries >= options_.tries_per_episode) return result;
+    here();  // contact caches are dropped at every boundary, failed skills included
+    if (const SkillResult planned = make_plan({}); !planned.ok()) return planned;
+  }
+}
+
+SkillResult EpisodeRunner::with_undo() {
+  std::set<PlanStep> forbidden;
+  const Place start = here();
+  SkillResult last;
+  int tries = 0;
+  for (int plans = 0; plans < options_.plans; ++plans) {
+    std::vector<Place> places = {start};
+    std::vector<int> failures(plan_.size() + 1, 0), runs(plan_.size() + 1, plans * options_.tries_per_episode);
+    std::size_t i = 0;
+    while (true) {
+      // Draws never repeat: the count of runs goes on where the world goes back.
+      last = i == plan_.size() ? finish_goal() : one_step(i, runs[i]++);
+      if (last.ok() && i == plan_.size()) return last;
+      if (last.ok()) {
+        places.resize(++i);
+        places.push_back(here());
+        continue;
+      }
+      if (last.reason == Reason::interrupted || ++tries >= options_.tries_per_episode) return last;
+      if (i == plan_.size() && i > 0) --i;
+      while (++failures[i] >= options_.tries_per_skill && i > 0) failures[i--] = 0;
+      if (i == 0 && failures[0] >= options_.tries_per_skill) break;
+      back_to(places[i], tries);
+    }
+    if (explicit_steps_ || plan_.empty()) return last;
+    forbidden.insert(plan_.front());
+    const Plan failed = plan_;
+    back_to(start, tries);
+    if (!make_plan(forbidden).ok()) {
+      plan_ = failed;  // no other way: what failed stays the episode's result
+      SkillResult again = straight();
+      return again.ok() ? again : last;
+    }
+  }
+  return last;
+}
+
+void EpisodeRunner::open_subgoal() {
+  SegmentRecord segment;
+  segment.kind = "subgoal";
+  segment.robot = record_.hands.empty() ? "" : rollout_->view().scene().robot.name;
+  segment.skill = subgoal_ < subgoals_.size() ? subgoals_[subgoal_].first : "goal";
+  segment.label = segment.skill;
+  subgoal_segment_ = rollout_->recorder().open_segment(std::move(segment), rollout_->step());
+}
+
+void EpisodeRunner::after_skill() {
+  while (subgoal_ < subgoals_.size() && rollout_->holds_now(subgoals_[subgoal_].second)) {
+    rollout_->recorder().close_segment(subgoal_segment_, rollout_->step(), Outcome::success, Reason::none, {});
+    ++subgoal_;
+    open_subgoal();
+  }
+}
+
+EpisodeRunner::Place EpisodeRunner::here() { return {rollout_->checkpoint(), subgoal_, subgoal_segment_}; }
+
+void EpisodeRunner::back_to(const Place& place, int try_number) {
+  Recorder& recorder = rollout_->recorder();
+  const std::size_t kept = place.checkpoint.record.segments;
+  for (std::size_t i = kept; i < recorder.segments.size(); ++i)
+    if (recorder.segments[i].kind == "skill")
+      recorder.attempts.push_back({recorder.segments[i], static_cast<int>(kept), try_number});
+  rollout_->restore(place.checkpoint);
+  subgoal_ = place.subgoal;
+  subgoal_segment_ = place.subgoal_segment;
+}
+
+void EpisodeRunner::close(const SkillResult& result) {
+  const bool success = result.ok();
+  Recorder& recorder = rollout_->recorder();
+  if (!rollout_->at_frame() || rollout_->step() == 0) driver_->wait_for_goal(1, 0, subgoal_segment_);
+  recorder.close_segment(subgoal_segment_, rollout_->step(), success ? Outcome::success : Outcome::failure,
+                         result.reason, result.detail);
+  if (recorder.frames.size() > 1) {
+    FrameRecord& last = recorder.frames[recorder.frames.size() - 2];
+    last.done = true;
+    if (success) last.reward += 1;
+  }
+  record_.outcome = success ? Outcome::success : Outcome::failure;
+  record_.reason = result.reason;
+  record_.detail = result.detail;
+  record_.steps = rollout_->step();
+  record_.commands = rollout_->world().log();
+  record_.facts = rollout_->facts().intervals(record_.steps, rollout_->steps_per_frame());
+  record_.state_hash = rollout_->world().state_hash();
+  record_.physics_wall_s = rollout_->physics_wall_s();
+  recorder.finish(record_, record_.steps);
+  for (const SegmentRecord& segment : record_.segments)
+    if (segment.kind == "skill" && !segment.label.empty())
+      record_.language.push_back({"skill", segment.label, segment.ordinal});
+  record_.keyframes["stopped"] = stopped_keyframes(record_);
+  for (DocumentRecord& document : record_.documents)
+    if (document.kind == "plan") document.text = to_text(plan_);
+}
+
+}  // namespace
+
+std::string_view to_string(OnFailure value) {
+  switch (value) {
+    case OnFailure::undo:
+      return "undo";
+    case OnFailure::stop:
+      return "stop";
+    case OnFailure::recover:
+      return "recover";
+  }
+  return "undo";
+}
+
+std::optional<OnFailure> on_failure_from(std::string_view text) {
+  for (const OnFailure value : {OnFailure::undo, OnFailure::stop, OnFailure::recover})
+    if (to_string(value) == text) return value;
+  return std::nullopt;
+}
+
+std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
+
+std::map<std::string, std::string> RunOptions::as_text() const {
+  std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},
+                                             {"tries_per_skill", std::to_string(tries_per_skill)},
+                                             {"tries_per_episode", std::to_string(tries_per_episode)},
+                                             {"plans", std::to_string(plans)},
+                                             {"draws", std::to_string(draws)}};
+  if (!controller.empty()) text["controller"] = controller;
+  return text;
+}
+
+EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
+                          const std::atomic<bool>* stop) {
+  return EpisodeRunner(task, symbols, skills, options, stop).run();
+}
+
+Problem problem_of(Task& task, Symbols& symbols, const WorldView& view) {
+  FactTracker tracker(symbols, view);
+  tracker.begin(tracker.read_all(view));
+  return planning_task(task, symbols.domain(), tracker, 0).problem;
+}
+
+}  // namespace stampede
