@@ -1,0 +1,249 @@
+// The robot's controllers, once per physics step, and the motors that carry them out.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/sim/impl.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kJointStiffness = 600;      // N m/rad of the strongest joint
+constexpr double kTipStiffness = 800;        // N/m
+constexpr double kTurnOverTip = 0.04;        // (N m/rad) per (N/m)
+constexpr double kPostureStiffness = 20;     // N m/rad, in the null space of the tip
+constexpr double kSingularity = 1e-4;        // damping of the null-space projector
+constexpr double kArmErp = 0.2, kFingerErp = 0.2;
+constexpr double kGearForce = 50;            // N
+constexpr double kDefaultEffort = 100;       // N m or N, where a robot states none
+
+// Rotation vector of `to` seen from `from`, in world axes.
+Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
+  Quaternion turn(Matrix3(to * from.transpose()));
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  const double sine = turn.vec().norm();
+  if (sine < 1e-12) return 2 * turn.vec();
+  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
+}
+
+double effort_of(const JointLimits& limits) { return limits.effort > 0 ? limits.effort : kDefaultEffort; }
+
+}  // namespace
+
+std::string_view to_string(ControllerKind kind) {
+  switch (kind) {
+    case ControllerKind::joint_position:
+      return "joint_position";
+    case ControllerKind::joint_impedance:
+      return "joint_impedance";
+    case ControllerKind::cartesian_impedance:
+      break;
+  }
+  return "cartesian_impedance";
+}
+
+std::optional<ControllerKind> controller_from(std::string_view name) {
+  for (const auto kind :
+       {ControllerKind::joint_position, ControllerKind::joint_impedance, ControllerKind::cartesian_impedance})
+    if (to_string(kind) == name) return kind;
+  return std::nullopt;
+}
+
+void World::Impl::build_robot_motors() {
+  const Robot& robot = scene->robot;
+  const BodySlot& robot_slot = body_slot(kRobot);
+  const auto motor_of = [&](int part_index) {
+    const PartSlot& driven = slot({kRobot, part_index});
+    if (!driven.driven_by_joint)
+      throw Error(robot.name, "part '" + part({kRobot, part_index}).name + "' has no joint to drive", "name moving links");
+    auto motor = std::make_unique<btMultiBodyJointMotor>(robot_slot.multibody, driven.link, 0, 0);
+    world.addMultiBodyConstraint(motor.get());
+    constraints.push_back(std::move(motor));
+    return static_cast<btMultiBodyJointMotor*>(constraints.back().get());
+  };
+  for (std::size_t j = 0; j < robot.arm.size(); ++j) {
+    arm_links.push_back(slot({kRobot, robot.arm[j]}).link);
+    arm_motors.push_back(motor_of(robot.arm[j]));
+    arm_motors.back()->setErp(kArmErp);
+    robot_slot.multibody->setJointPos(arm_links.back(), robot.home[j]);
+  }
+  for (const int finger : robot.fingers) {
+    finger_links.push_back(slot({kRobot, finger}).link);
+    finger_motors.push_back(motor_of(finger));
+    finger_motors.back()->setErp(kFingerErp);
+    finger_motors.back()->setRhsClamp(robot.finger_speed);
+  }
+  if (robot.fingers.size() == 2) {
+    // Two force-limited motors alone let the pair wander along the closing axis: the gear couples them.
+    const btVector3 origin(0, 0, 0);
+    auto gear = std::make_unique<btMultiBodyGearConstraint>(robot_slot.multibody, finger_links[0], robot_slot.multibody,
+                                                            finger_links[1], origin, origin,
+                                                            btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity());
+    gear->setGearRatio(-1);
+    gear->setErp(0.2);
+    gear->setMaxAppliedImpulse(kGearForce * dt);
+    gear->setRelativePositionTarget(0);
+    gear->finalizeMultiDof();
+    world.addMultiBodyConstraint(gear.get());
+    constraints.push_back(std::move(gear));
+  }
+  robot_slot.multibody->forwardKinematics(scratch_rotations, scratch_origins);
+  robot_slot.multibody->updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+  hand.opening = 0;
+  for (const int finger : robot.fingers) hand.opening += part({kRobot, finger}).joint.initial;
+  hand.force = robot.grip_force;
+  const auto joints = static_cast<Eigen::Index>(robot.arm.size());
+  reference.setpoint = {arm.home(), JointVector::Zero(joints), JointVector::Zero(joints)};
+  reference_now = reference.setpoint;
+  arm_torque = JointVector::Zero(joints);
+  dynamics = ArmDynamics(robot);
+}
+
+JointState World::Impl::reference_at(std::int64_t step) const {
+  if (!reference.trajectory) return reference.setpoint;
+  return evaluate(*reference.trajectory, static_cast<double>(step - reference.start_step), scene->physics_hz);
+}
+
+void World::Impl::control() {
+  const JointState next = reference_at(steps + 1);
+  switch (controller.kind) {
+    case ControllerKind::joint_position:
+      control_position(reference_now, next);
+      break;
+    case ControllerKind::joint_impedance:
+      control_joint_impedance(next);
+      break;
+    case ControllerKind::cartesian_impedance:
+      control_cartesian_impedance(next);
+      break;
+  }
+  reference_now = next;
+  control_hand();
+}
+
+// The motors' velocity rows: where the joint is on its reference now, it is on it after the step too.
+void World::Impl::control_position(const JointState& now, const JointState& next) {
+  const bool moving = reference.trajectory != nullptr;
+  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    arm_motors[j]->setPositionTarget(now.position[i], 1);
+    arm_motors[j]->setVelocityTarget(moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i], 1);
+    arm_motors[j]->setMaxAppliedImpulse(effort_of(scene->robot.limits[j]) * dt);
+  }
+  arm_torque.setZero();
+}
+
+void World::Impl::update_dynamics() {
+  for (std::size_t p = 0; p < scene->robot.body.parts.size(); ++p) world_from_part({kRobot, static_cast<int>(p)});
+  Load load;
+  const auto held = contacts.grasped(scene->robot.pads);
+  if (held && body(held->body).free) {
+    const Part& carried = part(*held);
+    const Transform& pose = world_from_part(*held);
+    load.mass = carried.mass;
+    load.centre = pose * carried.centre_of_mass;
+    load.inertia = pose.linear() * carried.inertia * pose.linear().transpose();
+  }
+  dynamics.update(poses[0], scene->gravity, load);
+}
+
+// Bullet's own motors are given no impulse, so that only the torque acts; torques stop at the joints' limits.
+void World::Impl::give_torques(JointVector torque) {
+  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    const double most = effort_of(scene->robot.limits[j]);
+    torque[i] = std::clamp(torque[i], -most, most);
+    arm_motors[j]->setMaxAppliedImpulse(0);
+    body_slot(kRobot).multibody->addJointTorque(arm_links[j], torque[i]);
+  }
+  arm_torque = torque;
+}
+
+// Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step
+// predicted by the same semi-implicit Euler that Bullet takes: (M + dt D + dt^2 K) a = forces now. The explicit form
+// is unstable at 240 Hz with the inertias of a real wrist.
+void World::Impl::control_joint_impedance(const JointState& next) {
+  update_dynamics();
+  const JointMatrix& mass = dynamics.mass();
+  const JointVector q = arm_position_now(), v = arm_velocity_now();
+  const Eigen::Index joints = q.size();
+  double strongest = 0;
+  for (const JointLimits& limits : scene->robot.limits) strongest = std::max(strongest, effort_of(limits));
+  JointVector stiffness(joints), damping(joints);
+  for (Eigen::Index i = 0; i < joints; ++i) {
+    const double share = effort_of(scene->robot.limits[static_cast<std::size_t>(i)]) / strongest;
+    stiffness[i] = (controller.stiffness > 0 ? controller.stiffness : kJointStiffness) * share;
+    damping[i] = 2 * std::sqrt(stiffness[i] * mass(i, i));
+  }
+  const JointVector feed_forward = mass * next.acceleration;
+  const JointVector error = next.position - q - dt * v;
+  const JointVector pull = stiffness.cwiseProduct(error) + damping.cwiseProduct(next.velocity - v);
+  JointMatrix implicit = mass;
+  implicit.diagonal() += dt * damping + dt * dt * stiffness;
+  const JointVector acceleration = implicit.ldlt().solve(feed_forward + pull);
+  const JointVector softened =
+      pull - dt * damping.cwiseProduct(acceleration) - dt * dt * stiffness.cwiseProduct(acceleration);
+  give_torques(dynamics.gravity() + feed_forward + softened);
+}
+
+// As above with the stiffness of the tip mapped to the joints through the Jacobian, and a soft posture spring
+// towards the reference in its null space, so that the elbow neither drifts nor disturbs the tip.
+void World::Impl::control_cartesian_impedance(const JointState& next) {
+  update_dynamics();
+  const JointMatrix& mass = dynamics.mass();
+  const TipJacobian& jacobian = dynamics.jacobian();
+  const JointVector q = arm_position_now(), v = arm_velocity_now();
+  const Eigen::Index joints = q.size();
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const Transform target = arm.world_from_tip(next.position);
+  const Vector6 target_velocity = arm.jacobian(next.position) * next.velocity;
+  const Vector6 tip_velocity = jacobian * v;
+  Vector6 error;
+  error << target.translation() - dynamics.world_from_tip().translation(),
+      turn_between(dynamics.world_from_tip().linear(), target.linear());
+
+  const double k = controller.stiffness > 0 ? controller.stiffness : kTipStiffness;
+  Vector6 stiffness;
+  stiffness << k, k, k, Vector3::Constant(k * kTurnOverTip);
+  const JointMatrix mass_inverse = mass.ldlt().solve(JointMatrix(JointMatrix::Identity(joints, joints)));
+  Matrix6 mobility = jacobian * mass_inverse * jacobian.transpose();
+  mobility.diagonal().array() += 1e-6;
+  const Matrix6 tip_mass = mobility.inverse();
+  Vector6 damping;
+  for (int i = 0; i < 6; ++i) damping[i] = 2 * std::sqrt(stiffness[i] * tip_mass(i, i));
+
+  Matrix6 squared = jacobian * jacobian.transpose();
+  squared.diagonal().array() += kSingularity;
+  const JointMatrix projector =
+      JointMatrix::Identity(joints, joints) - jacobian.transpose() * squared.inverse() * jacobian;
+  JointVector posture_damping(joints);
+  for (Eigen::Index i = 0; i < joints; ++i) posture_damping[i] = 2 * std::sqrt(kPostureStiffness * mass(i, i));
+
+  const Vector6 force = stiffness.cwiseProduct(error - dt * tip_velocity) +
+                        damping.cwiseProduct(target_velocity - tip_velocity);
+  const JointVector posture = kPostureStiffness * (projector * (next.position - q - dt * v)) +
+                              posture_damping.cwiseProduct(projector * (next.velocity - v));
+  const JointVector pull = jacobian.transpose() * force + projector * posture;
+  const JointVector feed_forward = mass * next.acceleration;
+  const Vector6 tip_resistance = dt * damping + dt * dt * stiffness;
+  const JointVector posture_resistance = dt * posture_damping.array() + dt * dt * kPostureStiffness;
+  const JointMatrix resistance = jacobian.transpose() * tip_resistance.asDiagonal() * jacobian +
+                                 projector * posture_resistance.asDiagonal() * projector;
+  const JointVector acceleration = JointMatrix(mass + resistance).ldlt().solve(feed_forward + pull);
+  give_torques(dynamics.gravity() + feed_forward + pull - resistance * acceleration);
+}
+
+void World::Impl::control_hand() {
+  const double each = finger_motors.empty() ? 0 : hand.opening / static_cast<double>(finger_motors.size());
+  for (std::size_t f = 0; f < finger_motors.size(); ++f) {
+    const double limit = part({kRobot, scene->robot.fingers[f]}).joint.effort;
+    const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
+    finger_motors[f]->setPositionTarget(each, 1);
+    finger_motors[f]->setVelocityTarget(0, 1);
+    finger_motors[f]->setMaxAppliedImpulse(force * dt);
+  }
+}
+
+}  // namespace stampede

@@ -1,0 +1,125 @@
+// Joints of furniture: friction, damping, return springs, detents and latches.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/sim/impl.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kSpringErp = 0.1;
+constexpr double kSpringSpeed = 0.3;    // m/s or rad/s at most
+constexpr double kLockForce = 500;      // N or N m
+constexpr double kLockErp = 0.2;
+constexpr double kKeyBack = 0.6;        // of the way from its rest to latch_open: hysteresis of the key
+constexpr double kRelockRange = 0.01;   // of the joint's range, where latch_close says nothing
+
+bool descends_from(const Body& body, int part, int ancestor) {
+  for (int at = part; at >= 0; at = body.parts[static_cast<std::size_t>(at)].parent)
+    if (at == ancestor) return true;
+  return false;
+}
+
+}  // namespace
+
+// What the joint alone would have to accelerate, in the start pose: for implicit damping only.
+static double inertia_of(const World::Impl& impl, PartRef ref) {
+  const Body& body = impl.body(ref.body);
+  const Transform& joint = impl.world_from_part(ref);
+  const Part& mover = impl.part(ref);
+  const Vector3 axis = joint.linear() * mover.joint.axis.normalized();
+  double sum = 0;
+  for (int p = ref.part; p < static_cast<int>(body.parts.size()); ++p) {
+    if (!descends_from(body, p, ref.part)) continue;
+    const Part& part = impl.part({ref.body, p});
+    if (!(part.mass > 0)) continue;
+    const Transform& pose = impl.world_from_part({ref.body, p});
+    const Vector3 arm = (pose * part.centre_of_mass - joint.translation()).cross(axis);
+    const Vector3 local_axis = pose.linear().transpose() * axis;
+    sum += mover.joint.kind == JointKind::slider ? part.mass
+                                                 : local_axis.dot(part.inertia * local_axis) + part.mass * arm.squaredNorm();
+  }
+  return sum;
+}
+
+void World::Impl::build_mechanisms() {
+  const auto add_motor = [&](const Mechanism& mechanism) {
+    auto motor = std::make_unique<btMultiBodyJointMotor>(mechanism.multibody, mechanism.link, 0, 0);
+    world.addMultiBodyConstraint(motor.get());
+    constraints.push_back(std::move(motor));
+    return static_cast<btMultiBodyJointMotor*>(constraints.back().get());
+  };
+  for (int index = 0; index < static_cast<int>(scene->bodies.size()); ++index) {
+    const Body& description = body(index);
+    for (int p = 0; p < static_cast<int>(description.parts.size()); ++p) {
+      const PartSlot& here = slot({index, p});
+      if (!here.driven_by_joint) continue;
+      const Joint& joint = part({index, p}).joint;
+      Mechanism mechanism;
+      mechanism.part = {index, p};
+      mechanism.multibody = here.multibody;
+      mechanism.link = here.link;
+      mechanism.inertia = inertia_of(*this, mechanism.part);
+      mechanism.brake = add_motor(mechanism);
+      if (joint.spring_force > 0 || joint.detent > 0) {
+        mechanism.spring = add_motor(mechanism);
+        mechanism.spring->setErp(kSpringErp);
+        mechanism.spring->setRhsClamp(kSpringSpeed);
+      }
+      if (!joint.latch_key.empty()) {
+        int key = -1;
+        for (int other = 0; other < static_cast<int>(description.parts.size()); ++other) {
+          const Part& candidate = part({index, other});
+          if (slot({index, other}).driven_by_joint &&
+              (candidate.joint.name == joint.latch_key || candidate.name == joint.latch_key))
+            key = other;
+        }
+        if (key < 0)
+          throw Error(description.name, "the latch of '" + joint.name + "' names no joint '" + joint.latch_key + "'",
+                      "name a moving joint of the same object");
+        mechanism.key_link = slot({index, key}).link;
+        mechanism.key_initial = part({index, key}).joint.initial;
+        mechanism.relock_below = std::max(joint.latch_close, joint.lower + kRelockRange * (joint.upper - joint.lower));
+        mechanism.locked = joint.initial <= mechanism.relock_below;
+      }
+      mechanisms.push_back(mechanism);
+    }
+  }
+}
+
+void World::Impl::move_mechanisms() {
+  for (Mechanism& mechanism : mechanisms) {
+    const Joint& joint = part(mechanism.part).joint;
+    const double q = mechanism.multibody->getJointPos(mechanism.link);
+    const double v = mechanism.multibody->getJointVel(mechanism.link);
+    if (mechanism.key_link >= 0) {
+      const double key = mechanism.multibody->getJointPos(mechanism.key_link);
+      const double turned = (key - mechanism.key_initial) / (joint.latch_open - mechanism.key_initial);  // 1: opens
+      if (mechanism.locked && turned >= 1) mechanism.locked = false;
+      else if (!mechanism.locked && turned <= kKeyBack && q <= mechanism.relock_below) mechanism.locked = true;
+    }
+    // Constraints stay in place all the time: their order is part of the state. Only their targets change.
+    if (mechanism.locked) {
+      mechanism.brake->setErp(kLockErp);
+      mechanism.brake->setPositionTarget(joint.lower, 1);
+      mechanism.brake->setMaxAppliedImpulse(kLockForce * dt);
+    } else {
+      mechanism.brake->setPositionTarget(0, 0);
+      mechanism.brake->setMaxAppliedImpulse(joint.friction * dt);
+    }
+    mechanism.torque = 0;
+    if (joint.damping > 0) {  // implicit: the speed at the end of the step is what is damped
+      mechanism.torque = -joint.damping * v / (1 + dt * joint.damping / mechanism.inertia);
+      mechanism.multibody->addJointTorque(mechanism.link, mechanism.torque);
+    }
+    if (mechanism.spring) {
+      const double nearest = q < (joint.lower + joint.upper) / 2 ? joint.lower : joint.upper;
+      const bool detent = joint.detent > 0;
+      mechanism.spring->setPositionTarget(detent ? nearest : joint.spring_target, 1);
+      mechanism.spring->setMaxAppliedImpulse((detent ? joint.detent : joint.spring_force) * dt);
+    }
+  }
+}
+
+}  // namespace stampede

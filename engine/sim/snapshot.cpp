@@ -1,0 +1,176 @@
+// Snapshots that restore bit for bit. Bullet keeps state that cannot be read (pair order, contact caches, trees of the
+// broadphase), so it is not saved but dropped, on both sides and in the same way.
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/sim/impl.h"
+
+namespace stampede {
+
+struct Snapshot::Data {
+  std::vector<double> state;  // bodies and joints, see World::Impl::state
+  std::vector<bool> locked;
+  std::int64_t steps = 0;
+  operation::Controller controller;
+  operation::Hand hand;
+  Reference reference;
+  JointState reference_now;
+  ContactWindow::State contacts;
+  JointVector arm_torque;
+  std::vector<std::vector<double>> efforts;
+  std::vector<Command> log;
+};
+
+namespace {
+
+void put(std::vector<double>& out, const btVector3& v) { out.insert(out.end(), {v.x(), v.y(), v.z()}); }
+
+struct Reader {
+  const double* next;
+  double number() { return *next++; }
+  btVector3 vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+};
+
+}  // namespace
+
+// Free bodies: rotation matrix, origin, velocities. Joints: position, velocity.
+std::vector<double> World::Impl::state() const {
+  std::vector<double> out;
+  for (const BodySlot& slot : bodies) {
+    if (slot.free) {
+      const btTransform& pose = slot.free->getWorldTransform();
+      for (int row = 0; row < 3; ++row) put(out, pose.getBasis()[row]);
+      put(out, pose.getOrigin());
+      put(out, slot.free->getLinearVelocity());
+      put(out, slot.free->getAngularVelocity());
+    }
+    if (!slot.multibody) continue;
+    for (const PartSlot& part : slot.parts) {
+      if (!part.driven_by_joint) continue;
+      out.push_back(slot.multibody->getJointPos(part.link));
+      out.push_back(slot.multibody->getJointVel(part.link));
+    }
+  }
+  return out;
+}
+
+void World::Impl::set_state(const std::vector<double>& state) {
+  Reader in{state.data()};
+  for (BodySlot& slot : bodies) {
+    if (slot.free) {
+      btTransform pose;
+      for (int row = 0; row < 3; ++row) pose.getBasis()[row] = in.vector();
+      pose.setOrigin(in.vector());
+      slot.free->setLinearVelocity(in.vector());
+      slot.free->setAngularVelocity(in.vector());
+      slot.free->setWorldTransform(pose);
+      slot.free->setCenterOfMassTransform(pose);  // sets what Bullet interpolates and the inertia in world axes
+      slot.free->clearForces();
+    }
+    if (!slot.multibody) continue;
+    for (const PartSlot& part : slot.parts) {
+      if (!part.driven_by_joint) continue;
+      slot.multibody->setJointPos(part.link, in.number());
+      slot.multibody->setJointVel(part.link, in.number());
+    }
+    slot.multibody->clearForcesAndTorques();
+    slot.multibody->forwardKinematics(scratch_rotations, scratch_origins);
+    slot.multibody->updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+  }
+}
+
+// Takes every body out and puts it back in creation order: trees, pairs, ids and manifolds are then those of a world
+// that was just built, whatever came before.
+void World::Impl::rebuild_broadphase() {
+  btCollisionObjectArray& present = world.getCollisionObjectArray();
+  std::vector<std::pair<int, int>> filters;
+  for (int i = 0; i < present.size(); ++i) {
+    btBroadphaseProxy* proxy = present[i]->getBroadphaseHandle();
+    filters.emplace_back(proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask);
+    broadphase.getOverlappingPairCache()->cleanProxyFromPairs(proxy, &dispatcher);
+    broadphase.destroyProxy(proxy, &dispatcher);
+    present[i]->setBroadphaseHandle(nullptr);
+  }
+  broadphase.resetPool(&dispatcher);
+  for (int i = 0; i < present.size(); ++i) {
+    btCollisionObject* object = present[i];
+    btVector3 lower, upper;
+    object->getCollisionShape()->getAabb(object->getWorldTransform(), lower, upper);
+    const auto& [group, mask] = filters[static_cast<std::size_t>(i)];
+    object->setBroadphaseHandle(broadphase.createProxy(lower, upper, object->getCollisionShape()->getShapeType(),
+                                                       object, group, mask, &dispatcher));
+  }
+  solver.reset();
+}
+
+void World::Impl::canonicalise() {
+  set_state(state());
+  rebuild_broadphase();
+  canonical = true;
+  ++stamp;
+}
+
+void World::Impl::place(int index, const Transform& world_from_body) {
+  if (index < 0 || index >= static_cast<int>(scene->bodies.size()) || !body_slot(index).free)
+    throw Error("place", "body " + std::to_string(index) + " is not free", "place free bodies only");
+  btRigidBody& rigid = *body_slot(index).free;
+  const Transform world_from_link = world_from_body * body_slot(index).parts[0].link_from_part.inverse();
+  rigid.setLinearVelocity({0, 0, 0});
+  rigid.setAngularVelocity({0, 0, 0});
+  rigid.setWorldTransform(to_bullet(world_from_link));
+  rigid.setCenterOfMassTransform(to_bullet(world_from_link));
+  broadphase.getOverlappingPairCache()->cleanProxyFromPairs(rigid.getBroadphaseHandle(), &dispatcher);
+  world.updateSingleAabb(&rigid);
+  canonical = false;
+  ++stamp;
+}
+
+Snapshot World::snapshot() const {
+  const Impl& w = *impl_;
+  if (!w.canonical)
+    throw Error("World::snapshot", "bodies have moved since the last boundary", "apply operation::Boundary first");
+  auto data = std::make_shared<Snapshot::Data>();
+  data->state = w.state();
+  for (const Mechanism& mechanism : w.mechanisms) data->locked.push_back(mechanism.locked);
+  data->steps = w.steps;
+  data->controller = w.controller;
+  data->hand = w.hand;
+  data->reference = w.reference;
+  data->reference_now = w.reference_now;
+  data->contacts = w.contacts.state();
+  data->arm_torque = w.arm_torque;
+  data->efforts = w.efforts;
+  data->log = w.log;
+  return {data};
+}
+
+void World::restore(const Snapshot& snapshot) {
+  Impl& w = *impl_;
+  if (!snapshot.data) throw Error("World::restore", "an empty snapshot", "take it with World::snapshot");
+  const Snapshot::Data& data = *snapshot.data;
+  if (data.state.size() != w.state().size() || data.locked.size() != w.mechanisms.size())
+    throw Error("World::restore", "the snapshot is of another scene", "restore into a world of an equal scene");
+  w.set_state(data.state);
+  w.rebuild_broadphase();
+  for (std::size_t i = 0; i < w.mechanisms.size(); ++i) w.mechanisms[i].locked = data.locked[i];
+  w.steps = data.steps;
+  w.controller = data.controller;
+  w.hand = data.hand;
+  w.reference = data.reference;
+  w.reference_now = data.reference_now;
+  w.contacts.set_state(data.contacts);
+  w.arm_torque = data.arm_torque;
+  w.efforts = data.efforts;
+  w.log = data.log;
+  w.canonical = true;
+  ++w.stamp;
+}
+
+std::string World::state_hash() const {
+  const std::vector<double> state = impl_->state();
+  return Hasher().bytes(state.data(), state.size() * sizeof(double)).digest();
+}
+
+}  // namespace stampede

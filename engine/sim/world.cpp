@@ -1,0 +1,240 @@
+#include "engine/sim/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/sim/collision_space.h"
+#include "engine/sim/impl.h"
+
+namespace stampede {
+
+constexpr int kSolverIterations = 20;  // measured: fewer lets grasps slip, more buys little
+
+World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
+    : scene(std::move(scene_in)),
+      arm(scene->robot),
+      dt(1.0 / scene->physics_hz),
+      dispatcher(&configuration),
+      world(&dispatcher, &broadphase, &solver, &configuration) {
+  world.setGravity(to_bullet(scene->gravity));
+  broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  world.getDispatchInfo().m_deterministicOverlappingPairs = true;  // else results depend on the broadphase's history
+  btContactSolverInfo& info = world.getSolverInfo();
+  info.m_numIterations = kSolverIterations;
+  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;       // without it grasps slide under full force
+  info.m_solverMode &= ~SOLVER_USE_ARTICULATED_WARMSTARTING;   // keeps impulses that no snapshot can reach
+  poses.resize(scene->bodies.size() + 1);
+  pose_stamps.resize(poses.size());
+  efforts.resize(poses.size());
+  for (std::size_t b = 0; b < poses.size(); ++b) {
+    const std::size_t parts = body(static_cast<int>(b) - 1).parts.size();
+    poses[b].resize(parts, Transform::Identity());
+    pose_stamps[b].resize(parts, 0);
+    efforts[b].resize(parts, 0);
+  }
+  build();
+  canonicalise();
+}
+
+World::Impl::~Impl() {
+  // Bullet's lists hold plain pointers: emptied before the owners let go.
+  for (auto it = constraints.rbegin(); it != constraints.rend(); ++it) world.removeMultiBodyConstraint(it->get());
+  for (auto it = multibodies.rbegin(); it != multibodies.rend(); ++it) world.removeMultiBody(it->get());
+  for (auto it = objects.rbegin(); it != objects.rend(); ++it)
+    if ((*it)->getBroadphaseHandle()) world.removeCollisionObject(it->get());
+}
+
+const Body& World::Impl::body(int index) const {
+  return index == kRobot ? scene->robot.body : scene->bodies[static_cast<std::size_t>(index)];
+}
+
+const Part& World::Impl::part(PartRef ref) const { return body(ref.body).parts[static_cast<std::size_t>(ref.part)]; }
+
+const PartSlot& World::Impl::slot(PartRef ref) const {
+  return body_slot(ref.body).parts[static_cast<std::size_t>(ref.part)];
+}
+
+const Transform& World::Impl::world_from_part(PartRef ref) const {
+  const auto b = static_cast<std::size_t>(ref.body + 1), p = static_cast<std::size_t>(ref.part);
+  if (pose_stamps[b][p] != stamp) {
+    const PartSlot& here = bodies[b].parts[p];
+    poses[b][p] = from_bullet(here.object->getWorldTransform()) * here.link_from_part;
+    pose_stamps[b][p] = stamp;
+  }
+  return poses[b][p];
+}
+
+double World::Impl::position(PartRef ref) const {
+  const PartSlot& here = slot(ref);
+  return here.driven_by_joint ? here.multibody->getJointPos(here.link) : 0;
+}
+
+JointVector World::Impl::arm_position_now() const {
+  JointVector q(static_cast<Eigen::Index>(arm_links.size()));
+  for (std::size_t j = 0; j < arm_links.size(); ++j)
+    q[static_cast<Eigen::Index>(j)] = body_slot(kRobot).multibody->getJointPos(arm_links[j]);
+  return q;
+}
+
+JointVector World::Impl::arm_velocity_now() const {
+  JointVector v(static_cast<Eigen::Index>(arm_links.size()));
+  for (std::size_t j = 0; j < arm_links.size(); ++j)
+    v[static_cast<Eigen::Index>(j)] = body_slot(kRobot).multibody->getJointVel(arm_links[j]);
+  return v;
+}
+
+Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
+  if (linear) linear->setZero();
+  const BodySlot& mine = body_slot(ref.body);
+  if (mine.free) {
+    if (linear) *linear = from_bullet(mine.free->getLinearVelocity());
+    return from_bullet(mine.free->getAngularVelocity());
+  }
+  Vector3 angular = Vector3::Zero();
+  const Vector3 centre = world_from_part(ref) * part(ref).centre_of_mass;
+  for (int at = ref.part; at >= 0; at = part({ref.body, at}).parent) {
+    const PartSlot& here = slot({ref.body, at});
+    if (!here.driven_by_joint) continue;
+    const Transform& pose = world_from_part({ref.body, at});
+    const Joint& joint = part({ref.body, at}).joint;
+    const Vector3 rate = pose.linear() * joint.axis.normalized() * here.multibody->getJointVel(here.link);
+    if (joint.kind == JointKind::hinge) {
+      angular += rate;
+      if (linear) *linear += rate.cross(centre - pose.translation());
+    } else if (linear) {
+      *linear += rate;
+    }
+  }
+  return angular;
+}
+
+void World::Impl::read_efforts() {
+  const auto applied = [&](btMultiBodyJointMotor* motor) {
+    return motor && motor->getMaxAppliedImpulse() > 0 ? motor->getAppliedImpulse(0) / dt : 0.0;
+  };
+  const Robot& robot = scene->robot;
+  for (std::size_t j = 0; j < arm_motors.size(); ++j)
+    efforts[0][static_cast<std::size_t>(robot.arm[j])] = applied(arm_motors[j]) + arm_torque[static_cast<Eigen::Index>(j)];
+  for (std::size_t f = 0; f < finger_motors.size(); ++f)
+    efforts[0][static_cast<std::size_t>(robot.fingers[f])] = applied(finger_motors[f]);
+  for (const Mechanism& mechanism : mechanisms)
+    efforts[static_cast<std::size_t>(mechanism.part.body + 1)][static_cast<std::size_t>(mechanism.part.part)] =
+        applied(mechanism.brake) + applied(mechanism.spring) + mechanism.torque;
+}
+
+World::World(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const Scene& World::scene() const { return *impl_->scene; }
+const Arm& World::arm() const { return impl_->arm; }
+std::int64_t World::step_count() const { return impl_->steps; }
+double World::dt() const { return impl_->dt; }
+const std::vector<Command>& World::log() const { return impl_->log; }
+
+void World::step() {
+  Impl& w = *impl_;
+  w.control();
+  w.move_mechanisms();
+  w.world.stepSimulation(w.dt, 0);
+  w.contacts.add_step(w.dispatcher, w.dt);
+  w.read_efforts();
+  ++w.steps;
+  ++w.stamp;
+  w.canonical = false;
+}
+
+namespace {
+
+void check_joints(const JointVector& v, int joints, const char* operation) {
+  if (v.size() != joints || !v.allFinite())
+    throw Error(operation, "it needs a finite number for each of the arm's " + std::to_string(joints) + " joints",
+                "give one position and one velocity a joint");
+}
+
+}  // namespace
+
+void World::apply(const Operation& operation) {
+  Impl& w = *impl_;
+  if (std::holds_alternative<operation::Boundary>(operation)) {
+    w.canonicalise();
+  } else if (const auto* controller = std::get_if<operation::Controller>(&operation)) {
+    w.controller = *controller;
+  } else if (const auto* follow = std::get_if<operation::Follow>(&operation)) {
+    if (follow->trajectory.knots.empty()) throw Error("follow", "the trajectory has no knots", "give at least one");
+    for (const Trajectory::Knot& knot : follow->trajectory.knots) {
+      check_joints(knot.position, w.arm.joints(), "follow");
+      check_joints(knot.velocity, w.arm.joints(), "follow");
+      check_joints(knot.acceleration, w.arm.joints(), "follow");
+    }
+    w.reference = {std::make_shared<const Trajectory>(follow->trajectory), w.steps, {}};
+    w.reference_now = w.reference_at(w.steps);
+  } else if (const auto* hand = std::get_if<operation::Hand>(&operation)) {
+    if (!std::isfinite(hand->opening) || !(hand->force >= 0))
+      throw Error("hand", "opening and force must be finite, the force not negative", "give m and N");
+    w.hand = {std::clamp(hand->opening, 0.0, w.scene->robot.opening_max), hand->force};
+  } else if (const auto* setpoint = std::get_if<operation::Setpoint>(&operation)) {
+    check_joints(setpoint->position, w.arm.joints(), "setpoint");
+    check_joints(setpoint->velocity, w.arm.joints(), "setpoint");
+    const JointVector still = JointVector::Zero(w.arm.joints());
+    w.reference = {nullptr, w.steps, {setpoint->position, setpoint->velocity, still}};
+    w.reference_now = w.reference.setpoint;
+  } else if (const auto* place = std::get_if<operation::Place>(&operation)) {
+    w.place(place->body, place->world_from_body);
+  }
+  w.log.push_back({w.steps, operation});
+}
+
+const Transform& World::world_from_part(PartRef part) const { return impl_->world_from_part(part); }
+
+Vector3 World::linear_velocity(PartRef part) const {
+  Vector3 linear;
+  impl_->velocity(part, &linear);
+  return linear;
+}
+
+Vector3 World::angular_velocity(PartRef part) const { return impl_->velocity(part, nullptr); }
+double World::joint_position(PartRef part) const { return impl_->position(part); }
+
+double World::joint_velocity(PartRef part) const {
+  const PartSlot& slot = impl_->slot(part);
+  return slot.driven_by_joint ? slot.multibody->getJointVel(slot.link) : 0;
+}
+
+double World::joint_effort(PartRef part) const {
+  return impl_->efforts[static_cast<std::size_t>(part.body + 1)][static_cast<std::size_t>(part.part)];
+}
+
+bool World::latched(PartRef part) const {
+  return std::any_of(impl_->mechanisms.begin(), impl_->mechanisms.end(),
+                     [&](const Mechanism& m) { return m.part == part && m.locked; });
+}
+
+JointVector World::arm_position() const { return impl_->arm_position_now(); }
+JointVector World::arm_velocity() const { return impl_->arm_velocity_now(); }
+JointState World::reference() const { return impl_->reference_now; }
+
+bool World::following() const {
+  const Reference& reference = impl_->reference;
+  return reference.trajectory && impl_->steps - reference.start_step < reference.trajectory->steps();
+}
+
+Transform World::world_from_tip() const {
+  const Robot& robot = impl_->scene->robot;
+  return impl_->world_from_part({kRobot, robot.tip_part}) * robot.tip_part_from_tip;
+}
+
+double World::opening() const {
+  double sum = 0;
+  for (const int finger : impl_->scene->robot.fingers) sum += impl_->position({kRobot, finger});
+  return sum;
+}
+
+double World::commanded_opening() const { return impl_->hand.opening; }
+const std::vector<Contact>& World::contacts() const { return impl_->contacts.closed(); }
+void World::close_window() { impl_->contacts.close(); }
+std::optional<PartRef> World::grasped() const { return impl_->contacts.grasped(impl_->scene->robot.pads); }
+
+}  // namespace stampede
