@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "engine/motion/candidate_shapes.h"
+#include "engine/motion/candidates.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kGap_m = 0.001;      // set down from this height
+constexpr double kMargin_m = 0.005;   // from the edge
+constexpr double kPadding_m = 0.005;  // from other bodies
+constexpr int kDrawsPerSpot = 40;
+constexpr double kLevel = 0.985;  // cosine: a face within 10 degrees of level carries
+
+int body_of(const Scene& scene, const Object& object) {
+  const int body = scene.body_index(object.body);
+  if (body < 0) throw Error("placements", "object '" + object.name + "' has no body");
+  return body;
+}
+
+const Part& part_of(const Scene& scene, const Object& object) {
+  return scene.bodies[static_cast<std::size_t>(body_of(scene, object))].parts.at(static_cast<std::size_t>(object.part));
+}
+
+Quaternion turn(double yaw) { return Quaternion(Eigen::AngleAxisd(yaw, Vector3::UnitZ())); }
+
+// The present rotation without its tilt: upright when it stands within 45 degrees of it, else lying on the side
+// that is lowest now. Yaw is left out: it is drawn.
+Quaternion resting_rotation(const Quaternion& world_from_body) {
+  const Vector3 up = world_from_body.conjugate() * Vector3::UnitZ();
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  Vector3 nearest = Vector3::Zero();
+  nearest[axis] = up[axis] > 0 ? 1 : -1;
+  return Quaternion::FromTwoVectors(nearest, Vector3::UnitZ());
+}
+
+// What a placed body needs to know of itself, for one rotation.
+struct Footprint {
+  double below = 0;  // from its origin down to its lowest point, m
+  double above = 0;
+  Vector3 low, high;  // its bounding box about the origin, world axes, m
+  double radius = 0;  // of the box seen from above, about the origin
+};
+
+Footprint footprint(const Part& part, const Quaternion& rotation) {
+  Footprint foot;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 direction = rotation.conjugate() * Vector3::Unit(axis);
+    foot.high[axis] = reach(part, direction);
+    foot.low[axis] = -reach(part, -direction);
+  }
+  foot.below = -foot.low.z();
+  foot.above = foot.high.z();
+  return foot;
+}
+
+// A level face that carries: a rectangle or a disc (radius > 0) in its own frame, z up.
+struct Face {
+  Transform world_from_face = Transform::Identity();
+  double half_x = 0, half_y = 0, radius = 0;
+  double area() const { return radius > 0 ? std::numbers::pi * radius * radius : 4 * half_x * half_y; }
+};
+
+// The upper face of one shape; nothing when it is round or tilted.
+std::optional<Face> upper_face(const Shape& shape, const Transform& world_from_part) {
+  const Transform world_from_shape = world_from_part * shape.part_from_shape;
+  const Vector3 up = world_from_shape.linear().transpose() * Vector3::UnitZ();
+  Eigen::Index axis = 0;
+  if (up.cwiseAbs().maxCoeff(&axis) < kLevel) return std::nullopt;
+  Face face;
+  face.world_from_face = world_from_shape;
+  Vector3 centre = Vector3::Zero();
+  Vector3 half = 0.5 * shape.size;
+  if (shape.kind == ShapeKind::hull) {
+    Vector3 low = Vector3::Constant(1e9), high = -low;
+    for (const Vector3& point : shape.points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+    centre = 0.5 * (low + high);
+    half = 0.5 * (high - low);
+  } else if (shape.kind == ShapeKind::cylinder && axis == 2) {
+    face.radius = shape.radius;
+    half = Vector3(shape.radius, shape.radius, 0.5 * shape.length);
+  } else if (shape.kind != ShapeKind::box) {
+    return std::nullopt;
+  }
+  const Vector3 normal = (up[axis] > 0 ? 1.0 : -1.0) * Vector3::Unit(axis);
+  Matrix3 axes;
+  axes.col(2) = normal;
+  axes.col(0) = Vector3::Unit((axis + 1) % 3);
+  axes.col(1) = normal.cross(axes.col(0));
+  face.half_x = half[(axis + 1) % 3];
+  face.half_y = half[(axis + 2) % 3];
+  face.world_from_face.translation() = world_from_shape * (centre + normal * half[axis]);
+  face.world_from_face.linear() = world_from_shape.linear() * axes;
+  return face;
+}
+
+// A point of the face at which a footprint, seen in the face's frame, lies within it, `margin` from its edge.
+std::optional<Vector3> draw_on(const Face& face, const Footprint& foot, Random& random) {
+  const Vector3 low = foot.low, high = foot.high;
+  if (face.radius > 0) {
+    const double radius = std::sqrt(random.uniform()) * face.radius, angle = random.between(0, 2 * std::numbers::pi);
+    const Vector3 point(radius * std::cos(angle), radius * std::sin(angle), 0);
+    const double x = std::max(std::abs(point.x() + low.x()), std::abs(point.x() + high.x()));
+    const double y = std::max(std::abs(point.y() + low.y()), std::abs(point.y() + high.y()));
+    if (std::hypot(x, y) > face.radius - kMargin_m) return std::nullopt;
+    return point;
+  }
+  const double x0 = -face.half_x + kMargin_m - low.x(), x1 = face.half_x - kMargin_m - high.x();
+  const double y0 = -face.half_y + kMargin_m - low.y(), y1 = face.half_y - kMargin_m - high.y();
+  if (x0 > x1 || y0 > y1) return std::nullopt;
+  const double x = random.between(x0, x1), y = random.between(y0, y1);
+  return Vector3(x, y, 0);
+}
+
+std::vector<Face> upper_faces(const Part& part, const Transform& world_from_part) {
+  std::vector<Face> faces;
+  for (const Shape& shape : part.shapes) {
+    if (!shape.collides) continue;
+    if (const auto face = upper_face(shape, world_from_part)) faces.push_back(*face);
+  }
+  return faces;
+}
+
+const Face& draw_face(const std::vector<Face>& faces, Random& random) {
+  double total = 0;
+  for (const Face& face : faces) total += face.area();
+  double left = random.between(0, total);
+  for (const Face& face : faces)
+    if ((left -= face.area()) < 0) return face;
+  return faces.back();
+}
+
+Quaternion resting_rotation(const World& world, int body) {
+  return resting_rotation(Quaternion(world.world_from_part({body, 0}).linear()));
+}
+
+}  // namespace
+
+std::vector<Transform> free_spots(CollisionSpace& space, const World& world, const Object& surface,
+                                  const Object& object, RandomKey key, int most) {
+  const Scene& scene = world.scene();
+  const int body = body_of(scene, object);
+  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
+  const Quaternion upright = resting_rotation(world, body);
+  const Transform world_from_surface = world.world_from_part({body_of(scene, surface), surface.part});
+  const std::vector<Face> faces = upper_faces(part_of(scene, surface), world_from_surface);
+  std::vector<Transform> spots;
+  Random random(key.with("free_spots"));
+  for (int draw = 0; draw < kDrawsPerSpot * most && static_cast<int>(spots.size()) < most && !faces.empty(); ++draw) {
+    const Face& face = draw_face(faces, random);
+    const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
+    const Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
+    const std::optional<Vector3> point = draw_on(face, foot, random);
+    if (!point) continue;
+    Vector3 origin = face.world_from_face * *point;
+    origin.z() += footprint(part, rotation).below + kGap_m;
+    const Transform spot = make_transform(origin, rotation);
+    if (space.body_free(body, spot, kPadding_m)) spots.push_back(spot);
+  }
+  return spots;
+}
+
+std::vector<Transform> region_spots(CollisionSpace& space, const World& world, const Region& region,
+                                    const Object& object, RandomKey key, int most) {
+  const Scene& scene = world.scene();
+  const int body = body_of(scene, object);
+  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
+  const Quaternion upright = resting_rotation(world, body);
+  const Transform world_from_region =
+      region.body.empty()
+          ? region.part_from_region
+          : world.world_from_part({scene.body_index(region.body), region.part}) * region.part_from_region;
+  // The lower face, with z up; a patch of no height carries too.
+  Face face{world_from_region * translation(0, 0, -0.5 * region.size.z()), 0.5 * region.size.x(), 0.5 * region.size.y(),
+            0};
+  std::vector<Transform> spots;
+  Random random(key.with("region_spots"));
+  for (int draw = 0; draw < kDrawsPerSpot * most && static_cast<int>(spots.size()) < most; ++draw) {
+    const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
+    Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
+    // Where the whole object does not fit, its middle does: a small target still names a place.
+    if (foot.high.x() - foot.low.x() + 2 * kMargin_m > region.size.x() ||
+        foot.high.y() - foot.low.y() + 2 * kMargin_m > region.size.y())
+      foot.low = foot.high = Vector3::Zero();
+    const std::optional<Vector3> point = draw_on(face, foot, random);
+    if (!point) continue;
+    Vector3 origin = face.world_from_face * *point;
+    origin.z() += footprint(part, rotation).below + kGap_m;
+    const Transform spot = make_transform(origin, rotation);
+    if (space.body_free(body, spot, kPadding_m)) spots.push_back(spot);
+  }
+  return spots;
+}
+
+std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, const Object& below, const Object& object,
+                                   RandomKey key, int most) {
+  const Scene& scene = world.scene();
+  const int body = body_of(scene, object);
+  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
+  const Part& lower = part_of(scene, below);
+  const Transform world_from_below = world.world_from_part({body_of(scene, below), below.part});
+  const Footprint base = footprint(lower, Quaternion(world_from_below.linear()));
+  const Vector3 middle = world_from_below.translation() + 0.5 * (base.low + base.high);
+  const double top = world_from_below.translation().z() + base.above;
+  const Quaternion upright = resting_rotation(world, body);
+  // Sides parallel to those below: the lower body's yaw and its quarter turns, in an order drawn by key.
+  const Quaternion flat = resting_rotation(Quaternion(world_from_below.linear()));
+  const Matrix3 turned = (Quaternion(world_from_below.linear()) * flat.conjugate()).toRotationMatrix();
+  const double yaw = std::atan2(turned(1, 0), turned(0, 0));
+  const std::int64_t first = Random(key.with("stack_spots")).below(4);
+  std::vector<Transform> spots;
+  for (std::int64_t k = 0; k < 4 && static_cast<int>(spots.size()) < most; ++k) {
+    const Quaternion rotation = turn(yaw + 0.5 * std::numbers::pi * static_cast<double>((first + k) % 4)) * upright;
+    const Footprint foot = footprint(part, rotation);
+    Vector3 origin = middle - 0.5 * (foot.low + foot.high);
+    origin.z() = top + foot.below + kGap_m;
+    const Transform spot = make_transform(origin, rotation);
+    if (space.body_free(body, spot, 0)) spots.push_back(spot);
+  }
+  return spots;
+}
+
+}  // namespace stampede

@@ -1,0 +1,157 @@
+#include "engine/motion/planner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/motion/checker.h"
+#include "engine/motion/route.h"
+#include "engine/motion/rrt.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kShortestBlend = 1e-3;  // rad
+
+void check_input(const CollisionSpace& space, const JointVector& q, std::string_view which) {
+  if (q.size() == space.arm().joints() && q.allFinite()) return;
+  throw Error("motion planning", std::string(which) + " must be finite, with one value for each joint of the arm");
+}
+
+void check_limits(const MotionLimits& limits) {
+  if (!(limits.resolution_rad > 0)) throw Error("motion limits", "resolution_rad must be positive");
+}
+
+// The corner whose blend holds q, 0 when q lies on a straight line.
+std::size_t blend_at(const std::vector<JointVector>& waypoints, const std::vector<double>& blends,
+                     const JointVector& q) {
+  std::size_t best = 0;
+  double nearest = 1e9;
+  for (std::size_t i = 1; i + 1 < waypoints.size(); ++i) {
+    const double distance = (waypoints[i] - q).norm();
+    if (distance > blends[i] + 1e-6 || distance >= nearest || blends[i] < kShortestBlend) continue;
+    nearest = distance;
+    best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+JointPath check_ends(CollisionSpace& space, const JointVector& start, const JointVector& goal) {
+  check_input(space, start, "the start");
+  check_input(space, goal, "the goal");
+  JointPath path;
+  if (const std::string contact = describe_contact(space, start); !contact.empty()) {
+    path.reason = Reason::start_in_collision;
+    path.detail = "at the start " + contact;
+  } else if (const std::string at_goal = describe_contact(space, goal); !at_goal.empty()) {
+    path.reason = Reason::no_path;
+    path.detail = "at the goal " + at_goal;
+  } else if (!space.arm().within_limits(goal, -1e-9)) {
+    path.reason = Reason::unreachable;
+    path.detail = "the goal is outside the joint limits";
+  }
+  return path;
+}
+
+JointPath search_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                      const MotionLimits& limits, RandomKey key, int care) {
+  static constexpr std::array<double, kMostCare + 1> kSpacing{5.0, 2.0, 1.0};
+  const double step_rad = kSpacing[static_cast<std::size_t>(care)] * limits.resolution_rad;
+  Checker checker(space, limits.padding_m, {start, goal});
+  JointPath path;
+  if (checker.edge_free(start, goal, step_rad)) {
+    path.waypoints = {start, goal};
+    return path;
+  }
+  const RandomKey query = key.with(care);
+  TreeOptions options;
+  options.step_rad = step_rad;
+  options.iterations = limits.iterations;
+  path.waypoints = grow_trees(checker, space.arm().limits(), start, goal, options, query.with("trees"));
+  if (path.waypoints.empty()) {
+    path.reason = Reason::no_path;
+    path.detail = "no path in " + std::to_string(limits.iterations) + " tree extensions";
+    return path;
+  }
+  path.waypoints = distinct(shorten(checker, path.waypoints, limits.shortcuts, step_rad, query.with("shorten")));
+  return path;
+}
+
+JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                    const MotionLimits& limits, RandomKey key) {
+  check_limits(limits);
+  JointPath path = check_ends(space, start, goal);
+  for (int care = 0; care <= kMostCare && path.reason == Reason::none; ++care) {
+    path = search_path(space, start, goal, limits, key, care);
+    if (path.reason != Reason::none) break;
+    const std::optional<JointVector> touch = first_touch(space, path.waypoints, limits.resolution_rad);
+    if (!touch) return path;
+    if (care < kMostCare) continue;
+    path.reason = Reason::no_path;
+    path.detail = "the path found touches: " + describe_contact(space, *touch);
+  }
+  path.waypoints.clear();
+  return path;
+}
+
+PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
+                      bool collide, const PathSpeedLimit& speed_limit) {
+  constexpr int kRounds = 24;
+  const int physics_hz = space.scene().physics_hz;
+  PlannedMotion motion;
+  const std::vector<JointVector> kept = distinct(waypoints);
+  if (kept.size() < 2) {
+    motion.trajectory = time_path(space.arm(), {waypoints.back()}, limits, physics_hz);
+    return motion;
+  }
+  std::vector<double> blends = default_blends(kept, kLongestBlend);
+  for (int round = 0; round < kRounds; ++round) {
+    motion.trajectory = time_blended(BlendedPath(kept, blends), space.arm().limits(), limits, physics_hz, speed_limit);
+    const std::optional<JointVector> touch =
+        collide ? first_touch(space, motion.trajectory, physics_hz, limits.resolution_rad) : std::nullopt;
+    if (!touch) return motion;
+    motion.detail = "the path found touches: " + describe_contact(space, *touch);
+    const std::size_t corner = blend_at(kept, blends, *touch);
+    if (corner == 0) break;
+    blends[corner] *= 0.4;
+  }
+  motion.reason = Reason::no_path;
+  motion.trajectory.knots.clear();
+  return motion;
+}
+
+PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                          const MotionLimits& limits, RandomKey key) {
+  check_limits(limits);
+  PlannedMotion motion;
+  const JointPath ends = check_ends(space, start, goal);
+  motion.reason = ends.reason;
+  motion.detail = ends.detail;
+  if (ends.reason != Reason::none) return motion;
+  for (int care = 0; care <= kMostCare; ++care) {
+    const JointPath path = search_path(space, start, goal, limits, key, care);
+    motion.reason = path.reason;
+    motion.detail = path.detail;
+    if (path.reason != Reason::none) return motion;
+    motion = certify(space, path.waypoints, limits, true);
+    if (motion.reason == Reason::none) return motion;
+  }
+  return motion;
+}
+
+std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz) {
+  std::int64_t best = 0;
+  double nearest = 1e300;
+  for (std::int64_t step = 0; step <= trajectory.steps(); ++step) {
+    const double distance = (evaluate(trajectory, static_cast<double>(step), physics_hz).position - q).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = step;
+  }
+  return best;
+}
+
+}  // namespace stampede

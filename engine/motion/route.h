@@ -1,0 +1,44 @@
+// Steps shared by the planners. Room-internal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/motion/blended_path.h"
+#include "engine/motion/planner.h"
+
+namespace stampede {
+
+// A path that keeps the padding, checked coarsely only. `care` 0, 1, 2: at ever denser spacing.
+JointPath search_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                      const MotionLimits& limits, RandomKey key, int care);
+constexpr int kMostCare = 2;
+
+// Nothing wrong with both ends: reason none.
+JointPath check_ends(CollisionSpace& space, const JointVector& start, const JointVector& goal);
+
+// Configurations from `start` (left out of the result) along a tool path.
+struct ToolPath {
+  Reason reason = Reason::none;
+  std::string detail;
+  std::vector<JointVector> waypoints;
+};
+ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
+                     int samples, RandomKey key);
+
+// World pose at a share of the straight way (slerp), and how many samples that way needs.
+Transform between(const Transform& from, const Transform& to, double share);
+int samples_between(const Transform& from, const Transform& to);
+
+// Leaves out waypoints from which the polyline differs by less than `tolerance_rad` (Douglas, Peucker 1973,
+// doi:10.3138/FM57-6770-U75U-7727).
+std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, double tolerance_rad);
+
+// Rounds, times and certifies. Blends that touch something shrink. Result: no_path when the polyline itself does.
+PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
+                      bool collide, const PathSpeedLimit& speed_limit = {});
+
+// Step at which the trajectory passes nearest to a configuration.
+std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz);
+
+}  // namespace stampede

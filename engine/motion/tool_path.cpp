@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/motion/checker.h"
+#include "engine/motion/route.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kMostJump = 0.3;    // rad between samples
+constexpr double kLineError = 2e-3;  // rad, of decimated approach lines
+constexpr double kToolError = 3e-4;  // rad, of decimated tool paths
+constexpr int kSolutions = 6;        // joint solutions tried for the first target
+
+void check_pose(const Transform& pose) {
+  if (!pose.matrix().allFinite()) throw Error("motion planning", "a tool target must be finite");
+}
+
+std::string percent(double share) { return std::to_string(static_cast<int>(std::lround(100 * share))) + " %"; }
+
+double distance_to_segment(const JointVector& q, const JointVector& a, const JointVector& b) {
+  const JointVector along = b - a;
+  const double square = along.squaredNorm();
+  const double share = square > 0 ? std::clamp((q - a).dot(along) / square, 0.0, 1.0) : 0.0;
+  return (a + share * along - q).norm();
+}
+
+void keep_between(const std::vector<JointVector>& all, std::size_t first, std::size_t last, double tolerance_rad,
+                  std::vector<JointVector>& kept) {
+  std::size_t worst = first;
+  double error = tolerance_rad;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double distance = distance_to_segment(all[i], all[first], all[last]);
+    if (distance <= error) continue;
+    error = distance;
+    worst = i;
+  }
+  if (worst == first) {
+    kept.push_back(all[last]);
+    return;
+  }
+  keep_between(all, first, worst, tolerance_rad, kept);
+  keep_between(all, worst, last, tolerance_rad, kept);
+}
+
+// The straight lines from the first target on, starting in one of its joint solutions.
+struct Tail {
+  Reason reason = Reason::none;
+  std::string detail;
+  std::vector<JointVector> waypoints;  // the first: at targets[0]
+  std::vector<JointVector> at_target;
+};
+
+Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vector<ToolTarget>& targets,
+               const MotionLimits& limits, RandomKey key) {
+  Tail tail;
+  tail.waypoints = {first};
+  tail.at_target = {first};
+  if (const std::string contact = describe_contact(space, first); !contact.empty()) {
+    tail.reason = Reason::no_path;
+    tail.detail = "at " + targets[0].name + " " + contact;
+    return tail;
+  }
+  for (std::size_t i = 1; i < targets.size(); ++i) {
+    const Transform from = targets[i - 1].world_from_tip, to = targets[i].world_from_tip;
+    const ToolPath line = follow_tool(
+        space.arm(), tail.waypoints.back(), [&](double s) { return between(from, to, s); }, samples_between(from, to),
+        key.with(static_cast<std::int64_t>(i)));
+    tail.reason = line.reason;
+    tail.detail = "on the way to " + targets[i].name + ": " + line.detail;
+    if (tail.reason != Reason::none) return tail;
+    std::vector<JointVector> dense{tail.waypoints.back()};
+    dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
+    if (const auto touch = first_touch(space, dense, limits.resolution_rad)) {
+      tail.reason = Reason::no_path;
+      tail.detail = "on the way to " + targets[i].name + ": " + describe_contact(space, *touch);
+      return tail;
+    }
+    const std::vector<JointVector> sparse = decimate(dense, kLineError);
+    tail.waypoints.insert(tail.waypoints.end(), sparse.begin() + 1, sparse.end());
+    tail.at_target.push_back(tail.waypoints.back());
+  }
+  tail.detail.clear();
+  return tail;
+}
+
+// Free motion to the tail's start, then the tail.
+PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, const Tail& tail,
+                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
+  PlannedMotion motion;
+  for (int care = 0; care <= kMostCare; ++care) {
+    JointPath path = search_path(space, start, tail.waypoints.front(), limits, key, care);
+    motion.reason = path.reason;
+    motion.detail = path.detail;
+    if (path.reason != Reason::none) return motion;
+    path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
+    motion = certify(space, path.waypoints, limits, true);
+    if (motion.reason == Reason::none) break;
+  }
+  if (motion.reason != Reason::none) return motion;
+  for (std::size_t i = 0; i + 1 < targets.size(); ++i)
+    motion.vias.push_back({targets[i].name, targets[i].world_from_tip,
+                           nearest_step(motion.trajectory, tail.at_target[i], space.scene().physics_hz)});
+  return motion;
+}
+
+// The path speed at which the tool keeps its own limits.
+PathSpeedLimit tool_limit(const Arm& arm, const LineOptions& line) {
+  return [&arm, line](const PathPoint& point) {
+    const Eigen::Matrix<double, 6, 1> twist = arm.jacobian(point.position) * point.tangent;
+    const double linear = std::max(1e-9, twist.head<3>().norm()), angular = std::max(1e-9, twist.tail<3>().norm());
+    return std::min(line.tool_speed / linear, line.tool_turn / angular);
+  };
+}
+
+}  // namespace
+
+std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, double tolerance_rad) {
+  if (waypoints.size() < 3) return waypoints;
+  std::vector<JointVector> kept{waypoints.front()};
+  keep_between(waypoints, 0, waypoints.size() - 1, tolerance_rad, kept);
+  return kept;
+}
+
+Transform between(const Transform& from, const Transform& to, double share) {
+  const Quaternion a(from.linear()), b(to.linear());
+  return make_transform((1 - share) * from.translation() + share * to.translation(), a.slerp(share, b).normalized());
+}
+
+int samples_between(const Transform& from, const Transform& to) {
+  const double turn = angle_between(Quaternion(from.linear()), Quaternion(to.linear()));
+  const double way = (to.translation() - from.translation()).norm();
+  return std::max(1, static_cast<int>(std::ceil(std::max(way / 0.005, turn / 0.02))));
+}
+
+ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
+                     int samples, RandomKey key) {
+  ToolPath path;
+  JointVector last = start;
+  for (int i = 1; i <= samples; ++i) {
+    const double share = static_cast<double>(i) / samples;
+    const Transform target = world_from_tip(share);
+    check_pose(target);
+    const std::optional<JointVector> q = arm.solve(target, last, key.with(i), 0);
+    if (!q || joint_gap(*q, last) > kMostJump) {
+      path.reason = Reason::unreachable;
+      path.detail = "the arm cannot follow beyond " + percent(static_cast<double>(i - 1) / samples) + " of the line";
+      return path;
+    }
+    path.waypoints.push_back(*q);
+    last = *q;
+  }
+  return path;
+}
+
+PlannedMotion plan_through(CollisionSpace& space, const JointVector& start, const std::vector<ToolTarget>& targets,
+                           const MotionLimits& limits, RandomKey key) {
+  if (targets.empty()) throw Error("motion planning", "a motion needs at least one target");
+  for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
+  PlannedMotion motion;
+  const JointPath ends = check_ends(space, start, start);
+  motion.reason = ends.reason;
+  motion.detail = ends.detail;
+  if (motion.reason == Reason::start_in_collision) return motion;
+  const std::vector<JointVector> solutions =
+      space.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
+  motion.reason = Reason::unreachable;
+  motion.detail = "no joint configuration reaches " + targets[0].name;
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
+    const Tail tail = make_tail(space, solutions[i], targets, limits, query.with("tail"));
+    if (tail.reason != Reason::none) {
+      motion.reason = tail.reason;
+      motion.detail = tail.detail;
+      continue;
+    }
+    motion = plan_to_tail(space, start, tail, targets, limits, query);
+    if (motion.reason == Reason::none) return motion;
+  }
+  return motion;
+}
+
+PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
+                             const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
+                             const MotionLimits& limits, RandomKey key) {
+  if (!(line.tool_speed > 0) || !(line.tool_turn > 0))
+    throw Error("motion planning", "the tool's speed limits must be positive");
+  int samples = line.samples;
+  if (samples <= 0) {
+    constexpr int kProbes = 32;  // the path may bend: its length is measured along a few chords
+    for (int i = 0; i < kProbes; ++i) {
+      const Transform from = world_from_tip(static_cast<double>(i) / kProbes);
+      samples += samples_between(from, world_from_tip(static_cast<double>(i + 1) / kProbes));
+    }
+  }
+  PlannedMotion motion;
+  std::vector<JointVector> waypoints{start};
+  // Where the tip is may differ a little from the path's start.
+  const ToolPath first = follow_tool(
+      space.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
+  const JointVector from = first.reason == Reason::none ? first.waypoints.back() : start;
+  const ToolPath path = follow_tool(space.arm(), from, world_from_tip, samples, key.with("path"));
+  motion.reason = first.reason == Reason::none ? path.reason : first.reason;
+  motion.detail = first.reason == Reason::none ? path.detail : "the path's start is out of reach";
+  if (motion.reason != Reason::none) return motion;
+  if (joint_gap(from, start) > 1e-4) waypoints.push_back(from);
+  waypoints.insert(waypoints.end(), path.waypoints.begin(), path.waypoints.end());
+  if (line.collide) {
+    if (const std::string contact = describe_contact(space, start); !contact.empty()) {
+      motion.reason = Reason::start_in_collision;
+      motion.detail = "at the start " + contact;
+      return motion;
+    }
+  }
+  return certify(space, decimate(waypoints, kToolError), limits, line.collide, tool_limit(space.arm(), line));
+}
+
+PlannedMotion plan_line(CollisionSpace& space, const JointVector& start, const Transform& world_from_tip,
+                        const LineOptions& line, const MotionLimits& limits, RandomKey key) {
+  check_pose(world_from_tip);
+  const Transform from = space.arm().world_from_tip(start);
+  LineOptions options = line;
+  if (options.samples <= 0) options.samples = samples_between(from, world_from_tip);
+  return plan_tool_path(
+      space, start, [&](double s) { return between(from, world_from_tip, s); }, options, limits, key);
+}
+
+}  // namespace stampede
