@@ -24,6 +24,7 @@ struct Parameter {
   std::string name;  // without the leading ?
   std::string type;  // empty: any
   std::vector<std::string> traits;
+  friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
 struct Term {
@@ -39,6 +40,7 @@ struct Formula {
   std::vector<Term> terms;           // atom, equal
   std::vector<Formula> parts;        // negation: 1, conjunction, disjunction; exists, forall: 1
   std::vector<Parameter> variables;  // exists, forall
+  friend bool operator==(const Formula&, const Formula&) = default;
 };
 
 Formula atom(std::string predicate, std::vector<Term> terms);
@@ -53,17 +55,19 @@ struct Effect {
   std::string predicate;
   std::vector<Term> terms;
   bool negated = false;
+  friend bool operator==(const Effect&, const Effect&) = default;
 };
 
 struct Action {
-  std::string name;          // PDDL action; skill or skill_case
+  std::string name;  // PDDL action; skill or skill_case
   std::string skill, case_name;
   std::vector<Parameter> parameters;
   Formula precondition;
   std::vector<Effect> effects;
   int cost = 1;
-  bool distinct = true;      // parameters bind to distinct objects
+  bool distinct = true;                                        // parameters bind to distinct objects
   std::vector<std::pair<std::string, std::string>> may_equal;  // pairs exempt from `distinct`
+  friend bool operator==(const Action&, const Action&) = default;
 };
 
 enum class PredicateKind { basic, derived, fixed };  // fixed: read once (static)
@@ -72,8 +76,14 @@ struct Predicate {
   std::string name;
   std::vector<Parameter> parameters;
   PredicateKind kind = PredicateKind::basic;
-  Formula derived;           // over the parameters; derived only
-  std::string label;         // "the {obj} is on the {surface}"
+  Formula derived;    // over the parameters; derived only
+  std::string label;  // "the {obj} is on the {surface}"
+  friend bool operator==(const Predicate&, const Predicate&) = default;
+};
+
+struct TypedObject {
+  std::string name, type;
+  friend auto operator<=>(const TypedObject&, const TypedObject&) = default;
 };
 
 struct Domain {
@@ -82,20 +92,19 @@ struct Domain {
   std::vector<std::string> traits;           // static unary predicates by themselves
   std::vector<Predicate> predicates;         // sorted by name
   std::vector<Action> actions;               // sorted by name
+  std::vector<TypedObject> constants;        // objects that actions name; sorted by name, every problem has them
   bool is_a(const std::string& type, const std::string& ancestor) const;  // reflexive; every type is an `object`
   const Predicate* predicate(const std::string& predicate_name) const;
   const Action* action(const std::string& action_name) const;
-};
-
-struct TypedObject {
-  std::string name, type;
+  friend bool operator==(const Domain&, const Domain&) = default;
 };
 
 struct Problem {
   std::string name;
-  std::vector<TypedObject> objects;  // sorted by name
+  std::vector<TypedObject> objects;  // sorted by name, the domain's constants among them
   Facts init;                        // closed world; traits, attributes and static facts included, derived ones not
   Formula goal;
+  friend bool operator==(const Problem&, const Problem&) = default;
 };
 
 // Truth of a formula in a set of facts that includes derived ones. `binding` maps free variables to objects.
@@ -110,7 +119,8 @@ Facts with_derived(const Facts& basic, const Domain& domain, const std::vector<T
 std::vector<std::string> unmet(const Formula& formula, const Facts& facts, const Domain& domain,
                                const std::vector<TypedObject>& objects, const Binding& binding = {});
 
-// The facts after applying a ground action's declared effects (precondition not tested).
+// The facts after applying a ground action's declared effects (precondition not tested). Derived facts of the input
+// are ignored and the result has none: call with_derived.
 Facts apply(const Action& action, const std::vector<std::string>& arguments, const Facts& facts, const Domain& domain,
             const std::vector<TypedObject>& objects);
 

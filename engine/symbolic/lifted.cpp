@@ -1,0 +1,362 @@
+#include "engine/symbolic/lifted.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/pddl_text.h"
+
+namespace stampede::symbolic {
+namespace {
+
+using Kind = Formula::Kind;
+using Scope = std::map<std::string, LiftedTerm>;
+
+constexpr std::size_t kMostDisjuncts = 8;  // beyond it a disjunction becomes a predicate of its own
+
+class Lifter {
+ public:
+  Lifter(const Domain& domain, const Problem& problem) : domain_(domain), problem_(problem) {}
+
+  LiftedTask run() {
+    task_.domain = &domain_;
+    task_.objects = all_objects(domain_, problem_.objects);
+    for (std::size_t i = 0; i < task_.objects.size(); ++i) objects_[task_.objects[i].name] = static_cast<int>(i);
+    name_predicates();
+    for (const Fact& fact : problem_.init) lift_init(fact);
+    for (const Predicate& predicate : domain_.predicates) {
+      if (predicate.kind == PredicateKind::derived) lift_derived(predicate);
+    }
+    for (std::size_t i = 0; i < domain_.actions.size(); ++i) lift_action(domain_.actions[i], static_cast<int>(i));
+    lift_goal();
+    return std::move(task_);
+  }
+
+ private:
+  int name_predicate(const std::string& name, std::size_t arity) {
+    const auto [at, is_new] = predicates_.try_emplace(name, static_cast<int>(task_.predicates.size()));
+    if (is_new) {
+      task_.predicates.push_back(name);
+      task_.fluent.push_back(0);
+      task_.derived.push_back(0);
+      arity_.push_back(arity);
+    }
+    return at->second;
+  }
+
+  void name_predicates() {
+    for (const Predicate& predicate : domain_.predicates) {
+      const int id = name_predicate(predicate.name, predicate.parameters.size());
+      task_.derived[id] = task_.fluent[id] = predicate.kind == PredicateKind::derived;
+    }
+    for (const std::string& trait : domain_.traits) name_predicate(trait, 1);
+    for (const Fact& fact : problem_.init) name_predicate(fact.predicate, fact.arguments.size());
+    for (const Action& action : domain_.actions) {
+      for (const Effect& effect : action.effects) {
+        const int id = name_predicate(effect.predicate, effect.terms.size());
+        if (task_.derived[id]) {
+          throw Error("action " + action.name, "has the derived predicate `" + effect.predicate + "` in its effect",
+                      "state the basic facts that it is derived from");
+        }
+        task_.fluent[id] = 1;
+      }
+    }
+  }
+
+  int object(const std::string& name) const {
+    const auto found = objects_.find(name);
+    if (found != objects_.end()) return found->second;
+    std::vector<std::string> known;
+    for (const TypedObject& one : task_.objects) known.push_back(one.name);
+    throw Error(problem_.name, "unknown object `" + name + "`", did_you_mean(name, known));
+  }
+
+  LiftedTerm term(const Term& from, const Scope& scope) const {
+    if (!from.variable) return {false, object(from.name)};
+    const auto found = scope.find(from.name);
+    if (found == scope.end()) throw Error("?" + from.name, "nothing binds this variable");
+    return found->second;
+  }
+
+  LiftedAtom lift_atom(const std::string& predicate, const std::vector<Term>& terms, const Scope& scope) const {
+    const auto found = predicates_.find(predicate);
+    if (found == predicates_.end()) {
+      throw Error(domain_.name, "unknown predicate `" + predicate + "`", did_you_mean(predicate, task_.predicates));
+    }
+    if (arity_[found->second] != terms.size()) {
+      throw Error(domain_.name, "`" + predicate + "` takes " + std::to_string(arity_[found->second]) +
+                                    " arguments, got " + std::to_string(terms.size()));
+    }
+    LiftedAtom result{found->second, {}};
+    for (const Term& one : terms) result.terms.push_back(term(one, scope));
+    return result;
+  }
+
+  void lift_init(const Fact& fact) {
+    LiftedAtom result{predicates_.at(fact.predicate), {}};
+    if (task_.derived[result.predicate]) return;
+    for (const std::string& argument : fact.arguments) result.terms.push_back({false, object(argument)});
+    task_.init.push_back(std::move(result));
+  }
+
+  std::vector<int> values(const Parameter& parameter) const {
+    std::vector<int> found;
+    for (std::size_t i = 0; i < task_.objects.size(); ++i) {
+      if (admits(parameter, task_.objects[i], {problem_.init, domain_, task_.objects})) {
+        found.push_back(static_cast<int>(i));
+      }
+    }
+    return found;
+  }
+
+  int new_variable(std::vector<int> domain) {
+    variables_.push_back(std::move(domain));
+    return static_cast<int>(variables_.size()) - 1;
+  }
+
+  Scope bind_parameters(const std::vector<Parameter>& parameters, Scope scope, std::vector<int>* ids = nullptr) {
+    for (const Parameter& parameter : parameters) {
+      const int id = new_variable(values(parameter));
+      scope[parameter.name] = {true, id};
+      if (ids != nullptr) ids->push_back(id);
+    }
+    return scope;
+  }
+
+  bool is_static_truth(const LiftedAtom& lifted) const {
+    Fact fact{task_.predicates[lifted.predicate], {}};
+    for (const LiftedTerm& one : lifted.terms) fact.arguments.push_back(task_.objects[one.id].name);
+    return problem_.init.contains(fact);
+  }
+
+  // A literal; decided at once where it is static and ground, so that expanded quantifiers stay small.
+  std::vector<Conjunct> literal(const LiftedAtom& lifted, bool negated) const {
+    const bool ground =
+        std::none_of(lifted.terms.begin(), lifted.terms.end(), [](const LiftedTerm& one) { return one.variable; });
+    if (ground && !task_.fluent[lifted.predicate]) {
+      if (is_static_truth(lifted) == negated) return {};
+      return {Conjunct{}};
+    }
+    Conjunct result;
+    (negated ? result.negative : result.positive).push_back(lifted);
+    return {result};
+  }
+
+  static Conjunct merged(Conjunct a, const Conjunct& b) {
+    a.positive.insert(a.positive.end(), b.positive.begin(), b.positive.end());
+    a.negative.insert(a.negative.end(), b.negative.begin(), b.negative.end());
+    a.equalities.insert(a.equalities.end(), b.equalities.begin(), b.equalities.end());
+    a.extra.insert(a.extra.end(), b.extra.begin(), b.extra.end());
+    return a;
+  }
+
+  // Disjunctive normal form of a formula in negation normal form.
+  std::vector<Conjunct> normal(const Formula& formula, const Scope& scope) {
+    switch (formula.kind) {
+      case Kind::always:
+        return {Conjunct{}};
+      case Kind::never:
+        return {};
+      case Kind::atom:
+        return literal(lift_atom(formula.predicate, formula.terms, scope), false);
+      case Kind::equal:
+        return equality(formula, scope, true);
+      case Kind::negation: {
+        const Formula& inner = formula.parts.at(0);
+        if (inner.kind == Kind::equal) return equality(inner, scope, false);
+        return literal(lift_atom(inner.predicate, inner.terms, scope), true);
+      }
+      case Kind::conjunction: {
+        std::vector<Conjunct> all = {Conjunct{}};
+        for (const Formula& part : formula.parts) all = product(all, normal(part, scope));
+        return all;
+      }
+      case Kind::disjunction: {
+        std::vector<Conjunct> all;
+        for (const Formula& part : formula.parts) {
+          for (Conjunct& one : normal(part, scope)) all.push_back(std::move(one));
+        }
+        return all;
+      }
+      case Kind::exists: {
+        std::vector<int> extra;
+        const Scope inner = bind_parameters(formula.variables, scope, &extra);
+        std::vector<Conjunct> all = normal(formula.parts.at(0), inner);
+        for (Conjunct& one : all) one.extra.insert(one.extra.end(), extra.begin(), extra.end());
+        return all;
+      }
+      case Kind::forall: {
+        std::vector<Conjunct> all = {Conjunct{}};
+        expand(formula, 0, scope, all);
+        return all;
+      }
+    }
+    return {};
+  }
+
+  void expand(const Formula& forall, std::size_t from, const Scope& scope, std::vector<Conjunct>& all) {
+    if (from == forall.variables.size()) {
+      all = product(all, normal(forall.parts.at(0), scope));
+      return;
+    }
+    for (const int value : values(forall.variables[from])) {
+      Scope inner = scope;
+      inner[forall.variables[from].name] = {false, value};
+      expand(forall, from + 1, inner, all);
+    }
+  }
+
+  std::vector<Conjunct> equality(const Formula& formula, const Scope& scope, bool equal) const {
+    const Equality one{term(formula.terms.at(0), scope), term(formula.terms.at(1), scope), equal};
+    if (!one.left.variable && !one.right.variable) {
+      if ((one.left.id == one.right.id) != equal) return {};
+      return {Conjunct{}};
+    }
+    Conjunct result;
+    result.equalities.push_back(one);
+    return {result};
+  }
+
+  std::vector<Conjunct> product(const std::vector<Conjunct>& a, std::vector<Conjunct> b) {
+    if (b.size() > 1 && a.size() * b.size() > kMostDisjuncts) b = {as_predicate(b)};
+    std::vector<Conjunct> all;
+    for (const Conjunct& left : a) {
+      for (const Conjunct& right : b) all.push_back(merged(left, right));
+    }
+    return all;
+  }
+
+  // An auxiliary derived predicate over the free variables of a disjunction.
+  Conjunct as_predicate(const std::vector<Conjunct>& disjuncts) {
+    std::set<int> free, bound;
+    for (const Conjunct& one : disjuncts) {
+      bound.insert(one.extra.begin(), one.extra.end());
+      const auto note = [&](const LiftedTerm& t) {
+        if (t.variable) free.insert(t.id);
+      };
+      for (const LiftedAtom& at : one.positive) std::for_each(at.terms.begin(), at.terms.end(), note);
+      for (const LiftedAtom& at : one.negative) std::for_each(at.terms.begin(), at.terms.end(), note);
+      for (const Equality& at : one.equalities) note(at.left), note(at.right);
+    }
+    for (const int id : bound) free.erase(id);
+    const std::string name = "one of " + std::to_string(task_.predicates.size());  // a space: no author's name has one
+    LiftedAtom head{name_predicate(name, free.size()), {}};
+    task_.fluent[head.predicate] = task_.derived[head.predicate] = 1;
+    for (const int id : free) head.terms.push_back({true, id});
+    for (const Conjunct& one : disjuncts) add_rule(head, one);
+    Conjunct result;
+    result.positive.push_back(head);
+    return result;
+  }
+
+  void add_rule(const LiftedAtom& head, const Conjunct& body) {
+    Schema schema;
+    schema.head = head;
+    schema.body = body;
+    schema.domains = variables_;
+    compact(schema);
+    task_.schemas.push_back(std::move(schema));
+  }
+
+  // Renumbers the variables so that only those in use remain, parameters (and head) first.
+  static void compact(Schema& schema) {
+    std::vector<int> number(schema.domains.size(), -1);
+    std::vector<std::vector<int>> domains;
+    const auto use = [&](LiftedTerm& t) {
+      if (!t.variable) return;
+      if (number[t.id] < 0) {
+        number[t.id] = static_cast<int>(domains.size());
+        domains.push_back(schema.domains[t.id]);
+      }
+      t.id = number[t.id];
+    };
+    const auto use_id = [&](int& id) {
+      LiftedTerm t{true, id};
+      use(t);
+      id = t.id;
+    };
+    const auto use_conjunct = [&](Conjunct& one) {
+      for (int& id : one.extra) use_id(id);
+      for (LiftedAtom& at : one.positive) std::for_each(at.terms.begin(), at.terms.end(), use);
+      for (LiftedAtom& at : one.negative) std::for_each(at.terms.begin(), at.terms.end(), use);
+      for (Equality& at : one.equalities) use(at.left), use(at.right);
+    };
+    for (int i = 0; i < schema.parameters; ++i) {
+      LiftedTerm t{true, i};
+      use(t);
+    }
+    std::for_each(schema.head.terms.begin(), schema.head.terms.end(), use);
+    use_conjunct(schema.body);
+    for (LiftedEffect& effect : schema.effects) {
+      for (int& id : effect.forall) use_id(id);
+      use_conjunct(effect.when);
+      std::for_each(effect.atom.terms.begin(), effect.atom.terms.end(), use);
+    }
+    schema.domains = std::move(domains);
+  }
+
+  void lift_derived(const Predicate& predicate) {
+    variables_.clear();
+    const Scope scope = bind_parameters(predicate.parameters, {});
+    LiftedAtom head{predicates_.at(predicate.name), {}};
+    for (std::size_t i = 0; i < predicate.parameters.size(); ++i) head.terms.push_back({true, static_cast<int>(i)});
+    for (const Conjunct& one : normal(negation_normal(predicate.derived), scope)) add_rule(head, one);
+  }
+
+  void lift_action(const Action& action, int index) {
+    variables_.clear();
+    const Scope scope = bind_parameters(action.parameters, {});
+    std::vector<Formula> parts = inequalities(action, domain_);
+    parts.push_back(action.precondition);
+    const std::vector<Conjunct> bodies = normal(negation_normal(conjunction(std::move(parts))), scope);
+    std::vector<LiftedEffect> effects;
+    for (const Effect& effect : action.effects) lift_effect(effect, scope, effects);
+    for (const Conjunct& body : bodies) {
+      Schema schema;
+      schema.action = index;
+      schema.parameters = static_cast<int>(action.parameters.size());
+      schema.domains = variables_;
+      schema.body = body;
+      schema.effects = effects;
+      compact(schema);
+      task_.schemas.push_back(std::move(schema));
+    }
+  }
+
+  void lift_effect(const Effect& effect, const Scope& scope, std::vector<LiftedEffect>& effects) {
+    LiftedEffect lifted;
+    lifted.negated = effect.negated;
+    const Scope inner = bind_parameters(effect.forall, scope, &lifted.forall);
+    lifted.atom = lift_atom(effect.predicate, effect.terms, inner);
+    lifted.conditional = effect.when.kind != Kind::always;
+    for (Conjunct& when : normal(negation_normal(effect.when), inner)) {
+      effects.push_back(lifted);
+      effects.back().forall.insert(effects.back().forall.end(), when.extra.begin(), when.extra.end());
+      effects.back().when = std::move(when);
+    }
+  }
+
+  void lift_goal() {
+    variables_.clear();
+    const std::vector<Conjunct> disjuncts = normal(negation_normal(problem_.goal), {});
+    if (disjuncts.size() == 1 && disjuncts.front().extra.empty()) {
+      task_.goal = disjuncts.front();
+    } else {
+      task_.goal = as_predicate(disjuncts);
+    }
+  }
+
+  const Domain& domain_;
+  const Problem& problem_;
+  LiftedTask task_;
+  std::map<std::string, int> objects_, predicates_;
+  std::vector<std::size_t> arity_;
+  std::vector<std::vector<int>> variables_;  // of the schema in the making: the domain of each
+};
+
+}  // namespace
+
+LiftedTask lift(const Domain& domain, const Problem& problem) { return Lifter(domain, problem).run(); }
+
+}  // namespace stampede::symbolic

@@ -1,0 +1,30 @@
+// Small pieces that reading and writing PDDL share: names and formulas as text.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/symbolic/symbols.h"
+
+namespace stampede::symbolic {
+
+// plain: `chest.top_drawer`, for messages; pddl: `chest--top_drawer`, lower case.
+enum class Names { plain, pddl };
+
+std::string name_text(std::string_view name, Names names);
+std::string name_from_pddl(std::string_view name);
+std::string variables_text(const std::vector<Parameter>& variables, Names names);  // ?a - block ?b
+std::string atom_text(const std::string& predicate, const std::vector<Term>& terms, Names names);
+std::string formula_text(const Formula& formula, Names names);
+
+// One conjunct for each trait of each parameter, in order: what a quantifier or an action says before its own formula.
+std::vector<Formula> trait_guards(const std::vector<Parameter>& parameters);
+// Pairs of parameters that must differ (Action::distinct) and could be the same object, as inequalities.
+std::vector<Formula> inequalities(const Action& action, const Domain& domain);
+bool could_be_equal(const Parameter& a, const Parameter& b, const Domain& domain);
+
+// `did you mean NAME?` for the nearest of the known names, or a list of them.
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace stampede::symbolic

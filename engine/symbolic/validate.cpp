@@ -1,0 +1,78 @@
+#include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/pddl_text.h"
+#include "engine/symbolic/task_planner.h"
+
+namespace stampede {
+namespace {
+
+using symbolic::View;
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+// Why the step cannot be taken in `facts` (derived ones included); empty: it can.
+std::string fault(const Domain& domain, const Action& action, const PlanStep& step, const Facts& facts,
+                  const std::vector<TypedObject>& objects) {
+  if (step.arguments.size() != action.parameters.size()) {
+    return "takes " + std::to_string(action.parameters.size()) + " arguments, got " +
+           std::to_string(step.arguments.size());
+  }
+  Binding binding;
+  for (std::size_t i = 0; i < step.arguments.size(); ++i) {
+    const Parameter& parameter = action.parameters[i];
+    const TypedObject* object = nullptr;
+    for (const TypedObject& one : objects) {
+      if (one.name == step.arguments[i]) object = &one;
+    }
+    if (object == nullptr) return "there is no object `" + step.arguments[i] + "`";
+    if (!domain.is_a(object->type, parameter.type)) {
+      return object->name + " is a " + object->type + ", but ?" + parameter.name + " must be a " + parameter.type;
+    }
+    for (const std::string& trait : parameter.traits) {
+      if (!facts.contains(Fact{trait, {object->name}})) {
+        return object->name + " is not " + trait + ", which ?" + parameter.name + " must be";
+      }
+    }
+    binding[parameter.name] = step.arguments[i];
+  }
+  std::vector<Formula> parts = symbolic::inequalities(action, domain);
+  parts.push_back(action.precondition);
+  const std::vector<std::string> missing = unmet(conjunction(std::move(parts)), facts, domain, objects, binding);
+  return missing.empty() ? "" : "needs " + joined(missing);
+}
+
+}  // namespace
+
+Validation validate(const Domain& domain, const Problem& problem, const Plan& plan) {
+  Validation result;
+  const std::vector<TypedObject> objects = symbolic::all_objects(domain, problem.objects);
+  Facts facts = problem.init;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const PlanStep& step = plan[i];
+    const std::string place = "step " + std::to_string(i + 1) + " " + to_text(Fact{step.action, step.arguments}) + ": ";
+    const Action* action = domain.action(step.action);
+    result.failed_step = static_cast<int>(i);
+    if (action == nullptr) {
+      std::vector<std::string> known;
+      for (const Action& one : domain.actions) known.push_back(one.name);
+      result.explanation = place + "unknown action; " + symbolic::did_you_mean(step.action, known);
+      return result;
+    }
+    const std::string why = fault(domain, *action, step, with_derived(facts, domain, objects), objects);
+    if (!why.empty()) {
+      result.explanation = place + why;
+      return result;
+    }
+    facts = apply(*action, step.arguments, facts, domain, objects);
+  }
+  result.failed_step = -1;
+  const std::vector<std::string> missing = unmet(problem.goal, with_derived(facts, domain, objects), domain, objects);
+  result.valid = missing.empty();
+  if (!result.valid) result.explanation = "the plan ends without " + joined(missing);
+  return result;
+}
+
+}  // namespace stampede
