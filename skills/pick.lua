@@ -1,0 +1,17 @@
+-- Grasp a movable object where it rests and lift it clear.
+return skill {
+  params = { "obj: movable & graspable", "from: support" },
+  precondition = { is.hand_empty(), is.on("obj", "from"), is_not(exists("?y: movable", is.on("?y", "obj"))) },
+  effect = { is.holding("obj"), is_not.hand_empty(), is_not.on("obj", "from"), is.lifted("obj") },
+  continuous = {
+    grasp = stream("grasps"),                                           -- of the object, reachable and free
+    height = { 0.10, min = 0.02, max = 0.30, unit = "m" },
+  },
+  label = "pick up the {obj}",
+  run = function(robot, p, c)
+    robot:open_hand(c.grasp.opening)
+    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose } -- planned, blended: does not stop at the approach
+    robot:close_hand(p.obj, { force = c.grasp.force })
+    robot:lift(c.height) -- world z
+  end,
+}

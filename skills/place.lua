@@ -1,0 +1,15 @@
+-- Put the held object down on a free spot of a surface.
+return skill {
+  params = { "obj: movable", "to: surface" },
+  precondition = { is.holding("obj") },
+  effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
+  continuous = { spot = stream("sample", is.on("obj", "to")) },         -- pose of the object
+  label = "put the {obj} on the {to}",
+  run = function(robot, p, c)
+    local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in
+    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
+    robot:wait(0.1)
+    robot:open_hand()
+    robot:retreat(0.08)
+  end,
+}

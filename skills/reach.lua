@@ -1,0 +1,11 @@
+-- Bring the tip of the hand into the target.
+return skill {
+  params = { "place: target" },
+  precondition = { is_not.at("place") },
+  effect = { is.at("place"), forall("?other: target", when(is_not.same("?other", "place"), is_not.at("?other"))) },
+  label = "reach the {place}",
+  run = function(robot, p)
+    local place = robot:view():pose(p.place)
+    robot:move_to(robot:tip():with_position(place:position()))
+  end,
+}

@@ -1,0 +1,15 @@
+-- Put the held object on top of another one, centred.
+return skill {
+  params = { "obj: movable", "below: stackable" },
+  precondition = { is.holding("obj"), is.clear("below") },
+  effect = { is.on("obj", "below"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
+  continuous = { spot = stream("sample", is.on("obj", "below")) },      -- pose of the object
+  label = "stack the {obj} on the {below}",
+  run = function(robot, p, c)
+    local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))
+    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
+    robot:wait(0.2)                                                     -- let the swing die before letting go
+    robot:open_hand()
+    robot:retreat(0.10)
+  end,
+}

@@ -1,0 +1,19 @@
+-- Shut the drawer that stands open.
+return task {
+  world = "tabletop",
+  variations = { level = { "bottom", "middle", "top" } },
+  objects = function(v)
+    return {
+      chest = { "chest", at = { between(0.40, 0.43), between(-0.10, 0.10), 0.75 },
+        joints = { [v.level .. "_drawer"] = between(0.08, 0.14) } },
+    }
+  end,
+  init = function(v) return { is_not.closed("chest." .. v.level .. "_drawer") } end,
+  goal = function(v) return { is.closed("chest." .. v.level .. "_drawer") } end,
+  instructions = {
+    "close the {level} drawer",
+    "shut the {level} drawer of the chest",
+    "push the {level} drawer in",
+    "make sure that the {level} drawer is closed",
+  },
+}

@@ -1,0 +1,21 @@
+-- Pick up the block of one colour and hold it in the zone in the air; two other blocks stay where they are.
+return task {
+  world = "tabletop",
+  variations = { colour = colours.names },
+  objects = function(v)
+    return {
+      target = { "cube", colour = v.colour },
+      other = { "cube", colour = one_of(colours.except(v.colour)), count = 2 },
+      zone = { "air_zone", at = { between(0.10, 0.28), between(-0.22, 0.22), between(0.95, 1.10) } },
+    }
+  end,
+  init = { is.on("target", "table"), is.on("other*", "table") },
+  goal = { is.holding("target"), is.inside("target", "zone") },
+  hold = 0.5, -- s
+  instructions = {
+    "pick up the {colour} block and lift it to the zone",
+    "grasp the {colour} cube and hold it in the green box in the air",
+    "lift the {colour} block up to the target",
+    "raise the {colour} cube into the marked space",
+  },
+}

@@ -1,0 +1,34 @@
+-- Press one to three buttons in the order that the instruction says; a later one before its turn fails the episode.
+local function sequences()
+  local names, list = colours.names, {}
+  for i = 1, #names do
+    local a, b, c = names[i], names[(i + 6) % #names + 1], names[(i + 12) % #names + 1]
+    list[#list + 1] = { count = i % 3 + 1, first = a, second = b, third = c }
+  end
+  return list
+end
+
+local words = { "the {first} button", "the {first} button, then the {second} one",
+  "the {first} button, then the {second} one, then the {third} one" }
+
+return task {
+  world = "tabletop",
+  variations = sequences(),
+  objects = function(v)
+    return {
+      button1 = { "push_button", colour = v.first, at = { between(0.10, 0.30), between(-0.28, -0.16), 0.75 } },
+      button2 = { "push_button", colour = v.second, at = { between(0.10, 0.30), between(-0.06, 0.06), 0.75 } },
+      button3 = { "push_button", colour = v.third, at = { between(0.10, 0.30), between(0.16, 0.28), 0.75 } },
+    }
+  end,
+  init = { is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
+  goal = function(v)
+    local parts = {}
+    for i = 1, v.count do parts[i] = is.pressed("button" .. i .. ".cap") end
+    return in_order(parts)
+  end,
+  instructions = function(v)
+    local what = words[v.count]
+    return { "press " .. what, "push " .. what, "hit " .. what, "operate " .. what .. " in this order" }
+  end,
+}

@@ -1,0 +1,18 @@
+-- Open one drawer of the chest and put the block inside.
+return task {
+  world = "tabletop",
+  variations = { level = { "bottom", "middle", "top" } },
+  objects = {
+    chest = { "chest", at = { between(0.40, 0.43), between(0.12, 0.16), 0.75 } },
+    item = { "cube", colour = one_of(colours.names) },
+  },
+  init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),
+    is.on("item", "table"), is_not.inside("item", "chest.front") },
+  goal = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer"), is.hand_empty() } end,
+  instructions = {
+    "put the block in the {level} drawer",
+    "open the {level} drawer and place the block inside",
+    "store the cube in the {level} drawer of the chest",
+    "the block belongs in the {level} drawer: put it there",
+  },
+}

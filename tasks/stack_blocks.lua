@@ -1,0 +1,25 @@
+-- Stack two to four blocks of one colour in any order; leave the other colours alone.
+return task {
+  world = "tabletop",
+  variations = { height = { 2, 3, 4 }, colour = colours.names },
+  objects = function(v)
+    return {
+      block = { "cube", colour = v.colour, count = 4 },
+      other = { "cube", colour = one_of(colours.except(v.colour)), count = 4 },
+    }
+  end,
+  init = { is.on("block*", "table"), is.on("other*", "table") },
+  goal = function(v)
+    return all_of {
+      any_order("block*", v.height, function(b, i) return is.on(b[i], b[i - 1]) end),
+      is.hand_empty(),
+    }
+  end,
+  horizon = 240, -- s
+  instructions = {
+    "stack {height} {colour} blocks",
+    "build a tower of {height} {colour} cubes",
+    "put {height} of the {colour} blocks on top of each other",
+    "make a pile of {height} {colour} blocks",
+  },
+}

@@ -1,0 +1,39 @@
+-- A chest of three drawers that open towards -x; its frame is at the middle of its floor.
+local handle_tilt = math.rad(40) -- the hand comes from above at this angle: level hands do not reach all heights
+
+local function drawer(z)
+  return {
+    type = "drawer", traits = { "openable", "container" },
+    slider = { axis = { -1, 0, 0 }, at = { 0, 0, z }, range = { 0, 0.20 }, damping = 5, friction = 2 },
+    mass = 0.6, colour = { 0.80, 0.68, 0.50 },
+    numbers = { open_at = 0.15, closed_at = 0.004, pull = 0.18 },
+    shapes = {
+      box { 0.012, 0.236, 0.076, at = { -0.106, 0, 0 } }, -- front
+      box { 0.20, 0.22, 0.006, at = { 0, 0, -0.032 } }, -- floor
+      box { 0.20, 0.008, 0.05, at = { 0, 0.107, -0.008 } },
+      box { 0.20, 0.008, 0.05, at = { 0, -0.107, -0.008 } },
+      box { 0.008, 0.22, 0.05, at = { 0.096, 0, -0.008 } },
+      cylinder { 0.006, 0.11, at = { -0.145, 0, 0 }, rpy = { math.pi / 2, 0, 0 }, colour = { 0.2, 0.2, 0.22 } }, -- handle
+      box { 0.036, 0.008, 0.008, at = { -0.128, 0.05, 0 }, colour = { 0.2, 0.2, 0.22 } },
+      box { 0.036, 0.008, 0.008, at = { -0.128, -0.05, 0 }, colour = { 0.2, 0.2, 0.22 } },
+    },
+    grasps = {
+      { at = { -0.145, 0, 0 }, rpy = { math.pi / 2 + handle_tilt, 0, math.pi / 2 }, width = 0.012, approach = 0.07, force = 30 },
+      { at = { -0.145, 0, 0 }, rpy = { -math.pi / 2 - handle_tilt, 0, -math.pi / 2 }, width = 0.012, approach = 0.07, force = 30 },
+    },
+    regions = { inside = { at = { 0, 0, 0 }, size = { 0.19, 0.21, 0.07 } } },
+  }
+end
+
+return object {
+  type = "furniture", traits = {}, fixed = true, colour = { 0.66, 0.50, 0.33 },
+  shapes = {
+    box { 0.22, 0.26, 0.01, at = { 0.01, 0, 0.005 } },
+    box { 0.22, 0.26, 0.01, at = { 0.01, 0, 0.275 } },
+    box { 0.22, 0.01, 0.28, at = { 0.01, 0.125, 0.14 } },
+    box { 0.22, 0.01, 0.28, at = { 0.01, -0.125, 0.14 } },
+    box { 0.01, 0.26, 0.28, at = { 0.125, 0, 0.14 } },
+  },
+  parts = { bottom_drawer = drawer(0.055), middle_drawer = drawer(0.14), top_drawer = drawer(0.225) },
+  regions = { front = { at = { -0.25, 0, 0.14 }, size = { 0.28, 0.36, 0.30 } } },
+}

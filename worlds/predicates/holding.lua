@@ -1,0 +1,8 @@
+-- The hand holds the object by friction between its pads.
+return predicate {
+  params = { "hand: hand", "obj: movable" },
+  label = "the hand holds the {obj}",
+  settle = 0.1, -- s
+  functional = true,
+  holds = function(w, _, obj) return w:grasped(obj) end,
+}

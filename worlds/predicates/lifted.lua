@@ -1,0 +1,13 @@
+-- The object is in the hand and touches nothing that could hold it up.
+return predicate {
+  params = { "obj: movable" },
+  label = "the {obj} is lifted",
+  settle = 0.1, -- s
+  holds = function(w, obj)
+    if not w:grasped(obj) then return false end
+    for _, other in ipairs(w:objects("support")) do
+      if other ~= obj and w:touching(other, obj) then return false end
+    end
+    return true
+  end,
+}
