@@ -1,0 +1,144 @@
+// A task, its predicates and its skills in plain C++: what an embedder without Lua would write.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/episode/runner.h"
+#include "tests/support/panda.h"
+
+namespace stampede::plain {
+
+inline Term var(const char* name) { return {true, name}; }
+
+inline Domain domain() {
+  Domain domain;
+  domain.name = "plain";
+  domain.types = {{"cube", "object"}, {"table", "object"}, {"hand", "object"}};
+  domain.traits = {"graspable", "movable", "surface"};
+  const Parameter hand{"hand", "hand", {}}, obj{"obj", "", {"movable"}}, below{"below", "", {"surface"}};
+  domain.predicates = {{"hand_empty", {hand}, PredicateKind::basic, {}, "the hand is empty"},
+                       {"holding", {hand, obj}, PredicateKind::basic, {}, "the hand holds the {obj}"},
+                       {"on", {obj, below}, PredicateKind::basic, {}, "the {obj} is on the {below}"}};
+  Action pick;
+  pick.name = pick.skill = "pick";
+  pick.parameters = {obj, below, hand};
+  pick.precondition = conjunction({atom("on", {var("obj"), var("below")}), atom("hand_empty", {var("hand")})});
+  pick.effects = {{{}, {}, "holding", {var("hand"), var("obj")}, false},
+                  {{}, {}, "hand_empty", {var("hand")}, true},
+                  {{}, {}, "on", {var("obj"), var("below")}, true}};
+  Action place;
+  place.name = place.skill = "place";
+  place.parameters = {obj, below, hand};
+  place.precondition = atom("holding", {var("hand"), var("obj")});
+  place.effects = {{{}, {}, "on", {var("obj"), var("below")}, false},
+                   {{}, {}, "hand_empty", {var("hand")}, false},
+                   {{}, {}, "holding", {var("hand"), var("obj")}, true}};
+  domain.actions = {pick, place};
+  return domain;
+}
+
+class PlainSymbols : public Symbols {
+ public:
+  const Domain& domain() const override { return domain_; }
+  PredicateTraits traits(const std::string&) const override { return {0.1, false, false, Pairs::all}; }
+  Value value(const Fact& fact, const WorldView& view) override {
+    if (fact.predicate == "on") return {view.supports(fact.arguments[1], fact.arguments[0]), {}};
+    if (fact.predicate == "holding") return {view.grasped(fact.arguments[1]), {}};
+    return {view.grasped_object().empty(), {}};
+  }
+  std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
+                                int most) override {
+    if (fact.predicate != "on") return {};
+    const Object &obj = view.object(fact.arguments[0]), &below = view.object(fact.arguments[1]);
+    std::vector<Placement> placements;
+    for (const Transform& pose : below.type == "cube" ? stack_spots(space, view.world(), below, obj, key, most)
+                                                      : free_spots(space, view.world(), below, obj, key, most))
+      placements.push_back({obj.name, pose});
+    return placements;
+  }
+
+ private:
+  Domain domain_ = plain::domain();
+};
+
+// Runs a fixed list of calls that is made when the skill starts.
+class CallList : public SkillRun {
+ public:
+  explicit CallList(std::vector<RobotCall> calls) : calls_(std::move(calls)) {}
+  RobotCall next(const WorldView& view) override {
+    if (next_ >= calls_.size()) return robot_call::Done{};
+    RobotCall call = calls_[next_++];
+    if (auto* line = std::get_if<robot_call::MoveLine>(&call))  // offsets from where the tip is by then
+      line->target = translation(line->target.translation()) * view.world().world_from_tip();
+    return call;
+  }
+
+ private:
+  std::vector<RobotCall> calls_;
+  std::size_t next_ = 0;
+};
+
+class PlainSkills : public SkillLibrary {
+ public:
+  PlainSkills() {
+    const Domain vocabulary = plain::domain();
+    pick_ = {"pick", vocabulary.actions[0].parameters, {{"grasp", ContinuousInfo::Source::grasps, {}, {}, {}, "", "", "obj", {}}},
+             ControllerKind::joint_position, 0, "pick up the {obj}", {}, {"pick"}};
+    place_ = {"place", vocabulary.actions[1].parameters,
+              {{"spot", ContinuousInfo::Source::sample, {}, {}, {}, "", "", "", {"on", {"obj", "below"}}}},
+              ControllerKind::joint_position, 0, "put the {obj} on the {below}", {}, {"place"}};
+  }
+  const SkillInfo* skill(const std::string& name) const override {
+    return name == "pick" ? &pick_ : name == "place" ? &place_ : nullptr;
+  }
+  std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override {
+    using namespace robot_call;
+    const double wide = view.scene().robot.opening_max;
+    if (call.skill == "pick") {
+      const GraspCandidate& grasp = *call.continuous[0].grasp;
+      return std::make_unique<CallList>(std::vector<RobotCall>{
+          Hand{wide, 20, ""}, MoveThrough{{{"approach", grasp.world_from_approach}, {"grasp", grasp.world_from_tip}}},
+          Hand{0, grasp.force, call.arguments[0]}, MoveLine{translation(0, 0, 0.1)}});
+    }
+    const Transform object_from_tip = view.world_from(call.arguments[0]).inverse() * view.world().world_from_tip();
+    const Transform down = translation(0, 0, 0.001) * *call.continuous[0].pose * object_from_tip;
+    return std::make_unique<CallList>(std::vector<RobotCall>{
+        MoveThrough{{{"approach", translation(0, 0, 0.08) * down}, {"place", down}}}, Wait{0.2}, Hand{wide, 20, ""},
+        MoveLine{translation(0, 0, 0.08)}});
+  }
+
+ private:
+  SkillInfo pick_, place_;
+};
+
+// Stack cube1 on cube2, among others.
+class StackTask : public Task {
+ public:
+  explicit StackTask(int cubes = 3) : cubes_(cubes) {}
+  std::string name() const override { return "plain_stack"; }
+  std::string variation() const override { return ""; }
+  std::map<std::string, std::string> axes() const override { return {}; }
+  Scene scene(int) override {
+    Scene scene = table_scene(cubes_);
+    for (Body& body : scene.bodies)
+      if (body.name == "table") body.parts[0].shapes[0].size = {0.36, 0.6, 0.05};
+    return scene;
+  }
+  std::vector<std::string> unplaced() const override {
+    std::vector<std::string> names;
+    for (int i = 1; i <= cubes_; ++i) names.push_back("cube" + std::to_string(i));
+    return names;
+  }
+  std::vector<Literal> init() const override {
+    std::vector<Literal> literals;
+    for (const std::string& name : unplaced()) literals.push_back({{"on", {name, "table"}}, false});
+    return literals;
+  }
+  Formula goal() const override { return atom("on", {{false, "cube1"}, {false, "cube2"}}); }
+  std::vector<std::string> instructions() const override { return {"stack the first cube on the second"}; }
+
+ private:
+  int cubes_;
+};
+
+}  // namespace stampede::plain
