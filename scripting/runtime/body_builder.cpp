@@ -1,0 +1,264 @@
+#include "scripting/runtime/body_builder.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/model/urdf.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kTiny = 1e-12;
+
+// The kind of joint and the table that describes it: slider = { … }, or joint = slider { … }.
+std::pair<JointKind, const Value*> joint_of(const Value& part) {
+  const auto kind_of = [](std::string_view word) {
+    if (word == "hinge") return std::optional(JointKind::hinge);
+    if (word == "slider") return std::optional(JointKind::slider);
+    if (word == "fixed") return std::optional(JointKind::fixed);
+    return std::optional<JointKind>();
+  };
+  for (const std::string_view word : {"hinge", "slider", "fixed"}) {
+    if (part[word].kind == Value::Kind::table) return {*kind_of(word), &part[word]};
+  }
+  const Value& joint = part["joint"];
+  if (!joint.present()) return {JointKind::fixed, &part};
+  const std::string tag = joint.tag();
+  const auto kind = kind_of(kind_of(tag) ? tag : joint.text_or("kind", "fixed"));
+  if (!kind) joint.expected("a hinge, slider or fixed joint");
+  return {*kind, &joint};
+}
+
+void read_range(const Value& value, Joint& joint) {
+  const std::vector<double> range = value["range"].present() ? value["range"].as_numbers() : std::vector<double>{};
+  if (range.size() != 2 || range[0] > range[1]) {
+    throw Error(value.place, "a moving joint needs range = { lower, upper }");
+  }
+  joint.lower = range[0];
+  joint.upper = range[1];
+  joint.initial = value.number_or("initial", std::clamp(0.0, joint.lower, joint.upper));
+  if (joint.initial < joint.lower || joint.initial > joint.upper) {
+    throw Error(value.place, "initial lies outside range");
+  }
+}
+
+Joint joint_from(const Value& part, const std::string& name) {
+  const auto [kind, value] = joint_of(part);
+  Joint joint;
+  joint.name = name;
+  joint.kind = kind;
+  joint.parent_from_joint = transform_from(*value);
+  if (kind == JointKind::fixed) return joint;
+  joint.axis = value->vector_or("axis", Vector3::UnitZ());
+  if (joint.axis.norm() < kTiny) throw Error(value->place, "axis must not be zero");
+  joint.axis.normalize();
+  read_range(*value, joint);
+  // Never zero: without friction and damping, drawers rebound from their stops.
+  const bool slider = kind == JointKind::slider;
+  joint.damping = value->number_or("damping", slider ? 5 : 0.2);
+  joint.friction = value->number_or("friction", slider ? 2 : 0.3);
+  joint.spring_force = value->number_or("spring", value->number_or("spring_force", 0));
+  joint.spring_target = value->number_or("spring_target", joint.lower);
+  joint.detent = value->number_or("detent", 0);
+  if (const Value& latch = (*value)["latch"]; latch.present()) {
+    joint.latch_key = latch["key"].as_text();
+    joint.latch_open = latch["open"].as_number();
+    joint.latch_close = latch["close"].as_number();
+  }
+  return joint;
+}
+
+Grasp grasp_from(const Value& value) {
+  Grasp grasp;
+  grasp.object_from_tip = value["pose"].kind == Value::Kind::pose ? value["pose"].pose : transform_from(value);
+  grasp.width = value.number_or("width", grasp.width);
+  grasp.approach = value.number_or("approach", grasp.approach);
+  grasp.force = value.number_or("force", grasp.force);
+  return grasp;
+}
+
+class Builder {
+ public:
+  Builder(const ObjectSource& source, const Colours& colours) : source_(source), colours_(colours) {}
+
+  BuiltObject build() {
+    const Value& fields = source_.fields;
+    result_.placed = fields["at"].present();
+    if (const Value& region = fields["region"]; region.present()) return whole_region(region);
+    Body body;
+    body.name = source_.name;
+    body.world_from_body = transform_from(fields);
+    if (fields["urdf"].present()) {
+      body.parts = body_from_urdf(source_.folder / fields["urdf"].as_text()).parts;
+    } else {
+      body.parts.push_back(part_from(fields, "base", own_colour(fields, Colour{})));
+    }
+    add_parts(fields, body);
+    body.free = is_free(fields, body);
+    result_.stands_still = !body.free;
+    if (body.free && !(body.parts[0].mass > 0)) {
+      throw Error(fields.place, "'" + source_.name + "' can move, so it needs a mass", "mass = 0.1 (kg)");
+    }
+    name_things(fields, body);
+    result_.body = std::move(body);
+    return std::move(result_);
+  }
+
+ private:
+  BuiltObject whole_region(const Value& value) {
+    Region region;
+    region.name = source_.name;
+    region.part_from_region = transform_from(source_.fields);
+    describe_region(value, source_.fields, region);
+    Object object = named(source_.fields, source_.name, ObjectKind::region, "region");
+    object.size = region.size;
+    result_.regions.push_back(region);
+    result_.objects.push_back(object);
+    return std::move(result_);
+  }
+
+  void describe_region(const Value& value, const Value& looks, Region& region) {
+    region.size = value["size"].as_vector();
+    if (region.size.minCoeff() < 0) value["size"].expected("edge lengths that are not negative");
+    region.visible = looks.boolean_or("visible", value.boolean_or("visible", false));
+    region.colour = own_colour(looks, Colour{0.7, 0.7, 0.7, 0.4});
+  }
+
+  Colour own_colour(const Value& fields, const Colour& otherwise) const {
+    return fields["colour"].present() ? colour_from(fields["colour"], colours_) : otherwise;
+  }
+
+  Part part_from(const Value& fields, const std::string& name, const Colour& colour) const {
+    Part part;
+    part.name = name;
+    part.shapes = shapes_from(fields, colours_, own_colour(fields, colour), source_.folder);
+    part.surface = surface_from(fields, Surface{});
+    const double mass = fields.number_or("mass", 0);
+    if (mass < 0) fields["mass"].expected("a mass that is not negative");
+    if (mass > 0) set_uniform_mass(part, mass);
+    return part;
+  }
+
+  // Parts in an order in which parents come first, else by name.
+  std::vector<std::pair<std::string, const Value*>> parts_in_order(const Value& fields) const {
+    std::vector<std::pair<std::string, const Value*>> parts;
+    for (const auto& [name, value] : fields["parts"].fields) parts.emplace_back(name, &value);
+    for (const Value& value : fields["parts"].items) parts.emplace_back(value["name"].as_text(), &value);
+    return parts;
+  }
+
+  void add_parts(const Value& fields, Body& body) {
+    auto waiting = parts_in_order(fields);
+    const Colour colour = own_colour(fields, Colour{});
+    while (!waiting.empty()) {
+      const auto ready = std::find_if(waiting.begin(), waiting.end(), [&body](const auto& entry) {
+        const std::string parent = entry.second->text_or("parent", "");
+        return parent.empty() || body.part_index(entry.first) >= 0 || body.part_index(parent) >= 0;
+      });
+      if (ready == waiting.end()) {
+        const Value& parent = (*waiting.front().second)["parent"];
+        throw Error(parent.place, "there is no part '" + parent.as_text() + "' above '" + waiting.front().first + "'");
+      }
+      add_part(ready->first, *ready->second, colour, body);
+      waiting.erase(ready);
+    }
+  }
+
+  void add_part(const std::string& name, const Value& fields, const Colour& colour, Body& body) {
+    if (const int known = body.part_index(name); known >= 0 && source_.fields["urdf"].present()) {
+      body.parts[static_cast<std::size_t>(known)].surface =
+          surface_from(fields, body.parts[static_cast<std::size_t>(known)].surface);
+      return;  // a link of the URDF: parts add names, traits and regions to it
+    }
+    Part part = part_from(fields, name, colour);
+    const std::string parent = fields.text_or("parent", "");
+    part.parent = parent.empty() ? 0 : body.part_index(parent);
+    part.joint = joint_from(fields, name);
+    if (part.joint.kind != JointKind::fixed && !(part.mass > 0)) {
+      throw Error(fields.place, "'" + name + "' moves, so it needs a mass", "mass = 1 (kg)");
+    }
+    body.parts.push_back(std::move(part));
+  }
+
+  bool is_free(const Value& fields, const Body& body) const {
+    const std::vector<std::string> traits =
+        fields["traits"].present() ? fields["traits"].as_texts() : std::vector<std::string>{};
+    const bool movable = std::find(traits.begin(), traits.end(), "movable") != traits.end();
+    const bool free = !fields.boolean_or("fixed", !movable);
+    if (free && body.parts.size() > 1) {
+      throw Error(fields.place, "'" + source_.name + "' has parts, so it cannot be free",
+                  "leave out the trait movable");
+    }
+    return free;
+  }
+
+  Object named(const Value& fields, const std::string& name, ObjectKind kind, std::string_view type) const {
+    Object object;
+    object.name = name;
+    object.kind = kind;
+    object.class_name = source_.class_name;
+    object.type = fields.text_or("type", type);
+    if (fields["traits"].present()) object.traits = fields["traits"].as_texts();
+    std::sort(object.traits.begin(), object.traits.end());
+    for (const auto& [key, value] : fields["attributes"].fields) object.attributes[key] = value.canonical();
+    if (fields["colour"].kind == Value::Kind::text) object.attributes.emplace("colour", fields["colour"].text);
+    for (const auto& [key, value] : fields["numbers"].fields) object.numbers[key] = value.as_number();
+    for (const Value& grasp : fields["grasps"].items) object.grasps.push_back(grasp_from(grasp));
+    return object;
+  }
+
+  void name_part(const Value& fields, const std::string& name, ObjectKind kind, const Body& body, int index) {
+    const Part& part = body.parts[static_cast<std::size_t>(index)];
+    Object object = named(fields, name, kind, kind == ObjectKind::part ? "part" : "thing");
+    object.body = source_.name;
+    object.part = index;
+    if (!part.shapes.empty()) {
+      const auto [lower, upper] = bounding_box(part);
+      object.size = upper - lower;
+    }
+    result_.objects.push_back(object);
+  }
+
+  void name_regions(const Value& fields, const std::string& owner, int index) {
+    for (const auto& [key, value] : fields["regions"].fields) {
+      Region region;
+      region.name = owner + "." + key;
+      region.body = source_.name;
+      region.part = index;
+      region.part_from_region = transform_from(value);
+      describe_region(value, value, region);
+      Object object = named(value, region.name, ObjectKind::region, "region");
+      object.body = source_.name;
+      object.part = index;
+      object.size = region.size;
+      result_.objects.push_back(object);
+      result_.regions.push_back(region);
+    }
+  }
+
+  void name_things(const Value& fields, const Body& body) {
+    name_part(fields, source_.name, ObjectKind::body, body, 0);
+    name_regions(fields, source_.name, 0);
+    for (const auto& [key, value] : parts_in_order(fields)) {
+      const int index = body.part_index(key);
+      const std::string name = source_.name + "." + key;
+      // A part without a type or traits is nothing that people or plans speak of.
+      if ((*value)["type"].present() || (*value)["traits"].present()) {
+        name_part(*value, name, ObjectKind::part, body, index);
+      }
+      name_regions(*value, name, index);
+    }
+  }
+
+  const ObjectSource& source_;
+  const Colours& colours_;
+  BuiltObject result_;
+};
+
+}  // namespace
+
+BuiltObject build_object(const ObjectSource& source, const Colours& colours) {
+  return Builder(source, colours).build();
+}
+
+}  // namespace stampede

@@ -1,0 +1,52 @@
+#include "scripting/runtime/episode_scripts.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "scripting/runtime/lua_symbols.h"
+#include "scripting/runtime/lua_task.h"
+#include "scripting/runtime/skill_run.h"
+
+namespace stampede {
+
+struct EpisodeScripts::Impl {
+  Impl(std::shared_ptr<const Library> library, std::string_view name, std::string_view variation, std::int64_t seed)
+      : tests(std::move(library)), task(tests, name, variation, seed), symbols(tests), skills(tests) {}
+  TestState tests;
+  LuaTask task;
+  LuaSymbols symbols;
+  LuaSkills skills;
+};
+
+EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task,
+                               std::string_view variation, std::int64_t seed)
+    : impl_(std::make_unique<Impl>(std::move(library), task, variation, seed)) {}
+
+EpisodeScripts::~EpisodeScripts() = default;
+
+Task& EpisodeScripts::task() { return impl_->task; }
+Symbols& EpisodeScripts::symbols() { return impl_->symbols; }
+SkillLibrary& EpisodeScripts::skills() { return impl_->skills; }
+
+std::vector<DefinitionRecord> EpisodeScripts::definitions() const {
+  const Library& library = *impl_->tests.library();
+  std::vector<const ScriptFile*> files = impl_->task.files();
+  for (const DefinitionKind kind : {DefinitionKind::predicate, DefinitionKind::skill, DefinitionKind::types,
+                                    DefinitionKind::colours, DefinitionKind::module}) {
+    for (const ScriptFile* file : library.files(kind)) files.push_back(file);
+  }
+  std::vector<DefinitionRecord> records;
+  for (const ScriptFile* file : files) {
+    DefinitionRecord record{std::string(to_string(file->kind)), file->name, file->shown_path, file->source, file->hash};
+    const auto same = [&](const DefinitionRecord& other) {
+      return other.kind == record.kind && other.name == record.name;
+    };
+    if (std::none_of(records.begin(), records.end(), same)) records.push_back(std::move(record));
+  }
+  std::sort(records.begin(), records.end(), [](const DefinitionRecord& a, const DefinitionRecord& b) {
+    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+  });
+  return records;
+}
+
+}  // namespace stampede

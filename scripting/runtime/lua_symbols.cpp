@@ -1,0 +1,89 @@
+#include "scripting/runtime/lua_symbols.h"
+
+#include <algorithm>
+#include <lua.hpp>
+
+#include "scripting/runtime/sampling_binding.h"
+
+namespace stampede {
+namespace {
+
+bool has_trait(const Object& object, const std::string& trait) {
+  return std::find(object.traits.begin(), object.traits.end(), trait) != object.traits.end();
+}
+
+bool has_attribute(const Object& object, const std::string& key, const std::string& value) {
+  const auto found = object.attributes.find(key);
+  return found != object.attributes.end() && found->second == value;
+}
+
+void push_arguments(lua_State* state, const Fact& fact) {
+  for (const std::string& name : fact.arguments) lua_pushlstring(state, name.data(), name.size());
+}
+
+}  // namespace
+
+PredicateTraits LuaSymbols::traits(const std::string& predicate) const {
+  const auto& all = tests_.library()->predicate_traits();
+  const auto found = all.find(predicate);
+  return found == all.end() ? PredicateTraits{} : found->second;
+}
+
+int LuaSymbols::holds_of(const std::string& predicate) {
+  if (generation_ != tests_.generation()) {
+    holds_.clear();
+    generation_ = tests_.generation();
+  }
+  const auto found = holds_.find(predicate);
+  if (found != holds_.end()) return found->second;
+  const bool scripted = tests_.library()->file(DefinitionKind::predicate, predicate) != nullptr;
+  const int holds = scripted ? tests_.get().function_of(DefinitionKind::predicate, predicate, "holds") : 0;
+  holds_.emplace(predicate, holds);
+  return holds;
+}
+
+Symbols::Value LuaSymbols::value(const Fact& fact, const WorldView& view) {
+  if (const int holds = holds_of(fact.predicate); holds != 0) return call(holds, fact, view);
+  const std::vector<std::string>& arguments = fact.arguments;
+  if (arguments.size() == 1) return {has_trait(view.object(arguments[0]), fact.predicate), std::nullopt};
+  if (arguments.size() == 2) return {has_attribute(view.object(arguments[0]), fact.predicate, arguments[1]), {}};
+  throw Error("predicate " + fact.predicate, "has no 'holds', and is neither a trait nor an attribute");
+}
+
+Symbols::Value LuaSymbols::call(int holds, const Fact& fact, const WorldView& view) {
+  ScriptState& scripts = tests_.get();
+  const ViewScope scope(scripts.view, view);
+  lua_State* const state = scripts.lua();
+  lua_rawgeti(state, LUA_REGISTRYINDEX, holds);
+  lua_rawgeti(state, LUA_REGISTRYINDEX, scripts.view_reference());
+  push_arguments(state, fact);
+  scripts.sandbox().call(static_cast<int>(fact.arguments.size()) + 1, 2);
+  Value value;
+  value.holds = lua_toboolean(state, -2) != 0;
+  if (lua_type(state, -1) == LUA_TNUMBER) value.margin = lua_tonumber(state, -1);
+  lua_pop(state, 2);
+  return value;
+}
+
+std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
+                                          int most) {
+  if (tests_.library()->file(DefinitionKind::predicate, fact.predicate) == nullptr || most <= 0) return {};
+  ScriptState scripts(tests_.library(), tests_.hand());
+  const int sample = scripts.function_of(DefinitionKind::predicate, fact.predicate, "sample");
+  if (sample == 0) return {};
+  const ViewScope scope(scripts.view, view, &space, most);
+  std::vector<Placement> placements;
+  scripts.protect([&](lua_State* state) {
+    scripts.push_kept(sample);
+    scripts.push_kept(scripts.view_reference());
+    push_arguments(state, fact);
+    push_random(state, key);
+    lua_call(state, static_cast<int>(fact.arguments.size()) + 2, 1);
+    const std::string object = fact.arguments.empty() ? std::string() : fact.arguments[0];
+    placements = placements_at(state, -1, object, "predicate " + fact.predicate);
+  });
+  if (placements.size() > static_cast<std::size_t>(most)) placements.resize(static_cast<std::size_t>(most));
+  return placements;
+}
+
+}  // namespace stampede

@@ -1,0 +1,103 @@
+#include "scripting/runtime/lua_task.h"
+
+#include <algorithm>
+#include <lua.hpp>
+
+#include "scripting/runtime/evaluate.h"
+#include "scripting/runtime/task_reader.h"
+
+namespace stampede {
+namespace {
+
+const Library::TaskInfo& info_of(const Library& library, std::string_view name) {
+  const Library::TaskInfo* info = library.task(name);
+  if (info == nullptr) throw Error(std::string(name), "there is no task of this name");
+  return *info;
+}
+
+std::map<std::string, std::string> axes_of(const Library::TaskInfo& info, std::string_view variation) {
+  const auto& texts = info.variation_texts;
+  const auto found = std::find(texts.begin(), texts.end(), variation);
+  if (found != texts.end() && !info.variations.empty()) {
+    return info.variations[static_cast<std::size_t>(found - texts.begin())];
+  }
+  if (variation.empty() && info.variations.empty()) return {};
+  throw Error("task " + info.name, "has no variation '" + std::string(variation) + "'",
+              texts.empty() ? "it has none" : "the first of " + std::to_string(texts.size()) + " is " + texts[0]);
+}
+
+}  // namespace
+
+LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed)
+    : tests_(tests),
+      name_(name),
+      variation_(variation),
+      seed_(seed),
+      axes_(axes_of(info_of(*tests.library(), name), variation)),
+      drawn_(make(0)) {
+  tests_.set_hand(drawn_.hand);
+}
+
+LuaTask::Drawn LuaTask::make(int draw) {
+  const ScriptFile* file = tests_.library()->file(DefinitionKind::task, name_);
+  if (file == nullptr) throw Error(name_, "there is no task of this name");
+  ScriptState scripts(tests_.library(), "");
+  const RandomKey key = RandomKey("draw").with(name_).with(variation_).with(seed_).with(draw);
+  Drawn drawn;
+  scripts.protect([&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key).read(state); });
+  return drawn;
+}
+
+Scene LuaTask::scene(int draw) {
+  if (draw != draw_) {
+    drawn_ = make(draw);
+    draw_ = draw;
+  }
+  return drawn_.scene;
+}
+
+bool LuaTask::call_test(const char* field, const WorldView& view) {
+  ScriptState& scripts = tests_.get();
+  if (generation_ != tests_.generation()) {
+    functions_.clear();
+    generation_ = tests_.generation();
+  }
+  auto found = functions_.find(field);
+  if (found == functions_.end()) {
+    found = functions_.emplace(field, scripts.function_of(DefinitionKind::task, name_, field)).first;
+  }
+  if (found->second == 0) return false;
+  const ViewScope scope(scripts.view, view);
+  lua_State* const state = scripts.lua();
+  scripts.push_kept(found->second);
+  scripts.push_kept(scripts.view_reference());
+  push_plain_table(state, drawn_.variation);
+  scripts.sandbox().call(2, 1);
+  return true;
+}
+
+bool LuaTask::also(const WorldView& view) {
+  if (!call_test("also", view)) return true;
+  lua_State* const state = tests_.get().lua();
+  const bool result = lua_toboolean(state, -1) != 0;
+  lua_pop(state, 1);
+  return result;
+}
+
+bool LuaTask::fails(const WorldView& view) {
+  if (!call_test("fails", view)) return false;
+  lua_State* const state = tests_.get().lua();
+  const bool result = lua_toboolean(state, -1) != 0;
+  lua_pop(state, 1);
+  return result;
+}
+
+double LuaTask::reward(const WorldView& view) {
+  if (!call_test("reward", view)) return 0;
+  lua_State* const state = tests_.get().lua();
+  const double result = lua_tonumber(state, -1);
+  lua_pop(state, 1);
+  return result;
+}
+
+}  // namespace stampede

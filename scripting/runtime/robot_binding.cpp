@@ -1,0 +1,289 @@
+#include "scripting/runtime/robot_binding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <lua.hpp>
+
+#include "scripting/lua/binding.h"
+#include "scripting/runtime/pose_binding.h"
+#include "scripting/runtime/sampling_binding.h"
+
+namespace stampede {
+namespace {
+
+constexpr const char* kRobotType = "stampede.robot";
+
+RobotContext& context_of(lua_State* state) {
+  return **static_cast<RobotContext**>(luaL_checkudata(state, 1, kRobotType));
+}
+
+const WorldView& view_of(lua_State* state) {
+  const RobotContext& context = context_of(state);
+  if (context.running != state || context.view->view == nullptr) {
+    luaL_error(state, "the robot can be used inside a skill's run only");
+  }
+  return *context.view->view;
+}
+
+const Robot& robot_of(lua_State* state) { return view_of(state).scene().robot; }
+
+// The last act of every method that acts: run() stops here until the engine has done the call.
+int ask(lua_State* state, RobotCall call) {
+  view_of(state);
+  context_of(state).call = std::move(call);
+  return lua_yield(state, 0);
+}
+
+// Optional fields of an options table at `index`; anything but a table counts as none.
+double number_field(lua_State* state, int index, const char* name, double otherwise) {
+  if (!lua_istable(state, index)) return otherwise;
+  lua_getfield(state, index, name);
+  if (!lua_isnil(state, -1) && lua_type(state, -1) != LUA_TNUMBER) luaL_error(state, "%s must be a number", name);
+  const double value = lua_isnil(state, -1) ? otherwise : lua_tonumber(state, -1);
+  lua_pop(state, 1);
+  if (!std::isfinite(value)) luaL_error(state, "%s must be finite", name);
+  return value;
+}
+
+bool flag_field(lua_State* state, int index, const char* name) {
+  if (!lua_istable(state, index)) return false;
+  lua_getfield(state, index, name);
+  const bool value = lua_toboolean(state, -1) != 0;
+  lua_pop(state, 1);
+  return value;
+}
+
+double finite(lua_State* state, int index) {
+  const double value = luaL_checknumber(state, index);
+  luaL_argcheck(state, std::isfinite(value), index, "must be finite");
+  return value;
+}
+
+Transform finite_pose(lua_State* state, int index) {
+  const Transform pose = check_pose(state, index);
+  if (!pose.matrix().allFinite()) luaL_error(state, "a pose with numbers that are not finite");
+  return pose;
+}
+
+// A known option keeps a misspelt one from being ignored.
+void only_fields(lua_State* state, int index, std::initializer_list<const char*> known) {
+  if (lua_isnoneornil(state, index)) return;
+  luaL_checktype(state, index, LUA_TTABLE);
+  lua_pushnil(state);
+  while (lua_next(state, index) != 0) {
+    lua_pop(state, 1);
+    const char* key = lua_type(state, -1) == LUA_TSTRING ? lua_tostring(state, -1) : "1";
+    const bool found =
+        std::any_of(known.begin(), known.end(), [key](const char* name) { return std::string_view(name) == key; });
+    if (!found) luaL_error(state, "no option '%s' here", key);
+  }
+}
+
+int open_hand(lua_State* state) {
+  const Robot& robot = robot_of(state);
+  const double opening = lua_isnoneornil(state, 2) ? robot.opening_max : finite(state, 2);
+  return ask(state, robot_call::Hand{std::clamp(opening, 0.0, robot.opening_max), robot.grip_force, ""});
+}
+
+// robot:close_hand() shuts it; with an object it must end up holding that object.
+int close_hand(lua_State* state) {
+  const Robot& robot = robot_of(state);
+  only_fields(state, 3, {"force"});
+  const double force = number_field(state, 3, "force", robot.grip_force);
+  std::string expect;
+  if (!lua_isnoneornil(state, 2)) expect = view_of(state).object(check_text(state, 2)).name;
+  return ask(state, robot_call::Hand{0, force, std::move(expect)});
+}
+
+// { { "approach", pose }, { "grasp", pose } }: in the order written.
+void listed_targets(lua_State* state, std::vector<ToolTarget>& targets) {
+  const auto count = static_cast<lua_Integer>(lua_rawlen(state, 2));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(state, 2, i);
+    luaL_argcheck(state, lua_istable(state, -1), 2, "expected { name, pose } in the list");
+    lua_rawgeti(state, -1, 1);
+    lua_rawgeti(state, -2, 2);
+    luaL_argcheck(state, lua_type(state, -2) == LUA_TSTRING, 2, "expected { name, pose } in the list");
+    targets.push_back({lua_tostring(state, -2), finite_pose(state, lua_gettop(state))});
+    lua_pop(state, 3);
+  }
+}
+
+// A table with names has no order of its own: approach first, then the others by name, then grasp, goal or place.
+int rank(const std::string& name) {
+  if (name == "approach") return 0;
+  return name == "grasp" || name == "goal" || name == "place" || name == "target" ? 2 : 1;
+}
+
+void named_targets(lua_State* state, std::vector<ToolTarget>& targets) {
+  lua_pushnil(state);
+  while (lua_next(state, 2) != 0) {
+    if (lua_type(state, -2) == LUA_TSTRING) {
+      targets.push_back({lua_tostring(state, -2), finite_pose(state, lua_gettop(state))});
+    }
+    lua_pop(state, 1);
+  }
+  std::sort(targets.begin(), targets.end(), [](const ToolTarget& a, const ToolTarget& b) {
+    return std::pair(rank(a.name), a.name) < std::pair(rank(b.name), b.name);
+  });
+}
+
+int move_through(lua_State* state) {
+  luaL_checktype(state, 2, LUA_TTABLE);
+  robot_call::MoveThrough call;
+  const bool listed = lua_rawlen(state, 2) > 0;
+  listed ? listed_targets(state, call.targets) : named_targets(state, call.targets);
+  luaL_argcheck(state, !call.targets.empty(), 2, "expected at least one named pose");
+  return ask(state, std::move(call));
+}
+
+int move_to(lua_State* state) { return ask(state, robot_call::MoveThrough{{{"goal", finite_pose(state, 2)}}}); }
+
+robot_call::MoveLine line(lua_State* state, const Transform& target, int options, const char* kind) {
+  only_fields(state, options, {"speed", "force", "stop_on_contact", "tolerate", "collide"});
+  robot_call::MoveLine call{target};
+  call.speed = number_field(state, options, "speed", call.speed);
+  call.force = number_field(state, options, "force", call.force);
+  call.stop_on_contact = flag_field(state, options, "stop_on_contact");
+  call.tolerate = flag_field(state, options, "tolerate");
+  call.collide = flag_field(state, options, "collide");
+  call.kind = kind;
+  luaL_argcheck(state, call.speed > 0, options, "speed must be positive");
+  return call;
+}
+
+Transform tip_of(lua_State* state) { return view_of(state).world_from(context_of(state).view->hand); }
+
+// To a pose, or by an offset { x, y, z } along the world's axes.
+int move_line(lua_State* state) {
+  if (!lua_istable(state, 2)) return ask(state, line(state, finite_pose(state, 2), 3, "move_line"));
+  Transform target = tip_of(state);
+  for (int i = 0; i < 3; ++i) {
+    lua_rawgeti(state, 2, i + 1);
+    luaL_argcheck(state, lua_type(state, -1) == LUA_TNUMBER, 2, "expected a pose or an offset { x, y, z }");
+    target.translation()[i] += finite(state, lua_gettop(state));
+    lua_pop(state, 1);
+  }
+  return ask(state, line(state, target, 3, "move_line"));
+}
+
+int lift(lua_State* state) {
+  Transform target = tip_of(state);
+  target.translation().z() += finite(state, 2);
+  return ask(state, line(state, target, 3, "lift"));
+}
+
+int retreat(lua_State* state) {
+  return ask(state, line(state, tip_of(state) * translation(0, 0, -finite(state, 2)), 3, "retreat"));
+}
+
+int move_home(lua_State* state) {
+  const Robot& robot = robot_of(state);
+  robot_call::MoveJoints call;
+  call.target = Eigen::Map<const Eigen::VectorXd>(robot.home.data(), static_cast<Eigen::Index>(robot.home.size()));
+  return ask(state, std::move(call));
+}
+
+int move_joints(lua_State* state) {
+  const std::size_t joints = robot_of(state).arm.size();
+  luaL_checktype(state, 2, LUA_TTABLE);
+  luaL_argcheck(state, lua_rawlen(state, 2) == joints, 2, "expected one position for each joint of the arm");
+  robot_call::MoveJoints call;
+  call.target.resize(static_cast<Eigen::Index>(joints));
+  for (std::size_t i = 0; i < joints; ++i) {
+    lua_rawgeti(state, 2, static_cast<lua_Integer>(i) + 1);
+    call.target[static_cast<Eigen::Index>(i)] = finite(state, lua_gettop(state));
+    lua_pop(state, 1);
+  }
+  return ask(state, std::move(call));
+}
+
+// The held or touched part's joint to a position, along its line or arc.
+int move_part(lua_State* state) {
+  only_fields(state, 4, {"speed"});
+  robot_call::MovePart call;
+  call.speed = number_field(state, 4, "speed", call.speed);
+  call.position = finite(state, 3);
+  const std::string_view part = check_text(state, 2);
+  view_of(state).joint_range(part);
+  call.object = std::string(part);
+  return ask(state, std::move(call));
+}
+
+int wait(lua_State* state) {
+  const double seconds = finite(state, 2);
+  luaL_argcheck(state, seconds >= 0 && seconds <= 60, 2, "expected 0 … 60 s");
+  return ask(state, robot_call::Wait{seconds});
+}
+
+int run(lua_State* state) {
+  return ask(state, robot_call::RunSkill{skill_call_at(state, 2, *context_of(state).library, "robot:run")});
+}
+
+// robot:fail("no_grasp" [, detail]); a text that is no reason is the detail.
+int fail(lua_State* state) {
+  const std::string_view text = check_text(state, 2);
+  robot_call::Fail call;
+  const std::optional<Reason> reason = reason_from(text);
+  call.reason = reason.value_or(Reason::script_error);
+  call.detail = !lua_isnoneornil(state, 3) ? std::string(check_text(state, 3)) : reason ? "" : std::string(text);
+  return ask(state, std::move(call));
+}
+
+int tip(lua_State* state) {
+  push_pose(state, tip_of(state));
+  return 1;
+}
+
+int view(lua_State* state) {
+  view_of(state);
+  lua_getiuservalue(state, 1, 1);
+  return 1;
+}
+
+// Where the tip must be for the object, held as it is now, to be at a pose.
+int tip_for(lua_State* state) {
+  const WorldView& world = view_of(state);
+  const Transform object_from_tip = world.world_from(check_text(state, 2)).inverse() * tip_of(state);
+  push_pose(state, finite_pose(state, 3) * object_from_tip);
+  return 1;
+}
+
+constexpr luaL_Reg kMethods[] = {
+    {"open_hand", lua_function<open_hand>},
+    {"close_hand", lua_function<close_hand>},
+    {"move_through", lua_function<move_through>},
+    {"move_to", lua_function<move_to>},
+    {"move_line", lua_function<move_line>},
+    {"lift", lua_function<lift>},
+    {"retreat", lua_function<retreat>},
+    {"move_home", lua_function<move_home>},
+    {"move_joints", lua_function<move_joints>},
+    {"move_part", lua_function<move_part>},
+    {"wait", lua_function<wait>},
+    {"run", lua_function<run>},
+    {"fail", lua_function<fail>},
+    {"tip", lua_function<tip>},
+    {"tip_for", lua_function<tip_for>},
+    {"view", lua_function<view>},
+    {nullptr, nullptr},
+};
+
+}  // namespace
+
+void push_robot(lua_State* state, RobotContext& context, int view_index) {
+  view_index = lua_absindex(state, view_index);
+  auto** stored = static_cast<RobotContext**>(lua_newuserdatauv(state, sizeof(RobotContext*), 1));
+  *stored = &context;
+  lua_pushvalue(state, view_index);
+  lua_setiuservalue(state, -2, 1);
+  if (luaL_newmetatable(state, kRobotType) != 0) {
+    luaL_newlib(state, kMethods);
+    lua_setfield(state, -2, "__index");
+    lua_pushboolean(state, 0);
+    lua_setfield(state, -2, "__metatable");
+  }
+  lua_setmetatable(state, -2);
+}
+
+}  // namespace stampede

@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include "engine/model/urdf.h"
+#include "scripting/runtime/scene_builder.h"
+
+namespace stampede {
+namespace {
+
+// A part is named by its link or by the joint that moves it.
+int part_named(const Body& body, const Value& value) {
+  const std::string& name = value.as_text();
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    if (body.parts[i].name == name || body.parts[i].joint.name == name) return static_cast<int>(i);
+  }
+  throw Error(value.place, "the URDF has no link or joint '" + name + "'");
+}
+
+std::vector<int> parts_named(const Body& body, const Value& list) {
+  std::vector<int> parts;
+  for (const Value& item : list.items) parts.push_back(part_named(body, item));
+  return parts;
+}
+
+// One number for each joint of the arm, or one for all.
+std::vector<double> per_joint(const Value& fields, std::string_view name, std::size_t joints) {
+  const Value& value = fields[name];
+  if (!value.present()) return {};
+  if (value.kind == Value::Kind::number) return std::vector<double>(joints, value.number);
+  std::vector<double> numbers = value.as_numbers();
+  if (numbers.size() != joints) value.expected(std::to_string(joints) + " numbers, one for each joint of the arm");
+  return numbers;
+}
+
+// Driven joints: what moves and is no finger, in the order of the URDF, unless the file lists them.
+std::vector<int> arm_parts(const Value& fields, const Robot& robot) {
+  const Value& listed = fields["arm"].present() ? fields["arm"] : fields["joints"];
+  if (listed.present()) return parts_named(robot.body, listed);
+  std::vector<int> parts;
+  for (std::size_t i = 1; i < robot.body.parts.size(); ++i) {
+    const int part = static_cast<int>(i);
+    const bool finger = std::find(robot.fingers.begin(), robot.fingers.end(), part) != robot.fingers.end();
+    if (robot.body.parts[i].joint.kind != JointKind::fixed && !finger) parts.push_back(part);
+  }
+  return parts;
+}
+
+void read_limits(const Value& fields, Robot& robot) {
+  const std::size_t joints = robot.arm.size();
+  const std::vector<double> acceleration = per_joint(fields, "acceleration", joints);
+  const std::vector<double> jerk = per_joint(fields, "jerk", joints);
+  const std::vector<double> velocity = per_joint(fields, "velocity", joints);
+  const std::vector<double> effort = per_joint(fields, "effort", joints);
+  for (std::size_t i = 0; i < joints; ++i) {
+    const Joint& joint = robot.body.parts[static_cast<std::size_t>(robot.arm[i])].joint;
+    JointLimits limits{joint.lower, joint.upper, joint.velocity, 10, 5000, joint.effort};
+    if (!velocity.empty()) limits.velocity = velocity[i];
+    if (!acceleration.empty()) limits.acceleration = acceleration[i];
+    if (!jerk.empty()) limits.jerk = jerk[i];
+    if (!effort.empty()) limits.effort = effort[i];
+    robot.limits.push_back(limits);
+  }
+  robot.home = per_joint(fields, "home", joints);
+  if (robot.home.empty()) robot.home.assign(joints, 0.0);
+  for (std::size_t i = 0; i < joints; ++i) {
+    if (robot.home[i] < robot.limits[i].lower || robot.home[i] > robot.limits[i].upper) {
+      throw Error(fields["home"].place, "joint " + std::to_string(i + 1) + " is outside its limits");
+    }
+    robot.body.parts[static_cast<std::size_t>(robot.arm[i])].joint.initial = robot.home[i];
+  }
+}
+
+void read_hand(const Value& fields, Robot& robot) {
+  const Value& tip = fields["tip"];
+  const Value& tip_part = tip["part"].present() ? tip["part"] : tip["link"].present() ? tip["link"] : tip["on"];
+  robot.tip_part =
+      tip_part.present() ? part_named(robot.body, tip_part) : static_cast<int>(robot.body.parts.size()) - 1;
+  robot.tip_part_from_tip = transform_from(tip);
+  robot.pads = fields["pads"].present() ? parts_named(robot.body, fields["pads"]) : robot.fingers;
+  robot.opening_max = fields.number_or("opening", robot.opening_max);
+  robot.grip_force = fields.number_or("grip_force", robot.grip_force);
+  robot.finger_speed = fields.number_or("finger_speed", robot.finger_speed);
+  robot.hand = fields.text_or("hand", robot.hand);
+  // Measured: the anchor and a little spinning and rolling friction hold thin and round things best.
+  const Surface pad{1.0, 0.01, 0.01, 0, true};
+  for (const int part : robot.pads) {
+    Part& own = robot.body.parts[static_cast<std::size_t>(part)];
+    own.surface = surface_from(fields["pad"], pad);
+  }
+}
+
+void read_pairs(const Value& fields, Robot& robot) {
+  const auto ends = [&](const Value& pair) {
+    if (pair.items.size() != 2) pair.expected("a pair { link, link }");
+    const int a = part_named(robot.body, pair.items[0]), b = part_named(robot.body, pair.items[1]);
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  if (fields["checked_pairs"].present()) {
+    for (const Value& pair : fields["checked_pairs"].items) robot.checked_pairs.push_back(ends(pair));
+  } else {
+    std::vector<std::pair<int, int>> allowed;
+    for (const Value& pair : fields["allowed_pairs"].items) allowed.push_back(ends(pair));
+    // Without a list of pairs to check, neighbours may touch, and so may the pairs that are allowed to.
+    const int count = static_cast<int>(robot.body.parts.size());
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        const bool neighbours = robot.body.parts[static_cast<std::size_t>(b)].parent == a;
+        const bool listed = std::find(allowed.begin(), allowed.end(), std::pair(a, b)) != allowed.end();
+        const auto shapes = [&](int part) { return robot.body.parts[static_cast<std::size_t>(part)].shapes.size(); };
+        if (!neighbours && !listed && shapes(a) * shapes(b) > 0) robot.checked_pairs.emplace_back(a, b);
+      }
+    }
+  }
+  std::sort(robot.checked_pairs.begin(), robot.checked_pairs.end());
+  robot.checked_pairs.erase(std::unique(robot.checked_pairs.begin(), robot.checked_pairs.end()),
+                            robot.checked_pairs.end());
+}
+
+}  // namespace
+
+Robot build_robot(const std::string& name, const Value& fields, const Transform& world_from_base,
+                  const std::filesystem::path& folder) {
+  Robot robot;
+  robot.name = name;
+  robot.body = body_from_urdf(folder / fields.text_or("urdf", name + ".urdf"));
+  robot.body.name = name;
+  robot.body.free = false;
+  robot.body.world_from_body = world_from_base;
+  robot.fingers = parts_named(robot.body, fields["fingers"]);
+  robot.arm = arm_parts(fields, robot);
+  read_limits(fields, robot);
+  read_hand(fields, robot);
+  read_pairs(fields, robot);
+  return robot;
+}
+
+}  // namespace stampede

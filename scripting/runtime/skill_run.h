@@ -1,0 +1,22 @@
+// Skills as the runner sees them: a coroutine for each run.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "scripting/runtime/script_state.h"
+
+namespace stampede {
+
+class LuaSkills : public SkillLibrary {
+ public:
+  explicit LuaSkills(TestState& tests) : tests_(tests) {}
+  const SkillInfo* skill(const std::string& name) const override;
+  // Throws Error for an unknown skill or a wrong number of arguments; what its run raises later is Fail.
+  std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override;
+
+ private:
+  TestState& tests_;
+};
+
+}  // namespace stampede

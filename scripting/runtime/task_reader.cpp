@@ -1,0 +1,214 @@
+#include "scripting/runtime/task_reader.h"
+
+#include <algorithm>
+#include <lua.hpp>
+
+#include "scripting/runtime/evaluate.h"
+
+namespace stampede {
+namespace {
+
+// `stack {height} {colour} blocks` with the axes' values for their names.
+std::string filled(const std::string& text, const std::map<std::string, std::string>& axes) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = text[i] == '{' ? text.find('}', i) : std::string::npos;
+    const auto axis = end == std::string::npos ? axes.end() : axes.find(text.substr(i + 1, end - i - 1));
+    if (axis == axes.end()) {
+      result += text[i++];
+      continue;
+    }
+    for (const char c : axis->second) result += c == '_' ? ' ' : c;
+    i = end + 1;
+  }
+  return result;
+}
+
+// An entry's fields replace the file's; its attributes and numbers are added to the file's.
+Value overlaid(Value file, const Value& entry) {
+  for (const auto& [key, value] : entry.fields) {
+    if (key == "count" || key == "name") continue;
+    const bool adds = (key == "attributes" || key == "numbers") && file[key].kind == Value::Kind::table;
+    if (!adds) {
+      file.fields[key] = value;
+      continue;
+    }
+    for (const auto& [name, one] : value.fields) file.fields[key].fields[name] = one;
+  }
+  file.place = entry.place;
+  return file;
+}
+
+}  // namespace
+
+TaskReader::TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
+                       RandomKey key)
+    : scripts_(scripts), file_(file), axes_(axes), key_(key) {}
+
+LuaTask::Drawn TaskReader::read(lua_State* state) {
+  state_ = state;
+  luaL_checkstack(state, 64, "task");
+  scripts_.definitions().push(DefinitionKind::task, file_.name);
+  task_ = lua_gettop(state);
+  drawn_.files.push_back(&file_);
+  push_variation();
+  variation_ = lua_gettop(state);
+  drawn_.hold_s = field("hold").present() ? field("hold").as_number() : drawn_.hold_s;
+  drawn_.horizon_s = field("horizon").present() ? field("horizon").as_number() : drawn_.horizon_s;
+  read_world();
+  read_objects();
+  drawn_.unplaced = builder_->unplaced();
+  drawn_.scene = builder_->build();
+  read_init();
+  read_goal();
+  read_subgoals();
+  read_steps();
+  read_instructions();
+  return std::move(drawn_);
+}
+
+bool TaskReader::push_field(const char* name) {
+  lua_getfield(state_, task_, name);
+  if (lua_isfunction(state_, -1)) {
+    lua_pushvalue(state_, variation_);
+    lua_call(state_, 1, 1);
+  }
+  if (!lua_isnil(state_, -1)) return true;
+  lua_pop(state_, 1);
+  return false;
+}
+
+Value TaskReader::field(const char* name) {
+  lua_getfield(state_, task_, name);
+  const Value value = read_value(state_, -1, {key_, variation_, file_.shown_path, {}}, name);
+  lua_pop(state_, 1);
+  return value;
+}
+
+// v: each axis with the value that the file gives it, found by its text.
+void TaskReader::push_variation() {
+  lua_getfield(state_, task_, "variations");
+  const Value all = read_value(state_, -1, {key_, 0, file_.shown_path, {"where"}}, "variations");
+  lua_pop(state_, 1);
+  for (const auto& [axis, text] : axes_) {
+    const Value* found = nullptr;
+    const auto consider = [&, wanted = &text](const Value& value) {
+      const bool plain_value = value.kind != Value::Kind::table && value.present();
+      if (found == nullptr && plain_value && value.canonical() == *wanted) found = &value;
+    };
+    for (const Value& value : all[axis].items) consider(value);
+    for (const Value& combination : all.items) consider(combination[axis]);
+    if (found == nullptr)
+      throw Error(file_.shown_path + ": variations", "no value of '" + axis + "' reads '" + text + "'");
+    drawn_.variation[axis] = *found;
+  }
+  push_plain_table(state_, drawn_.variation);
+}
+
+const ScriptFile& TaskReader::used(DefinitionKind kind, const std::string& name, const Value& where) {
+  const ScriptFile* file = scripts_.library().file(kind, name);
+  if (file == nullptr) throw Error(where.place, "there is no " + std::string(to_string(kind)) + " '" + name + "'");
+  if (std::find(drawn_.files.begin(), drawn_.files.end(), file) == drawn_.files.end()) drawn_.files.push_back(file);
+  return *file;
+}
+
+Value TaskReader::definition(DefinitionKind kind, const std::string& name, const std::string& path,
+                             const Value& where) {
+  const ScriptFile& file = used(kind, name, where);
+  scripts_.definitions().push(kind, name);
+  Value value = read_value(state_, -1, {key_, variation_, file.shown_path, {}}, path);
+  lua_pop(state_, 1);
+  for (const char* reserved : {"kind", "name", "tag", "line"}) value.fields.erase(reserved);
+  return value;
+}
+
+ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, const std::string& path) {
+  const Value& class_value = spec.kind == Value::Kind::text ? spec
+                             : spec.items.empty()           ? spec["object"]
+                                                            : spec.items[0];
+  ObjectSource source{name, class_value.as_text(), {}, {}};
+  source.fields = overlaid(definition(DefinitionKind::object, source.class_name, path, class_value), spec);
+  source.folder = used(DefinitionKind::object, source.class_name, class_value).path.parent_path();
+  return source;
+}
+
+void TaskReader::read_world() {
+  const Value name = field("world");
+  const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
+  const Value palette = definition(DefinitionKind::colours, "colours", "", name);
+  for (const Value& entry : palette.items) {
+    const std::vector<Value>& items = entry.items;
+    if (items.size() < 4) entry.expected("{ name, red, green, blue }");
+    colours_[items[0].as_text()] = {items[1].as_number(), items[2].as_number(), items[3].as_number(), 1.0};
+  }
+  builder_ = std::make_unique<SceneBuilder>(name.text, colours_);
+  const Value& robot = world["robot"];
+  const std::string robot_name =
+      robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
+  const ScriptFile& robot_file = used(DefinitionKind::robot, robot_name, robot);
+  const Value robot_fields = definition(DefinitionKind::robot, robot_name, "", robot);
+  builder_->set_robot(build_robot(robot_name, robot_fields, transform_from(robot), robot_file.path.parent_path()));
+  drawn_.hand = builder_->hand();
+  for (const auto& [key, spec] : world["fixtures"].fields)
+    builder_->add_fixture(source_of(spec, key, "fixtures." + key));
+  for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
+  for (const auto& [key, camera] : world["cameras"].fields) builder_->add_camera(key, camera);
+  builder_->set_rates(static_cast<int>(world.number_or("physics_rate", 240)),
+                      static_cast<int>(world.number_or("frame_rate", 20)));
+}
+
+void TaskReader::read_objects() {
+  if (!push_field("objects")) return;
+  const int objects = lua_gettop(state_);
+  std::vector<std::string> names;
+  lua_pushnil(state_);
+  while (lua_next(state_, objects) != 0) {
+    lua_pop(state_, 1);
+    if (lua_type(state_, -1) != LUA_TSTRING) throw Error(file_.shown_path + ": objects", "expected names as keys");
+    names.emplace_back(lua_tostring(state_, -1));
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    lua_getfield(state_, objects, name.c_str());
+    add_group(name, lua_gettop(state_));
+    lua_pop(state_, 1);
+  }
+  lua_pop(state_, 1);
+}
+
+// One thing, or with `count` a group of them, each with draws of its own. What sample_of drew for a field of a group
+// is dealt out: one value to each member.
+void TaskReader::add_group(const std::string& name, int index) {
+  const Evaluation how{key_, variation_, file_.shown_path, {}};
+  const Value shared = read_value(state_, index, how, "objects." + name);
+  if (!shared["count"].present()) {
+    builder_->add_object(source_of(shared, name, "objects." + name));
+    return;
+  }
+  const double count = shared["count"].as_number();
+  if (count < 0 || count > 1000 || count != static_cast<int>(count)) shared["count"].expected("a whole number");
+  std::vector<std::string>& group = drawn_.groups[name];
+  for (int i = 1; i <= static_cast<int>(count); ++i) {
+    const std::string member = name + std::to_string(i);
+    Value spec = read_value(state_, index, how, "objects." + member);
+    for (auto& [key, value] : spec.fields) {
+      const Value& drawn = shared[key];
+      if (!drawn["sampled"].present()) continue;
+      if (drawn.items.size() != static_cast<std::size_t>(count)) {
+        throw Error(drawn.place, "sample_of draws " + std::to_string(drawn.items.size()) + " values for a group of " +
+                                     shared["count"].canonical());
+      }
+      value = drawn.items[static_cast<std::size_t>(i) - 1];
+    }
+    builder_->add_object(source_of(spec, member, "objects." + member));
+    group.push_back(member);
+  }
+}
+
+void TaskReader::read_instructions() {
+  const Value value = field("instructions");
+  if (!value.present()) return;
+  for (const std::string& text : value.as_texts()) drawn_.instructions.push_back(filled(text, axes_));
+}
+
+}  // namespace stampede

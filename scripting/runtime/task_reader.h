@@ -1,0 +1,46 @@
+// From the task's Lua table to what one draw of it says. For the runtime's own use; call it inside a protected call.
+#pragma once
+
+#include "scripting/runtime/lua_task.h"
+#include "scripting/runtime/scene_builder.h"
+
+namespace stampede {
+
+class TaskReader {
+ public:
+  TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
+             RandomKey key);
+  LuaTask::Drawn read(lua_State* state);
+
+ private:
+  Value field(const char* name);      // of the task, drawn
+  bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
+  void push_variation();
+  void read_world();
+  void read_objects();
+  void add_group(const std::string& name, int index);
+  void read_init();
+  void read_goal();
+  void read_subgoals();
+  void read_steps();
+  void read_instructions();
+
+  ObjectSource source_of(const Value& spec, const std::string& name, const std::string& path);
+  Value definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where);
+  const ScriptFile& used(DefinitionKind kind, const std::string& name, const Value& where);
+  std::vector<std::string> members(const std::string& group) const;
+  std::vector<Literal> expanded(const Literal& literal) const;
+  Formula formula_at(int index, const std::string& place);
+
+  ScriptState& scripts_;
+  const ScriptFile& file_;
+  const std::map<std::string, std::string>& axes_;
+  RandomKey key_;
+  lua_State* state_ = nullptr;
+  int task_ = 0, variation_ = 0;  // stack indices
+  Colours colours_;
+  std::unique_ptr<SceneBuilder> builder_;
+  LuaTask::Drawn drawn_;
+};
+
+}  // namespace stampede

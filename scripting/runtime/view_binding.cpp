@@ -1,0 +1,241 @@
+#include "scripting/runtime/view_binding.h"
+
+#include <lua.hpp>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "scripting/lua/binding.h"
+#include "scripting/runtime/pose_binding.h"
+#include "scripting/runtime/sampling_binding.h"
+
+namespace stampede {
+
+const ViewContext& check_context(lua_State* state) {
+  auto** stored = static_cast<ViewContext**>(luaL_checkudata(state, 1, kViewType));
+  if ((*stored)->view == nullptr) luaL_error(state, "w is kept beyond its call: use the w that is handed in");
+  return **stored;
+}
+
+namespace {
+
+const WorldView& view_of(lua_State* state) { return *check_context(state).view; }
+
+int push_vector(lua_State* state, const Vector3& vector) {
+  for (int i = 0; i < 3; ++i) lua_pushnumber(state, vector[i]);
+  return 3;
+}
+
+// Three shapes of getter cover most methods.
+template <auto getter>
+int number_of(lua_State* state) {
+  lua_pushnumber(state, (view_of(state).*getter)(check_text(state, 2)));
+  return 1;
+}
+template <auto getter>
+int vector_of(lua_State* state) {
+  return push_vector(state, (view_of(state).*getter)(check_text(state, 2)));
+}
+template <auto test>
+int pair_test(lua_State* state) {
+  lua_pushboolean(state, (view_of(state).*test)(check_text(state, 2), check_text(state, 3)) ? 1 : 0);
+  return 1;
+}
+template <auto test>
+int single_test(lua_State* state) {
+  lua_pushboolean(state, (view_of(state).*test)(check_text(state, 2)) ? 1 : 0);
+  return 1;
+}
+
+int position(lua_State* state) {
+  return push_vector(state, view_of(state).world_from(check_text(state, 2)).translation());
+}
+
+int pose(lua_State* state) {
+  push_pose(state, view_of(state).world_from(check_text(state, 2)));
+  return 1;
+}
+
+int speed(lua_State* state) {
+  lua_pushnumber(state, view_of(state).velocity(check_text(state, 2)).norm());
+  return 1;
+}
+
+int distance(lua_State* state) {
+  const WorldView& view = view_of(state);
+  const Vector3 a = view.world_from(check_text(state, 2)).translation();
+  lua_pushnumber(state, (view.world_from(check_text(state, 3)).translation() - a).norm());
+  return 1;
+}
+
+int joint_range(lua_State* state) {
+  const auto [lower, upper] = view_of(state).joint_range(check_text(state, 2));
+  lua_pushnumber(state, lower);
+  lua_pushnumber(state, upper);
+  return 2;
+}
+
+int force(lua_State* state) {
+  lua_pushnumber(state, view_of(state).contact_force(check_text(state, 2), check_text(state, 3)));
+  return 1;
+}
+
+int grasped_object(lua_State* state) {
+  const std::string name = view_of(state).grasped_object();
+  if (name.empty()) {
+    lua_pushnil(state);
+  } else {
+    lua_pushlstring(state, name.data(), name.size());
+  }
+  return 1;
+}
+
+int opening(lua_State* state) {
+  lua_pushnumber(state, view_of(state).opening());
+  return 1;
+}
+
+int time(lua_State* state) {
+  lua_pushnumber(state, view_of(state).time_s());
+  return 1;
+}
+
+int inside(lua_State* state) {
+  const std::string_view region = check_text(state, 2), object = check_text(state, 3);
+  lua_pushboolean(state, view_of(state).inside(region, object, lua_toboolean(state, 4) != 0) ? 1 : 0);
+  return 1;
+}
+
+// Of a named thing's origin, or of a point x, y, z.
+int region_distance(lua_State* state) {
+  const WorldView& view = view_of(state);
+  const std::string_view region = check_text(state, 2);
+  const Vector3 point =
+      lua_type(state, 3) == LUA_TSTRING
+          ? Vector3(view.world_from(check_text(state, 3)).translation())
+          : Vector3(luaL_checknumber(state, 3), luaL_checknumber(state, 4), luaL_checknumber(state, 5));
+  lua_pushnumber(state, view.region_distance(region, point));
+  return 1;
+}
+
+// An authored number, or the third argument where the object has none of that name.
+int number(lua_State* state) {
+  const std::string_view name = check_text(state, 3);
+  const Object& object = view_of(state).object(check_text(state, 2));
+  const auto found = object.numbers.find(std::string(name));
+  if (found != object.numbers.end()) {
+    lua_pushnumber(state, found->second);
+  } else if (lua_isnoneornil(state, 4)) {
+    throw Error(object.name, "has no number '" + std::string(name) + "'",
+                "add numbers = { " + std::string(name) + " = … } to its file, or hand w:number a third argument");
+  } else {
+    lua_pushvalue(state, 4);
+  }
+  return 1;
+}
+
+int attribute(lua_State* state) {
+  const Object& object = view_of(state).object(check_text(state, 2));
+  const auto found = object.attributes.find(std::string(check_text(state, 3)));
+  if (found == object.attributes.end()) return 0;
+  lua_pushlstring(state, found->second.data(), found->second.size());
+  return 1;
+}
+
+int type(lua_State* state) {
+  lua_pushstring(state, view_of(state).object(check_text(state, 2)).type.c_str());
+  return 1;
+}
+
+bool has(const Object& object, std::string_view trait) {
+  for (const std::string& one : object.traits) {
+    if (one == trait) return true;
+  }
+  return false;
+}
+
+int has_trait(lua_State* state) {
+  lua_pushboolean(state, has(view_of(state).object(check_text(state, 2)), check_text(state, 3)) ? 1 : 0);
+  return 1;
+}
+
+int exists(lua_State* state) {
+  lua_pushboolean(state, view_of(state).scene().object(check_text(state, 2)) != nullptr ? 1 : 0);
+  return 1;
+}
+
+// Names in order: all, or those with a trait.
+int objects(lua_State* state) {
+  const WorldView& view = view_of(state);
+  const std::string_view trait = lua_isnoneornil(state, 2) ? std::string_view() : check_text(state, 2);
+  lua_newtable(state);
+  lua_Integer count = 0;
+  for (const Object& object : view.scene().objects) {
+    if (!trait.empty() && !has(object, trait)) continue;
+    lua_pushlstring(state, object.name.data(), object.name.size());
+    lua_rawseti(state, -2, ++count);
+  }
+  return 1;
+}
+
+int hand(lua_State* state) {
+  const ViewContext& context = check_context(state);
+  lua_pushlstring(state, context.hand.data(), context.hand.size());
+  return 1;
+}
+
+int tip(lua_State* state) {
+  const ViewContext& context = check_context(state);
+  push_pose(state, context.view->world_from(context.hand));
+  return 1;
+}
+
+constexpr luaL_Reg kMethods[] = {
+    {"position", lua_function<position>},
+    {"pose", lua_function<pose>},
+    {"velocity", lua_function<vector_of<&WorldView::velocity>>},
+    {"speed", lua_function<speed>},
+    {"size", lua_function<vector_of<&WorldView::size>>},
+    {"bottom", lua_function<number_of<&WorldView::bottom>>},
+    {"top", lua_function<number_of<&WorldView::top>>},
+    {"distance", lua_function<distance>},
+    {"joint", lua_function<number_of<&WorldView::joint>>},
+    {"joint_fraction", lua_function<number_of<&WorldView::joint_fraction>>},
+    {"joint_velocity", lua_function<number_of<&WorldView::joint_velocity>>},
+    {"joint_range", lua_function<joint_range>},
+    {"touching", lua_function<pair_test<&WorldView::touching>>},
+    {"force", lua_function<force>},
+    {"supports", lua_function<pair_test<&WorldView::supports>>},
+    {"at_rest", lua_function<single_test<&WorldView::at_rest>>},
+    {"grasped", lua_function<single_test<&WorldView::grasped>>},
+    {"grasped_object", lua_function<grasped_object>},
+    {"opening", lua_function<opening>},
+    {"inside", lua_function<inside>},
+    {"region_distance", lua_function<region_distance>},
+    {"number", lua_function<number>},
+    {"attribute", lua_function<attribute>},
+    {"type", lua_function<type>},
+    {"has_trait", lua_function<has_trait>},
+    {"exists", lua_function<exists>},
+    {"objects", lua_function<objects>},
+    {"hand", lua_function<hand>},
+    {"tip", lua_function<tip>},
+    {"time", lua_function<time>},
+    {nullptr, nullptr},
+};
+
+}  // namespace
+
+void push_view(lua_State* state, ViewContext& context) {
+  auto** stored = static_cast<ViewContext**>(lua_newuserdatauv(state, sizeof(ViewContext*), 0));
+  *stored = &context;
+  if (luaL_newmetatable(state, kViewType) != 0) {
+    luaL_newlib(state, kMethods);
+    add_sampling_methods(state);
+    lua_setfield(state, -2, "__index");
+    lua_pushboolean(state, 0);
+    lua_setfield(state, -2, "__metatable");
+  }
+  lua_setmetatable(state, -2);
+}
+
+}  // namespace stampede

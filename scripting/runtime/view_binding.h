@@ -1,0 +1,58 @@
+// What Lua sees of a world (`w`) and of random draws (`rng`).
+#pragma once
+
+#include <string>
+
+#include "engine/base/random.h"
+#include "engine/episode/world_view.h"
+#include "engine/sim/collision_space.h"
+
+struct lua_State;
+
+namespace stampede {
+
+// What `w` and `rng` stand for at this moment. One for each Lua state, which it outlives; set for the time of a call
+// only: a script that keeps `w` for later gets an error, never another moment's world.
+struct ViewContext {
+  const WorldView* view = nullptr;
+  CollisionSpace* space = nullptr;  // while sampling
+  int most = 0;                     // samples asked for
+  std::string hand;                 // `panda.hand`
+};
+
+// Sets a context for a scope. Scopes nest.
+class ViewScope {
+ public:
+  ViewScope(ViewContext& context, const WorldView& view, CollisionSpace* space = nullptr, int most = 0)
+      : context_(context), before_(context) {
+    context.view = &view;
+    context.space = space;
+    context.most = most;
+  }
+  ~ViewScope() {
+    context_.view = before_.view;
+    context_.space = before_.space;
+    context_.most = before_.most;
+  }
+  ViewScope(const ViewScope&) = delete;
+  ViewScope& operator=(const ViewScope&) = delete;
+
+ private:
+  ViewContext& context_;
+  struct Before {
+    explicit Before(const ViewContext& context) : view(context.view), space(context.space), most(context.most) {}
+    const WorldView* view;
+    CollisionSpace* space;
+    int most;
+  } before_;
+};
+
+// A world without a world: pushes `w`, one userdata for each state. Objects are named by text. Units: m, rad, s, N.
+// README.md lists the methods.
+void push_view(lua_State* state, ViewContext& context);
+
+// rng:uniform() rng:between(a, b) rng:integer(a, b) rng:normal() rng:pick(list)
+void push_random(lua_State* state, RandomKey key);
+Random& check_random(lua_State* state, int index);
+
+}  // namespace stampede
