@@ -76,8 +76,7 @@ void set_surface(btCollisionObject& object, Surface surface, bool pad) {
   if (pad) {  // what friction grasps need; measured: without these a held cube creeps or falls
     surface.anchor = true;
     surface.friction = std::max(surface.friction, 1.0);
-    surface.rolling = std::max(surface.rolling, 0.01);
-    surface.spinning = std::max(surface.spinning, 0.01);
+    surface.rolling = surface.spinning = 0.01;  // more stops a handle from turning in the hand
   }
   object.setFriction(surface.friction);
   object.setRollingFriction(surface.rolling);

@@ -16,6 +16,10 @@ constexpr double kPostureStiffness = 20;     // N m/rad, in the null space of th
 constexpr double kSingularity = 1e-4;        // damping of the null-space projector
 constexpr double kArmErp = 0.2, kFingerErp = 0.2;
 constexpr double kGearForce = 50;            // N
+constexpr std::int64_t kStartSteps = 3;      // a finger just told to move is not blocked
+constexpr double kBlockedLag = 0.001;        // m
+constexpr double kBlockedSpeed = 0.25;       // of finger_speed
+constexpr double kPressSpeed = 1.0;          // m/s
 constexpr double kDefaultEffort = 100;       // N m or N, where a robot states none
 
 // Rotation vector of `to` seen from `from`, in world axes.
@@ -235,14 +239,24 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   give_torques(dynamics.gravity() + feed_forward + pull - resistance * acceleration);
 }
 
+// Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction
+// of its force: the solver's iterations end first. A finger that stands still short of its target is asked for more,
+// which its force limit then cuts off.
 void World::Impl::control_hand() {
+  const Robot& robot = scene->robot;
   const double each = finger_motors.empty() ? 0 : hand.opening / static_cast<double>(finger_motors.size());
   for (std::size_t f = 0; f < finger_motors.size(); ++f) {
-    const double limit = part({kRobot, scene->robot.fingers[f]}).joint.effort;
+    const double limit = part({kRobot, robot.fingers[f]}).joint.effort;
     const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
-    finger_motors[f]->setPositionTarget(each, 1);
-    finger_motors[f]->setVelocityTarget(0, 1);
-    finger_motors[f]->setMaxAppliedImpulse(force * dt);
+    const double lag = each - body_slot(kRobot).multibody->getJointPos(finger_links[f]);
+    const double speed = body_slot(kRobot).multibody->getJointVel(finger_links[f]);
+    const bool blocked = steps >= hand_step + kStartSteps && std::abs(lag) > kBlockedLag &&
+                         std::abs(speed) < kBlockedSpeed * robot.finger_speed;
+    btMultiBodyJointMotor& motor = *finger_motors[f];
+    motor.setPositionTarget(each, blocked ? 0 : 1);
+    motor.setVelocityTarget(blocked ? std::copysign(kPressSpeed, lag) : 0, 1);
+    motor.setRhsClamp(blocked ? kPressSpeed : robot.finger_speed);
+    motor.setMaxAppliedImpulse(force * dt);
   }
 }
 

@@ -136,6 +136,7 @@ struct World::Impl {
   std::int64_t steps = 0;
   operation::Controller controller;
   operation::Hand hand;
+  std::int64_t hand_step = 0;  // when it was given
   Reference reference;
   JointState reference_now;  // of `steps`
   ContactWindow contacts;

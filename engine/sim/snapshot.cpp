@@ -12,6 +12,7 @@ struct Snapshot::Data {
   std::int64_t steps = 0;
   operation::Controller controller;
   operation::Hand hand;
+  std::int64_t hand_step = 0;
   Reference reference;
   JointState reference_now;
   ContactWindow::State contacts;
@@ -137,6 +138,7 @@ Snapshot World::snapshot() const {
   data->steps = w.steps;
   data->controller = w.controller;
   data->hand = w.hand;
+  data->hand_step = w.hand_step;
   data->reference = w.reference;
   data->reference_now = w.reference_now;
   data->contacts = w.contacts.state();
@@ -158,6 +160,7 @@ void World::restore(const Snapshot& snapshot) {
   w.steps = data.steps;
   w.controller = data.controller;
   w.hand = data.hand;
+  w.hand_step = data.hand_step;
   w.reference = data.reference;
   w.reference_now = data.reference_now;
   w.contacts.set_state(data.contacts);

@@ -175,6 +175,7 @@ void World::apply(const Operation& operation) {
     if (!std::isfinite(hand->opening) || !(hand->force >= 0))
       throw Error("hand", "opening and force must be finite, the force not negative", "give m and N");
     w.hand = {std::clamp(hand->opening, 0.0, w.scene->robot.opening_max), hand->force};
+    w.hand_step = w.steps;
   } else if (const auto* setpoint = std::get_if<operation::Setpoint>(&operation)) {
     check_joints(setpoint->position, w.arm.joints(), "setpoint");
     check_joints(setpoint->velocity, w.arm.joints(), "setpoint");
