@@ -154,8 +154,11 @@ SkillResult EpisodeRunner::finish_goal() {
 }
 
 SkillResult EpisodeRunner::straight() {
-  for (std::size_t i = 0; i < plan_.size(); ++i)
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    here();  // contact caches are dropped at every boundary, whether or not anything will be undone
     if (SkillResult result = one_step(i, 0); !result.ok()) return result;
+  }
+  here();
   return finish_goal();
 }
 
@@ -164,12 +167,13 @@ SkillResult EpisodeRunner::with_recovery() {
     SkillResult result;
     for (std::size_t i = 0; result.ok() && i < plan_.size(); ++i, ++position) {
       const PlanStep step = explicit_steps_ ? resolve_step(plan_[i], symbols_.domain(), rollout_->facts()) : plan_[i];
+      here();
       result = driver_->run(step, subgoal_segment_, position, tries);
       if (result.ok()) after_skill();
     }
+    here();
     if (result.ok()) result = finish_goal();
     if (result.ok() || result.ends_episode || explicit_steps_ || ++tries >= options_.tries_per_episode) return result;
-    here();  // contact caches are dropped at every boundary, failed skills included
     if (const SkillResult planned = make_plan({}); !planned.ok()) return planned;
   }
 }

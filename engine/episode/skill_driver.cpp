@@ -30,6 +30,14 @@ std::string text_of(const Literal& literal) {
   return literal.negated ? "(not " + to_text(literal.fact) + ")" : to_text(literal.fact);
 }
 
+// The argument bound to a parameter's name; a name that is no parameter stands for itself.
+std::string argument(const std::vector<Parameter>& parameters, const std::vector<std::string>& arguments,
+                     const std::string& name) {
+  for (std::size_t i = 0; i < parameters.size() && i < arguments.size(); ++i)
+    if (parameters[i].name == name) return arguments[i];
+  return name;
+}
+
 std::vector<double> seven(const Transform& transform) {
   const Pose pose = to_pose(transform);
   std::vector<double> values(pose.position.begin(), pose.position.end());
@@ -113,18 +121,6 @@ Reason SkillDriver::draw(const Context& context, SkillCall& call, std::string& d
   return Reason::none;
 }
 
-namespace {
-
-// The argument bound to a parameter's name; a name that is no parameter stands for itself.
-std::string argument(const std::vector<Parameter>& parameters, const std::vector<std::string>& arguments,
-                     const std::string& name) {
-  for (std::size_t i = 0; i < parameters.size() && i < arguments.size(); ++i)
-    if (parameters[i].name == name) return arguments[i];
-  return name;
-}
-
-}  // namespace
-
 Reason SkillDriver::draw_grasp(const Context& context, const ContinuousInfo& info, ContinuousValue& value,
                                std::string& detail) {
   const std::string name = argument(context.info.parameters, context.arguments, info.object);
@@ -177,10 +173,18 @@ Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& in
   return Reason::none;
 }
 
-// Bodies of the arguments: hand and held object may touch these near their targets, and no others.
+// What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<int> SkillDriver::touchable(const Context& context) const {
+  std::vector<std::string> names;
+  if (rollout_.keep) {
+    names = context.arguments;
+  } else {
+    for (const ContinuousInfo& info : context.info.continuous)
+      if (info.source == ContinuousInfo::Source::grasps)
+        names.push_back(argument(context.info.parameters, context.arguments, info.object));
+  }
   std::vector<int> bodies;
-  for (const std::string& name : context.arguments) {
+  for (const std::string& name : names) {
     const Object* thing = rollout_.view().scene().object(name);
     if (thing == nullptr || thing->body.empty()) continue;
     const int body = rollout_.view().scene().body_index(thing->body);
