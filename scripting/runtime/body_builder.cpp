@@ -10,23 +10,12 @@ namespace {
 
 constexpr double kTiny = 1e-12;
 
-// The kind of joint and the table that describes it: slider = { … }, or joint = slider { … }.
+// The kind of joint and the table that describes it: slider = { … } or hinge = { … }; else fixed.
 std::pair<JointKind, const Value*> joint_of(const Value& part) {
-  const auto kind_of = [](std::string_view word) {
-    if (word == "hinge") return std::optional(JointKind::hinge);
-    if (word == "slider") return std::optional(JointKind::slider);
-    if (word == "fixed") return std::optional(JointKind::fixed);
-    return std::optional<JointKind>();
-  };
-  for (const std::string_view word : {"hinge", "slider", "fixed"}) {
-    if (part[word].kind == Value::Kind::table) return {*kind_of(word), &part[word]};
-  }
-  const Value& joint = part["joint"];
-  if (!joint.present()) return {JointKind::fixed, &part};
-  const std::string tag = joint.tag();
-  const auto kind = kind_of(kind_of(tag) ? tag : joint.text_or("kind", "fixed"));
-  if (!kind) joint.expected("a hinge, slider or fixed joint");
-  return {*kind, &joint};
+  if (part["hinge"].kind == Value::Kind::table) return {JointKind::hinge, &part["hinge"]};
+  if (part["slider"].kind == Value::Kind::table) return {JointKind::slider, &part["slider"]};
+  if (part["fixed"].kind == Value::Kind::table) return {JointKind::fixed, &part["fixed"]};
+  return {JointKind::fixed, &part};
 }
 
 void read_range(const Value& value, Joint& joint) {
@@ -57,13 +46,13 @@ Joint joint_from(const Value& part, const std::string& name) {
   const bool slider = kind == JointKind::slider;
   joint.damping = value->number_or("damping", slider ? 5 : 0.2);
   joint.friction = value->number_or("friction", slider ? 2 : 0.3);
-  joint.spring_force = value->number_or("spring", value->number_or("spring_force", 0));
+  joint.spring_force = value->number_or("spring", 0);
   joint.spring_target = value->number_or("spring_target", joint.lower);
   joint.detent = value->number_or("detent", 0);
   if (const Value& latch = (*value)["latch"]; latch.present()) {
     joint.latch_key = latch["key"].as_text();
     joint.latch_open = latch["open"].as_number();
-    joint.latch_close = latch["close"].as_number();
+    joint.latch_close = latch.number_or("close", 0);
   }
   return joint;
 }
@@ -94,6 +83,7 @@ class Builder {
       body.parts.push_back(part_from(fields, "base", own_colour(fields, Colour{})));
     }
     add_parts(fields, body);
+    set_joints(fields["joints"], body);
     body.free = is_free(fields, body);
     result_.stands_still = !body.free;
     if (body.free && !(body.parts[0].mass > 0)) {
@@ -178,6 +168,17 @@ class Builder {
       throw Error(fields.place, "'" + name + "' moves, so it needs a mass", "mass = 1 (kg)");
     }
     body.parts.push_back(std::move(part));
+  }
+
+  // joints = { top_drawer = 0.1 }: where parts are at the start.
+  void set_joints(const Value& positions, Body& body) const {
+    for (const auto& [name, value] : positions.fields) {
+      const int index = body.part_index(name);
+      if (index < 0) throw Error(value.place, "'" + source_.name + "' has no part '" + name + "'");
+      Joint& joint = body.parts[static_cast<std::size_t>(index)].joint;
+      joint.initial = value.as_number();
+      if (joint.initial < joint.lower || joint.initial > joint.upper) value.expected("a position within its range");
+    }
   }
 
   bool is_free(const Value& fields, const Body& body) const {

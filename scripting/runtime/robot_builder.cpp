@@ -7,13 +7,14 @@ namespace stampede {
 namespace {
 
 // A part is named by its link or by the joint that moves it.
-int part_named(const Body& body, const Value& value) {
-  const std::string& name = value.as_text();
+int part_index_of(const Body& body, const std::string& name, const Value& where) {
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     if (body.parts[i].name == name || body.parts[i].joint.name == name) return static_cast<int>(i);
   }
-  throw Error(value.place, "the URDF has no link or joint '" + name + "'");
+  throw Error(where.place, "the URDF has no link or joint '" + name + "'");
 }
+
+int part_named(const Body& body, const Value& value) { return part_index_of(body, value.as_text(), value); }
 
 std::vector<int> parts_named(const Body& body, const Value& list) {
   std::vector<int> parts;
@@ -33,7 +34,7 @@ std::vector<double> per_joint(const Value& fields, std::string_view name, std::s
 
 // Driven joints: what moves and is no finger, in the order of the URDF, unless the file lists them.
 std::vector<int> arm_parts(const Value& fields, const Robot& robot) {
-  const Value& listed = fields["arm"].present() ? fields["arm"] : fields["joints"];
+  const Value& listed = fields["arm"];
   if (listed.present()) return parts_named(robot.body, listed);
   std::vector<int> parts;
   for (std::size_t i = 1; i < robot.body.parts.size(); ++i) {
@@ -46,10 +47,11 @@ std::vector<int> arm_parts(const Value& fields, const Robot& robot) {
 
 void read_limits(const Value& fields, Robot& robot) {
   const std::size_t joints = robot.arm.size();
-  const std::vector<double> acceleration = per_joint(fields, "acceleration", joints);
-  const std::vector<double> jerk = per_joint(fields, "jerk", joints);
-  const std::vector<double> velocity = per_joint(fields, "velocity", joints);
-  const std::vector<double> effort = per_joint(fields, "effort", joints);
+  const Value& written = fields["limits"];
+  const std::vector<double> acceleration = per_joint(written, "acceleration", joints);
+  const std::vector<double> jerk = per_joint(written, "jerk", joints);
+  const std::vector<double> velocity = per_joint(written, "velocity", joints);
+  const std::vector<double> effort = per_joint(written, "effort", joints);
   for (std::size_t i = 0; i < joints; ++i) {
     const Joint& joint = robot.body.parts[static_cast<std::size_t>(robot.arm[i])].joint;
     JointLimits limits{joint.lower, joint.upper, joint.velocity, 10, 5000, joint.effort};
@@ -71,7 +73,7 @@ void read_limits(const Value& fields, Robot& robot) {
 
 void read_hand(const Value& fields, Robot& robot) {
   const Value& tip = fields["tip"];
-  const Value& tip_part = tip["part"].present() ? tip["part"] : tip["link"].present() ? tip["link"] : tip["on"];
+  const Value& tip_part = tip["link"];
   robot.tip_part =
       tip_part.present() ? part_named(robot.body, tip_part) : static_cast<int>(robot.body.parts.size()) - 1;
   robot.tip_part_from_tip = transform_from(tip);
@@ -81,11 +83,8 @@ void read_hand(const Value& fields, Robot& robot) {
   robot.finger_speed = fields.number_or("finger_speed", robot.finger_speed);
   robot.hand = fields.text_or("hand", robot.hand);
   // Measured: the anchor and a little spinning and rolling friction hold thin and round things best.
-  const Surface pad{1.0, 0.01, 0.01, 0, true};
-  for (const int part : robot.pads) {
-    Part& own = robot.body.parts[static_cast<std::size_t>(part)];
-    own.surface = surface_from(fields["pad"], pad);
-  }
+  const Surface pad{fields.number_or("pad_friction", 1.0), 0.01, 0.01, 0, true};
+  for (const int part : robot.pads) robot.body.parts[static_cast<std::size_t>(part)].surface = pad;
 }
 
 void read_pairs(const Value& fields, Robot& robot) {
@@ -94,11 +93,11 @@ void read_pairs(const Value& fields, Robot& robot) {
     const int a = part_named(robot.body, pair.items[0]), b = part_named(robot.body, pair.items[1]);
     return std::pair(std::min(a, b), std::max(a, b));
   };
-  if (fields["checked_pairs"].present()) {
-    for (const Value& pair : fields["checked_pairs"].items) robot.checked_pairs.push_back(ends(pair));
+  if (fields["checked"].present()) {
+    for (const Value& pair : fields["checked"].items) robot.checked_pairs.push_back(ends(pair));
   } else {
     std::vector<std::pair<int, int>> allowed;
-    for (const Value& pair : fields["allowed_pairs"].items) allowed.push_back(ends(pair));
+    for (const Value& pair : fields["allowed"].items) allowed.push_back(ends(pair));
     // Without a list of pairs to check, neighbours may touch, and so may the pairs that are allowed to.
     const int count = static_cast<int>(robot.body.parts.size());
     for (int a = 0; a < count; ++a) {
@@ -118,7 +117,7 @@ void read_pairs(const Value& fields, Robot& robot) {
 }  // namespace
 
 Robot build_robot(const std::string& name, const Value& fields, const Transform& world_from_base,
-                  const std::filesystem::path& folder) {
+                  const std::filesystem::path& folder, const Colours& colours) {
   Robot robot;
   robot.name = name;
   robot.body = body_from_urdf(folder / fields.text_or("urdf", name + ".urdf"));
@@ -130,6 +129,12 @@ Robot build_robot(const std::string& name, const Value& fields, const Transform&
   read_limits(fields, robot);
   read_hand(fields, robot);
   read_pairs(fields, robot);
+  for (const auto& [link, colour] : fields["colours"].fields) {
+    const int part = part_index_of(robot.body, link, colour);
+    for (Shape& shape : robot.body.parts[static_cast<std::size_t>(part)].shapes) {
+      shape.colour = colour_from(colour, colours);
+    }
+  }
   return robot;
 }
 

@@ -8,10 +8,11 @@ namespace {
 
 // Optical frame: x right, y down, z forward. Looking straight down, `up` is the world's y.
 Transform looking(const Vector3& from, const Vector3& to, const Value& place) {
+  const Vector3 up = place.vector_or("up", Vector3::UnitZ());
   const Vector3 forward = to - from;
   if (forward.norm() < 1e-9) throw Error(place.place, "a camera cannot look at the point where it stands");
   const Vector3 z = forward.normalized();
-  Vector3 right = z.cross(Vector3::UnitZ());
+  Vector3 right = z.cross(up);
   if (right.norm() < 1e-6) right = z.cross(Vector3::UnitY());
   right.normalize();
   Transform world_from_camera = translation(from);
@@ -93,9 +94,9 @@ Vector3 SceneBuilder::point_of(const Value& value) const {
 void SceneBuilder::add_camera(const std::string& name, const Value& fields) {
   Camera camera;
   camera.name = name;
-  if (const std::string mount = fields.text_or("on", ""); !mount.empty()) {
+  if (const std::string mount = fields.text_or("mount", ""); !mount.empty()) {
     const Object* object = scene_.object(mount == "robot.hand" ? hand() : mount);
-    if (object == nullptr) throw Error(fields["on"].place, "there is nothing named '" + mount + "' to mount it on");
+    if (object == nullptr) throw Error(fields["mount"].place, "there is nothing named '" + mount + "' to mount it on");
     camera.mount_body = object->body;
     camera.mount_part = object->part;
     camera.mount_from_camera = transform_from(fields);
@@ -116,13 +117,14 @@ void SceneBuilder::add_camera(const std::string& name, const Value& fields) {
   scene_.cameras.push_back(camera);
 }
 
-void SceneBuilder::set_rates(int physics_hz, int frame_hz) {
+void SceneBuilder::set_rates(int physics_hz, int frame_hz, const Vector3& gravity) {
   if (physics_hz < 1 || frame_hz < 1 || physics_hz % frame_hz != 0) {
-    throw Error(scene_.world, "frame_rate " + std::to_string(frame_hz) + " does not divide physics_rate " +
-                                  std::to_string(physics_hz));
+    throw Error(scene_.world,
+                "frame_hz " + std::to_string(frame_hz) + " does not divide physics_hz " + std::to_string(physics_hz));
   }
   scene_.physics_hz = physics_hz;
   scene_.frame_hz = frame_hz;
+  scene_.gravity = gravity;
 }
 
 Scene SceneBuilder::build() {

@@ -20,7 +20,7 @@ class SceneBuilder {
   void add_object(const ObjectSource& source);
   void add_region(const std::string& name, const Value& fields);  // of the world
   void add_camera(const std::string& name, const Value& fields);  // after all bodies: it may look at one
-  void set_rates(int physics_hz, int frame_hz);
+  void set_rates(int physics_hz, int frame_hz, const Vector3& gravity);
   std::string hand() const { return scene_.robot.name + "." + scene_.robot.hand; }
 
   std::vector<std::string> unplaced() const { return unplaced_; }
@@ -37,6 +37,6 @@ class SceneBuilder {
 };
 
 Robot build_robot(const std::string& name, const Value& fields, const Transform& world_from_base,
-                  const std::filesystem::path& folder);
+                  const std::filesystem::path& folder, const Colours& colours);
 
 }  // namespace stampede

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 8> kShapeWords = {"box",  "sphere", "cyli
 // A shape is written box{ x, y, z } or { box = { x, y, z }, … }. Result: its word and the table with the numbers.
 std::pair<std::string, const Value*> shape_word(const Value& value) {
   if (value.kind != Value::Kind::table) value.expected("a shape such as box { x, y, z }");
-  const std::string tag = value.tag() == "shape" ? value.text_or("kind", value.text_or("shape", "")) : value.tag();
+  const std::string tag = value.text_or("shape", "");
   for (const std::string_view word : kShapeWords) {
     if (tag == word) return {tag, &value};
     if (value[word].present()) return {std::string(word), &value[word]};
@@ -66,7 +66,7 @@ std::vector<Ring> rings_from(const Value& list) {
 // A profile turned about z. Solid: one convex band between two rings; with a wall: wedges, for a ring is not convex.
 std::vector<std::vector<Vector3>> lathe_hulls(const Value& list) {
   const std::vector<Ring> rings = rings_from(list);
-  const int sides = static_cast<int>(std::clamp(list.number_or("sides", 16), 3.0, 64.0));
+  const int sides = static_cast<int>(std::clamp(list.number_or("segments", 16), 3.0, 64.0));
   const bool hollow = list.number_or("wall", 0) > 0;
   const auto at = [&](double radius, int side, double z) {
     const double angle = 2 * std::numbers::pi * side / sides;
@@ -130,6 +130,16 @@ Surface surface_from(const Value& fields, const Surface& otherwise) {
 
 namespace {
 
+// `box {}` takes its size, and a mesh its scale, from the fields of the object.
+Value with_size(Value shape, const Value& fields) {
+  const Value& size = fields["size"];
+  if (shape.items.empty() && size.present()) {
+    shape.items = size.kind == Value::Kind::number ? std::vector<Value>{size} : size.items;
+  }
+  if (!shape["scale"].present() && fields["scale"].present()) shape.fields["scale"] = fields["scale"];
+  return shape;
+}
+
 void append_shape(const Value& value, const Shape& common, const std::filesystem::path& folder,
                   std::vector<Shape>& shapes) {
   const auto [word, numbers] = shape_word(value);
@@ -168,7 +178,9 @@ std::vector<Shape> shapes_from(const Value& fields, const Colours& colours, cons
   if (fields["shape"].present()) written.push_back(&fields["shape"]);
   for (const Value& item : fields["shapes"].items) written.push_back(&item);
   std::vector<Shape> shapes;
-  for (const Value* value : written) {
+  for (const Value* shape : written) {
+    const Value sized = with_size(*shape, fields);
+    const Value* const value = &sized;
     Shape common;
     common.part_from_shape = transform_from(*value);
     common.colour = (*value)["colour"].present() ? colour_from((*value)["colour"], colours) : own;

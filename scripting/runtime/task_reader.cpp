@@ -147,14 +147,16 @@ void TaskReader::read_world() {
       robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
   const ScriptFile& robot_file = used(DefinitionKind::robot, robot_name, robot);
   const Value robot_fields = definition(DefinitionKind::robot, robot_name, "", robot);
-  builder_->set_robot(build_robot(robot_name, robot_fields, transform_from(robot), robot_file.path.parent_path()));
+  builder_->set_robot(
+      build_robot(robot_name, robot_fields, transform_from(robot), robot_file.path.parent_path(), colours_));
   drawn_.hand = builder_->hand();
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));
   for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
   for (const auto& [key, camera] : world["cameras"].fields) builder_->add_camera(key, camera);
-  builder_->set_rates(static_cast<int>(world.number_or("physics_rate", 240)),
-                      static_cast<int>(world.number_or("frame_rate", 20)));
+  builder_->set_rates(static_cast<int>(world.number_or("physics_hz", 240)),
+                      static_cast<int>(world.number_or("frame_hz", 20)),
+                      world.vector_or("gravity", Vector3(0, 0, -9.81)));
 }
 
 void TaskReader::read_objects() {
