@@ -135,8 +135,8 @@ class Lifter {
     const bool ground =
         std::none_of(lifted.terms.begin(), lifted.terms.end(), [](const LiftedTerm& one) { return one.variable; });
     if (ground && !task_.fluent[lifted.predicate]) {
-      if (is_static_truth(lifted) == negated) return {};
-      return {Conjunct{}};
+      if (is_static_truth(lifted) != negated) return {Conjunct{}};
+      if (!keep_false_) return {};
     }
     Conjunct result;
     (negated ? result.negative : result.positive).push_back(lifted);
@@ -339,7 +339,12 @@ class Lifter {
 
   void lift_goal() {
     variables_.clear();
-    const std::vector<Conjunct> disjuncts = normal(negation_normal(problem_.goal), {});
+    const Formula goal = negation_normal(problem_.goal);
+    std::vector<Conjunct> disjuncts = normal(goal, {});
+    if (disjuncts.empty()) {  // once more, so that the literal to blame is at hand for the explanation
+      keep_false_ = true;
+      disjuncts = normal(goal, {});
+    }
     if (disjuncts.size() == 1 && disjuncts.front().extra.empty()) {
       task_.goal = disjuncts.front();
     } else {
@@ -350,6 +355,7 @@ class Lifter {
   const Domain& domain_;
   const Problem& problem_;
   LiftedTask task_;
+  bool keep_false_ = false;
   std::map<std::string, int> objects_, predicates_;
   std::vector<std::size_t> arity_;
   std::vector<std::vector<int>> variables_;  // of the schema in the making: the domain of each

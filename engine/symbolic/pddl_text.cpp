@@ -33,10 +33,12 @@ std::string name_from_pddl(std::string_view name) {
 
 std::string variables_text(const std::vector<Parameter>& variables, Names names) {
   std::string text;
+  const bool typed =
+      std::any_of(variables.begin(), variables.end(), [](const Parameter& v) { return !v.type.empty(); });
   for (const Parameter& variable : variables) {
     if (!text.empty()) text += ' ';
     text += "?" + name_text(variable.name, names);
-    text += " - " + (variable.type.empty() ? "object" : name_text(variable.type, names));
+    if (typed) text += " - " + (variable.type.empty() ? "object" : name_text(variable.type, names));
   }
   return text;
 }

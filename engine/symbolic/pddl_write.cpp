@@ -15,7 +15,7 @@ using symbolic::Names;
 
 std::string pddl(const std::string& name) { return symbolic::name_text(name, Names::pddl); }
 
-void collect_requirements(const Formula& formula, bool negated, std::set<std::string>& used) {
+void collect_requirements(const Formula& formula, std::set<std::string>& used) {
   using Kind = Formula::Kind;
   const bool has_guards = !symbolic::trait_guards(formula.variables).empty();
   if (formula.kind == Kind::equal) used.insert(":equality");
@@ -28,10 +28,7 @@ void collect_requirements(const Formula& formula, bool negated, std::set<std::st
     if (inner != Kind::equal) used.insert(":negative-preconditions");
     if (inner == Kind::conjunction) used.insert(":disjunctive-preconditions");
   }
-  for (const Parameter& variable : formula.variables) {
-    if (!variable.type.empty() && variable.type != "object") used.insert(":typing");
-  }
-  for (const Formula& part : formula.parts) collect_requirements(part, negated, used);
+  for (const Formula& part : formula.parts) collect_requirements(part, used);
 }
 
 bool has_costs(const Domain& domain) {
@@ -39,18 +36,19 @@ bool has_costs(const Domain& domain) {
 }
 
 std::set<std::string> requirements(const Domain& domain) {
-  std::set<std::string> used = {":strips", ":typing"};  // parameters are always written with their types
+  std::set<std::string> used = {":strips"};
+  if (!domain.types.empty()) used.insert(":typing");
   for (const Predicate& predicate : domain.predicates) {
     if (predicate.kind != PredicateKind::derived) continue;
     used.insert(":derived-predicates");
-    collect_requirements(predicate.derived, false, used);
+    collect_requirements(predicate.derived, used);
   }
   for (const Action& action : domain.actions) {
-    collect_requirements(action.precondition, false, used);
+    collect_requirements(action.precondition, used);
     if (!symbolic::inequalities(action, domain).empty()) used.insert(":equality");
     for (const Effect& effect : action.effects) {
       if (!effect.forall.empty() || effect.when.kind != Formula::Kind::always) used.insert(":conditional-effects");
-      collect_requirements(effect.when, false, used);
+      collect_requirements(effect.when, used);
     }
   }
   if (has_costs(domain)) used.insert(":action-costs");
@@ -77,11 +75,12 @@ std::string types_text(const Domain& domain) {
   return text + ")\n";
 }
 
-std::string objects_text(const char* word, const std::vector<TypedObject>& objects) {
+std::string objects_text(const char* word, const std::vector<TypedObject>& objects, const Domain& domain) {
   if (objects.empty()) return {};
   std::string text = std::string("  (:") + word;
   for (const TypedObject& object : objects) {
-    text += "\n    " + pddl(object.name) + " - " + (object.type.empty() ? "object" : pddl(object.type));
+    text += "\n    " + pddl(object.name);
+    if (!domain.types.empty()) text += " - " + (object.type.empty() ? "object" : pddl(object.type));
   }
   return text + ")\n";
 }
@@ -96,7 +95,7 @@ std::string traits_note(const std::vector<Parameter>& parameters) {
 
 std::string predicates_text(const Domain& domain) {
   std::string text = "  (:predicates";
-  for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x - object) ;@ trait";
+  for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x) ;@ trait";
   for (const Predicate& predicate : domain.predicates) {
     const std::string variables = symbolic::variables_text(predicate.parameters, Names::pddl);
     text += "\n    (" + pddl(predicate.name) + (variables.empty() ? "" : " " + variables) + ")";
@@ -176,7 +175,7 @@ std::string to_pddl(const Domain& domain) {
   const bool costs = has_costs(domain);
   std::string text = "(define (domain " + pddl(domain.name) + ")\n";
   text += "  " + requirements_text(requirements(domain)) + "\n" + types_text(domain);
-  text += objects_text("constants", domain.constants) + predicates_text(domain);
+  text += objects_text("constants", domain.constants, domain) + predicates_text(domain);
   if (costs) text += "  (:functions (total-cost) - number)\n";
   for (const Predicate& predicate : domain.predicates) {
     if (predicate.kind == PredicateKind::derived) text += derived_text(predicate);
@@ -187,7 +186,7 @@ std::string to_pddl(const Domain& domain) {
 
 std::string to_pddl(const Problem& problem, const Domain& domain) {
   std::set<std::string> used;
-  collect_requirements(problem.goal, false, used);
+  collect_requirements(problem.goal, used);
   const std::set<std::string> known = requirements(domain);
   const bool more = !std::includes(known.begin(), known.end(), used.begin(), used.end());
   std::vector<TypedObject> objects;
@@ -201,7 +200,7 @@ std::string to_pddl(const Problem& problem, const Domain& domain) {
     used.insert(known.begin(), known.end());
     text += "  " + requirements_text(used) + "\n";
   }
-  text += objects_text("objects", objects) + "  (:init";
+  text += objects_text("objects", objects, domain) + "  (:init";
   if (has_costs(domain)) text += "\n    (= (total-cost) 0)";
   for (const Fact& fact : problem.init) {
     std::vector<Term> terms;

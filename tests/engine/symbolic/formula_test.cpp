@@ -1,0 +1,84 @@
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "kitchen.h"
+
+using namespace stampede;
+
+namespace {
+
+bool truth(const std::string& text, const Facts& facts, const Problem& problem, const Domain& domain) {
+  return holds(formula_from_pddl(text, "test"), facts, domain, problem.objects);
+}
+
+}  // namespace
+
+TEST_CASE("every kind of formula holds exactly when its definition says so") {
+  const Domain domain = test::kitchen();
+  const Problem problem = test::kitchen_problem(domain, "(and)");
+  const Facts facts = with_derived(problem.init, domain, problem.objects);
+  const auto is = [&](const char* text) { return truth(text, facts, problem, domain); };
+  CHECK(is("(and)"));
+  CHECK_FALSE(is("(or)"));
+  CHECK(is("(on cup1 cup2)"));
+  CHECK_FALSE(is("(on cup2 cup1)"));  // closed world
+  CHECK(is("(not (on cup2 cup1))"));
+  CHECK(is("(= cup1 cup1)"));
+  CHECK_FALSE(is("(= cup1 cup2)"));
+  CHECK(is("(and (hand_empty) (closed chest--drawer))"));
+  CHECK_FALSE(is("(and (hand_empty) (open chest--drawer))"));
+  CHECK(is("(or (open chest--drawer) (hand_empty))"));
+  CHECK(is("(exists (?x - cup) (on ?x table))"));
+  CHECK_FALSE(is("(exists (?x - drawer) (on ?x table))"));  // only drawers are tried
+  CHECK(is("(forall (?x - cup) (exists (?y) (on ?x ?y)))"));
+  CHECK_FALSE(is("(forall (?x - cup) (on ?x table))"));
+  CHECK(is("(imply (open chest--drawer) (or))"));
+}
+
+TEST_CASE("derived facts follow from basic ones, through traits and recursion") {
+  const Domain domain = test::kitchen();
+  const Problem problem = test::kitchen_problem(domain, "(and)");
+  const Facts facts = with_derived(problem.init, domain, problem.objects);
+  CHECK(facts.contains(Fact{"clear", {"cup1"}}));
+  CHECK_FALSE(facts.contains(Fact{"clear", {"cup2"}}));          // cup1 is on it
+  CHECK_FALSE(facts.contains(Fact{"clear", {"chest.drawer"}}));  // not movable
+  const Domain tower = domain_from_pddl(
+      "(define (domain tower) (:predicates (on ?x ?y) (above ?x ?y)) (:derived (above ?x ?y) (or (on ?x ?y) "
+      "(exists (?z) (and (on ?x ?z) (above ?z ?y))))))",
+      "tower.pddl");
+  const std::vector<TypedObject> objects = {{"a", "object"}, {"b", "object"}, {"c", "object"}, {"d", "object"}};
+  const Facts all = with_derived({{"on", {"a", "b"}}, {"on", {"b", "c"}}, {"on", {"c", "d"}}}, tower, objects);
+  CHECK(all.size() == 3 + 6);  // three links, and all six ordered pairs are `above`
+}
+
+TEST_CASE("a predicate derived from its own negation is refused") {
+  const Domain domain = domain_from_pddl(
+      "(define (domain odd) (:predicates (p) (q)) (:derived (p) (not (q))) (:derived (q) (p)))", "odd.pddl");
+  CHECK_THROWS_WITH(with_derived({}, domain, {}), Catch::Contains("is derived from its own negation"));
+}
+
+TEST_CASE("unmet names what a person would have to make true") {
+  const Domain domain = test::kitchen();
+  const Problem problem = test::kitchen_problem(domain, "(and)");
+  const Facts facts = with_derived(problem.init, domain, problem.objects);
+  const auto missing = [&](const char* text) {
+    return unmet(formula_from_pddl(text, "test"), facts, domain, problem.objects);
+  };
+  using Texts = std::vector<std::string>;
+  CHECK(missing("(and (on cup1 cup2) (open chest--drawer) (not (hand_empty)))") ==
+        Texts{"(open chest.drawer)", "(not (hand_empty))"});
+  CHECK(missing("(forall (?x - cup) (on ?x table))") == Texts{"(on cup1 table)"});
+  CHECK(missing("(or (open chest--drawer) (holding cup1))") == Texts{"one of: (open chest.drawer) or (holding cup1)"});
+  CHECK(missing("(hand_empty)").empty());
+}
+
+TEST_CASE("effects read the state before; additions win over removals") {
+  const Domain domain = domain_from_pddl(
+      "(define (domain lamps) (:types lamp) (:predicates (lit ?l - lamp) (used)) (:action toggle :parameters () "
+      ":precondition (and) :effect (and (used) (not (used)) (forall (?l - lamp) (and (when (lit ?l) (not (lit ?l))) "
+      "(when (not (lit ?l)) (lit ?l)))))))",
+      "lamps.pddl");
+  const std::vector<TypedObject> objects = {{"a", "lamp"}, {"b", "lamp"}};
+  const Facts after = apply(domain.actions.front(), {}, {{"lit", {"a"}}}, domain, objects);
+  CHECK(after == Facts{{"lit", {"b"}}, {"used", {}}});
+}
