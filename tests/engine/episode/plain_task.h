@@ -82,11 +82,22 @@ class PlainSkills : public SkillLibrary {
  public:
   PlainSkills() {
     const Domain vocabulary = plain::domain();
-    pick_ = {"pick", vocabulary.actions[0].parameters, {{"grasp", ContinuousInfo::Source::grasps, {}, {}, {}, "", "", "obj", {}}},
-             ControllerKind::joint_position, 0, "pick up the {obj}", {}, {"pick"}};
-    place_ = {"place", vocabulary.actions[1].parameters,
+    pick_ = {"pick",
+             vocabulary.actions[0].parameters,
+             {{"grasp", ContinuousInfo::Source::grasps, {}, {}, {}, "", "", "obj", {}}},
+             ControllerKind::joint_position,
+             0,
+             "pick up the {obj}",
+             {},
+             {"pick"}};
+    place_ = {"place",
+              vocabulary.actions[1].parameters,
               {{"spot", ContinuousInfo::Source::sample, {}, {}, {}, "", "", "", {"on", {"obj", "below"}}}},
-              ControllerKind::joint_position, 0, "put the {obj} on the {below}", {}, {"place"}};
+              ControllerKind::joint_position,
+              0,
+              "put the {obj} on the {below}",
+              {},
+              {"place"}};
   }
   const SkillInfo* skill(const std::string& name) const override {
     return name == "pick" ? &pick_ : name == "place" ? &place_ : nullptr;
@@ -102,9 +113,9 @@ class PlainSkills : public SkillLibrary {
     }
     const Transform object_from_tip = view.world_from(call.arguments[0]).inverse() * view.world().world_from_tip();
     const Transform down = translation(0, 0, 0.001) * *call.continuous[0].pose * object_from_tip;
-    return std::make_unique<CallList>(std::vector<RobotCall>{
-        MoveThrough{{{"approach", translation(0, 0, 0.08) * down}, {"place", down}}}, Wait{0.2}, Hand{wide, 20, ""},
-        MoveLine{translation(0, 0, 0.08)}});
+    return std::make_unique<CallList>(
+        std::vector<RobotCall>{MoveThrough{{{"approach", translation(0, 0, 0.08) * down}, {"place", down}}}, Wait{0.2},
+                               Hand{wide, 20, ""}, MoveLine{translation(0, 0, 0.08)}});
   }
 
  private:

@@ -1,7 +1,8 @@
 // A whole episode without Lua and SQL: planned, executed, tested, recorded, replayed.
+#include "engine/episode/runner.h"
+
 #include <catch2/catch.hpp>
 
-#include "engine/episode/runner.h"
 #include "tests/engine/episode/plain_task.h"
 
 using namespace stampede;
@@ -95,4 +96,44 @@ TEST_CASE("facts agree with segments: on(cube1, table) ends in pick, on(cube1, c
       CHECK(after.start_step <= segment.span.end_step);
     }
   }
+}
+
+TEST_CASE("the stop-based keyframe rule misses the approach that pick passes at speed; its via-point is recorded") {
+  const EpisodeRecord episode = stack(1);
+  REQUIRE(episode.outcome == Outcome::success);
+  REQUIRE_FALSE(episode.vias.empty());
+  const ViaRecord& approach = episode.vias.front();
+  CHECK(approach.name == "approach");
+  CHECK(approach.speed > 0.1);  // rad/s: the rule's threshold for standing still
+  const std::int64_t frame = approach.step / 12;
+  const auto& keyframes = episode.keyframes.at("stopped");
+  for (const std::int64_t keyframe : keyframes) CHECK(std::abs(keyframe - frame) > 2);
+  CHECK(keyframes.back() == static_cast<std::int64_t>(episode.frames.size()) - 1);
+}
+
+TEST_CASE("without undo a failure is the episode, and says why") {
+  plain::StackTask task;
+  plain::PlainSymbols symbols;
+  class Clumsy : public plain::PlainSkills {  // never opens the hand over the lower cube
+   public:
+    std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override {
+      if (call.skill == "place")
+        return std::make_unique<plain::CallList>(std::vector<RobotCall>{robot_call::Wait{0.1}});
+      return plain::PlainSkills::start(call, view);
+    }
+  } skills;
+  RunOptions options;
+  options.seed = 1;
+  options.on_failure = OnFailure::stop;
+  const EpisodeRecord episode = run_episode(task, symbols, skills, options);
+  CHECK(episode.outcome == Outcome::failure);
+  CHECK(episode.reason == Reason::effect_mismatch);
+  CHECK(episode.attempts.empty());
+  options.on_failure = OnFailure::undo;
+  options.tries_per_skill = 2;
+  options.tries_per_episode = 5;
+  const EpisodeRecord undone = run_episode(task, symbols, skills, options);
+  CHECK(undone.outcome == Outcome::failure);
+  CHECK(undone.attempts.size() >= 4);  // each undone try is a row
+  CHECK(replay_episode(undone) == "");
 }

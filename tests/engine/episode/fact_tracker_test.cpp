@@ -1,0 +1,63 @@
+// Debouncing: what is too short to be a fact, and when a fact began.
+#include "engine/episode/fact_tracker.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/engine/episode/plain_task.h"
+
+using namespace stampede;
+
+namespace {
+
+// hand_empty is true at the listed frames only; nothing else ever holds.
+class Scripted : public plain::PlainSymbols {
+ public:
+  Value value(const Fact& fact, const WorldView& view) override {
+    if (fact.predicate != "hand_empty") return {};
+    const auto frame = view.world().step_count() / 12;
+    return {std::find(frames.begin(), frames.end(), frame) != frames.end(), {}};
+  }
+  std::vector<std::int64_t> frames;
+};
+
+std::vector<FactRecord> track(const std::vector<std::int64_t>& frames, int count) {
+  Scripted symbols;
+  symbols.frames = frames;
+  World world(std::make_shared<const Scene>(table_scene(1)));
+  WorldView view(world);
+  FactTracker tracker(symbols, view);
+  tracker.begin(tracker.read_all(view));
+  for (int frame = 1; frame <= count; ++frame) {
+    for (int i = 0; i < 12; ++i) world.step();
+    world.close_window();
+    view.close_frame();
+    tracker.frame(view);
+  }
+  std::vector<FactRecord> records = tracker.intervals(world.step_count(), 12);
+  std::erase_if(records, [](const FactRecord& record) { return record.fact.predicate != "hand_empty"; });
+  return records;
+}
+
+}  // namespace
+
+TEST_CASE("a change shorter than the settle time is no fact") {  // 0.1 s is two frames
+  CHECK(track({3}, 8).empty());
+  CHECK(track({0, 1, 2, 4, 5, 6, 7, 8}, 8).size() == 1);
+}
+
+TEST_CASE("a debounced change is dated at its first moment") {
+  const auto records = track({3, 4, 5, 6}, 10);
+  REQUIRE(records.size() == 1);
+  CHECK(records[0].first_frame == 3);
+  CHECK(records[0].end_frame == 7);
+  CHECK_FALSE(records[0].open_start);
+  CHECK_FALSE(records[0].open_end);
+}
+
+TEST_CASE("what holds from the start and to the end is open on both sides") {
+  const auto records = track({0, 1, 2, 3, 4}, 4);
+  REQUIRE(records.size() == 1);
+  CHECK(records[0].open_start);
+  CHECK(records[0].open_end);
+  CHECK(records[0].end_frame == 5);  // the frame count
+}
