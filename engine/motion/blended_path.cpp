@@ -7,7 +7,8 @@
 
 namespace stampede {
 
-BlendedPath::BlendedPath(std::vector<JointVector> waypoints, const std::vector<double>& blends) {
+BlendedPath::BlendedPath(std::vector<JointVector> waypoints, const std::vector<double>& blends)
+    : start_(waypoints.front()), goal_(waypoints.back()) {
   const std::size_t n = waypoints.size();
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const JointVector along = waypoints[i + 1] - waypoints[i];

@@ -22,6 +22,8 @@ class BlendedPath {
  public:
   BlendedPath(std::vector<JointVector> waypoints, const std::vector<double>& blends);
   double length() const { return starts_.back(); }
+  const JointVector& start() const { return start_; }
+  const JointVector& goal() const { return goal_; }
   PathPoint at(double s) const;
   // Parameters that resolve every piece, ascending from 0 to length().
   std::vector<double> grid() const;
@@ -33,6 +35,7 @@ class BlendedPath {
     bool blend = false;
   };
   void add(const Piece& piece);
+  JointVector start_, goal_;
   std::vector<Piece> pieces_;
   std::vector<double> starts_{0};  // one more than pieces
 };

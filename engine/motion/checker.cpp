@@ -16,6 +16,12 @@ std::string part_name(const Scene& scene, PartRef ref) {
   return part.empty() || part == name ? name : name + "." + part;
 }
 
+std::string contact_text(CollisionSpace& space, const JointVector& q) {
+  const std::optional<CollisionPair> pair = space.first_contact(q);
+  if (!pair) return {};
+  return part_name(space.scene(), pair->robot_part) + " touches " + part_name(space.scene(), pair->other);
+}
+
 }  // namespace
 
 double joint_gap(const JointVector& a, const JointVector& b) {
@@ -39,11 +45,20 @@ void Checker::pad(double padding_m) {
   applied_m_ = padding_m;
 }
 
-bool Checker::free(const JointVector& q) {
+void Checker::pad_for(const JointVector& q) {
   const bool excused = std::any_of(excused_.begin(), excused_.end(),
                                    [&](const JointVector& end) { return joint_gap(end, q) < kExcusedRadius; });
   pad(excused ? 0.0 : padding_m_);
+}
+
+bool Checker::free(const JointVector& q) {
+  pad_for(q);
   return space_.free(q);
+}
+
+std::string Checker::contact(const JointVector& q) {
+  pad_for(q);
+  return contact_text(space_, q);
 }
 
 bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_rad) {
@@ -57,29 +72,26 @@ bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_
   return true;
 }
 
-std::optional<JointVector> first_touch(CollisionSpace& space, const std::vector<JointVector>& waypoints,
-                                       double step_rad) {
-  space.set_padding(0);
+std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad) {
   if (waypoints.empty()) return std::nullopt;
-  if (!space.free(waypoints.front())) return waypoints.front();
+  if (!checker.free(waypoints.front())) return waypoints.front();
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const JointVector& a = waypoints[i - 1];
     const JointVector& b = waypoints[i];
     const int count = std::max(1, static_cast<int>(std::ceil(joint_gap(a, b) / step_rad)));
     for (int k = 1; k <= count; ++k) {
       const JointVector q = a + (static_cast<double>(k) / count) * (b - a);
-      if (!space.free(q)) return q;
+      if (!checker.free(q)) return q;
     }
   }
   return std::nullopt;
 }
 
-std::optional<JointVector> first_touch(CollisionSpace& space, const Trajectory& trajectory, int physics_hz,
+std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz,
                                        double step_rad) {
-  space.set_padding(0);
   if (trajectory.knots.empty()) return std::nullopt;
   JointVector last = trajectory.knots.front().position;
-  if (!space.free(last)) return last;
+  if (!checker.free(last)) return last;
   for (std::int64_t step = 1; step <= trajectory.steps(); ++step) {
     const double s = static_cast<double>(step);
     const JointVector q = evaluate(trajectory, s, physics_hz).position;
@@ -92,7 +104,7 @@ std::optional<JointVector> first_touch(CollisionSpace& space, const Trajectory& 
     for (int k = 1; k <= count; ++k) {
       const double between = s - 1.0 + static_cast<double>(k) / count;
       const JointVector sample = k == count ? q : evaluate(trajectory, between, physics_hz).position;
-      if (!space.free(sample)) return sample;
+      if (!checker.free(sample)) return sample;
     }
     last = q;
   }
@@ -101,9 +113,7 @@ std::optional<JointVector> first_touch(CollisionSpace& space, const Trajectory& 
 
 std::string describe_contact(CollisionSpace& space, const JointVector& q) {
   space.set_padding(0);
-  const std::optional<CollisionPair> pair = space.first_contact(q);
-  if (!pair) return {};
-  return part_name(space.scene(), pair->robot_part) + " touches " + part_name(space.scene(), pair->other);
+  return contact_text(space, q);
 }
 
 }  // namespace stampede

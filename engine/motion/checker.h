@@ -23,23 +23,23 @@ class Checker {
   Checker& operator=(const Checker&) = delete;
 
   bool free(const JointVector& q);
+  std::string contact(const JointVector& q);  // what describe_contact says, padding included
   // a is known to be free; checks up to b at most `step_rad` apart, coarse before fine: contacts are found early.
   bool edge_free(const JointVector& a, const JointVector& b, double step_rad);
 
  private:
   void pad(double padding_m);
+  void pad_for(const JointVector& q);
   CollisionSpace& space_;
   double padding_m_;
   double applied_m_ = 0;
   std::vector<JointVector> excused_;
 };
 
-// First configuration of the polyline, sampled at most `step_rad` apart, that touches something without padding.
-std::optional<JointVector> first_touch(CollisionSpace& space, const std::vector<JointVector>& waypoints,
-                                       double step_rad);
+// First configuration of the polyline, sampled at most `step_rad` apart, that touches something.
+std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad);
 // The same along a trajectory.
-std::optional<JointVector> first_touch(CollisionSpace& space, const Trajectory& trajectory, int physics_hz,
-                                       double step_rad);
+std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz, double step_rad);
 
 // `hand.left_finger touches table`: what touches what there, for people. Empty: nothing.
 std::string describe_contact(CollisionSpace& space, const JointVector& q);

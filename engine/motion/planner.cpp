@@ -39,6 +39,11 @@ std::size_t blend_at(const std::vector<JointVector>& waypoints, const std::vecto
 
 }  // namespace
 
+double clearance_m(const MotionLimits& limits, int care) {
+  constexpr double kClearance = 0.002;
+  return care < kMostCare ? std::min(limits.padding_m, kClearance) : 0.0;
+}
+
 JointPath check_ends(CollisionSpace& space, const JointVector& start, const JointVector& goal) {
   check_input(space, start, "the start");
   check_input(space, goal, "the goal");
@@ -87,18 +92,19 @@ JointPath plan_path(CollisionSpace& space, const JointVector& start, const Joint
   for (int care = 0; care <= kMostCare && path.reason == Reason::none; ++care) {
     path = search_path(space, start, goal, limits, key, care);
     if (path.reason != Reason::none) break;
-    const std::optional<JointVector> touch = first_touch(space, path.waypoints, limits.resolution_rad);
+    Checker checker(space, clearance_m(limits, care), {start, goal});
+    const std::optional<JointVector> touch = first_touch(checker, path.waypoints, limits.resolution_rad);
     if (!touch) return path;
     if (care < kMostCare) continue;
     path.reason = Reason::no_path;
-    path.detail = "the path found touches: " + describe_contact(space, *touch);
+    path.detail = "the path found touches: " + checker.contact(*touch);
   }
   path.waypoints.clear();
   return path;
 }
 
 PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
-                      bool collide, const PathSpeedLimit& speed_limit) {
+                      double clearance, const PathSpeedLimit& speed_limit) {
   constexpr int kRounds = 24;
   const int physics_hz = space.scene().physics_hz;
   PlannedMotion motion;
@@ -107,13 +113,14 @@ PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& way
     motion.trajectory = time_path(space.arm(), {waypoints.back()}, limits, physics_hz);
     return motion;
   }
+  Checker checker(space, std::max(0.0, clearance), {kept.front(), kept.back()});
   std::vector<double> blends = default_blends(kept, kLongestBlend);
   for (int round = 0; round < kRounds; ++round) {
     motion.trajectory = time_blended(BlendedPath(kept, blends), space.arm().limits(), limits, physics_hz, speed_limit);
     const std::optional<JointVector> touch =
-        collide ? first_touch(space, motion.trajectory, physics_hz, limits.resolution_rad) : std::nullopt;
+        clearance >= 0 ? first_touch(checker, motion.trajectory, physics_hz, limits.resolution_rad) : std::nullopt;
     if (!touch) return motion;
-    motion.detail = "the path found touches: " + describe_contact(space, *touch);
+    motion.detail = "the path found touches: " + checker.contact(*touch);
     const std::size_t corner = blend_at(kept, blends, *touch);
     if (corner == 0) break;
     blends[corner] *= 0.4;
@@ -136,7 +143,7 @@ PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
-    motion = certify(space, path.waypoints, limits, true);
+    motion = certify(space, path.waypoints, limits, clearance_m(limits, care));
     if (motion.reason == Reason::none) return motion;
   }
   return motion;

@@ -34,9 +34,14 @@ int samples_between(const Transform& from, const Transform& to);
 // doi:10.3138/FM57-6770-U75U-7727).
 std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, double tolerance_rad);
 
-// Rounds, times and certifies. Blends that touch something shrink. Result: no_path when the polyline itself does.
+// What a path keeps clear of obstacles when it is certified: contact between two samples is then unlikely too.
+// The last, most careful search is content without.
+double clearance_m(const MotionLimits& limits, int care);
+
+// Rounds, times and certifies (`clearance_m` below 0: does not). Blends that touch something shrink.
+// Result: no_path when the polyline itself does.
 PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
-                      bool collide, const PathSpeedLimit& speed_limit = {});
+                      double clearance_m, const PathSpeedLimit& speed_limit = {});
 
 // Step at which the trajectory passes nearest to a configuration.
 std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz);

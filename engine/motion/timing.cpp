@@ -157,6 +157,9 @@ Trajectory sample(const BlendedPath& path, const Profile& profile, double slower
     knot->velocity.setZero();
     knot->acceleration.setZero();
   }
+  // To the last bit, so that the next motion starts where this one ends.
+  trajectory.knots.front().position = path.start();
+  trajectory.knots.back().position = path.goal();
   return trajectory;
 }
 

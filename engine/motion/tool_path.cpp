@@ -72,9 +72,10 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
     if (tail.reason != Reason::none) return tail;
     std::vector<JointVector> dense{tail.waypoints.back()};
     dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
-    if (const auto touch = first_touch(space, dense, limits.resolution_rad)) {
+    Checker checker(space, 0, {});
+    if (const auto touch = first_touch(checker, dense, limits.resolution_rad)) {
       tail.reason = Reason::no_path;
-      tail.detail = "on the way to " + targets[i].name + ": " + describe_contact(space, *touch);
+      tail.detail = "on the way to " + targets[i].name + ": " + checker.contact(*touch);
       return tail;
     }
     const std::vector<JointVector> sparse = decimate(dense, kLineError);
@@ -95,7 +96,7 @@ PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, cons
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
     path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
-    motion = certify(space, path.waypoints, limits, true);
+    motion = certify(space, path.waypoints, limits, clearance_m(limits, care));
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;
@@ -213,7 +214,8 @@ PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
       return motion;
     }
   }
-  return certify(space, decimate(waypoints, kToolError), limits, line.collide, tool_limit(space.arm(), line));
+  return certify(space, decimate(waypoints, kToolError), limits, line.collide ? 0.0 : -1.0,
+                 tool_limit(space.arm(), line));
 }
 
 PlannedMotion plan_line(CollisionSpace& space, const JointVector& start, const Transform& world_from_tip,

@@ -1,0 +1,123 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "engine/motion/candidates.h"
+#include "tests/engine/motion/cluttered.h"
+
+using namespace stampede;
+
+namespace {
+
+// Runs a motion to its end, closing a contact window every frame as a recorder does.
+MotionResult run(World& world, Motion& motion, std::int64_t most = 5000) {
+  const std::int64_t window = world.scene().physics_hz / world.scene().frame_hz;
+  for (std::int64_t k = 0; k < most; ++k) {
+    const MotionResult result = motion.step(world);
+    if (result.status != MotionStatus::running) return result;
+    world.step();
+    if (world.step_count() % window == 0) world.close_window();
+  }
+  return {};
+}
+
+std::unique_ptr<Motion> follow(const PlannedMotion& plan, FollowOptions options = {}) {
+  REQUIRE(plan.reason == Reason::none);
+  return make_follow(plan.trajectory, std::move(options));
+}
+
+Transform above(double x, double y, double z) { return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, 0); }
+
+// Moves the open hand around a cube and closes it.
+MotionResult grasp(World& world, const Object& cube) {
+  run(world, *make_hand(0.08, 20, std::nullopt));
+  const auto space = world.collision_space();
+  const auto grasps = grasp_candidates(*space, world, cube, world.arm_position(), RandomKey("grasp"), 1);
+  REQUIRE_FALSE(grasps.empty());
+  space->allow(world.scene().body_index(cube.body));
+  const auto plan = plan_through(*space, world.arm_position(),
+                                 {{"approach", grasps[0].world_from_approach}, {"grasp", grasps[0].world_from_tip}}, {},
+                                 RandomKey("reach"));
+  REQUIRE(run(world, *follow(plan)).status == MotionStatus::done);
+  return run(world, *make_hand(0, grasps[0].force, PartRef{world.scene().body_index(cube.body), 0}));
+}
+
+MotionResult lift(World& world, double height, FollowOptions options) {
+  const auto space = world.collision_space();
+  const Transform goal = translation(0, 0, height) * space->arm().world_from_tip(world.arm_position());
+  return run(world, *follow(plan_line(*space, world.arm_position(), goal, {}, {}, RandomKey("lift")), options));
+}
+
+}  // namespace
+
+TEST_CASE("a cube is grasped and lifted by motions alone") {
+  World world(std::make_shared<Scene>(table_scene(3)));
+  const Object cube = *world.scene().object("cube1");
+  const PartRef part{world.scene().body_index("cube1"), 0};
+  REQUIRE(grasp(world, cube).status == MotionStatus::done);
+  const double before = world.world_from_part(part).translation().z();
+  FollowOptions keep;
+  keep.keep = part;
+  REQUIRE(lift(world, 0.15, keep).status == MotionStatus::done);
+  CHECK(world.world_from_part(part).translation().z() - before == Approx(0.15).margin(0.01));
+}
+
+TEST_CASE("a part that is let go on the way is dropped") {
+  World world(std::make_shared<Scene>(table_scene(3)));
+  REQUIRE(grasp(world, *world.scene().object("cube1")).status == MotionStatus::done);
+  FollowOptions keep;
+  keep.keep = PartRef{world.scene().body_index("cube1"), 0};
+  world.apply(operation::Hand{0.08, 20});
+  const MotionResult result = lift(world, 0.15, keep);
+  CHECK(result.status == MotionStatus::failed);
+  CHECK(result.reason == Reason::dropped);
+}
+
+TEST_CASE("closing on nothing misses") {
+  World world(std::make_shared<Scene>(table_scene(1)));
+  const MotionResult result = run(world, *make_hand(0, 20, PartRef{world.scene().body_index("cube1"), 0}));
+  CHECK(result.status == MotionStatus::failed);
+  CHECK(result.reason == Reason::grasp_missed);
+}
+
+TEST_CASE("the hand opens to where it is told and a wait takes its steps") {
+  World world(std::make_shared<Scene>(table_scene(0)));
+  CHECK(run(world, *make_hand(0.03, 20, std::nullopt)).status == MotionStatus::done);
+  CHECK(world.opening() == Approx(0.03).margin(0.0015));
+  const std::int64_t before = world.step_count();
+  CHECK(run(world, *make_wait(17)).status == MotionStatus::done);
+  CHECK(world.step_count() - before == 17);
+  CHECK(run(world, *make_wait(0)).status == MotionStatus::done);
+  CHECK(world.step_count() - before == 17);
+}
+
+TEST_CASE("a press ends at the contact, or short of its target where that is allowed, or fails") {
+  for (const int mode : {0, 1, 2}) {
+    World world(std::make_shared<Scene>(table_scene(0)));
+    run(world, *make_hand(0, 20, std::nullopt));
+    const auto space = world.collision_space();
+    const auto reach =
+        plan_through(*space, world.arm_position(), {{"over", above(0.5, 0, 0.1)}}, {}, RandomKey("over"));
+    REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
+    FollowOptions options;
+    options.stop_on_contact = mode == 0;
+    options.tolerate_error = mode == 1;
+    LineOptions line;
+    line.tool_speed = 0.1;
+    const auto press = plan_line(*space, world.arm_position(), above(0.5, 0, -0.05), line, {}, RandomKey("press"));
+    const MotionResult result = run(world, *follow(press, options));
+    if (mode == 2) {
+      CHECK(result.status == MotionStatus::failed);
+      CHECK(result.reason == Reason::tracking_error);
+      continue;
+    }
+    CHECK(result.status == MotionStatus::done);
+    if (mode == 0) CHECK(world.world_from_tip().translation().z() > -0.01);
+  }
+}
+
+TEST_CASE("motions without sense are refused") {
+  CHECK_THROWS_AS(make_follow({}, {}), Error);
+  CHECK_THROWS_AS(make_hand(-0.01, 20, std::nullopt), Error);
+  CHECK_THROWS_AS(make_wait(-1), Error);
+}

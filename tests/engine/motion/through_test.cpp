@@ -1,0 +1,136 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/engine/motion/cluttered.h"
+
+using namespace stampede;
+
+namespace {
+
+constexpr int kHz = 240;
+
+// Looking straight down at a point of the table.
+Transform above(double x, double y, double z, double yaw = 0) {
+  return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, yaw);
+}
+
+double turn_between(const Transform& a, const Transform& b) {
+  return angle_between(Quaternion(a.linear()), Quaternion(b.linear()));
+}
+
+}  // namespace
+
+TEST_CASE("an approach is passed close by, without stopping, and the grasp is reached") {
+  const World world(std::make_shared<Scene>(table_scene(10)));
+  const auto space = world.collision_space();
+  Random random(RandomKey("through"));
+  int solved = 0;
+  for (int k = 0; k < 15; ++k) {
+    const double x = random.between(0.35, 0.65), y = random.between(-0.35, 0.35), yaw = random.between(-1, 1);
+    const Transform grasp = above(x, y, 0.06, yaw), approach = above(x, y, 0.15, yaw);
+    const PlannedMotion motion = plan_through(*space, space->arm().home(), {{"approach", approach}, {"grasp", grasp}},
+                                              {}, RandomKey("t").with(k));
+    if (motion.reason != Reason::none) continue;
+    ++solved;
+    REQUIRE(motion.vias.size() == 1);
+    CHECK(motion.vias[0].name == "approach");
+    const JointState passing = evaluate(motion.trajectory, static_cast<double>(motion.vias[0].step), kHz);
+    CHECK(passing.velocity.norm() > 0.1);
+    CHECK((space->arm().world_from_tip(passing.position).translation() - approach.translation()).norm() < 0.03);
+    const Transform end = space->arm().world_from_tip(motion.trajectory.knots.back().position);
+    CHECK((end.translation() - grasp.translation()).norm() < 1e-4);
+    CHECK(turn_between(end, grasp) < 1e-3);
+    CHECK(touches(*space, motion.trajectory, kHz, 0.0025) == 0);
+    CHECK(static_cast<double>(motion.trajectory.steps()) / kHz < 2.5);
+  }
+  CHECK(solved >= 14);
+}
+
+TEST_CASE("the last half of an approach is a straight line of the tool") {
+  const World world(std::make_shared<Scene>(table_scene(0)));
+  const auto space = world.collision_space();
+  const Transform grasp = above(0.5, 0.1, 0.05), approach = above(0.5, 0.1, 0.15);
+  const PlannedMotion motion =
+      plan_through(*space, space->arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("line"));
+  REQUIRE(motion.reason == Reason::none);
+  double worst = 0;
+  for (std::int64_t step = motion.vias[0].step; step <= motion.trajectory.steps(); ++step) {
+    const Vector3 tip =
+        space->arm().world_from_tip(evaluate(motion.trajectory, static_cast<double>(step), kHz).position).translation();
+    if (tip.z() < 0.10) worst = std::max(worst, (tip - grasp.translation()).head<2>().norm());
+  }
+  CHECK(worst < 0.002);
+}
+
+TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
+  const World world(std::make_shared<Scene>(table_scene(0)));
+  const auto space = world.collision_space();
+  const Arm& arm = space->arm();
+  const Transform from = arm.world_from_tip(arm.home());
+  const Transform to = translation(0.1, 0.15, -0.1) * from;
+  LineOptions line;
+  line.tool_speed = 0.2;
+  const PlannedMotion motion = plan_line(*space, arm.home(), to, line, {}, RandomKey("line"));
+  REQUIRE(motion.reason == Reason::none);
+  const Vector3 direction = (to.translation() - from.translation()).normalized();
+  double off = 0, speed = 0, turned = 0;
+  for (std::int64_t step = 0; step <= motion.trajectory.steps(); ++step) {
+    const JointState state = evaluate(motion.trajectory, static_cast<double>(step), kHz);
+    const Vector3 way = arm.world_from_tip(state.position).translation() - from.translation();
+    off = std::max(off, (way - way.dot(direction) * direction).norm());
+    turned = std::max(turned, turn_between(arm.world_from_tip(state.position), from));
+    speed = std::max(speed, (arm.jacobian(state.position) * state.velocity).head<3>().norm());
+  }
+  CHECK(off < 1e-3);
+  CHECK(turned < 3e-3);
+  CHECK(speed < 1.05 * line.tool_speed);
+  CHECK(speed > 0.9 * line.tool_speed);
+  const double way = (to.translation() - from.translation()).norm();
+  CHECK(static_cast<double>(motion.trajectory.steps()) / kHz < way / line.tool_speed + 0.4);
+}
+
+TEST_CASE("a tool path round a hinge stays on its circle") {
+  const World world(std::make_shared<Scene>(table_scene(0)));
+  const auto space = world.collision_space();
+  const Arm& arm = space->arm();
+  const Transform from = arm.world_from_tip(arm.home());
+  const Vector3 hinge = from.translation() + Vector3(0, 0.3, 0);
+  const auto path = [&](double s) {
+    Transform turn = Transform::Identity();
+    turn.linear() = Eigen::AngleAxisd(0.6 * s, Vector3::UnitZ()).toRotationMatrix();
+    return Transform(translation(hinge) * turn * translation(-hinge) * from);
+  };
+  const PlannedMotion motion = plan_tool_path(*space, arm.home(), path, {}, {}, RandomKey("door"));
+  REQUIRE(motion.reason == Reason::none);
+  double worst = 0;
+  for (std::int64_t step = 0; step <= motion.trajectory.steps(); ++step) {
+    const Vector3 tip =
+        arm.world_from_tip(evaluate(motion.trajectory, static_cast<double>(step), kHz).position).translation();
+    worst = std::max(worst, std::abs((tip - hinge).norm() - 0.3));
+  }
+  CHECK(worst < 1e-3);
+  const Transform end = arm.world_from_tip(motion.trajectory.knots.back().position);
+  CHECK((end.translation() - path(1).translation()).norm() < 1e-4);
+}
+
+TEST_CASE("targets out of reach and lines into the table say so") {
+  const World world(std::make_shared<Scene>(table_scene(3)));
+  const auto space = world.collision_space();
+  const JointVector home = space->arm().home();
+  const PlannedMotion far = plan_through(*space, home, {{"shelf", above(1.5, 0, 0.3)}}, {}, RandomKey("far"));
+  CHECK(far.reason == Reason::unreachable);
+  CHECK(far.detail.find("shelf") != std::string::npos);
+
+  const PlannedMotion below = plan_through(
+      *space, home, {{"approach", above(0.7, 0.3, 0.1)}, {"grasp", above(0.7, 0.3, -0.02)}}, {}, RandomKey("below"));
+  CHECK(below.reason == Reason::no_path);
+  CHECK(below.detail.find("touches table") != std::string::npos);
+
+  LineOptions line;
+  line.collide = true;
+  const PlannedMotion into = plan_line(*space, home, above(0.55, 0, -0.05), line, {}, RandomKey("into"));
+  CHECK(into.reason == Reason::no_path);
+  const PlannedMotion beyond = plan_line(*space, home, above(1.6, 0, 0.4), {}, {}, RandomKey("beyond"));
+  CHECK(beyond.reason == Reason::unreachable);
+  CHECK(beyond.trajectory.knots.empty());
+}
