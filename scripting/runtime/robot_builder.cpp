@@ -16,6 +16,10 @@ int part_index_of(const Body& body, const std::string& name, const Value& where)
 
 int part_named(const Body& body, const Value& value) { return part_index_of(body, value.as_text(), value); }
 
+const Value& either(const Value& fields, std::string_view name, std::string_view other) {
+  return fields[name].present() ? fields[name] : fields[other];
+}
+
 std::vector<int> parts_named(const Body& body, const Value& list) {
   std::vector<int> parts;
   for (const Value& item : list.items) parts.push_back(part_named(body, item));
@@ -47,7 +51,7 @@ std::vector<int> arm_parts(const Value& fields, const Robot& robot) {
 
 void read_limits(const Value& fields, Robot& robot) {
   const std::size_t joints = robot.arm.size();
-  const Value& written = fields["limits"];
+  const Value& written = fields["limits"].present() ? fields["limits"] : fields;
   const std::vector<double> acceleration = per_joint(written, "acceleration", joints);
   const std::vector<double> jerk = per_joint(written, "jerk", joints);
   const std::vector<double> velocity = per_joint(written, "velocity", joints);
@@ -73,7 +77,7 @@ void read_limits(const Value& fields, Robot& robot) {
 
 void read_hand(const Value& fields, Robot& robot) {
   const Value& tip = fields["tip"];
-  const Value& tip_part = tip["link"];
+  const Value& tip_part = either(tip, "link", "part");
   robot.tip_part =
       tip_part.present() ? part_named(robot.body, tip_part) : static_cast<int>(robot.body.parts.size()) - 1;
   robot.tip_part_from_tip = transform_from(tip);
@@ -83,7 +87,7 @@ void read_hand(const Value& fields, Robot& robot) {
   robot.finger_speed = fields.number_or("finger_speed", robot.finger_speed);
   robot.hand = fields.text_or("hand", robot.hand);
   // Measured: the anchor and a little spinning and rolling friction hold thin and round things best.
-  const Surface pad{fields.number_or("pad_friction", 1.0), 0.01, 0.01, 0, true};
+  const Surface pad = surface_from(fields["pad"], {fields.number_or("pad_friction", 1.0), 0.01, 0.01, 0, true});
   for (const int part : robot.pads) robot.body.parts[static_cast<std::size_t>(part)].surface = pad;
 }
 
@@ -93,11 +97,12 @@ void read_pairs(const Value& fields, Robot& robot) {
     const int a = part_named(robot.body, pair.items[0]), b = part_named(robot.body, pair.items[1]);
     return std::pair(std::min(a, b), std::max(a, b));
   };
-  if (fields["checked"].present()) {
-    for (const Value& pair : fields["checked"].items) robot.checked_pairs.push_back(ends(pair));
+  const Value& checked = either(fields, "checked", "checked_pairs");
+  if (checked.present()) {
+    for (const Value& pair : checked.items) robot.checked_pairs.push_back(ends(pair));
   } else {
     std::vector<std::pair<int, int>> allowed;
-    for (const Value& pair : fields["allowed"].items) allowed.push_back(ends(pair));
+    for (const Value& pair : either(fields, "allowed", "allowed_pairs").items) allowed.push_back(ends(pair));
     // Without a list of pairs to check, neighbours may touch, and so may the pairs that are allowed to.
     const int count = static_cast<int>(robot.body.parts.size());
     for (int a = 0; a < count; ++a) {

@@ -136,11 +136,12 @@ void TaskReader::read_world() {
   const Value name = field("world");
   const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
   const Value palette = definition(DefinitionKind::colours, "colours", "", name);
-  for (const Value& entry : palette.items) {
+  for (const Value& entry : palette.items) {  // { "red", 0.9, 0.1, 0.1 }
     const std::vector<Value>& items = entry.items;
     if (items.size() < 4) entry.expected("{ name, red, green, blue }");
     colours_[items[0].as_text()] = {items[1].as_number(), items[2].as_number(), items[3].as_number(), 1.0};
   }
+  for (const auto& [colour, entry] : palette.fields) colours_[colour] = colour_from(entry, {});
   builder_ = std::make_unique<SceneBuilder>(name.text, colours_);
   const Value& robot = world["robot"];
   const std::string robot_name =

@@ -105,15 +105,18 @@ int inside(lua_State* state) {
   return 1;
 }
 
-// Of a named thing's origin, or of a point x, y, z.
+// A point: a named thing's origin, a pose's, or x, y, z.
+Vector3 check_point(lua_State* state, const WorldView& view, int index) {
+  if (lua_type(state, index) == LUA_TSTRING) return view.world_from(check_text(state, index)).translation();
+  if (const auto pose = pose_at(state, index)) return pose->translation();
+  const double x = luaL_checknumber(state, index), y = luaL_checknumber(state, index + 1);
+  return Vector3(x, y, luaL_checknumber(state, index + 2));
+}
+
 int region_distance(lua_State* state) {
   const WorldView& view = view_of(state);
   const std::string_view region = check_text(state, 2);
-  const Vector3 point =
-      lua_type(state, 3) == LUA_TSTRING
-          ? Vector3(view.world_from(check_text(state, 3)).translation())
-          : Vector3(luaL_checknumber(state, 3), luaL_checknumber(state, 4), luaL_checknumber(state, 5));
-  lua_pushnumber(state, view.region_distance(region, point));
+  lua_pushnumber(state, view.region_distance(region, check_point(state, view, 3)));
   return 1;
 }
 

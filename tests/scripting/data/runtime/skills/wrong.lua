@@ -1,0 +1,17 @@
+-- Raises an error after its first call, in a helper.
+local function helper(value) return value.field.missing end
+return skill {
+  params = { "obj: movable" },
+  precondition = {},
+  effect = { is.higher("obj", "obj") },
+  continuous = { way = { 0, min = 0, max = 5 } },
+  label = "go wrong",
+  run = function(robot, p, c)
+    robot:wait(0.1)
+    if c.way == 1 then helper({}) end
+    if c.way == 2 then while true do end end
+    if c.way == 3 then robot:move_line({ 0, 0, 0 / 0 }) end
+    if c.way == 4 then robot:move_line({ 0, 0, 0.1 }, { sped = 1 }) end
+    robot:move_to("cube")
+  end,
+}

@@ -1,0 +1,9 @@
+-- Explicit steps, an ordered goal, and a test beside it.
+return task {
+  world = "bench",
+  objects = { cube = { "cube", at = { 0, 0.1, 0.52 } }, top = { "cube", at = { 0.2, 0.1, 0.52 } }, chest = { "chest", at = { 0.3, -0.3, 0.5 } } },
+  goal = in_order { is.holding("cube"), is.open("chest.drawer") },
+  steps = { act.everything("cube"), act.counting { to = "bench" } },
+  also = function(w) return w:has_trait("cube", "graspable") and w:attribute("cube", "colour") == "green" end,
+  instructions = { "do it" },
+}
