@@ -185,7 +185,7 @@ std::string explain_unsolvable(const GroundTask& task, const SearchResult& resul
     return "the goal's parts exclude each other: all " + std::to_string(result.evaluated) +
            " states were searched and none has " + open + " together";
   }
-  const bool out_of_expansions = result.expanded >= limits.expansions;
+  const bool out_of_expansions = result.evaluated >= limits.expansions;
   return "no plan within the limit of " +
          (out_of_expansions ? std::to_string(limits.expansions) + " expansions"
                             : std::to_string(limits.memory_bytes) + " bytes") +

@@ -50,7 +50,6 @@ Heuristic::Heuristic(const GroundTask& task) : task_(task), nodes_(2 * task.fact
     add_rule(-1, axiom.body, {2 * axiom.head}, false);
   }
   add_denials();
-  goal_.assign(task.goal.begin(), task.goal.end());
   used_begin_.assign(static_cast<std::size_t>(nodes_) + 1, 0);
   for (const auto& condition : condition_of_rule_) {
     for (const int node : condition) ++used_begin_[node + 1];
@@ -63,10 +62,15 @@ Heuristic::Heuristic(const GroundTask& task) : task_(task), nodes_(2 * task.fact
     initial_conditions_.push_back(rules_[rule].conditions);
     if (rules_[rule].conditions == 0) unconditional_.push_back(static_cast<int>(rule));
   }
-  is_goal_.assign(static_cast<std::size_t>(nodes_), 0);
-  for (const int node : goal_) is_goal_[node] = 1;
+  set_goal(task.goal);
   marked_.assign(static_cast<std::size_t>(nodes_), 0);
   op_marked_.assign(task.operators.size(), 0);
+}
+
+void Heuristic::set_goal(const Literals& goal) {
+  goal_.assign(goal.begin(), goal.end());
+  is_goal_.assign(static_cast<std::size_t>(nodes_), 0);
+  for (const int node : goal_) is_goal_[node] = 1;
 }
 
 void Heuristic::add_rule(int op, const std::vector<int>& condition, const std::vector<int>& effects, bool whole) {

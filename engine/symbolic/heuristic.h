@@ -12,6 +12,8 @@ class Heuristic {
  public:
   explicit Heuristic(const GroundTask& task);
 
+  void set_goal(const Literals& goal);  // literals that conditions or the task's goal mention
+
   static constexpr int kDeadEnd = -1;
   // The length of a relaxed plan, or kDeadEnd. Fills `applicable` and `preferred`.
   int evaluate(const Words& state);

@@ -5,6 +5,9 @@
 namespace stampede::symbolic {
 namespace {
 
+constexpr std::int64_t kWindowExpansions = 25;
+constexpr std::int64_t kWindowWork = 4'000'000;  // operators times expansions: bounds the time on large tasks
+
 std::int64_t total(const GroundTask& task, const std::vector<int>& plan) {
   std::int64_t sum = 0;
   for (const int op : plan) sum += cost_of(task, op);
@@ -41,12 +44,70 @@ std::vector<int> eliminate(const GroundTask& task, const Semantics& semantics, s
   return plan;
 }
 
+// What must hold before each step so that the rest of the plan works and ends in the goal. Exact only without
+// conditional effects and axioms.
+std::vector<Literals> needed_before(const GroundTask& task, const std::vector<int>& plan) {
+  std::vector<Literals> needed(plan.size() + 1);
+  needed.back() = task.goal;
+  for (std::size_t i = plan.size(); i-- > 0;) {
+    const Operator& op = task.operators[plan[i]];
+    Literals before = op.precondition;
+    for (const Literal one : needed[i + 1]) {
+      if (!std::binary_search(op.effects.begin(), op.effects.end(), one)) before.push_back(one);
+    }
+    std::sort(before.begin(), before.end());
+    before.erase(std::unique(before.begin(), before.end()), before.end());
+    needed[i] = std::move(before);
+  }
+  return needed;
+}
+
+// One pass of windows of `length` steps over the plan; true if some window became cheaper.
+bool shorten_windows(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic, std::size_t length,
+                     std::int64_t& budget, std::vector<int>& plan) {
+  bool better = false;
+  Words state = semantics.initial(), next;
+  std::vector<Literals> needed = needed_before(task, plan);
+  for (std::size_t i = 0; i < plan.size() && budget > 0; ++i) {
+    const std::size_t end = std::min(plan.size(), i + length);
+    PlanLimits limits;
+    limits.expansions = std::min(budget, kWindowExpansions);
+    heuristic.set_goal(needed[end]);
+    const SearchResult found =
+        lazy_search(task, semantics, heuristic, limits, {state, needed[end], 1, static_cast<int>(end - i)});
+    budget -= found.evaluated;
+    const auto from = plan.begin() + static_cast<std::ptrdiff_t>(i),
+               to = plan.begin() + static_cast<std::ptrdiff_t>(end);
+    if (found.solved && total(task, found.plan) < total(task, {from, to})) {
+      plan.insert(plan.erase(from, to), found.plan.begin(), found.plan.end());
+      needed = needed_before(task, plan);
+      better = true;
+    }
+    if (i >= plan.size()) break;
+    semantics.apply(state, plan[i], next);
+    state.swap(next);
+  }
+  heuristic.set_goal(task.goal);
+  return better;
+}
+
 }  // namespace
 
-std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, std::vector<int> plan,
-                         std::int64_t expansions) {
+std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
+                         std::vector<int> plan, std::int64_t expansions) {
   if (expansions <= 0) return plan;
-  return eliminate(task, semantics, std::move(plan));
+  plan = eliminate(task, semantics, std::move(plan));
+  const bool regresses = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
+                                                            [](const Operator& op) { return op.conditional.empty(); });
+  if (!regresses) return plan;
+  std::int64_t budget =
+      std::min<std::int64_t>(expansions, kWindowWork / static_cast<std::int64_t>(task.operators.size() + 100));
+  for (const std::size_t length : {8, 16}) {
+    if (shorten_windows(task, semantics, heuristic, length, budget, plan)) {
+      plan = eliminate(task, semantics, std::move(plan));
+    }
+  }
+  return plan;
 }
 
 }  // namespace stampede::symbolic

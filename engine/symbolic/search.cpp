@@ -40,12 +40,19 @@ class OpenList {
 
 class Search {
  public:
-  Search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic, const PlanLimits& limits)
-      : task_(task), semantics_(semantics), heuristic_(heuristic), limits_(limits), pool_(semantics.words()) {}
+  Search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic, const PlanLimits& limits,
+         const Query& query)
+      : task_(task),
+        semantics_(semantics),
+        heuristic_(heuristic),
+        limits_(limits),
+        query_(query),
+        weight_(query.weight),
+        pool_(semantics.words()) {}
 
   SearchResult run() {
-    if (visit(semantics_.initial(), {-1, -1})) return result_;
-    while (result_.expanded < limits_.expansions && bytes() < limits_.memory_bytes) {
+    if (visit(query_.start, {-1, -1})) return result_;
+    while (result_.evaluated < limits_.expansions && bytes() < limits_.memory_bytes) {
       const int list = next_list();
       if (list < 0) {
         result_.exhausted = true;
@@ -77,7 +84,7 @@ class Search {
   }
 
   int goals_open(const Words& state) const {
-    return static_cast<int>(std::count_if(task_.goal.begin(), task_.goal.end(),
+    return static_cast<int>(std::count_if(query_.goal.begin(), query_.goal.end(),
                                           [&](Literal one) { return !literal_holds(state.data(), one); }));
   }
 
@@ -86,25 +93,29 @@ class Search {
     const auto [number, is_new] = pool_.insert(state);
     if (!is_new) return false;
     parents_.push_back(from);
-    if (semantics_.is_goal(state)) {
+    depth_.push_back(from.parent < 0 ? 0 : depth_[static_cast<std::size_t>(from.parent)] + 1);
+    if (goals_open(state) == 0) {
       extract(number);
       return true;
     }
     ++result_.evaluated;
     const int h = heuristic_.evaluate(state);
     if (h == Heuristic::kDeadEnd) return false;
+    if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    const std::array<int, 2> keys = {h, goals_open(state)};
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (best_[i] >= 0 && keys[i] >= best_[i]) continue;
-      best_[i] = keys[i];
+    const std::array<int, 2> values = {h, weight_ == 0 ? goals_open(state) : 0};
+    const std::array<int, 2> keys = {weight_ == 0 ? h : depth_.back() + weight_ * h, values[1]};
+    const std::size_t used = weight_ == 0 ? 2 : 1;
+    for (std::size_t i = 0; i < used; ++i) {
+      if (best_[i] >= 0 && values[i] >= best_[i]) continue;
+      best_[i] = values[i];
       turns_[1] -= kBoost;
       turns_[3] -= kBoost;
     }
     const std::vector<int>& preferred = heuristic_.preferred();
     for (const int op : heuristic_.applicable()) {
       const bool is_preferred = std::binary_search(preferred.begin(), preferred.end(), op);
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t i = 0; i < used; ++i) {
         lists_[2 * i].push(keys[i], {number, op});
         if (is_preferred) lists_[2 * i + 1].push(keys[i], {number, op});
       }
@@ -125,8 +136,11 @@ class Search {
   const Semantics& semantics_;
   Heuristic& heuristic_;
   const PlanLimits& limits_;
+  const Query& query_;
+  int weight_;
   StatePool pool_;
   std::vector<Entry> parents_;
+  std::vector<int> depth_;
   std::array<OpenList, 4> lists_;  // h_FF: all, preferred; open goals: all, preferred
   std::array<std::int64_t, 4> turns_ = {0, 0, 0, 0};
   std::array<int, 2> best_ = {-1, -1};
@@ -140,9 +154,9 @@ int cost_of(const GroundTask& task, int op) {
   return task.lifted.domain->actions[task.lifted.schemas[task.operators[op].schema].action].cost;
 }
 
-SearchResult lazy_greedy(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
-                         const PlanLimits& limits) {
-  return Search(task, semantics, heuristic, limits).run();
+SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
+                         const PlanLimits& limits, const Query& query) {
+  return Search(task, semantics, heuristic, limits, query).run();
 }
 
 }  // namespace stampede::symbolic
@@ -166,7 +180,7 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
   }
   const Semantics semantics(task);
   Heuristic heuristic(task);
-  const SearchResult result = lazy_greedy(task, semantics, heuristic, limits);
+  const SearchResult result = lazy_search(task, semantics, heuristic, limits, {semantics.initial(), task.goal, 0, 0});
   outcome.expanded = result.expanded;
   outcome.evaluated = result.evaluated;
   outcome.solved = result.solved;
@@ -174,7 +188,8 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
     outcome.explanation = explain_unsolvable(task, result, limits);
     return outcome;
   }
-  for (const int op : shorten(task, semantics, result.plan, limits.improve)) outcome.plan.push_back(task.step(op));
+  for (const int op : shorten(task, semantics, heuristic, result.plan, limits.improve))
+    outcome.plan.push_back(task.step(op));
   return outcome;
 }
 

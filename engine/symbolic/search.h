@@ -14,13 +14,22 @@ struct SearchResult {
   std::int64_t expanded = 0, evaluated = 0;
 };
 
-// From `start` until `goal` holds (the heuristic is for the task's own goal).
-SearchResult lazy_greedy(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
-                         const PlanLimits& limits);
+// From `start` to where `goal` holds. `weight` 0: greedy, with the count of open goals beside h_FF; otherwise states
+// are ordered by steps so far + weight * h_FF alone, which finds shorter plans more slowly. The heuristic must have
+// been given the same goal.
+struct Query {
+  Words start;
+  Literals goal;
+  int weight = 0;
+  int bound = 0;  // not 0: states whose steps so far + h_FF reach it are given up
+};
+SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
+                         const PlanLimits& limits, const Query& query);
 
-// Removes what the goal does not need, then looks for shorter ways between states of the plan; never longer.
-std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, std::vector<int> plan,
-                         std::int64_t expansions);
+// Removes what the goal does not need; then replaces stretches of the plan by shorter ones, with `expansions` in all.
+// Never dearer than the plan given.
+std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
+                         std::vector<int> plan, std::int64_t expansions);
 
 // Why the goal cannot be reached, for people.
 std::string explain_unsolvable(const GroundTask& task, const SearchResult& result, const PlanLimits& limits);

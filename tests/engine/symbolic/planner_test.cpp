@@ -61,6 +61,29 @@ TEST_CASE("forbidden ground actions are not used") {
   CHECK_FALSE(outcome.solved);
 }
 
+TEST_CASE("shortening carries two balls at a time") {
+  const Domain domain = domain_from_pddl(
+      "(define (domain carry) (:types room ball hand) (:predicates (here ?r - room) (at ?b - ball ?r - room) (free ?h "
+      "- "
+      "hand) (carry ?b - ball ?h - hand)) (:action move :parameters (?a ?b - room) :precondition (here ?a) :effect "
+      "(and "
+      "(here ?b) (not (here ?a)))) (:action take :parameters (?b - ball ?r - room ?h - hand) :precondition (and (at ?b "
+      "?r) (here ?r) (free ?h)) :effect (and (carry ?b ?h) (not (at ?b ?r)) (not (free ?h)))) (:action drop "
+      ":parameters "
+      "(?b - ball ?r - room ?h - hand) :precondition (and (carry ?b ?h) (here ?r)) :effect (and (at ?b ?r) (free ?h) "
+      "(not (carry ?b ?h)))))",
+      "carry.pddl");
+  const Problem problem = problem_from_pddl(
+      "(define (problem four) (:domain carry) (:objects r s - room l m - hand a b c d - ball) (:init (here r) (free l) "
+      "(free m) (at a r) (at b r) (at c r) (at d r)) (:goal (and (at a s) (at b s) (at c s) (at d s))))",
+      "four.pddl", domain);
+  PlanLimits none;
+  none.improve = 0;
+  const std::size_t shortened = planned(domain, problem).plan.size();
+  CHECK(shortened == 11);  // two trips of four hand moves, and three moves between the rooms
+  CHECK(shortened <= solve(domain, problem, none).plan.size());
+}
+
 TEST_CASE("the same problem gives the same plan, expansions and all") {
   const Domain domain = test::kitchen();
   const Problem problem = test::kitchen_problem(domain, "(forall (?x - cup) (inside ?x chest--drawer))");
