@@ -1,0 +1,141 @@
+#include <catch2/catch.hpp>
+
+#include "scripts_fixture.h"
+
+using namespace stampede;
+using test::SmallWorld;
+
+namespace {
+
+ContinuousValue number(const std::string& name, std::vector<double> values) {
+  ContinuousValue value;
+  value.record.name = name;
+  value.record.values = std::move(values);
+  return value;
+}
+
+ContinuousValue grasp() {
+  ContinuousValue value;
+  value.record.name = "grasp";
+  GraspCandidate candidate;
+  candidate.world_from_tip = translation(1, 2, 3);
+  candidate.world_from_approach = translation(1, 2, 4);
+  candidate.object_from_tip = Transform::Identity();
+  candidate.force = 12;
+  value.grasp = candidate;
+  return value;
+}
+
+SkillCall everything() {
+  SkillCall call{"everything", "", {"cube", "bench", "mini.hand"}, {}, ControllerKind::joint_impedance, 40};
+  call.continuous = {grasp(), number("height", {0.125}), number("push", {1, 2, 3})};
+  return call;
+}
+
+SkillCall wrong(double way) {
+  SkillCall call{"wrong", "", {"cube", "mini.hand"}, {}, ControllerKind::joint_position, 0};
+  call.continuous = {number("way", {way})};
+  return call;
+}
+
+template <typename Call>
+Call next(SkillRun& run, const WorldView& view) {
+  const RobotCall call = run.next(view);
+  if (const auto* fail = std::get_if<robot_call::Fail>(&call)) INFO("fail: " << fail->detail);
+  REQUIRE(std::holds_alternative<Call>(call));
+  return std::get<Call>(call);
+}
+
+}  // namespace
+
+TEST_CASE("each robot method yields its call, one at a time") {
+  SmallWorld small;
+  const WorldView& view = small.view;
+  const Vector3 tip = view.world_from("mini.hand").translation();
+  const auto run = small.scripts.skills().start(everything(), view);
+
+  CHECK(next<robot_call::Hand>(*run, view).opening == 0.06);  // as far as the hand goes
+  CHECK(next<robot_call::Hand>(*run, view).opening == 0.02);
+  const auto keyed = next<robot_call::MoveThrough>(*run, view).targets;
+  REQUIRE(keyed.size() == 2);
+  CHECK(keyed[0].name == "approach");  // first, whatever the table's own order
+  CHECK(keyed[0].world_from_tip.translation() == Vector3(1, 2, 4));
+  CHECK(keyed[1].name == "grasp");
+  const auto listed = next<robot_call::MoveThrough>(*run, view).targets;
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0].name == "second");
+  CHECK(listed[1].name == "first");
+  const auto close = next<robot_call::Hand>(*run, view);
+  CHECK(close.expect == "cube");
+  CHECK(close.force == 12.0);
+  CHECK(close.opening == 0.0);
+  const auto lift = next<robot_call::MoveLine>(*run, view);
+  CHECK(lift.kind == "lift");
+  CHECK((lift.target.translation() - tip - Vector3(0, 0, 0.125)).norm() < 1e-12);
+  const auto line = next<robot_call::MoveLine>(*run, view);
+  CHECK((line.target.translation() - tip - Vector3(0.1, 0, 0)).norm() < 1e-12);
+  CHECK((line.speed == 0.05 && line.force == 7.0 && line.stop_on_contact && line.tolerate && !line.collide));
+  const auto retreat = next<robot_call::MoveLine>(*run, view);
+  const Vector3 back = -view.world_from("mini.hand").linear().col(2);
+  CHECK((retreat.target.translation() - tip - 0.08 * back).norm() < 1e-12);
+  const auto to = next<robot_call::MoveThrough>(*run, view).targets;
+  REQUIRE(to.size() == 1);
+  CHECK((to[0].world_from_tip.translation() - tip - Vector3(0, 0, 0.25)).norm() < 1e-12);
+  const Quaternion turned(to[0].world_from_tip.linear()), before(view.world_from("mini.hand").linear());
+  CHECK(angle_between(turned, before) == Approx(std::acos(0.0)));
+  const auto part = next<robot_call::MovePart>(*run, view);
+  CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2));
+  CHECK(next<robot_call::Wait>(*run, view).seconds == 0.5);
+  CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
+  const SkillCall child = next<robot_call::RunSkill>(*run, view).call;
+  CHECK(child.skill == "counting");
+  CHECK(child.arguments == std::vector<std::string>{"", "bench", ""});
+  // The tip must rise by what the held object rises.
+  const auto held = next<robot_call::MoveThrough>(*run, view).targets;
+  CHECK((held[0].world_from_tip.translation() - tip - Vector3(0, 0, 1)).norm() < 1e-9);
+  const auto fail = next<robot_call::Fail>(*run, view);
+  CHECK(fail.reason == Reason::no_grasp);
+  CHECK(fail.detail == "as planned");
+}
+
+TEST_CASE("a run that returns is done, and stays so") {
+  SmallWorld small;
+  const auto run =
+      small.scripts.skills().start({"counting", "", {"cube", "bench", "mini.hand"}, {}, {}, 0}, small.view);
+  CHECK(next<robot_call::Wait>(*run, small.view).seconds == 1.0);
+  CHECK(next<robot_call::Wait>(*run, small.view).seconds == 2.0);
+  next<robot_call::Done>(*run, small.view);
+  next<robot_call::Done>(*run, small.view);
+}
+
+TEST_CASE("each run of a skill starts from fresh variables, also beside another run") {
+  SmallWorld small;
+  const SkillCall call{"counting", "", {"cube", "bench", "mini.hand"}, {}, {}, 0};
+  const auto first = small.scripts.skills().start(call, small.view);
+  CHECK(next<robot_call::Wait>(*first, small.view).seconds == 1.0);
+  const auto second = small.scripts.skills().start(call, small.view);
+  CHECK(next<robot_call::Wait>(*second, small.view).seconds == 1.0);
+  CHECK(next<robot_call::Wait>(*first, small.view).seconds == 2.0);
+}
+
+TEST_CASE("what goes wrong in run is a failed call with a place, not an exception") {
+  SmallWorld small;
+  const std::pair<double, std::string> ways[] = {
+      {1, "wrong.lua:2"}, {2, "instructions"}, {3, "finite"}, {4, "no option 'sped'"}, {5, "wrong.lua:16"}};
+  for (const auto& [way, expected] : ways) {
+    const auto run = small.scripts.skills().start(wrong(way), small.view);
+    next<robot_call::Wait>(*run, small.view);
+    const auto fail = next<robot_call::Fail>(*run, small.view);
+    CHECK(fail.reason == Reason::script_error);
+    CHECK_THAT(fail.detail, Catch::Contains(expected));
+    next<robot_call::Done>(*run, small.view);
+  }
+}
+
+TEST_CASE("unknown skills and wrong numbers of arguments are told") {
+  SmallWorld small;
+  SkillLibrary& skills = small.scripts.skills();
+  CHECK(skills.skill("nothing") == nullptr);
+  CHECK_THROWS_AS(skills.start({"nothing", "", {}, {}, {}, 0}, small.view), Error);
+  CHECK_THROWS_WITH(skills.start({"wrong", "", {"cube"}, {}, {}, 0}, small.view), Catch::Contains("arguments"));
+}
