@@ -34,7 +34,8 @@ ArmDynamics::ArmDynamics(const Robot& robot)
   for (std::size_t p = 0; p < robot.body.parts.size(); ++p) {
     const Part& part = robot.body.parts[p];
     auto mover = arm_.end();
-    for (int at = static_cast<int>(p); at >= 0 && mover == arm_.end(); at = robot.body.parts[static_cast<std::size_t>(at)].parent)
+    for (int at = static_cast<int>(p); at >= 0 && mover == arm_.end();
+         at = robot.body.parts[static_cast<std::size_t>(at)].parent)
       mover = std::find(arm_.begin(), arm_.end(), at);
     if (mover == arm_.end() || part.mass <= 0) continue;
     moved_[static_cast<std::size_t>(mover - arm_.begin())].push_back(
@@ -61,8 +62,7 @@ void ArmDynamics::update(const std::vector<Transform>& world_from_part, const Ve
   for (std::size_t j = joints; j-- > 0;) {
     for (const Link& link : moved_[j]) {
       const Transform& part = pose(link.part);
-      composite.add(link.mass, part * link.centre - origin,
-                    part.linear() * link.inertia * part.linear().transpose());
+      composite.add(link.mass, part * link.centre - origin, part.linear() * link.inertia * part.linear().transpose());
     }
     const auto row = static_cast<Eigen::Index>(j);
     const Vector3 momentum = composite.mass * linear[j] + turning[j].cross(composite.moment);

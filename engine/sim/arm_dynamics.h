@@ -13,9 +13,9 @@ using TipJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16>;  // rows
 
 // A mass that the tip carries, rigidly.
 struct Load {
-  double mass = 0;                      // kg
-  Vector3 centre = Vector3::Zero();     // of mass, world
-  Matrix3 inertia = Matrix3::Zero();    // about it, world axes, kg m^2
+  double mass = 0;                    // kg
+  Vector3 centre = Vector3::Zero();   // of mass, world
+  Matrix3 inertia = Matrix3::Zero();  // about it, world axes, kg m^2
 };
 
 // Composite rigid body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 6.2,
@@ -26,8 +26,8 @@ class ArmDynamics {
   explicit ArmDynamics(const Robot& robot);
   void update(const std::vector<Transform>& world_from_part, const Vector3& gravity, const Load& load);
 
-  const JointMatrix& mass() const { return mass_; }          // kg m^2, symmetric, positive definite
-  const JointVector& gravity() const { return gravity_; }    // torques that hold the arm still, N m
+  const JointMatrix& mass() const { return mass_; }        // kg m^2, symmetric, positive definite
+  const JointVector& gravity() const { return gravity_; }  // torques that hold the arm still, N m
   const TipJacobian& jacobian() const { return jacobian_; }
   const Transform& world_from_tip() const { return world_from_tip_; }
 
@@ -40,7 +40,7 @@ class ArmDynamics {
   };
   std::vector<std::vector<Link>> moved_;  // per joint: the parts that it is the last to move
   std::vector<int> arm_;
-  std::vector<Vector3> axes_;             // in the part's frame
+  std::vector<Vector3> axes_;  // in the part's frame
   int tip_part_ = 0;
   Transform tip_part_from_tip_ = Transform::Identity();
 

@@ -109,8 +109,8 @@ void set_identity(btCollisionObject& object, int body, int part, bool collides) 
 
 // Of each part of a fixed body: what it is rigidly part of, and how.
 struct Assembly {
-  std::vector<bool> still;             // never moves
-  std::vector<int> host;               // the part whose link carries it; itself, unless merged
+  std::vector<bool> still;  // never moves
+  std::vector<int> host;    // the part whose link carries it; itself, unless merged
   std::vector<Transform> host_from_part;
   std::vector<MassProperties> masses;  // per host
   std::vector<int> link;               // per part: link of its host, -1 still
@@ -119,8 +119,12 @@ struct Assembly {
 
 Assembly assemble(const Body& body) {
   const std::size_t count = body.parts.size();
-  Assembly a{std::vector<bool>(count), std::vector<int>(count), std::vector<Transform>(count, Transform::Identity()),
-             std::vector<MassProperties>(count), std::vector<int>(count, -1), 0};
+  Assembly a{std::vector<bool>(count),
+             std::vector<int>(count),
+             std::vector<Transform>(count, Transform::Identity()),
+             std::vector<MassProperties>(count),
+             std::vector<int>(count, -1),
+             0};
   for (std::size_t p = 0; p < count; ++p) {
     const Part& part = body.parts[p];
     const auto parent = static_cast<std::size_t>(std::max(part.parent, 0));
@@ -282,8 +286,8 @@ void World::Impl::add_joint_constraints(int index, const std::vector<int>& host)
     if (!mine.driven_by_joint) continue;
     multibody.setJointPos(mine.link, part.joint.initial);
     if (part.joint.lower < part.joint.upper) {
-      auto limit = std::make_unique<btMultiBodyJointLimitConstraint>(&multibody, mine.link, part.joint.lower,
-                                                                     part.joint.upper);
+      auto limit =
+          std::make_unique<btMultiBodyJointLimitConstraint>(&multibody, mine.link, part.joint.lower, part.joint.upper);
       world.addMultiBodyConstraint(limit.get());
       constraints.push_back(std::move(limit));
     }

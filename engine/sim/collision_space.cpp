@@ -75,22 +75,22 @@ class ExactCollisionSpace final : public CollisionSpace {
 
   std::shared_ptr<const Scene> scene_;
   Arm arm_;
-  std::vector<double> positions_;      // of all robot parts, those not driven as they were
+  std::vector<double> positions_;  // of all robot parts, those not driven as they were
   JointVector frozen_arm_;
   double opening_ = 0, padding_ = 0;
   std::vector<Transform> robot_poses_;
-  std::vector<Piece> robot_;           // in part order
-  std::vector<Range> robot_parts_;     // pieces of each part
-  std::vector<bool> moved_, hand_;     // per robot part: moves with the arm; behind its last joint
-  std::vector<int> held_partners_;     // robot parts that a held body is tested against
+  std::vector<Piece> robot_;        // in part order
+  std::vector<Range> robot_parts_;  // pieces of each part
+  std::vector<bool> moved_, hand_;  // per robot part: moves with the arm; behind its last joint
+  std::vector<int> held_partners_;  // robot parts that a held body is tested against
   std::vector<BodyState> states_;
-  std::vector<Piece> bodies_;          // of all bodies, in body and part order
-  std::vector<Range> body_pieces_;     // pieces of each body
+  std::vector<Piece> bodies_;       // of all bodies, in body and part order
+  std::vector<Range> body_pieces_;  // pieces of each body
   std::vector<bool> allowed_;
   std::optional<int> held_;
   Transform tip_from_held_ = Transform::Identity();
-  std::vector<Piece> carried_;         // the held body's, moving with the tip
-  std::vector<Piece> tried_;           // body_free's scratch
+  std::vector<Piece> carried_;  // the held body's, moving with the tip
+  std::vector<Piece> tried_;    // body_free's scratch
 };
 
 ExactCollisionSpace::ExactCollisionSpace(const World::Impl& world)

@@ -10,7 +10,7 @@
 namespace stampede {
 namespace {
 
-constexpr double kGraspForce = 0.5;             // N, mean on each pad
+constexpr double kGraspForce = 0.5;                        // N, mean on each pad
 constexpr double kGraspOpposition = -0.70710678118654752;  // cosine: opposed within 45 degrees
 
 std::uint64_t pair_hash(PartRef a, PartRef b) {

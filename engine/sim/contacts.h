@@ -38,9 +38,9 @@ class ContactWindow {
  private:
   Sum& sum_of(PartRef a, PartRef b);
   void index_sums(std::size_t table_size);
-  std::vector<Sum> sums_;             // in order of first touch
-  std::vector<std::int32_t> table_;   // open addressing: index in sums_, -1 empty
-  std::int64_t steps_ = 0;            // in the open window
+  std::vector<Sum> sums_;            // in order of first touch
+  std::vector<std::int32_t> table_;  // open addressing: index in sums_, -1 empty
+  std::int64_t steps_ = 0;           // in the open window
   std::vector<Contact> closed_;
 };
 

@@ -9,18 +9,18 @@
 namespace stampede {
 namespace {
 
-constexpr double kJointStiffness = 600;      // N m/rad of the strongest joint
-constexpr double kTipStiffness = 800;        // N/m
-constexpr double kTurnOverTip = 0.04;        // (N m/rad) per (N/m)
-constexpr double kPostureStiffness = 20;     // N m/rad, in the null space of the tip
-constexpr double kSingularity = 1e-4;        // damping of the null-space projector
+constexpr double kJointStiffness = 600;   // N m/rad of the strongest joint
+constexpr double kTipStiffness = 800;     // N/m
+constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
+constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
+constexpr double kSingularity = 1e-4;     // damping of the null-space projector
 constexpr double kArmErp = 0.2, kFingerErp = 0.2;
-constexpr double kGearForce = 50;            // N
-constexpr std::int64_t kStartSteps = 3;      // a finger just told to move is not blocked
-constexpr double kBlockedLag = 0.001;        // m
-constexpr double kBlockedSpeed = 0.25;       // of finger_speed
-constexpr double kPressSpeed = 1.0;          // m/s
-constexpr double kDefaultEffort = 100;       // N m or N, where a robot states none
+constexpr double kGearForce = 50;        // N
+constexpr std::int64_t kStartSteps = 3;  // a finger just told to move is not blocked
+constexpr double kBlockedLag = 0.001;    // m
+constexpr double kBlockedSpeed = 0.25;   // of finger_speed
+constexpr double kPressSpeed = 1.0;      // m/s
+constexpr double kDefaultEffort = 100;   // N m or N, where a robot states none
 
 // Rotation vector of `to` seen from `from`, in world axes.
 Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
@@ -60,7 +60,8 @@ void World::Impl::build_robot_motors() {
   const auto motor_of = [&](int part_index) {
     const PartSlot& driven = slot({kRobot, part_index});
     if (!driven.driven_by_joint)
-      throw Error(robot.name, "part '" + part({kRobot, part_index}).name + "' has no joint to drive", "name moving links");
+      throw Error(robot.name, "part '" + part({kRobot, part_index}).name + "' has no joint to drive",
+                  "name moving links");
     auto motor = std::make_unique<btMultiBodyJointMotor>(robot_slot.multibody, driven.link, 0, 0);
     world.addMultiBodyConstraint(motor.get());
     constraints.push_back(std::move(motor));
@@ -82,8 +83,8 @@ void World::Impl::build_robot_motors() {
     // Two force-limited motors alone let the pair wander along the closing axis: the gear couples them.
     const btVector3 origin(0, 0, 0);
     auto gear = std::make_unique<btMultiBodyGearConstraint>(robot_slot.multibody, finger_links[0], robot_slot.multibody,
-                                                            finger_links[1], origin, origin,
-                                                            btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity());
+                                                            finger_links[1], origin, origin, btMatrix3x3::getIdentity(),
+                                                            btMatrix3x3::getIdentity());
     gear->setGearRatio(-1);
     gear->setErp(0.2);
     gear->setMaxAppliedImpulse(kGearForce * dt);
@@ -225,8 +226,8 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   JointVector posture_damping(joints);
   for (Eigen::Index i = 0; i < joints; ++i) posture_damping[i] = 2 * std::sqrt(kPostureStiffness * mass(i, i));
 
-  const Vector6 force = stiffness.cwiseProduct(error - dt * tip_velocity) +
-                        damping.cwiseProduct(target_velocity - tip_velocity);
+  const Vector6 force =
+      stiffness.cwiseProduct(error - dt * tip_velocity) + damping.cwiseProduct(target_velocity - tip_velocity);
   const JointVector posture = kPostureStiffness * (projector * (next.position - q - dt * v)) +
                               posture_damping.cwiseProduct(projector * (next.velocity - v));
   const JointVector pull = jacobian.transpose() * force + projector * posture;

@@ -9,8 +9,8 @@ namespace stampede {
 namespace {
 
 constexpr int kMostIterations = 64;
-constexpr double kNoProgress = 1e-10;      // relative
-constexpr double kTouching = 1e-18;        // m^2
+constexpr double kNoProgress = 1e-10;  // relative
+constexpr double kTouching = 1e-18;    // m^2
 
 // Up to four points of the difference of two shapes, and the point of their hull nearest to the origin.
 struct Simplex {

@@ -13,10 +13,10 @@ struct Convex {
   Vector3 support(const Vector3& direction) const;  // the core's farthest point that way, in the shape's frame
 
   ShapeKind kind;
-  Vector3 half = Vector3::Zero();     // box
-  double radius = 0, half_length = 0;  // cylinder, cone; capsule: half_length alone
-  std::vector<Vector3> points;        // hull
-  double rounding = 0;                // m
+  Vector3 half = Vector3::Zero();                                    // box
+  double radius = 0, half_length = 0;                                // cylinder, cone; capsule: half_length alone
+  std::vector<Vector3> points;                                       // hull
+  double rounding = 0;                                               // m
   Vector3 box_centre = Vector3::Zero(), box_half = Vector3::Zero();  // bounding box, rounding included
 };
 

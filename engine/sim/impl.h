@@ -12,6 +12,7 @@
 
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
+#include "engine/sim/anchors.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/shapes.h"
 #include "engine/sim/world.h"
@@ -24,9 +25,9 @@ constexpr int kRobot = -1;
 struct PartSlot {
   btCollisionObject* object = nullptr;  // its frame is the link's: centre of mass, principal axes
   Transform link_from_part = Transform::Identity();
-  btMultiBody* multibody = nullptr;     // null: rigid
-  int link = -1;                        // of multibody
-  bool driven_by_joint = false;         // the part itself moves on a hinge or slider
+  btMultiBody* multibody = nullptr;  // null: rigid
+  int link = -1;                     // of multibody
+  bool driven_by_joint = false;      // the part itself moves on a hinge or slider
 };
 
 struct BodySlot {
@@ -40,10 +41,10 @@ struct Mechanism {
   PartRef part;
   btMultiBody* multibody = nullptr;
   int link = -1;
-  double inertia = 1;                      // that one joint feels at the start, kg or kg m^2
-  btMultiBodyJointMotor* brake = nullptr;  // friction, and the lock of a latch
+  double inertia = 1;                       // that one joint feels at the start, kg or kg m^2
+  btMultiBodyJointMotor* brake = nullptr;   // friction, and the lock of a latch
   btMultiBodyJointMotor* spring = nullptr;  // return spring or detent
-  int key_link = -1;                       // of the latch; -1: none
+  int key_link = -1;                        // of the latch; -1: none
   double key_initial = 0;
   double relock_below = 0;
   bool locked = false;
@@ -139,15 +140,16 @@ struct World::Impl {
   std::int64_t hand_step = 0;  // when it was given
   Reference reference;
   JointState reference_now;  // of `steps`
+  AnchorNormals anchors;
   ContactWindow contacts;
-  JointVector arm_torque;    // given by the controller in the last step
+  JointVector arm_torque;                    // given by the controller in the last step
   std::vector<std::vector<double>> efforts;  // body + 1, part
-  bool canonical = false;    // nothing moved since the last boundary
+  bool canonical = false;                    // nothing moved since the last boundary
   std::vector<Command> log;
 
   mutable std::vector<std::vector<Transform>> poses;  // body + 1, part
   mutable std::vector<std::vector<std::int64_t>> pose_stamps;
-  std::int64_t stamp = 1;    // poses with another one are stale
+  std::int64_t stamp = 1;  // poses with another one are stale
 };
 
 }  // namespace stampede

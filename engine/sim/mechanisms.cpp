@@ -9,11 +9,11 @@ namespace stampede {
 namespace {
 
 constexpr double kSpringErp = 0.1;
-constexpr double kSpringSpeed = 0.3;    // m/s or rad/s at most
-constexpr double kLockForce = 500;      // N or N m
+constexpr double kSpringSpeed = 0.3;  // m/s or rad/s at most
+constexpr double kLockForce = 500;    // N or N m
 constexpr double kLockErp = 0.2;
-constexpr double kKeyBack = 0.6;        // of the way from its rest to latch_open: hysteresis of the key
-constexpr double kRelockRange = 0.01;   // of the joint's range, where latch_close says nothing
+constexpr double kKeyBack = 0.6;       // of the way from its rest to latch_open: hysteresis of the key
+constexpr double kRelockRange = 0.01;  // of the joint's range, where latch_close says nothing
 
 bool descends_from(const Body& body, int part, int ancestor) {
   for (int at = part; at >= 0; at = body.parts[static_cast<std::size_t>(at)].parent)
@@ -37,8 +37,9 @@ static double inertia_of(const World::Impl& impl, PartRef ref) {
     const Transform& pose = impl.world_from_part({ref.body, p});
     const Vector3 arm = (pose * part.centre_of_mass - joint.translation()).cross(axis);
     const Vector3 local_axis = pose.linear().transpose() * axis;
-    sum += mover.joint.kind == JointKind::slider ? part.mass
-                                                 : local_axis.dot(part.inertia * local_axis) + part.mass * arm.squaredNorm();
+    sum += mover.joint.kind == JointKind::slider
+               ? part.mass
+               : local_axis.dot(part.inertia * local_axis) + part.mass * arm.squaredNorm();
   }
   return sum;
 }
@@ -96,8 +97,10 @@ void World::Impl::move_mechanisms() {
     if (mechanism.key_link >= 0) {
       const double key = mechanism.multibody->getJointPos(mechanism.key_link);
       const double turned = (key - mechanism.key_initial) / (joint.latch_open - mechanism.key_initial);  // 1: opens
-      if (mechanism.locked && turned >= 1) mechanism.locked = false;
-      else if (!mechanism.locked && turned <= kKeyBack && q <= mechanism.relock_below) mechanism.locked = true;
+      if (mechanism.locked && turned >= 1)
+        mechanism.locked = false;
+      else if (!mechanism.locked && turned <= kKeyBack && q <= mechanism.relock_below)
+        mechanism.locked = true;
     }
     // Constraints stay in place all the time: their order is part of the state. Only their targets change.
     if (mechanism.locked) {

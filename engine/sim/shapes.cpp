@@ -12,8 +12,8 @@
 namespace stampede {
 namespace {
 
-constexpr double kHullMargin = 0.001;      // m
-constexpr double kMarginOfInside = 0.2;    // of the greatest ball inside: thin hulls keep their shape
+constexpr double kHullMargin = 0.001;    // m
+constexpr double kMarginOfInside = 0.2;  // of the greatest ball inside: thin hulls keep their shape
 constexpr double kNoRotation = 1e-12;
 
 template <typename S, typename... Arguments>
@@ -30,8 +30,8 @@ btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform&
   std::vector<btVector3> moved;
   for (const Vector3& point : points) moved.push_back(to_bullet(Vector3(link_from_shape * point)));
   btConvexHullComputer computer;
-  const btScalar shrunk = computer.compute(&moved[0].x(), sizeof(btVector3), static_cast<int>(moved.size()),
-                                           kHullMargin, kMarginOfInside);
+  const btScalar shrunk =
+      computer.compute(&moved[0].x(), sizeof(btVector3), static_cast<int>(moved.size()), kHullMargin, kMarginOfInside);
   auto* hull = keep<btConvexHullShape>(store);
   if (shrunk < 0 || computer.vertices.size() < 4) {  // flat: Bullet's hull code cannot shrink it
     for (const btVector3& point : moved) hull->addPoint(point, false);

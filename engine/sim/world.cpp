@@ -22,8 +22,8 @@ World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   world.getDispatchInfo().m_deterministicOverlappingPairs = true;  // else results depend on the broadphase's history
   btContactSolverInfo& info = world.getSolverInfo();
   info.m_numIterations = kSolverIterations;
-  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;       // without it grasps slide under full force
-  info.m_solverMode &= ~SOLVER_USE_ARTICULATED_WARMSTARTING;   // keeps impulses that no snapshot can reach
+  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;      // without it grasps slide under full force
+  info.m_solverMode &= ~SOLVER_USE_ARTICULATED_WARMSTARTING;  // keeps impulses that no snapshot can reach
   poses.resize(scene->bodies.size() + 1);
   pose_stamps.resize(poses.size());
   efforts.resize(poses.size());
@@ -115,7 +115,8 @@ void World::Impl::read_efforts() {
   };
   const Robot& robot = scene->robot;
   for (std::size_t j = 0; j < arm_motors.size(); ++j)
-    efforts[0][static_cast<std::size_t>(robot.arm[j])] = applied(arm_motors[j]) + arm_torque[static_cast<Eigen::Index>(j)];
+    efforts[0][static_cast<std::size_t>(robot.arm[j])] =
+        applied(arm_motors[j]) + arm_torque[static_cast<Eigen::Index>(j)];
   for (std::size_t f = 0; f < finger_motors.size(); ++f)
     efforts[0][static_cast<std::size_t>(robot.fingers[f])] = applied(finger_motors[f]);
   for (const Mechanism& mechanism : mechanisms)
@@ -138,7 +139,9 @@ void World::step() {
   Impl& w = *impl_;
   w.control();
   w.move_mechanisms();
+  w.anchors.before_step(w.world);
   w.world.stepSimulation(w.dt, 0);
+  w.anchors.after_step(w.dispatcher);
   w.contacts.add_step(w.dispatcher, w.dt);
   w.read_efforts();
   ++w.steps;

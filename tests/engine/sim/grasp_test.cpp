@@ -44,8 +44,8 @@ void shake(World& world, double seconds) {
 }  // namespace
 
 TEST_CASE("a held cube survives lift, shake and a 10 s hold with less than 2 mm of slip", "[sim]") {
-  const auto kind = GENERATE(ControllerKind::joint_position, ControllerKind::joint_impedance,
-                             ControllerKind::cartesian_impedance);
+  const auto kind =
+      GENERATE(ControllerKind::joint_position, ControllerKind::joint_impedance, ControllerKind::cartesian_impedance);
   CAPTURE(to_string(kind));
   World world(shared(table_scene(1)));
   world.apply(operation::Controller{kind, 0});
@@ -104,8 +104,9 @@ TEST_CASE("a drawer pulled by its handle opens, and pushed it closes", "[sim]") 
   const Vector3 toy_in_drawer = world.world_from_part(toy).translation() - world.world_from_part(drawer).translation();
   move_line(world, translation(-0.15, 0, 0) * grasp, 3);
   CHECK(world.joint_position(drawer) == Approx(0.15).margin(0.003));
-  CHECK((world.world_from_part(toy).translation() - world.world_from_part(drawer).translation() - toy_in_drawer).norm() <
-        0.005);
+  CHECK(
+      (world.world_from_part(toy).translation() - world.world_from_part(drawer).translation() - toy_in_drawer).norm() <
+      0.005);
   move_line(world, grasp, 3);
   CHECK(world.joint_position(drawer) == Approx(0).margin(0.003));
 }

@@ -1,1 +1,188 @@
+// Joints of furniture: springs, friction, damping, detents, latches, limits.
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "tests/engine/sim/sim_scenes.h"
+
+using namespace stampede;
+using namespace stampede::testing;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// A slider along x that gravity, tilted by the test, pulls along its axis.
+Body sled(double friction, double damping) {
+  Body body = box_body("sled", {0.1, 0.1, 0.1}, {0.8, 0, 1}, 0);
+  Part part;
+  part.name = "slide";
+  part.parent = 0;
+  part.joint.name = "slide";
+  part.joint.kind = JointKind::slider;
+  part.joint.axis = {1, 0, 0};
+  part.joint.lower = -1;
+  part.joint.upper = 5;
+  part.joint.friction = friction;
+  part.joint.damping = damping;
+  part.shapes.push_back(box_shape({0.1, 0.1, 0.1}));
+  set_uniform_mass(part, 2.0);
+  body.parts.push_back(part);
+  return body;
+}
+
+}  // namespace
+
+// Made stable by dividing by 1 + dt d / m, which lets a very strongly damped joint run faster by that factor.
+TEST_CASE("damping: a pulled sled reaches the speed force over damping, and never swings", "[sim]") {
+  for (const double damping : {5.0, 5000.0}) {  // an explicit torque would diverge with the second
+    Scene scene = table_scene(0);
+    add_body(scene, sled(0, damping));
+    scene.gravity = {2.5, 0, 0};  // 5 N on 2 kg
+    World world(shared(scene));
+    const PartRef part{body_index(world, "sled"), 1};
+    const double time = 0.8;
+    run(world, time);
+    const double final_speed = 5 / damping * (1 + world.dt() * damping / 2);
+    CHECK(world.joint_velocity(part) == Approx(final_speed * (1 - std::exp(-damping / 2 * time))).epsilon(0.01));
+  }
+}
+
+TEST_CASE("friction holds below its limit and leaves the rest above it", "[sim]") {
+  for (const double friction : {6.0, 3.0}) {
+    Scene scene = table_scene(0);
+    add_body(scene, sled(friction, 0));
+    scene.gravity = {2.5, 0, 0};
+    World world(shared(scene));
+    const PartRef part{body_index(world, "sled"), 1};
+    run(world, 0.5);
+    const double expected = friction > 5 ? 0 : (5 - friction) / 2 * 0.5;
+    CHECK(world.joint_velocity(part) == Approx(expected).margin(1e-3));
+    CHECK(world.joint_effort(part) == Approx(-std::min(friction, 5.0)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a pressed button sinks, counts and returns", "[sim]") {
+  Scene scene = table_scene(0);
+  add_body(scene, button({0.5, 0, 0.01}));
+  World world(shared(scene));
+  const PartRef cap{body_index(world, "button"), 1};
+  grip(world, 0);
+  run(world, 0.5);
+  CHECK(world.joint_position(cap) == Approx(0).margin(1e-4));
+  move_to(world, solve(world, tip_down(0.5, 0, 0.08), world.arm().home()), 1);
+  for (int press = 0; press < 2; ++press) {
+    move_line(world, tip_down(0.5, 0, 0.05), 0.5);
+    const double tip_above_fingers = 0.0104;  // the finger boxes end 9 mm below the tool point
+    move_line(world, tip_down(0.5, 0, 0.04 - 0.004 + tip_above_fingers - 0.001), 0.5);
+    CHECK(world.joint_position(cap) > 0.0035);
+    move_line(world, tip_down(0.5, 0, 0.08), 0.5);
+    CHECK(world.joint_position(cap) == Approx(0).margin(1e-4));
+    CHECK(std::abs(world.joint_velocity(cap)) < 1e-3);
+  }
+}
+
+TEST_CASE("a latch holds until its lever is pressed, and catches again", "[sim]") {
+  // The lever and the leaf are moved by gravity, which the scene turns: no hand is needed.
+  Scene scene = table_scene(0);
+  add_body(scene, latched_door({0.9, -0.5, 0.5}));
+  scene.bodies[1].parts[2].joint.spring_force = 0.001;
+  scene.gravity = {4, 0, 0};  // pulls the leaf open with 1.5 kg * 4 m/s^2 * 0.16 m = 0.96 N m, leaves the lever
+  {
+    World world(shared(scene));
+    const PartRef leaf{body_index(world, "door"), 1};
+    REQUIRE(world.latched(leaf));
+    run(world, 1);
+    CHECK(world.latched(leaf));
+    CHECK(std::abs(world.joint_position(leaf)) < 0.01 * kDegree);
+  }
+  scene.gravity = {4, 0, -9.81};  // the lever, hinged about x with its bar along +y, falls
+  World world(shared(scene));
+  const PartRef leaf{body_index(world, "door"), 1}, lever{body_index(world, "door"), 2};
+  run(world, 2);
+  CHECK(world.joint_position(lever) < -30 * kDegree);
+  CHECK_FALSE(world.latched(leaf));
+  CHECK(std::abs(world.joint_position(leaf)) > 10 * kDegree);
+}
+
+TEST_CASE("a latch catches when the door is shut and the lever is back", "[sim]") {
+  Scene scene = table_scene(0);
+  add_body(scene, latched_door({0.9, -0.5, 0.5}));
+  scene.bodies[1].parts[1].joint.initial = 0.6;
+  scene.gravity = {-4, 0, 0};  // pushes the leaf shut; the lever's spring holds it up
+  World world(shared(scene));
+  const PartRef leaf{body_index(world, "door"), 1};
+  CHECK_FALSE(world.latched(leaf));
+  run(world, 3);
+  CHECK(world.latched(leaf));
+  CHECK(world.joint_position(leaf) == Approx(0).margin(0.1 * kDegree));
+}
+
+TEST_CASE("a rocker rests at the limit it is nearer to", "[sim]") {
+  for (const double initial : {-0.05, 0.05}) {
+    Scene scene = table_scene(0);
+    Body rocker = box_body("rocker", {0.05, 0.05, 0.02}, {0.5, 0.3, 0.01}, 0);
+    Part part;
+    part.name = "plate";
+    part.parent = 0;
+    part.joint.kind = JointKind::hinge;
+    part.joint.axis = {0, 1, 0};
+    part.joint.parent_from_joint = translation(0, 0, 0.02);
+    part.joint.lower = -15 * kDegree;
+    part.joint.upper = 15 * kDegree;
+    part.joint.initial = initial;
+    part.joint.detent = 0.1;
+    part.shapes.push_back(box_shape({0.04, 0.03, 0.008}));
+    set_uniform_mass(part, 0.02);
+    rocker.parts.push_back(part);
+    add_body(scene, rocker);
+    World world(shared(scene));
+    const PartRef plate{body_index(world, "rocker"), 1};
+    run(world, 1);
+    CHECK(world.joint_position(plate) == Approx(std::copysign(15 * kDegree, initial)).margin(0.05 * kDegree));
+    CHECK(std::abs(world.joint_velocity(plate)) < 1e-3);
+  }
+}
+
+TEST_CASE("a latch that names no joint is refused", "[sim]") {
+  Scene scene = table_scene(0);
+  Body door = latched_door({0.9, 0, 0.5});
+  door.parts[1].joint.latch_key = "knob";
+  add_body(scene, door);
+  CHECK_THROWS_WITH(World(shared(scene)), Catch::Contains("knob"));
+}
+
+TEST_CASE("parts that are rigidly fixed to each other move as one", "[sim]") {
+  Scene scene = table_scene(0);
+  Body body = sled(0, 0);
+  Part plate;  // a lump of mass without shape, and beyond it a part with one
+  plate.name = "plate";
+  plate.parent = 1;
+  plate.joint.parent_from_joint = translation(0, 0.2, 0) * rotation_rpy(0.3, 0.2, 0.1);
+  plate.mass = 1;
+  plate.inertia = 0.01 * Matrix3::Identity();
+  plate.centre_of_mass = {0.1, 0, 0};
+  Part flag;
+  flag.name = "flag";
+  flag.parent = 2;
+  flag.joint.parent_from_joint = translation(0, 0, 0.2);
+  flag.shapes.push_back(box_shape({0.02, 0.02, 0.02}));
+  set_uniform_mass(flag, 1);
+  body.parts.push_back(plate);
+  body.parts.push_back(flag);
+  add_body(scene, body);
+  scene.gravity = {2.5, 0, 0};
+  World world(shared(scene));
+  const int sled_body = body_index(world, "sled");
+  run(world, 0.5);
+  std::vector<Transform> expected;
+  forward_kinematics(world.scene().bodies[static_cast<std::size_t>(sled_body)], translation(0.8, 0, 1),
+                     std::vector<double>{0, world.joint_position({sled_body, 1}), 0, 0}, expected);
+  CHECK(world.joint_velocity({sled_body, 1}) == Approx(2.5 * 0.5).epsilon(1e-6));
+  for (int part = 0; part < 4; ++part)
+    CHECK((world.world_from_part({sled_body, part}).matrix() - expected[static_cast<std::size_t>(part)].matrix())
+              .cwiseAbs()
+              .maxCoeff() < 1e-12);
+  CHECK(world.linear_velocity({sled_body, 3}).x() == Approx(1.25).epsilon(1e-6));
+}

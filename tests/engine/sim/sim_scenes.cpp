@@ -47,10 +47,11 @@ Body chest(const Vector3& centre) {
   Body body = box_body("chest", {0.24, 0.24, 0.02}, centre, 0);
   body.parts[0].shapes.push_back(box_shape({0.24, 0.24, 0.02}, {0, 0, 0.14}));
   Part drawer = moving_part("drawer", JointKind::slider, {-1, 0, 0}, {0, 0, 0.07}, 0, 0.2);
-  drawer.shapes = {box_shape({0.01, 0.2, 0.1}, {-0.11, 0, 0}),      box_shape({0.2, 0.2, 0.01}, {0, 0, -0.045}),
-                   box_shape({0.01, 0.2, 0.08}, {0.1, 0, 0}),       box_shape({0.2, 0.01, 0.08}, {0, 0.095, 0}),
-                   box_shape({0.2, 0.01, 0.08}, {0, -0.095, 0}),    box_shape({0.01, 0.12, 0.01}, {-0.155, 0, 0}),
-                   box_shape({0.035, 0.01, 0.01}, {-0.1325, 0.055, 0}), box_shape({0.035, 0.01, 0.01}, {-0.1325, -0.055, 0})};
+  drawer.shapes = {
+      box_shape({0.01, 0.2, 0.1}, {-0.11, 0, 0}),          box_shape({0.2, 0.2, 0.01}, {0, 0, -0.045}),
+      box_shape({0.01, 0.2, 0.08}, {0.1, 0, 0}),           box_shape({0.2, 0.01, 0.08}, {0, 0.095, 0}),
+      box_shape({0.2, 0.01, 0.08}, {0, -0.095, 0}),        box_shape({0.01, 0.12, 0.01}, {-0.155, 0, 0}),
+      box_shape({0.035, 0.01, 0.01}, {-0.1325, 0.055, 0}), box_shape({0.035, 0.01, 0.01}, {-0.1325, -0.055, 0})};
   set_uniform_mass(drawer, 1.0);
   drawer.joint.friction = 2;
   drawer.joint.damping = 5;

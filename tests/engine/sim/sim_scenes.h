@@ -26,7 +26,7 @@ int body_index(const World& world, const char* name);
 JointVector solve(const World& world, const Transform& world_from_tip, const JointVector& near);
 Transform tip_down(double x, double y, double z, double yaw = 0);  // the tip pointing down, closing along y at yaw 0
 
-void run(World& world, double seconds);       // frames are closed every 12 steps
+void run(World& world, double seconds);  // frames are closed every 12 steps
 void move_to(World& world, const JointVector& q, double seconds);
 // The tip moves in a straight line, in `seconds`, at rest at both ends.
 void move_line(World& world, const Transform& world_from_tip, double seconds);

@@ -62,7 +62,8 @@ void act_stepwise(World& world, const std::vector<Command>& commands, std::size_
                   std::vector<std::string>& hashes) {
   std::size_t next = from;
   for (;;) {
-    for (; next < commands.size() && commands[next].step == world.step_count(); ++next) world.apply(commands[next].operation);
+    for (; next < commands.size() && commands[next].step == world.step_count(); ++next)
+      world.apply(commands[next].operation);
     if (world.step_count() >= until) return;
     world.step();
     if (world.step_count() % 12 == 0) world.close_window();
@@ -87,8 +88,8 @@ TEST_CASE("a replayed log gives the same state at every step", "[sim]") {
 
   std::vector<Command> decoded;  // through the bytes that catalogues hold
   for (const Command& command : commands)
-    decoded.push_back({command.step, operation_from_bytes(operation_kind(command.operation),
-                                                          operation_to_bytes(command.operation))});
+    decoded.push_back(
+        {command.step, operation_from_bytes(operation_kind(command.operation), operation_to_bytes(command.operation))});
   World third(scene);
   std::thread other([&] { act_stepwise(third, decoded, 0, original.step_count(), threaded); });
   act_stepwise(second, decoded, 0, original.step_count(), twice);

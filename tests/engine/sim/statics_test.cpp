@@ -39,7 +39,8 @@ TEST_CASE("a free fall covers g t^2 / 2", "[sim]") {
 TEST_CASE("five stacked cubes stand for 30 s", "[sim]") {
   Scene scene = table_scene(0);
   for (int i = 0; i < 5; ++i)
-    add_body(scene, box_body("stack" + std::to_string(i), Vector3::Constant(0.04), {0.5, 0.2, 0.0205 + 0.0405 * i}, 0.1));
+    add_body(scene,
+             box_body("stack" + std::to_string(i), Vector3::Constant(0.04), {0.5, 0.2, 0.0205 + 0.0405 * i}, 0.1));
   World world(shared(scene));
   run(world, 30);
   for (int i = 0; i < 5; ++i) {

@@ -1,0 +1,119 @@
+// The engine's step against a bare Bullet loop of the same scene: Panda, table, 10 resting 4 cm cubes, arm moving,
+// 240 Hz. Both run in turn, one step each, so that a slow phase of the machine meets both.
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "engine/sim/collision_space.h"
+#include "engine/sim/impl.h"
+#include "tests/support/panda.h"
+
+namespace stampede {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::shared_ptr<const Scene> bench_scene() { return std::make_shared<const Scene>(table_scene(10)); }
+
+Trajectory waving(const Arm& arm) {
+  Trajectory path;
+  const JointVector zero = JointVector::Zero(arm.joints());
+  for (int k = 0; k < 400; ++k) {
+    JointVector q = arm.home();
+    if (k > 0)
+      for (Eigen::Index j = 0; j < q.size(); ++j) q[j] += 0.2 * std::sin(1.3 * k + static_cast<double>(j));
+    path.knots.push_back({k * 120, q, zero, zero});
+  }
+  return path;
+}
+
+// What a minimal program would do: the same bodies and constraints, motor targets, stepSimulation, nothing else.
+void bare_step(World::Impl& w, const Trajectory& path, std::int64_t step) {
+  const JointState now = evaluate(path, static_cast<double>(step), 240);
+  for (std::size_t j = 0; j < w.arm_motors.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    w.arm_motors[j]->setPositionTarget(now.position[i], 1);
+    w.arm_motors[j]->setVelocityTarget(now.velocity[i], 1);
+    w.arm_motors[j]->setMaxAppliedImpulse(w.scene->robot.limits[j].effort * w.dt);
+  }
+  for (btMultiBodyJointMotor* finger : w.finger_motors) {
+    finger->setPositionTarget(0.04, 1);
+    finger->setMaxAppliedImpulse(20 * w.dt);
+  }
+  w.world.stepSimulation(w.dt, 0);
+}
+
+void engine_against_bare(benchmark::State& state, ControllerKind kind) {
+  const auto scene = bench_scene();
+  World engine(scene);
+  World::Impl bare(scene);
+  const Trajectory path = waving(engine.arm());
+  double engine_s = 0, bare_s = 0;
+  std::int64_t step = 0;
+  engine.apply(operation::Controller{kind, 0});
+  for (auto _ : state) {
+    if (step % path.steps() == 0) {
+      engine.apply(operation::Follow{path});
+      step = 0;
+    }
+    const auto start = Clock::now();
+    engine.step();
+    if (step % 12 == 11) {
+      engine.close_window();
+      benchmark::DoNotOptimize(engine.grasped());
+      for (int b = 0; b < static_cast<int>(scene->bodies.size()); ++b)
+        benchmark::DoNotOptimize(engine.world_from_part({b, 0}));
+    }
+    const auto middle = Clock::now();
+    bare_step(bare, path, step);
+    const auto end = Clock::now();
+    engine_s += std::chrono::duration<double>(middle - start).count();
+    bare_s += std::chrono::duration<double>(end - middle).count();
+    ++step;
+  }
+  state.counters["engine_us"] = 1e6 * engine_s / static_cast<double>(state.iterations());
+  state.counters["bare_us"] = 1e6 * bare_s / static_cast<double>(state.iterations());
+  state.counters["speed_ratio"] = bare_s / engine_s;  // the engine's speed over the bare loop's
+}
+
+void collision_query(benchmark::State& state) {
+  World world(bench_scene());
+  auto space = world.collision_space();
+  Random random(RandomKey("collision bench"));
+  std::vector<JointVector> states;
+  for (int i = 0; i < 1000; ++i) {
+    JointVector q(world.arm().joints());
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const JointLimits& limits = world.arm().limits()[static_cast<std::size_t>(j)];
+      q[j] = random.between(limits.lower, limits.upper);
+    }
+    if (state.range(0) == 0 || space->free(q)) states.push_back(q);
+  }
+  std::size_t at = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(space->free(states[at]));
+    at = (at + 1) % states.size();
+  }
+}
+
+void snapshot_and_restore(benchmark::State& state) {
+  World world(bench_scene());
+  for (int i = 0; i < 100; ++i) world.step();
+  for (auto _ : state) {
+    world.apply(operation::Boundary{});
+    world.restore(world.snapshot());
+  }
+}
+
+BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, joint_impedance, ControllerKind::joint_impedance)->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, cartesian_impedance, ControllerKind::cartesian_impedance)->MinTime(3);
+BENCHMARK(collision_query)->ArgName("free_only")->Arg(0)->Arg(1);
+BENCHMARK(snapshot_and_restore);
+
+}  // namespace
+}  // namespace stampede
+
+BENCHMARK_MAIN();
