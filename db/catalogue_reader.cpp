@@ -1,0 +1,230 @@
+#include "db/episode_reader.h"
+#include "db/table_text.h"
+
+namespace stampede {
+
+std::string to_json_list(const std::vector<std::string>& texts) {
+  std::string json = "[";
+  for (const std::string& text : texts) json += (json.size() > 1 ? "," : "") + json_text(text);
+  return json + "]";
+}
+
+std::vector<std::string> from_json_list(const sql::Database& database, const std::string& json) {
+  std::vector<std::string> texts;
+  if (json == "[]") return texts;
+  sql::Statement items(database, "SELECT value FROM json_each(?1) ORDER BY key");
+  for (items.start(json); items.step();) items.read(texts.emplace_back());
+  return texts;
+}
+
+void EpisodeReader::read_episode() {
+  sql::Statement row(
+      database_,
+      "SELECT e.key, e.task, e.world, coalesce(e.variation, ''), coalesce(e.seed, 0), e.split, e.outcome, "
+      "e.reason, e.detail, e.physics_hz, e.frame_hz, e.steps, e.draws, coalesce(e.state_hash, ''), "
+      "e.engine_run, coalesce(s.document, ''), coalesce(t.wall_s, 0), coalesce(t.physics_wall_s, 0), "
+      "e.frames FROM episode e LEFT JOIN scene s ON s.hash = e.scene "
+      "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
+  if (!row.start(id_).step())
+    throw Error(database_.path(), "there is no episode " + std::to_string(id_),
+                "`stampede query \"SELECT episode, task, outcome FROM episodes\"` lists them");
+  EpisodeRecord& e = record_;
+  std::string outcome, reason, scene;
+  std::int64_t frames = 0;
+  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.physics_hz, e.frame_hz,
+           e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames);
+  e.outcome = outcome_from(outcome);
+  e.reason = reason_from(reason).value_or(Reason::none);
+  e.scene_document = unpack_scene(database_, scene);
+  e.frames.resize(static_cast<std::size_t>(frames));
+  sql::Statement axes(database_, "SELECT axis, value FROM variation_axis WHERE task = ?1 AND variation = ?2");
+  for (axes.start(e.task, e.variation); axes.step();) {
+    std::string axis, value;
+    axes.read(axis, value);
+    e.axes[axis] = value;
+  }
+}
+
+void EpisodeReader::read_run() {
+  sql::Statement options(database_,
+                         "SELECT j.key, j.value FROM engine_run r, json_each(r.options) j WHERE r.hash = ?1");
+  for (options.start(run_); options.step();) {
+    std::string name, value;
+    options.read(name, value);
+    record_.options[name] = value;
+  }
+  sql::Statement definitions(database_,
+                             "SELECT d.kind, d.name, d.path, d.source, d.hash FROM engine_run_definition r "
+                             "JOIN definition d USING (kind, name, hash) WHERE r.engine_run = ?1 "
+                             "ORDER BY d.kind, d.name, d.hash");
+  for (definitions.start(run_); definitions.step();) {
+    DefinitionRecord& d = record_.definitions.emplace_back();
+    definitions.read(d.kind, d.name, d.path, d.source, d.hash);
+  }
+  sql::Statement predicates(database_, "SELECT name, kind FROM predicate WHERE engine_run = ?1");
+  for (predicates.start(run_); predicates.step();) {
+    std::string name, kind;
+    predicates.read(name, kind);
+    record_.predicates[name] = kind;
+  }
+}
+
+void EpisodeReader::read_objects() {
+  each("name, kind, class, type, body, part, size_x, size_y, size_z", "object", "ordinal", [&](sql::Statement& row) {
+    Object& o = record_.objects.emplace_back();
+    std::string kind;
+    row.read(o.name, kind, o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(), o.size.z());
+    o.kind = kind == "part"     ? ObjectKind::part
+             : kind == "region" ? ObjectKind::region
+             : kind == "hand"   ? ObjectKind::hand
+                                : ObjectKind::body;
+  });
+  each("object, trait", "object_trait", "object, ordinal", [&](sql::Statement& row) {
+    std::int64_t object = 0;
+    std::string trait;
+    row.read(object, trait);
+    at(record_.objects, object, "object_trait").traits.push_back(trait);
+  });
+  each("object, typeof(value), name, value", "object_attribute", "object, name", [&](sql::Statement& row) {
+    std::int64_t object = 0;
+    std::string type, name, value;
+    row.read(object, type, name);
+    Object& owner = at(record_.objects, object, "object_attribute");
+    if (type == "text") {
+      row.read(object, type, name, value);
+      owner.attributes[name] = value;
+    } else {
+      double number = 0;
+      row.read(object, type, name, number);
+      owner.numbers[name] = number;
+    }
+  });
+}
+
+void EpisodeReader::read_names() {
+  each("name", "posed", "ordinal", [&](sql::Statement& row) { row.read(record_.posed.emplace_back()); });
+  each("name", "hand", "ordinal", [&](sql::Statement& row) { row.read(record_.hands.emplace_back()); });
+  each("name, body, part, kind, unit, lower, upper, driven", "joint", "ordinal", [&](sql::Statement& row) {
+    JointName& j = record_.joints.emplace_back();
+    row.read(j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
+  });
+}
+
+void EpisodeReader::read_cameras() {
+  std::string mount;
+  for (const char* field : {"x", "y", "z", "qx", "qy", "qz", "qw"})
+    mount += std::string(", mount ->> '$.") + field + "'";
+  each("name, width, height, vertical_fov_rad, near_m, far_m, mount_body, mount_part" + mount, "camera", "ordinal",
+       [&](sql::Statement& row) {
+         Camera& c = record_.cameras.emplace_back();
+         Pose pose;
+         row.read(c.name, c.width, c.height, c.vertical_fov_rad, c.near_m, c.far_m, c.mount_body, c.mount_part, pose);
+         c.mount_from_camera = to_transform(pose);
+       });
+}
+
+void EpisodeReader::read_channels() {
+  each("name, unit, rate_hz, components", "channel", "ordinal", [&](sql::Statement& row) {
+    ChannelRecord& c = record_.channels.emplace_back();
+    std::string components;
+    row.read(c.name, c.unit, c.rate_hz, components);
+    c.components = from_json_list(database_, components);
+  });
+  each("channel, component, step, value", "sample", "channel, ordinal, component", [&](sql::Statement& row) {
+    std::int64_t channel = 0, component = 0, step = 0;
+    double value = 0;
+    row.read(channel, component, step, value);
+    ChannelRecord& owner = at(record_.channels, channel, "sample");
+    if (component == 0) owner.steps.push_back(step);
+    owner.values.push_back(value);
+  });
+}
+
+void EpisodeReader::read_frames() {
+  const std::size_t joints = record_.joints.size();
+  for (FrameRecord& frame : record_.frames) {
+    frame.joint_position.resize(joints), frame.joint_velocity.resize(joints), frame.joint_effort.resize(joints);
+    frame.object_pose.resize(record_.posed.size());
+    frame.hands.resize(record_.hands.size());
+  }
+  each("frame, step, reward, done", "frame", "frame", [&](sql::Statement& row) {
+    std::int64_t frame = 0;
+    row.read(frame);
+    FrameRecord& f = at(record_.frames, frame, "frame");
+    row.read(frame, f.step, f.reward, f.done);
+  });
+  each("frame, joint, position, velocity, effort", "joint_state", "frame, joint", [&](sql::Statement& row) {
+    std::int64_t frame = 0, joint = 0;
+    row.read(frame, joint);
+    FrameRecord& f = at(record_.frames, frame, "joint_state");
+    row.read(frame, joint, at(f.joint_position, joint, "joint_state"), at(f.joint_velocity, joint, "joint_state"),
+             at(f.joint_effort, joint, "joint_state"));
+  });
+  each("frame, hand, " + std::string(kPoseColumns) +
+           ", linear_x, linear_y, linear_z, angular_x, angular_y, angular_z, opening, touch_1, touch_2",
+       "hand_state", "frame, hand", [&](sql::Statement& row) {
+         std::int64_t frame = 0, hand = 0;
+         row.read(frame, hand);
+         HandRecord& h = at(at(record_.frames, frame, "hand_state").hands, hand, "hand_state");
+         row.read(frame, hand, h.tip, h.twist[0], h.twist[1], h.twist[2], h.twist[3], h.twist[4], h.twist[5], h.opening,
+                  h.touch[0], h.touch[1]);
+       });
+  read_poses();
+}
+
+// Rows are there where a pose changed: each is carried forward to the end.
+void EpisodeReader::read_poses() {
+  each(std::string("posed, frame, ") + kPoseColumns, "object_state", "posed, frame", [&](sql::Statement& row) {
+    std::int64_t object = 0, frame = 0;
+    Pose pose;
+    row.read(object, frame, pose);
+    at(record_.frames, frame, "object_state");
+    for (auto i = static_cast<std::size_t>(frame); i < record_.frames.size(); ++i)
+      at(record_.frames[i].object_pose, object, "object_state") = pose;
+  });
+  each(std::string("camera, frame, ") + kPoseColumns, "camera_pose", "camera, frame", [&](sql::Statement& row) {
+    std::int64_t camera = 0, frame = 0;
+    Pose pose;
+    row.read(camera, frame, pose);
+    at(record_.frames, frame, "camera_pose");
+    for (auto i = static_cast<std::size_t>(frame); i < record_.frames.size(); ++i) {
+      record_.frames[i].camera_pose.resize(record_.cameras.size());
+      at(record_.frames[i].camera_pose, camera, "camera_pose") = pose;
+    }
+  });
+}
+
+void EpisodeReader::read_actions() {
+  each("frame, space, component, value",
+       "(SELECT a.episode, a.frame, a.channel, a.value, c.space, c.component FROM action a JOIN action_channel c "
+       "ON c.episode = a.episode AND c.ordinal = a.channel) AS a",
+       "frame, channel", [&](sql::Statement& row) {
+         std::int64_t frame = 0;
+         std::size_t component = 0;
+         std::string space;
+         std::int64_t place = 0;
+         double value = 0;
+         row.read(frame, space, place, value);
+         component = static_cast<std::size_t>(place);
+         std::optional<ActionRecord>& action = at(record_.frames, frame, "action").action;
+         if (!action) action.emplace();
+         if (space == "joint_position") action->joint_position.push_back(value);
+         if (space == "gripper") action->gripper = value;
+         if (space != "tool_pose") return;
+         (component < 3 ? action->tool_pose.position.at(component) : action->tool_pose.quaternion.at(component - 3)) =
+             value;
+       });
+}
+
+void EpisodeReader::read_commands() {
+  each("step, kind, payload", "command", "ordinal", [&](sql::Statement& row) {
+    Command& command = record_.commands.emplace_back();
+    std::string kind, payload;
+    row.read(command.step, kind, payload);
+    command.operation = operation_from_bytes(kind, payload);
+  });
+}
+
+EpisodeRecord Catalogue::read_episode(std::int64_t id) const { return EpisodeReader(impl_->database, id).read(); }
+
+}  // namespace stampede

@@ -1,0 +1,121 @@
+// One digest of all data, whatever the ids and the order of commits. Tables are found in the schema, so that a new
+// one takes part by itself.
+#include <algorithm>
+
+#include "db/catalogue_impl.h"
+#include "engine/base/hash.h"
+
+namespace stampede {
+namespace {
+
+struct Table {
+  std::string name;
+  std::vector<std::string> columns, order;
+  bool of_episode = false;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + ('"' + word + '"');
+  return text;
+}
+
+Table describe(const sql::Database& database, const std::string& name) {
+  Table table{name, {}, {}, false};
+  std::vector<std::pair<int, std::string>> key;
+  sql::Statement info(database, "SELECT name, pk FROM pragma_table_info(?1) ORDER BY cid");
+  for (info.start(name); info.step();) {
+    std::string column;
+    int place = 0;
+    info.read(column, place);
+    if (column == "episode" || (name == "episode" && column == "id")) {
+      table.of_episode = true;
+      continue;
+    }
+    table.columns.push_back(column);
+    if (place > 0) key.emplace_back(place, column);
+  }
+  std::sort(key.begin(), key.end());
+  for (const auto& [place, column] : key) table.order.push_back(column);
+  if (table.order.empty()) table.order = table.columns;
+  return table;
+}
+
+// `timing` holds times of the host, sqlite_ tables are SQLite's own.
+std::vector<Table> data_tables(const sql::Database& database) {
+  std::vector<std::string> names;
+  sql::Statement list(database,
+                      "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite!_%' ESCAPE '!' "
+                      "AND name <> 'timing' ORDER BY name");
+  for (list.start(); list.step();) list.read(names.emplace_back());
+  std::vector<Table> tables;
+  for (const std::string& name : names) tables.push_back(describe(database, name));
+  return tables;
+}
+
+void hash_value(Hasher& hasher, sqlite3_stmt* row, int column) {
+  const int type = sqlite3_column_type(row, column);
+  hasher.number(static_cast<std::uint8_t>(type));
+  if (type == SQLITE_INTEGER) hasher.number<std::int64_t>(sqlite3_column_int64(row, column));
+  if (type == SQLITE_FLOAT) hasher.number(sqlite3_column_double(row, column));
+  if (type != SQLITE_TEXT && type != SQLITE_BLOB) return;
+  const void* data = sqlite3_column_blob(row, column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, column));
+  hasher.text({static_cast<const char*>(data ? data : ""), size});
+}
+
+void hash_rows(Hasher& hasher, const Table& table, sql::Statement& rows) {
+  hasher.text(table.name);
+  const int columns = static_cast<int>(table.columns.size());
+  while (rows.step()) {
+    hasher.number(std::uint8_t{1});
+    for (int column = 0; column < columns; ++column) hash_value(hasher, rows.handle(), column);
+  }
+  hasher.number(std::uint8_t{0});
+}
+
+// One statement a table, asked once an episode.
+class EpisodeHasher {
+ public:
+  explicit EpisodeHasher(const sql::Database& database) : tables_(data_tables(database)) {
+    std::erase_if(tables_, [](const Table& table) { return !table.of_episode; });
+    for (const Table& table : tables_)
+      statements_.emplace_back(database, "SELECT " + joined(table.columns) + " FROM \"" + table.name + "\" WHERE " +
+                                             (table.name == "episode" ? "id" : "episode") + " = ?1 ORDER BY " +
+                                             joined(table.order));
+  }
+  std::string digest(std::int64_t id) {
+    Hasher hasher;
+    for (std::size_t i = 0; i < tables_.size(); ++i) hash_rows(hasher, tables_[i], statements_[i].start(id));
+    return hasher.digest();
+  }
+
+ private:
+  std::vector<Table> tables_;
+  std::vector<sql::Statement> statements_;
+};
+
+}  // namespace
+
+std::string Catalogue::content_hash() const {
+  const sql::Database& database = impl_->database;
+  Hasher hasher;
+  for (const Table& table : data_tables(database)) {
+    if (table.of_episode) continue;
+    sql::Statement rows(
+        database, "SELECT " + joined(table.columns) + " FROM \"" + table.name + "\" ORDER BY " + joined(table.order));
+    hash_rows(hasher, table, rows.start());
+  }
+  EpisodeHasher episodes(database);
+  sql::Statement ids(database, "SELECT id FROM episode ORDER BY task, variation, seed, key");
+  for (ids.start(); ids.step();) {
+    std::int64_t id = 0;
+    ids.read(id);
+    hasher.text(episodes.digest(id));
+  }
+  return hasher.digest();
+}
+
+std::string Catalogue::episode_hash(std::int64_t id) const { return EpisodeHasher(impl_->database).digest(id); }
+
+}  // namespace stampede

@@ -1,0 +1,18 @@
+// The .sql files of this room, put into the library when it is built.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stampede {
+
+struct SqlFile {
+  std::string name;  // of the file, without .sql
+  std::string text;
+};
+
+const std::vector<SqlFile>& embedded_schema();   // in order of application
+const std::vector<SqlFile>& embedded_views();    // by name; each makes the view of its name
+const std::vector<SqlFile>& embedded_queries();  // by name; the first line is a comment that describes it
+
+}  // namespace stampede

@@ -1,0 +1,75 @@
+// Reads one stored episode, table by table. Inside this room only.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "db/catalogue_impl.h"
+
+namespace stampede {
+
+inline Outcome outcome_from(const std::string& text) { return text == "success" ? Outcome::success : Outcome::failure; }
+
+inline constexpr const char* kPoseColumns = "x, y, z, qx, qy, qz, qw";
+
+class EpisodeReader {
+ public:
+  EpisodeReader(const sql::Database& database, std::int64_t id) : database_(database), id_(id) {}
+  EpisodeRecord read() {
+    read_episode();
+    read_run();
+    read_objects();
+    read_names();
+    read_cameras();
+    read_channels();
+    read_frames();
+    read_actions();
+    read_commands();
+    read_segments();
+    read_facts();
+    read_passages();
+    read_language();
+    return std::move(record_);
+  }
+
+ private:
+  // Rows of this episode, in the order of their key.
+  template <typename Row>
+  void each(const std::string& columns, const std::string& table, const std::string& order, const Row& row) {
+    sql::Statement rows(database_, "SELECT " + columns + " FROM " + table + " WHERE episode = ?1 ORDER BY " + order);
+    for (rows.start(id_); rows.step();) row(rows);
+  }
+  template <typename Item>
+  Item& at(std::vector<Item>& list, std::int64_t index, const std::string& table) {
+    if (index < 0 || index >= static_cast<std::int64_t>(list.size()))
+      throw CatalogueError(database_.path(),
+                           "a row of " + table + " of episode " + std::to_string(id_) + " names what is not there",
+                           "the file is damaged: generate it again");
+    return list[static_cast<std::size_t>(index)];
+  }
+
+  void read_episode();
+  void read_run();
+  void read_objects();
+  void read_names();
+  void read_cameras();
+  void read_channels();
+  void read_frames();
+  void read_poses();
+  void read_actions();
+  void read_commands();
+  void read_segments();
+  void read_segment_details();
+  void read_facts();
+  void read_passages();
+  void read_language();
+  SegmentRecord& owner(bool undone, std::int64_t ordinal);
+
+  const sql::Database& database_;
+  std::int64_t id_;
+  EpisodeRecord record_;
+  std::string run_;
+  std::map<std::int64_t, std::size_t> segment_at_;  // ordinal -> index in record_.segments
+};
+
+}  // namespace stampede

@@ -1,0 +1,195 @@
+#include "db/episode_writer.h"
+
+#include <cmath>
+
+#include "db/catalogue_impl.h"
+#include "db/table_text.h"
+#include "engine/base/hash.h"
+
+namespace stampede {
+namespace {
+
+// Seed and split are columns of episode: with them, hardly two episodes would share an engine run.
+std::string options_text(const EpisodeRecord& episode) {
+  std::string text = "{";
+  for (const auto& [name, value] : episode.options) {
+    if (name == "seed" || name == "split") continue;
+    text += (text.size() > 1 ? "," : "") + json_text(name) + ":" + json_text(value);
+  }
+  return text + "}";
+}
+
+std::string_view name_of(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::body:
+      return "body";
+    case ObjectKind::part:
+      return "part";
+    case ObjectKind::region:
+      return "region";
+    case ObjectKind::hand:
+      return "hand";
+  }
+  return "body";
+}
+
+std::string mount_text(const Pose& pose) {
+  QueryResult row;
+  row.columns = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+  auto& values = row.rows.emplace_back();
+  for (const double number : pose.position) values.emplace_back(number);
+  for (const double number : pose.quaternion) values.emplace_back(number);
+  const std::string list = to_json(row);  // a list of one object
+  const std::size_t first = list.find('{'), last = list.rfind('}');
+  return list.substr(first, last + 1 - first);
+}
+
+void require(bool condition, const EpisodeRecord& episode, const std::string& complaint) {
+  if (!condition)
+    throw Error("episode of " + episode.task + ", seed " + std::to_string(episode.seed), complaint,
+                "the record was put together wrongly");
+}
+
+}  // namespace
+
+void check_record(const EpisodeRecord& episode) {
+  require(!episode.key.empty(), episode, "it has no key");
+  require(episode.physics_hz > 0 && episode.frame_hz > 0, episode, "its rates must be above zero");
+  for (const FrameRecord& frame : episode.frames) {
+    const bool joints = frame.joint_position.size() == episode.joints.size() &&
+                        frame.joint_velocity.size() == episode.joints.size() &&
+                        frame.joint_effort.size() == episode.joints.size();
+    require(joints, episode, "a frame has another number of joints than the episode");
+    require(frame.object_pose.size() == episode.posed.size(), episode, "a frame has another number of posed objects");
+    require(frame.hands.size() == episode.hands.size(), episode, "a frame has another number of hands");
+    require(frame.camera_pose.empty() || frame.camera_pose.size() == episode.cameras.size(), episode,
+            "a frame has another number of cameras");
+  }
+  for (const FactRecord& fact : episode.facts)
+    require(fact.fact.arguments.size() <= 4, episode, "the fact " + to_text(fact.fact) + " has more than 4 arguments");
+  for (const ChannelRecord& channel : episode.channels)
+    require(channel.values.size() == channel.steps.size() * channel.components.size(), episode,
+            "channel " + channel.name + " has another number of values than its steps and components say");
+}
+
+sql::Statement EpisodeWriter::insert(const std::string& table, const std::string& ending) const {
+  const std::int64_t columns = database_.number("SELECT count(*) FROM pragma_table_info('" + table + "')");
+  std::string text = "INSERT INTO " + table + " VALUES (?";
+  for (std::int64_t i = 1; i < columns; ++i) text += ",?";
+  return {database_, text + ")" + ending, true};
+}
+
+EpisodeWriter::EpisodeWriter(const sql::Database& database) : database_(database) {
+  const std::string once = " ON CONFLICT DO NOTHING";  // what many episodes share, keyed by hash or by name
+  definition_ = insert("definition", once), engine_run_ = insert("engine_run", once);
+  engine_run_definition_ = insert("engine_run_definition", once), predicate_ = insert("predicate", once);
+  variation_ = insert("variation", once), variation_axis_ = insert("variation_axis", once);
+  scene_ = insert("scene", once), asset_ = insert("asset", once), text_store_ = insert("text_store", once);
+  episode_ = insert("episode"), timing_ = insert("timing"), object_ = insert("object");
+  object_trait_ = insert("object_trait"), object_attribute_ = insert("object_attribute");
+  posed_ = insert("posed"), joint_ = insert("joint"), hand_ = insert("hand"), camera_ = insert("camera");
+  frame_ = insert("frame"), joint_state_ = insert("joint_state"), hand_state_ = insert("hand_state");
+  object_state_ = insert("object_state"), camera_pose_ = insert("camera_pose");
+  action_channel_ = insert("action_channel"), action_ = insert("action"), command_ = insert("command");
+  channel_ = insert("channel"), sample_ = insert("sample");
+  segment_ = insert("segment"), attempt_ = insert("attempt"), parameter_ = insert("segment_parameter");
+  effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"), contact_ = insert("contact");
+  grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document");
+  keyframe_ = insert("keyframe");
+}
+
+void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine) {
+  id_ = id;
+  write_variation(episode);
+  write_episode(episode, engine);
+  write_objects(episode);
+  write_names(episode);
+  write_cameras(episode);
+  write_frames(episode);
+  write_labels(episode);
+}
+
+void EpisodeWriter::write_variation(const EpisodeRecord& episode) {
+  variation_.run(episode.task, episode.variation);
+  for (const auto& [axis, value] : episode.axes) variation_axis_.run(episode.task, episode.variation, axis, value);
+}
+
+std::string EpisodeWriter::write_engine_run(const EpisodeRecord& episode, const EngineInfo& engine) {
+  const std::string options = options_text(episode);
+  Hasher hasher;
+  hasher.text(engine.version).text(engine.numerics).text(options);
+  std::set<std::tuple<std::string, std::string, std::string>> names;  // in one order, whatever the record's
+  for (const DefinitionRecord& d : episode.definitions) names.emplace(d.kind, d.name, d.hash);
+  for (const auto& [kind, name, hash] : names) hasher.text(kind).text(name).text(hash);
+  for (const auto& [name, kind] : episode.predicates) hasher.text(name).text(kind);
+  const std::string run = hasher.digest();
+  engine_run_.run(run, engine.version, engine.numerics, options);
+  if (sqlite3_changes(database_.handle()) == 0) return run;
+  for (const DefinitionRecord& d : episode.definitions) {
+    definition_.run(d.kind, d.name, d.hash, d.path, d.source);
+    engine_run_definition_.run(run, d.kind, d.name, d.hash);
+  }
+  for (const auto& [name, kind] : episode.predicates) predicate_.run(run, name, kind);
+  return run;
+}
+
+std::string EpisodeWriter::write_scene(const std::string& document) {
+  const std::string hash = content_hash(document);
+  const PackedScene packed = pack_scene(document);
+  scene_.run(hash, packed.document);
+  if (sqlite3_changes(database_.handle()) == 0) return hash;
+  for (const auto& [asset, body] : packed.assets) asset_.run(asset, body);
+  return hash;
+}
+
+std::string EpisodeWriter::write_text(const std::string& text) {
+  const std::string hash = content_hash(text);
+  text_store_.run(hash, text);
+  return hash;
+}
+
+void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engine) {
+  const std::string run = write_engine_run(e, engine);
+  std::optional<std::string> scene;  // a start that could not be made has none
+  if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
+  const double duration = static_cast<double>(e.steps) / e.physics_hz;
+  episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, e.split,
+               e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.frames.size(),
+               e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);
+  timing_.run(id_, e.wall_s, e.physics_wall_s);
+}
+
+void EpisodeWriter::write_objects(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const Object& o : episode.objects) {
+    object_.run(id_, ordinal, o.name, name_of(o.kind), o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(),
+                o.size.z(), ordinal + 1);
+    int place = 0;
+    for (const std::string& trait : o.traits) object_trait_.run(id_, ordinal, place++, trait);
+    for (const auto& [name, value] : o.attributes) object_attribute_.run(id_, ordinal, name, value);
+    for (const auto& [name, value] : o.numbers) object_attribute_.run(id_, ordinal, name, value);
+    ++ordinal;
+  }
+}
+
+void EpisodeWriter::write_names(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const std::string& name : episode.posed) posed_.run(id_, ordinal++, name);
+  ordinal = 0;
+  for (const std::string& name : episode.hands) hand_.run(id_, ordinal++, name);
+  ordinal = 0;
+  for (const JointName& j : episode.joints)
+    joint_.run(id_, ordinal++, j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
+}
+
+void EpisodeWriter::write_cameras(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const Camera& c : episode.cameras) {
+    const double focal = c.height / 2.0 / std::tan(c.vertical_fov_rad / 2);  // square pixels
+    camera_.run(id_, ordinal++, c.name, c.width, c.height, c.vertical_fov_rad, focal, focal, c.width / 2.0,
+                c.height / 2.0, c.near_m, c.far_m, c.mount_body, c.mount_part,
+                mount_text(to_pose(c.mount_from_camera)));
+  }
+}
+
+}  // namespace stampede

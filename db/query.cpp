@@ -1,0 +1,183 @@
+#include "db/query.h"
+
+#include <algorithm>
+
+#include "db/catalogue_impl.h"
+#include "db/embedded_sql.h"
+
+namespace stampede {
+namespace {
+
+// Only what reads; functions of SQLite that touch files are not compiled in, but loading some is refused all the same.
+int allow_reading(void*, int action, const char* first, const char* second, const char*, const char*) {
+  const auto is_one_of = [](const char* name, std::initializer_list<std::string_view> names) {
+    return name && std::find(names.begin(), names.end(), std::string_view(name)) != names.end();
+  };
+  switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_READ:
+    case SQLITE_RECURSIVE:
+      return SQLITE_OK;
+    case SQLITE_FUNCTION:
+      return is_one_of(second, {"load_extension", "writefile", "readfile", "edit"}) ? SQLITE_DENY : SQLITE_OK;
+    case SQLITE_PRAGMA: {
+      const bool harmless = is_one_of(first, {"table_info", "table_xinfo", "table_list", "index_list", "index_info",
+                                              "foreign_key_list", "application_id", "user_version"});
+      // application_id and user_version with a value would set them.
+      const bool sets = second && is_one_of(first, {"application_id", "user_version"});
+      return harmless && !sets ? SQLITE_OK : SQLITE_DENY;
+    }
+    default:
+      return SQLITE_DENY;
+  }
+}
+
+class ReadOnly {
+ public:
+  explicit ReadOnly(sqlite3* handle) : handle_(handle) { sqlite3_set_authorizer(handle_, allow_reading, nullptr); }
+  ~ReadOnly() { sqlite3_set_authorizer(handle_, nullptr, nullptr); }
+  ReadOnly(const ReadOnly&) = delete;
+  ReadOnly& operator=(const ReadOnly&) = delete;
+
+ private:
+  sqlite3* handle_;
+};
+
+struct Finalizer {
+  void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+};
+using Prepared = std::unique_ptr<sqlite3_stmt, Finalizer>;
+
+[[noreturn]] void refuse(int code, const std::string& message) {
+  if ((code & 0xff) == SQLITE_AUTH || (code & 0xff) == SQLITE_READONLY)
+    throw Error("query", "a query only reads: " + message, "use SELECT; the views are described in db/README.md");
+  if ((code & 0xff) == SQLITE_INTERRUPT) throw Error("query", "interrupted");
+  std::string hint;
+  if (message.starts_with("no such table") || message.starts_with("no such column")) {
+    hint = "the views are";
+    for (const SqlFile& view : embedded_views()) hint += " " + view.name;
+  }
+  throw Error("query", message, hint);
+}
+
+bool only_space(const char* text) {
+  return std::all_of(text, text + std::char_traits<char>::length(text),
+                     [](unsigned char c) { return std::isspace(c) || c == ';'; });
+}
+
+Prepared prepare(sqlite3* handle, const std::string& text) {
+  sqlite3_stmt* statement = nullptr;
+  const char* rest = nullptr;
+  const int code = sqlite3_prepare_v2(handle, text.c_str(), -1, &statement, &rest);
+  Prepared prepared(statement);
+  if (code != SQLITE_OK) refuse(code, sqlite3_errmsg(handle));
+  if (!prepared) throw Error("query", "there is no statement in this text", "write a SELECT, or name a query");
+  if (!sqlite3_stmt_readonly(prepared.get())) refuse(SQLITE_AUTH, "this statement would write");
+  if (!only_space(rest)) {
+    sqlite3_stmt* second = nullptr;
+    const int next = sqlite3_prepare_v2(handle, rest, -1, &second, nullptr);
+    const Prepared further(second);
+    if (next != SQLITE_OK) refuse(next, sqlite3_errmsg(handle));
+    if (further) throw Error("query", "there is more than one statement", "ask one question at a time");
+  }
+  return prepared;
+}
+
+void bind(sqlite3* handle, sqlite3_stmt* statement, const std::vector<SqlValue>& parameters) {
+  const int wanted = sqlite3_bind_parameter_count(statement);
+  if (wanted != static_cast<int>(parameters.size()))
+    throw Error("query",
+                "it takes " + std::to_string(wanted) + " parameters, not " + std::to_string(parameters.size()));
+  int place = 0;
+  for (const SqlValue& value : parameters) {
+    ++place;
+    int code = SQLITE_OK;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) code = sqlite3_bind_int64(statement, place, *integer);
+    if (const auto* real = std::get_if<double>(&value)) code = sqlite3_bind_double(statement, place, *real);
+    if (const auto* text = std::get_if<std::string>(&value))
+      code = sqlite3_bind_text64(statement, place, text->data(), text->size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+    if (const auto* blob = std::get_if<SqlBlob>(&value))
+      code = sqlite3_bind_blob64(statement, place, blob->bytes.data(), blob->bytes.size(), SQLITE_TRANSIENT);
+    if (code != SQLITE_OK) refuse(code, sqlite3_errmsg(handle));
+  }
+}
+
+SqlValue value_of(sqlite3_stmt* row, int column) {
+  const auto bytes = [&] {
+    const void* data = sqlite3_column_blob(row, column);
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, column));
+    return std::string(static_cast<const char*>(data ? data : ""), size);
+  };
+  switch (sqlite3_column_type(row, column)) {
+    case SQLITE_INTEGER:
+      return static_cast<std::int64_t>(sqlite3_column_int64(row, column));
+    case SQLITE_FLOAT:
+      return sqlite3_column_double(row, column);
+    case SQLITE_TEXT:
+      return bytes();
+    case SQLITE_BLOB:
+      return SqlBlob{bytes()};
+    default:
+      return std::monostate{};
+  }
+}
+
+bool is_a_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+std::string text_of(std::string_view question) {
+  if (!is_a_name(question)) return std::string(question);
+  if (const NamedQuery* query = find_named_query(question)) return query->sql;
+  std::string names = "the named queries are";
+  for (const NamedQuery& query : named_queries()) names += " " + query.name;
+  throw Error("query", "there is no query named '" + std::string(question) + "'", names);
+}
+
+}  // namespace
+
+const std::vector<NamedQuery>& named_queries() {
+  static const std::vector<NamedQuery> queries = [] {
+    std::vector<NamedQuery> list;
+    for (const SqlFile& file : embedded_queries()) {
+      const std::string first = file.text.substr(0, file.text.find('\n'));
+      const std::size_t begin = first.find_first_not_of("- ");
+      list.push_back({file.name, begin == std::string::npos ? "" : first.substr(begin), file.text});
+    }
+    return list;
+  }();
+  return queries;
+}
+
+const NamedQuery* find_named_query(std::string_view name) {
+  for (const NamedQuery& query : named_queries())
+    if (query.name == name) return &query;
+  return nullptr;
+}
+
+QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {
+  sqlite3* handle = impl_->database.handle();
+  const ReadOnly guard(handle);
+  const Prepared statement = prepare(handle, text_of(question));
+  bind(handle, statement.get(), options.parameters);
+  QueryResult result;
+  const int columns = sqlite3_column_count(statement.get());
+  for (int i = 0; i < columns; ++i) result.columns.emplace_back(sqlite3_column_name(statement.get(), i));
+  int code = SQLITE_OK;
+  while ((code = sqlite3_step(statement.get())) == SQLITE_ROW) {
+    if (options.most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == options.most_rows) {
+      result.cut = true;
+      return result;
+    }
+    auto& row = result.rows.emplace_back();
+    for (int i = 0; i < columns; ++i) row.push_back(value_of(statement.get(), i));
+  }
+  if (code != SQLITE_DONE) refuse(code, sqlite3_errmsg(handle));
+  return result;
+}
+
+void Catalogue::interrupt() const { sqlite3_interrupt(impl_->database.handle()); }
+
+}  // namespace stampede

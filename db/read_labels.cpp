@@ -1,0 +1,133 @@
+#include <algorithm>
+
+#include "db/episode_reader.h"
+
+namespace stampede {
+namespace {
+
+Fact fact_from(const std::string& text) {  // (on block1 table)
+  std::vector<std::string> words;
+  for (std::size_t begin = 1; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size() - 1);
+    words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  Fact fact;
+  if (words.empty()) return fact;
+  fact.predicate = words.front();
+  fact.arguments.assign(words.begin() + 1, words.end());
+  return fact;
+}
+
+constexpr const char* kSegmentColumns =
+    "kind, coalesce(parent, -1), robot, skill, case_name, arguments, controller, start_step, end_step, first_frame, "
+    "end_frame, outcome, reason, detail, precondition_held, effect_held, missing_effects, forgotten, label";
+
+template <typename... Own>
+void read_segment(const sql::Database& database, sql::Statement& row, SegmentRecord& s, Own&... own) {
+  std::string arguments, outcome, reason, missing, forgotten;
+  row.read(own..., s.kind, s.parent, s.robot, s.skill, s.case_name, arguments, s.controller, s.span.start_step,
+           s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason, s.detail, s.precondition_held,
+           s.effect_held, missing, forgotten, s.label);
+  s.arguments = from_json_list(database, arguments);
+  s.outcome = outcome_from(outcome);
+  s.reason = reason_from(reason).value_or(Reason::none);
+  s.missing_effects = from_json_list(database, missing);
+  s.forgotten = from_json_list(database, forgotten);
+}
+
+}  // namespace
+
+void EpisodeReader::read_segments() {
+  each(std::string("ordinal, ") + kSegmentColumns, "segment", "ordinal", [&](sql::Statement& row) {
+    SegmentRecord& segment = record_.segments.emplace_back();
+    read_segment(database_, row, segment, segment.ordinal);
+    segment_at_[segment.ordinal] = record_.segments.size() - 1;
+  });
+  each(std::string("segment_ordinal, before_segment, try_number, ") + kSegmentColumns, "attempt", "ordinal",
+       [&](sql::Statement& row) {
+         AttemptRecord& a = record_.attempts.emplace_back();
+         read_segment(database_, row, a.segment, a.segment.ordinal, a.before_segment, a.try_number);
+       });
+  read_segment_details();
+}
+
+SegmentRecord& EpisodeReader::owner(bool undone, std::int64_t ordinal) {
+  if (undone) return at(record_.attempts, ordinal, "attempt").segment;
+  const auto found = segment_at_.find(ordinal);
+  return at(record_.segments, found == segment_at_.end() ? -1 : static_cast<std::int64_t>(found->second), "segment");
+}
+
+void EpisodeReader::read_segment_details() {
+  each("undone, segment, component, name, value, coalesce(text, ''), unit, frame, chosen_by", "segment_parameter",
+       "undone, segment, ordinal, component", [&](sql::Statement& row) {
+         bool undone = false;
+         std::int64_t segment = 0, component = 0;
+         std::optional<double> value;
+         ParameterRecord p;
+         row.read(undone, segment, component, p.name, value, p.text, p.unit, p.frame, p.chosen_by);
+         auto& parameters = owner(undone, segment).parameters;
+         if (component == 0) parameters.push_back(p);
+         if (value) parameters.back().values.push_back(*value);
+       });
+  each("undone, segment, negated, fact", "segment_effect", "undone, segment, ordinal", [&](sql::Statement& row) {
+    bool undone = false;
+    std::int64_t segment = 0;
+    EffectRecord effect;
+    std::string fact;
+    row.read(undone, segment, effect.negated, fact);
+    effect.fact = fact_from(fact);
+    owner(undone, segment).declared_effects.push_back(effect);
+  });
+}
+
+void EpisodeReader::read_facts() {
+  each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end, observed, margin", "fact", "ordinal",
+       [&](sql::Statement& row) {
+         FactRecord& f = record_.facts.emplace_back();
+         std::string fact;
+         row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
+                  f.margin);
+         f.fact = fact_from(fact);
+       });
+}
+
+void EpisodeReader::read_passages() {
+  const std::string pose = kPoseColumns;
+  each("segment, name, " + pose +
+           ", passed_x, passed_y, passed_z, passed_qx, passed_qy, passed_qz, passed_qw, step, "
+           "speed, tool_speed",
+       "via", "ordinal", [&](sql::Statement& row) {
+         ViaRecord& v = record_.vias.emplace_back();
+         row.read(v.segment, v.name, v.pose, v.passed, v.step, v.speed, v.tool_speed);
+       });
+  each("object_a, part_a, object_b, part_b, first_frame, end_frame, peak_force", "contact", "ordinal",
+       [&](sql::Statement& row) {
+         ContactRecord& c = record_.contacts.emplace_back();
+         row.read(c.object_a, c.part_a, c.object_b, c.part_b, c.first_frame, c.end_frame, c.peak_force);
+       });
+  each("segment, object, " + pose + ", width, held", "grasp", "ordinal", [&](sql::Statement& row) {
+    GraspRecord& g = record_.grasps.emplace_back();
+    row.read(g.segment, g.object, g.object_from_tip, g.width, g.held);
+  });
+}
+
+void EpisodeReader::read_language() {
+  each("level, text, coalesce(segment, -1)", "language", "ordinal", [&](sql::Statement& row) {
+    LanguageRecord& l = record_.language.emplace_back();
+    row.read(l.level, l.text, l.segment);
+  });
+  each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
+       [&](sql::Statement& row) {
+         DocumentRecord& d = record_.documents.emplace_back();
+         row.read(d.kind, d.text);
+       });
+  each("method, frame", "keyframe", "method, frame", [&](sql::Statement& row) {
+    std::string method;
+    std::int64_t frame = 0;
+    row.read(method, frame);
+    record_.keyframes[method].push_back(frame);
+  });
+}
+
+}  // namespace stampede

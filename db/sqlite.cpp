@@ -1,0 +1,153 @@
+#include "db/sqlite.h"
+
+#include <cmath>
+
+namespace stampede::sql {
+namespace {
+
+std::string cure_of(int code) {
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+      return "free some space and run again with the same arguments: finished episodes are kept";
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return "write to a folder and a file that you may change (--out)";
+    case SQLITE_CANTOPEN:
+      return "check that the folder exists and that you may write in it";
+    case SQLITE_NOTADB:
+      return "name a catalogue, or another file to write to";
+    case SQLITE_CORRUPT:
+      return "the file is damaged: take a copy of it, or generate it again";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program is writing to it: wait until that one has ended";
+    case SQLITE_IOERR:
+      return "the disk refused to read or write: see that it is healthy and has space, then run again";
+    default:
+      return "";
+  }
+}
+
+std::string complaint_of(int code, const std::string& message) {
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+      return "the disk is full";
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return "the catalogue cannot be written: it is read-only";
+    case SQLITE_CANTOPEN:
+      return "the catalogue cannot be opened";
+    case SQLITE_NOTADB:
+      return "this file is not a database";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "the catalogue is in use";
+    default:
+      return message;
+  }
+}
+
+}  // namespace
+
+Database::Database(const std::string& path, int flags, const std::string& shown_path) : path_(shown_path) {
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) fail(code);
+  sqlite3_extended_result_codes(handle, 1);
+  sqlite3_busy_timeout(handle, 10'000);
+}
+
+void Database::run(const std::string& statements) const {
+  const int code = sqlite3_exec(handle(), statements.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) fail(code);
+}
+
+std::int64_t Database::number(const std::string& statement) const {
+  Statement query(*this, statement);
+  std::int64_t value = 0;
+  if (query.start().step()) query.read(value);
+  return value;
+}
+
+std::string Database::text(const std::string& statement) const {
+  Statement query(*this, statement);
+  std::string value;
+  if (query.start().step()) query.read(value);
+  return value;
+}
+
+void Database::fail(int code) const {
+  const std::string message = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
+  throw CatalogueError(path_, complaint_of(code, message), cure_of(code));
+}
+
+void Database::close() { handle_.reset(); }
+
+Statement::Statement(const Database& database, const std::string& text, bool keep) : database_(&database) {
+  sqlite3_stmt* handle = nullptr;
+  const int code = sqlite3_prepare_v3(database.handle(), text.c_str(), static_cast<int>(text.size()),
+                                      keep ? SQLITE_PREPARE_PERSISTENT : 0, &handle, nullptr);
+  handle_.reset(handle);
+  checked(code);
+}
+
+void Statement::checked(int code) const {
+  if (code != SQLITE_OK) database_->fail(code);
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(handle_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) {
+    try {
+      database_->fail(code);
+    } catch (...) {
+      sqlite3_reset(handle_.get());
+      throw;
+    }
+  }
+  checked(sqlite3_reset(handle_.get()));
+  return false;
+}
+
+void Statement::bind(std::int64_t value) { checked(sqlite3_bind_int64(handle_.get(), ++place_, value)); }
+
+void Statement::bind(double value) {
+  // SQLite would store NULL, and nobody could tell it from a value that is not there.
+  if (std::isnan(value))
+    throw CatalogueError(database_->path(), "a value of the episode is not a number (NaN)",
+                         "the simulation went astray: report the task, variation and seed");
+  checked(sqlite3_bind_double(handle_.get(), ++place_, value));
+}
+
+void Statement::bind(std::string_view value) {
+  // A null pointer would mean NULL.
+  checked(sqlite3_bind_text64(handle_.get(), ++place_, value.data() ? value.data() : "", value.size(), SQLITE_STATIC,
+                              SQLITE_UTF8));
+}
+
+void Statement::bind(Blob value) {
+  checked(sqlite3_bind_blob64(handle_.get(), ++place_, value.bytes.data() ? value.bytes.data() : "", value.bytes.size(),
+                              SQLITE_STATIC));
+}
+
+void Statement::bind(std::nullopt_t) { checked(sqlite3_bind_null(handle_.get(), ++place_)); }
+
+void Statement::bind(const Pose& value) {
+  for (const double number : value.position) bind(number);
+  for (const double number : value.quaternion) bind(number);
+}
+
+void Statement::column(std::string& value) {
+  const void* data = sqlite3_column_blob(handle_.get(), place_);
+  const int size = sqlite3_column_bytes(handle_.get(), place_++);
+  value.assign(static_cast<const char*>(data ? data : ""), static_cast<std::size_t>(size));
+}
+
+void Statement::column(Pose& value) {
+  for (double& number : value.position) column(number);
+  for (double& number : value.quaternion) column(number);
+}
+
+}  // namespace stampede::sql

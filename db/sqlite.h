@@ -1,0 +1,117 @@
+// SQLite as values: a connection and a prepared statement whose mistakes are errors. Inside this room only.
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/error.h"
+#include "engine/geometry/transform.h"
+
+namespace stampede::sql {
+
+struct Blob {
+  std::string_view bytes;
+};
+
+class Database {
+ public:
+  Database() = default;
+  // Opens, no question asked of the file yet. Throws CatalogueError.
+  Database(const std::string& path, int flags, const std::string& shown_path);
+  sqlite3* handle() const { return handle_.get(); }
+  const std::string& path() const { return path_; }
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  void run(const std::string& statements) const;  // one or more, without results
+  std::int64_t number(const std::string& statement) const;
+  std::string text(const std::string& statement) const;
+  [[noreturn]] void fail(int code) const;  // throws CatalogueError with the cure for this code
+  void close();                            // throws nothing
+
+ private:
+  struct Closer {
+    void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+  };
+  std::unique_ptr<sqlite3, Closer> handle_;
+  std::string path_;
+};
+
+// A prepared statement. Texts and blobs handed to start() or run() must live until the statement is reset.
+class Statement {
+ public:
+  Statement() = default;
+  Statement(const Database& database, const std::string& text, bool keep = false);
+
+  // Binds one value after the other; a Pose takes seven places.
+  template <typename... Values>
+  Statement& start(const Values&... values) {
+    sqlite3_reset(handle_.get());
+    place_ = 0;
+    (bind(values), ...);
+    return *this;
+  }
+  template <typename... Values>
+  void run(const Values&... values) {
+    start(values...);
+    while (step()) {
+    }
+  }
+  bool step();  // whether there is a row; resets after the last
+  // Reads the row's columns, one after the other.
+  template <typename... Values>
+  void read(Values&... values) {
+    place_ = 0;
+    (column(values), ...);
+  }
+  sqlite3_stmt* handle() const { return handle_.get(); }
+
+ private:
+  void bind(std::int64_t value);
+  void bind(int value) { bind(static_cast<std::int64_t>(value)); }
+  void bind(bool value) { bind(static_cast<std::int64_t>(value)); }
+  void bind(std::size_t value) { bind(static_cast<std::int64_t>(value)); }
+  void bind(double value);
+  void bind(std::string_view value);
+  void bind(const std::string& value) { bind(std::string_view(value)); }
+  void bind(const char* value) { bind(std::string_view(value)); }
+  void bind(Blob value);
+  void bind(std::nullopt_t);
+  void bind(const Pose& value);
+  template <typename Value>
+  void bind(const std::optional<Value>& value) {
+    if (value)
+      bind(*value);
+    else
+      bind(std::nullopt);
+  }
+  void column(std::int64_t& value) { value = sqlite3_column_int64(handle_.get(), place_++); }
+  void column(int& value) { value = sqlite3_column_int(handle_.get(), place_++); }
+  void column(bool& value) { value = sqlite3_column_int(handle_.get(), place_++) != 0; }
+  void column(double& value) { value = sqlite3_column_double(handle_.get(), place_++); }
+  void column(std::string& value);
+  void column(Pose& value);
+  template <typename Value>
+  void column(std::optional<Value>& value) {
+    value.reset();
+    if (sqlite3_column_type(handle_.get(), place_) == SQLITE_NULL) {
+      ++place_;
+      return;
+    }
+    column(value.emplace());
+  }
+  void checked(int code) const;
+
+  struct Finalizer {
+    void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+  };
+  const Database* database_ = nullptr;
+  std::unique_ptr<sqlite3_stmt, Finalizer> handle_;
+  int place_ = 0;
+};
+
+}  // namespace stampede::sql

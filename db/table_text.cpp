@@ -1,0 +1,197 @@
+#include "db/table_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace stampede {
+namespace {
+
+std::string hexadecimal(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
+// The shortest text that reads back to the same number; always with a sign that it is real.
+std::string exact(double value) {
+  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::string text(buffer.data(), end);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string rounded(double value) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
+// The length of a UTF-8 sequence that begins here, 0 when it is not well formed (RFC 3629).
+std::size_t sequence_at(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const auto follows = [&](std::size_t k) { return (byte(k) & 0xC0U) == 0x80U; };
+  const unsigned first = byte(i);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(i + 1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    if (first == 0xE0 && byte(i + 1) < 0xA0) return 0;
+    if (first == 0xED && byte(i + 1) > 0x9F) return 0;
+    return follows(i + 1) && follows(i + 2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    if (first == 0xF0 && byte(i + 1) < 0x90) return 0;
+    if (first == 0xF4 && byte(i + 1) > 0x8F) return 0;
+    return follows(i + 1) && follows(i + 2) && follows(i + 3) ? 4 : 0;
+  }
+  return 0;
+}
+
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// Control characters would break a table's lines or a terminal.
+std::string on_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\n";
+    } else if (c == '\t') {
+      line += "\\t";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      line += "\\x" + hexadecimal({&c, 1});
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+struct TableCell {
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return rounded(value); }
+  std::string operator()(const std::string& value) const { return on_one_line(value); }
+  std::string operator()(const SqlBlob& value) const { return "<" + std::to_string(value.bytes.size()) + " bytes>"; }
+};
+
+std::string csv_text(const std::string& value) {
+  if (!value.empty() && value.find_first_of(",\"\r\n") == std::string::npos) return value;
+  std::string text = "\"";
+  for (const char c : value) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+struct CsvCell {
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return exact(value); }
+  std::string operator()(const std::string& value) const { return csv_text(value); }
+  std::string operator()(const SqlBlob& value) const { return hexadecimal(value.bytes); }
+};
+
+struct JsonCell {
+  std::string operator()(std::monostate) const { return "null"; }
+  std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return std::isinf(value) ? json_text(exact(value)) : exact(value); }
+  std::string operator()(const std::string& value) const { return json_text(value); }
+  std::string operator()(const SqlBlob& value) const { return json_text(hexadecimal(value.bytes)); }
+};
+
+bool is_number(const SqlValue& value) {
+  return std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
+}
+
+std::string padded(const std::string& text, std::size_t width, bool right) {
+  const std::string space(width - std::min(width, width_of(text)), ' ');
+  return right ? space + text : text + space;
+}
+
+void end_line(std::string& text) {
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  text += '\n';
+}
+
+}  // namespace
+
+std::string json_text(std::string_view text) {
+  std::string json = "\"";
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_at(text, i);
+    const char c = text[i];
+    if (length == 0) {
+      json += "\\ufffd";
+    } else if (c == '"' || c == '\\') {
+      json += std::string("\\") + c;
+    } else if (c == '\n') {
+      json += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      json += "\\u00" + hexadecimal({&c, 1});
+    } else {
+      json += text.substr(i, length);
+    }
+    i += std::max<std::size_t>(length, 1);
+  }
+  return json + "\"";
+}
+
+std::string to_table(const QueryResult& result) {
+  const std::size_t columns = result.columns.size();
+  std::vector<std::vector<std::string>> cells;
+  std::vector<std::size_t> width(columns);
+  std::vector<bool> right(columns, false);
+  for (std::size_t i = 0; i < columns; ++i) width[i] = width_of(result.columns[i]);
+  for (const auto& row : result.rows) {
+    auto& line = cells.emplace_back();
+    for (std::size_t i = 0; i < columns; ++i) {
+      line.push_back(std::visit(TableCell{}, row[i]));
+      width[i] = std::max(width[i], width_of(line.back()));
+      if (is_number(row[i])) right[i] = true;
+    }
+  }
+  std::string text;
+  for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + padded(result.columns[i], width[i], right[i]);
+  end_line(text);
+  for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + std::string(width[i], '-');
+  end_line(text);
+  for (const auto& line : cells) {
+    for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + padded(line[i], width[i], right[i]);
+    end_line(text);
+  }
+  if (result.cut) text += "… and more rows\n";
+  return text;
+}
+
+std::string to_csv(const QueryResult& result) {
+  std::string text;
+  for (std::size_t i = 0; i < result.columns.size(); ++i) text += (i ? "," : "") + csv_text(result.columns[i]);
+  text += "\r\n";
+  for (const auto& row : result.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + std::visit(CsvCell{}, row[i]);
+    text += "\r\n";
+  }
+  return text;
+}
+
+std::string to_json(const QueryResult& result) {
+  std::string text = "[";
+  for (std::size_t r = 0; r < result.rows.size(); ++r) {
+    text += r ? ",\n {" : "\n {";
+    for (std::size_t i = 0; i < result.columns.size(); ++i)
+      text += (i ? ", " : "") + json_text(result.columns[i]) + ": " + std::visit(JsonCell{}, result.rows[r][i]);
+    text += "}";
+  }
+  return text + (result.rows.empty() ? "]\n" : "\n]\n");
+}
+
+}  // namespace stampede

@@ -1,0 +1,1 @@
+CREATE VIEW demos AS SELECT * FROM episodes WHERE outcome = 'success';

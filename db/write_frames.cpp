@@ -1,0 +1,119 @@
+#include <vector>
+
+#include "db/catalogue_impl.h"
+#include "db/episode_writer.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::array<const char*, 7> kPoseNames{"x", "y", "z", "qx", "qy", "qz", "qw"};
+
+// The innermost segment of a kind at each frame: children start no earlier than their parents and come later.
+std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::string_view kind) {
+  std::vector<std::optional<int>> at(episode.frames.size());
+  for (const SegmentRecord& segment : episode.segments) {
+    if (segment.kind != kind) continue;
+    const auto end = std::min<std::int64_t>(segment.span.end_frame, static_cast<std::int64_t>(at.size()));
+    for (std::int64_t frame = std::max<std::int64_t>(segment.span.first_frame, 0); frame < end; ++frame) {
+      std::optional<int>& now = at[static_cast<std::size_t>(frame)];
+      if (!now || *now < segment.ordinal) now = segment.ordinal;
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
+  const auto skill = running(episode, "skill"), motion = running(episode, "motion");
+  for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+    const FrameRecord& frame = episode.frames[i];
+    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, frame.reward, frame.done,
+               skill[i], motion[i]);
+  }
+  // Table by table: each grows at its end.
+  for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+    const FrameRecord& frame = episode.frames[i];
+    for (std::size_t j = 0; j < episode.joints.size(); ++j)
+      joint_state_.run(id_, i, j, frame.joint_position[j], frame.joint_velocity[j], frame.joint_effort[j]);
+  }
+  for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+    int hand = 0;
+    for (const HandRecord& h : episode.frames[i].hands)
+      hand_state_.run(id_, i, hand++, h.tip, h.twist[0], h.twist[1], h.twist[2], h.twist[3], h.twist[4], h.twist[5],
+                      h.opening, h.touch[0], h.touch[1]);
+  }
+  write_poses(episode);
+  write_actions(episode);
+  write_commands(episode);
+  write_channels(episode);
+}
+
+void EpisodeWriter::write_poses(const EpisodeRecord& episode) {
+  for (std::size_t object = 0; object < episode.posed.size(); ++object) {
+    const Pose* last = nullptr;
+    for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+      const Pose& pose = episode.frames[i].object_pose[object];
+      if (last && *last == pose) continue;
+      object_state_.run(id_, object, i, pose);
+      last = &pose;
+    }
+  }
+  for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera) {
+    const Pose* last = nullptr;
+    for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+      if (episode.frames[i].camera_pose.empty()) continue;
+      const Pose& pose = episode.frames[i].camera_pose[camera];
+      if (last && *last == pose) continue;
+      camera_pose_.run(id_, camera, i, pose);
+      last = &pose;
+    }
+  }
+}
+
+void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
+  std::size_t joints = 0;
+  for (const FrameRecord& frame : episode.frames)
+    if (frame.action) joints = std::max(joints, frame.action->joint_position.size());
+  // Commanded joints are the driven ones that are no fingers, in order; a name is missing where there are fewer.
+  std::vector<std::string> names;
+  for (const JointName& joint : episode.joints)
+    if (joint.driven) names.push_back(joint.name);
+  names.resize(std::max(joints, names.size()));
+  std::size_t ordinal = 0;
+  for (std::size_t j = 0; j < joints; ++j) action_channel_.run(id_, ordinal++, "joint_position", j, names[j], "rad");
+  for (std::size_t j = 0; j < kPoseNames.size(); ++j)
+    action_channel_.run(id_, ordinal++, "tool_pose", j, kPoseNames[j], j < 3 ? "m" : "1");
+  action_channel_.run(id_, ordinal, "gripper", 0, "opening", "m");
+  for (std::size_t i = 0; i < episode.frames.size(); ++i) {
+    const auto& action = episode.frames[i].action;
+    if (!action) continue;
+    for (std::size_t j = 0; j < action->joint_position.size(); ++j) action_.run(id_, i, j, action->joint_position[j]);
+    std::size_t channel = joints;
+    for (const double number : action->tool_pose.position) action_.run(id_, i, channel++, number);
+    for (const double number : action->tool_pose.quaternion) action_.run(id_, i, channel++, number);
+    action_.run(id_, i, channel, action->gripper);
+  }
+}
+
+void EpisodeWriter::write_commands(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const Command& command : episode.commands) {
+    const std::string bytes = operation_to_bytes(command.operation);
+    command_.run(id_, ordinal++, command.step, operation_kind(command.operation), sql::Blob{bytes});
+  }
+}
+
+void EpisodeWriter::write_channels(const EpisodeRecord& episode) {
+  std::size_t ordinal = 0;
+  for (const ChannelRecord& channel : episode.channels) {
+    channel_.run(id_, ordinal, channel.name, channel.unit, channel.rate_hz, to_json_list(channel.components));
+    const std::size_t width = channel.components.size();
+    for (std::size_t i = 0; i < channel.steps.size(); ++i)
+      for (std::size_t c = 0; c < width; ++c)
+        sample_.run(id_, ordinal, i, c, channel.steps[i], channel.values[i * width + c]);
+    ++ordinal;
+  }
+}
+
+}  // namespace stampede
