@@ -77,7 +77,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& file) {
       messages += error.what();
     }
   }
-  if (!model)
+  if (!model || !messages.empty())  // urdfdom goes on after some errors and leaves the element out
     throw Error(file.string(), messages.empty() ? "not a URDF model" : messages,
                 "correct the element that is named; a URDF is one tree of links below <robot>");
   return model;

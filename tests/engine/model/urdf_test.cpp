@@ -1,0 +1,140 @@
+#include "engine/model/urdf.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "engine/base/error.h"
+
+using namespace stampede;
+
+namespace {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "stampede_urdf_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const std::string kMass =
+    "<inertial><origin xyz='0 0 0.1' rpy='0 0 1.5707963267948966'/><mass value='2'/>"
+    "<inertia ixx='1' ixy='0' ixz='0' iyy='2' iyz='0' izz='2.5'/></inertial>";
+
+std::string link_of(const std::string& name, const std::string& inside = kMass) {
+  return "<link name='" + name + "'>" + inside + "</link>";
+}
+
+std::string joint_of(const std::string& name, const std::string& parent, const std::string& child,
+                     const std::string& type = "revolute",
+                     const std::string& inside = "<limit lower='-1' upper='2' effort='3' velocity='4'/>") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
+         "'/><axis xyz='0 0 2'/>" + inside + "</joint>";
+}
+
+std::string robot(const std::string& inside) { return "<robot name='arm'>\n" + inside + "\n</robot>"; }
+
+std::string complaint(const std::string& text) {
+  const TemporaryFolder folder;
+  try {
+    (void)body_from_urdf(folder.write("bad.urdf", text));
+  } catch (const Error& error) {
+    CHECK(error.where().find("bad.urdf") != std::string::npos);
+    CHECK_FALSE(error.hint().empty());
+    return error.where() + ": " + error.message();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("links become parts, depth first, with all that a joint says") {
+  const TemporaryFolder folder;
+  const Body body = body_from_urdf(folder.write(
+      "arm.urdf",
+      robot(
+          "<material name='red'><color rgba='1 0 0 0.5'/></material>" + link_of("base", "") + link_of("turn") +
+          link_of("tool",
+                  "<visual><geometry><sphere radius='0.1'/></geometry><material name='red'/></visual>"
+                  "<collision><geometry><box size='1 2 3'/></geometry></collision>") +
+          link_of("slide", kMass + "<collision><geometry><cylinder radius='0.1' length='2'/></geometry></collision>") +
+          joint_of("a", "base", "turn", "revolute",
+                   "<limit lower='-1' upper='2' effort='3' velocity='4'/><dynamics damping='5' friction='6'/>") +
+          joint_of("b", "turn", "tool", "fixed", "<origin xyz='0 0 1'/>") +
+          joint_of("c", "base", "slide", "prismatic",
+                   "<limit lower='0.5' upper='1' effort='1' velocity='1'/><mimic joint='a'/>"))));
+  REQUIRE(body.parts.size() == 4);
+  CHECK(body.name == "arm");
+  CHECK(body.parts[2].name == "tool");
+  CHECK(body.parts[2].parent == 1);
+  CHECK(body.parts[3].parent == 0);
+  const Joint& turn = body.parts[1].joint;
+  CHECK(turn.kind == JointKind::hinge);
+  CHECK(turn.axis == Vector3(0, 0, 1));
+  CHECK(std::array{turn.lower, turn.upper, turn.effort, turn.velocity, turn.damping, turn.friction} ==
+        std::array{-1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
+  CHECK(body.parts[3].joint.initial == 0.5);  // 0 is outside its limits
+  // A quarter turn of the inertial frame about z swaps xx and yy.
+  CHECK((body.parts[1].inertia.diagonal() - Vector3(2, 1, 2.5)).norm() < 1e-9);
+  CHECK(body.parts[1].centre_of_mass == Vector3(0, 0, 0.1));
+  REQUIRE(body.parts[2].shapes.size() == 2);
+  CHECK((body.parts[2].shapes[0].collides && !body.parts[2].shapes[0].visible));
+  CHECK((!body.parts[2].shapes[1].collides && body.parts[2].shapes[1].visible));
+  CHECK(body.parts[2].shapes[1].colour.alpha == Approx(0.5));
+  CHECK((body.parts[3].shapes[0].collides && body.parts[3].shapes[0].visible));  // no visual: shown as it collides
+}
+
+TEST_CASE("a mesh becomes a hull, found beside the URDF") {
+  const TemporaryFolder folder;
+  folder.write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const Body body = body_from_urdf(folder.write(
+      "arm.urdf", robot(link_of("base",
+                                "<collision><geometry><mesh filename='package://any/tetra.obj' scale='2 2 2'/>"
+                                "</geometry></collision>"))));
+  REQUIRE(body.parts[0].shapes.size() == 1);
+  CHECK(body.parts[0].shapes[0].kind == ShapeKind::hull);
+  CHECK(bounding_box(body.parts[0])[1] == Vector3(2, 2, 2));
+}
+
+TEST_CASE("bad URDF files say where and what") {
+  using Catch::Contains;
+  CHECK_THAT(complaint("<robot name='arm'>\n<link name='a'>\n</robot>"),
+             Contains("bad.urdf:3") && Contains("malformed"));
+  CHECK_THAT(complaint(""), Contains("malformed") || Contains("robot"));
+  CHECK_THAT(complaint("<sdf/>"), Contains("robot"));
+  CHECK_THAT(complaint(robot(link_of("a") + joint_of("j", "a", "b"))), Contains("'b'") || Contains("[b]"));
+  CHECK_THAT(complaint(robot(link_of("a") + link_of("a"))), Contains("a") && Contains("not unique"));
+  CHECK_THAT(complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+             Contains("root"));
+  CHECK_THAT(complaint(robot(link_of("r") + link_of("a") + link_of("b") + joint_of("i", "r", "a") +
+                             joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+             Contains("two parents or lies on a cycle"));
+  CHECK_THAT(
+      complaint(robot(link_of("r") + link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+      Contains("link 'a'") && Contains("does not hang on"));
+  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><mesh filename='gone.stl'/></geometry></collision>"))),
+             Contains("link 'a'") && Contains("gone.stl") && Contains("no such mesh"));
+  CHECK_THAT(complaint(robot(link_of("a") + link_of("b", "") + joint_of("j", "a", "b"))),
+             Contains("link 'b'") && Contains("mass"));
+  CHECK_THAT(complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b", "floating", ""))),
+             Contains("joint 'j'") && Contains("floating"));
+  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><box size='1 -1 1'/></geometry></collision>"))),
+             Contains("link 'a'") && Contains("box"));
+  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><torus/></geometry></collision>"))), Contains("torus"));
+  CHECK_THAT(
+      complaint(robot(link_of("a") + link_of("b") +
+                      joint_of("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"))),
+      Contains("joint 'j'") && Contains("lower limit"));
+  CHECK_THROWS_AS(body_from_urdf("/nowhere/arm.urdf"), Error);
+}
