@@ -163,8 +163,11 @@ class Quickhull {
     for (const Face& face : faces_) {
       if (!face.alive) continue;
       hull.triangles.push_back({corner.at(face.corners[0]), corner.at(face.corners[1]), corner.at(face.corners[2])});
-      hull.deviation_m = std::max(hull.deviation_m, face.distance);
     }
+    for (const Face& owner : faces_)
+      for (const int point : owner.outside)
+        for (const Face& face : faces_)
+          if (owner.alive && face.alive) hull.deviation_m = std::max(hull.deviation_m, height(face, point));
     return hull;
   }
 
@@ -174,10 +177,35 @@ class Quickhull {
   double tolerance_ = 0;
 };
 
+// Points on a face or an edge may have become corners on the way: those see fewer than three planes.
+std::vector<Vector3> true_corners(const Hull& hull) {
+  std::vector<std::vector<Vector3>> planes(hull.points.size());
+  for (const auto& [a, b, c] : hull.triangles) {
+    const auto at = [&](int corner) { return hull.points[static_cast<std::size_t>(corner)]; };
+    const Vector3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+    for (const int corner : {a, b, c}) {
+      auto& seen = planes[static_cast<std::size_t>(corner)];
+      const auto same = [&](const Vector3& other) { return normal.cross(other).norm() < 1e-6; };
+      if (std::none_of(seen.begin(), seen.end(), same)) seen.push_back(normal);
+    }
+  }
+  std::vector<Vector3> corners;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (planes[i].size() >= 3) corners.push_back(hull.points[i]);
+  return corners;
+}
+
 }  // namespace
 
 std::optional<Hull> convex_hull(std::span<const Vector3> points, int most_points) {
-  return Quickhull(points).run(most_points);
+  std::optional<Hull> hull = Quickhull(points).run(most_points);
+  if (!hull) return hull;
+  const std::vector<Vector3> corners = true_corners(*hull);
+  if (corners.size() == hull->points.size()) return hull;
+  std::optional<Hull> clean = Quickhull(corners).run(0);
+  if (!clean) return hull;
+  clean->deviation_m = hull->deviation_m;
+  return clean;
 }
 
 MassProperties mass_properties(const Hull& solid) {

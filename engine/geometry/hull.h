@@ -13,7 +13,7 @@ namespace stampede {
 struct Hull {
   std::vector<Vector3> points;                // its corners, m
   std::vector<std::array<int, 3>> triangles;  // indices into points, counter-clockwise seen from outside
-  double deviation_m = 0;                     // how far any input point lies outside (0 unless points were left out)
+  double deviation_m = 0;  // greatest height of an input point over a face: 0 unless points were left out
 };
 
 // Quickhull (Barber, Dobkin, Huhdanpaa, ACM TOMS 1996, doi:10.1145/235815.235821), farthest point first: stopping at
