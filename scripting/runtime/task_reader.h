@@ -1,6 +1,7 @@
 // From the task's Lua table to what one draw of it says. For the runtime's own use; call it inside a protected call.
 #pragma once
 
+#include "scripting/library/formula_reader.h"
 #include "scripting/runtime/lua_task.h"
 #include "scripting/runtime/scene_builder.h"
 
@@ -29,8 +30,7 @@ class TaskReader {
   Value definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where);
   const ScriptFile& used(DefinitionKind kind, const std::string& name, const Value& where);
   std::vector<std::string> members(const std::string& group) const;
-  std::vector<Literal> expanded(const Literal& literal) const;
-  Formula formula_at(int index, const std::string& place);
+  FormulaContext context_of(const std::string& field) const;
 
   ScriptState& scripts_;
   const ScriptFile& file_;
