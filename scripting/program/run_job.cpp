@@ -56,35 +56,40 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
 }  // namespace
 
 RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<EpisodeJob>& jobs,
-                  const RunSettings& settings, EpisodeSink& sink) {
+                  const RunSettings& settings, CatalogueWriter* writer) {
   RunTally tally;
   tally.total = static_cast<std::int64_t>(jobs.size());
+  for (const EpisodeJob& job : jobs) ++tally.tasks[job.task].existing;
   const std::atomic<bool>* stop = settings.stop;
-  std::vector<std::string> keys(jobs.size());
-  in_parallel(jobs.size(), settings.workers, stop,
-              [&](std::size_t i) { keys[i] = PreparedEpisode(library, jobs[i], settings.options).key(); });
-  std::vector<std::size_t> wanted;
-  for (std::size_t i = 0; i < jobs.size() && !(stop && stop->load()); ++i) {
-    TaskTally& task = tally.tasks[jobs[i].task];
-    if (settings.exists && settings.exists(keys[i])) {
-      ++tally.existing;
-      ++task.existing;
-      continue;
-    }
-    wanted.push_back(i);
-    if (settings.expect) settings.expect(keys[i]);
-  }
+  std::vector<EpisodeIdentity> wanted(jobs.size());
+  in_parallel(jobs.size(), settings.workers, stop, [&](std::size_t i) {
+    const PreparedEpisode prepared(library, jobs[i], settings.options);
+    wanted[i] = {jobs[i].task, jobs[i].variation, jobs[i].seed, prepared.key()};
+  });
+  if (stop && stop->load()) wanted.clear();
+  if (writer) wanted = writer->expect(std::move(wanted));
+  for (const EpisodeIdentity& one : wanted) --tally.tasks[one.task].existing;
+  tally.existing = tally.total - static_cast<std::int64_t>(wanted.size());
   std::mutex mutex;
   in_parallel(wanted.size(), settings.workers, stop, [&](std::size_t i) {
-    PreparedEpisode prepared(library, jobs[wanted[i]], settings.options);
-    EpisodeRecord episode = prepared.run(stop);
-    if (episode.reason == Reason::interrupted) return;
-    {
-      const std::lock_guard lock(mutex);
-      count_episode(episode, tally);
-      if (settings.progress) settings.progress(episode, tally);
+    const EpisodeIdentity& one = wanted[i];
+    try {
+      EpisodeRecord episode =
+          PreparedEpisode(library, {one.task, one.variation, one.seed}, settings.options).run(stop);
+      if (episode.reason == Reason::interrupted) {
+        if (writer) writer->abandon(one.key);
+        return;
+      }
+      {
+        const std::lock_guard lock(mutex);
+        count_episode(episode, tally);
+        if (settings.progress) settings.progress(episode, tally);
+      }
+      if (writer) writer->finished(std::move(episode));
+    } catch (const std::exception&) {
+      if (writer) writer->abandon(one.key);  // the others must not wait for it
+      throw;
     }
-    sink.finished(std::move(episode));
   });
   tally.interrupted = stop && stop->load() && tally.done() < tally.total;
   return tally;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "db/catalogue_writer.h"
 #include "scripting/program/episode_job.h"
 
 namespace stampede {
@@ -33,15 +34,14 @@ struct RunTally {
 struct RunSettings {
   RunOptions options;
   int workers = 1;
-  std::function<bool(const std::string& key)> exists;         // empty: nothing does
-  std::function<void(const std::string& key)> expect;         // called for every key, in order, before any runs
   std::function<void(const EpisodeRecord&, const RunTally&)> progress;  // one at a time, from worker threads
   const std::atomic<bool>* stop = nullptr;
 };
 
-// Runs the episodes and hands each finished one to `sink`, in any order. Interrupted ones leave no trace.
+// Runs the episodes that `writer` does not have yet and hands it each finished one; without a writer all are run and
+// nothing is kept. Interrupted ones leave no trace.
 // Throws: what a worker threw first, after the others have ended.
 RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<EpisodeJob>& jobs,
-                  const RunSettings& settings, EpisodeSink& sink);
+                  const RunSettings& settings, CatalogueWriter* writer);
 
 }  // namespace stampede

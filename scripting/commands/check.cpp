@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+
+#include "db/table_text.h"
+#include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+#include "scripting/program/progress.h"
+#include "scripting/program/run_job.h"
+
+namespace stampede::program {
+namespace {
+
+// NAMES given: only complaints about files of these names.
+std::vector<Error> wanted_complaints(const std::vector<Error>& all, const std::vector<std::string>& names) {
+  if (names.empty()) return all;
+  std::vector<Error> wanted;
+  for (const Error& error : all) {
+    for (const std::string& name : names) {
+      if (error.where().find(name + ".lua") == std::string::npos) continue;
+      wanted.push_back(error);
+      break;
+    }
+  }
+  return wanted;
+}
+
+void check_names(const Library& library, const std::vector<std::string>& names, const std::vector<Error>& complaints) {
+  for (const std::string& name : names) {
+    bool known = false;
+    for (const ScriptFile* file : library.all_files()) known = known || file->name == name;
+    for (const Error& error : complaints) known = known || error.where().find(name + ".lua") != std::string::npos;
+    if (!known) throw UsageError("there is no file of the name '" + name + "'", "stampede list names what there is");
+  }
+}
+
+void print_complaints(const std::vector<Error>& complaints, std::size_t files, bool json, Console& console) {
+  if (json) {
+    JsonText text;
+    text.object().field("files", static_cast<std::int64_t>(files)).key("errors").array();
+    for (const Error& error : complaints) {
+      text.object().field("where", error.where()).field("message", error.message()).field("hint", error.hint()).end();
+    }
+    console.out << text.end().end().text();
+    return;
+  }
+  for (const Error& error : complaints) console.out << error.what() << "\n";
+  console.out << fmt::format("{} files, {} mistake{}\n", files, complaints.size(), complaints.size() == 1 ? "" : "s");
+}
+
+std::vector<std::string> tasks_to_run(const Library& library, const std::vector<std::string>& names) {
+  std::vector<std::string> tasks;
+  for (const ScriptFile* file : library.files(DefinitionKind::task)) {
+    if (names.empty() || std::find(names.begin(), names.end(), file->name) != names.end()) tasks.push_back(file->name);
+  }
+  return tasks;
+}
+
+QueryResult rates(const RunTally& tally) {
+  QueryResult table;
+  table.columns = {"task", "variation", "episodes", "success_percent"};
+  for (const auto& [task, one] : tally.tasks) {
+    for (const auto& [variation, counts] : one.variations) {
+      const double percent = 100.0 * static_cast<double>(counts.first) / static_cast<double>(counts.second);
+      table.rows.push_back({task, variation, counts.second, percent});
+    }
+  }
+  return table;
+}
+
+ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& arguments, Console& console) {
+  const std::vector<std::string> tasks = tasks_to_run(*library, arguments.list("NAMES"));
+  JobRequest request{tasks, *arguments.integer("--episodes"), *arguments.integer("--seed"), ""};
+  RunSettings settings;
+  settings.workers = static_cast<int>(*arguments.integer("--workers"));
+  settings.stop = console.stop;
+  Progress progress(console);
+  std::vector<std::string> failures;
+  settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
+    const bool good = episode.outcome == Outcome::success;
+    const std::string line = fmt::format("{} {} seed {}: {}", episode.task, episode.variation, episode.seed,
+                                         good ? "success" : to_string(episode.reason));
+    if (!good) failures.push_back(line + (episode.detail.empty() ? "" : ": " + episode.detail));
+    progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, line);
+  };
+  const RunTally tally = run_jobs(library, plan_jobs(*library, request), settings, nullptr);
+  progress.finish();
+  for (const std::string& failure : failures) console.err << failure << "\n";
+  console.out << (arguments.flag("--json") ? to_json(rates(tally)) : to_table(rates(tally)));
+  return tally.succeeded == tally.total ? kDone : kNo;
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  std::vector<Error> all;
+  const auto library = Library::load(roots_of(arguments), all);
+  const std::vector<std::string>& names = arguments.list("NAMES");
+  check_names(*library, names, all);
+  const std::vector<Error> complaints = wanted_complaints(all, names);
+  const bool physics = arguments.flag("--physics");
+  if (!physics || !complaints.empty()) {
+    const std::size_t files = names.empty() ? library->all_files().size() : names.size();
+    print_complaints(complaints, files, arguments.flag("--json"), console);
+  }
+  if (!complaints.empty()) return kBadInput;
+  return physics ? check_physics(library, arguments, console) : kDone;
+}
+
+}  // namespace
+
+CommandRow check_command() {
+  return {"check",
+          "Check scripts, and with --physics that tasks can be done",
+          "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
+          "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
+          "runs, and prints the success rate of each variation that was met.",
+          {{"NAMES", "names of files; default: all", false, true}},
+          {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
+           {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
+           {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
+           {"--workers", "W", "threads", Takes::integer, "1", {}, false}},
+          {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
+          run};
+}
+
+}  // namespace stampede::program

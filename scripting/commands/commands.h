@@ -1,0 +1,28 @@
+// The commands of the program; commands.cpp is the list.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scripting/library/library.h"
+#include "scripting/program/command.h"
+
+namespace stampede::program {
+
+const std::vector<CommandRow>& all_commands();
+
+CommandRow list_command();
+CommandRow check_command();
+CommandRow run_command();
+CommandRow show_command();
+CommandRow plan_command();
+CommandRow query_command();
+CommandRow replay_command();
+CommandRow new_command();
+CommandRow doc_command();
+
+// What --root and --path name. Throws LibraryError with every mistake.
+std::shared_ptr<const Library> load_library(const Arguments& arguments);
+Roots roots_of(const Arguments& arguments);
+
+}  // namespace stampede::program

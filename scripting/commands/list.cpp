@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "db/table_text.h"
+#include "scripting/commands/commands.h"
+#include "scripting/program/episode_job.h"
+#include "scripting/program/help.h"
+
+namespace stampede::program {
+namespace {
+
+struct Shelf {
+  const char* name;
+  DefinitionKind kind;
+};
+constexpr Shelf kShelves[] = {
+    {"tasks", DefinitionKind::task},           {"skills", DefinitionKind::skill},   {"predicates", DefinitionKind::predicate},
+    {"objects", DefinitionKind::object},       {"worlds", DefinitionKind::world},   {"robots", DefinitionKind::robot},
+};
+
+const Shelf* shelf_named(const std::string& name) {
+  const auto* found = std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Shelf& s) { return s.name == name; });
+  return found == std::end(kShelves) ? nullptr : found;
+}
+
+QueryResult shelf_table(const Library& library, const Shelf& shelf) {
+  const bool tasks = shelf.kind == DefinitionKind::task;
+  QueryResult table;
+  table.columns = {"name"};
+  if (tasks) table.columns.insert(table.columns.end(), {"variations", "world"});
+  table.columns.insert(table.columns.end(), {"description", "file"});
+  for (const ScriptFile* file : library.files(shelf.kind)) {
+    std::vector<SqlValue> row = {file->name};
+    if (tasks) {
+      const Library::TaskInfo& task = task_info(library, file->name);
+      row.emplace_back(static_cast<std::int64_t>(task.variation_texts.size()));
+      row.emplace_back(task.world);
+    }
+    row.emplace_back(file->description);
+    row.emplace_back(file->shown_path);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Console& console) {
+  QueryResult table;
+  table.columns = {"variation"};
+  for (const std::string& text : task.variation_texts) table.rows.push_back({text});
+  if (arguments.flag("--json")) {
+    console.out << to_json(table);
+    return kDone;
+  }
+  console.out << task.name << ": " << task.description << "\n";
+  for (const std::string& instruction : task.instructions) console.out << "  “" << instruction << "”\n";
+  console.out << "\n" << to_table(table);
+  return kDone;
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const auto library = load_library(arguments);
+  const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
+  if (const Shelf* shelf = shelf_named(what)) {
+    const QueryResult table = shelf_table(*library, *shelf);
+    console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
+    return kDone;
+  }
+  if (const Library::TaskInfo* task = library->task(what)) return list_task(*task, arguments, console);
+  std::vector<std::string> names;
+  for (const Shelf& shelf : kShelves) names.emplace_back(shelf.name);
+  for (const ScriptFile* file : library->files(DefinitionKind::task)) names.push_back(file->name);
+  const std::string near = nearest(what, names);
+  throw UsageError("there is nothing to list by the name '" + what + "'",
+                   near.empty() ? "say tasks, skills, predicates, objects, worlds, robots, or a task's name"
+                                : "did you mean '" + near + "'?");
+}
+
+}  // namespace
+
+CommandRow list_command() {
+  return {"list",
+          "List tasks, skills, predicates, objects, worlds or robots, or the variations of a task",
+          "Without WHAT it lists the tasks. With the name of a task it lists the task's variations.",
+          {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, or the name of a task", false, false}},
+          {},
+          {"stampede list", "stampede list skills", "stampede list stack_blocks"},
+          run};
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,48 @@
+#include <ostream>
+
+#include "db/catalogue.h"
+#include "db/table_text.h"
+#include "scripting/commands/commands.h"
+
+namespace stampede::program {
+namespace {
+
+QueryResult names() {
+  QueryResult table;
+  table.columns = {"query", "description"};
+  for (const NamedQuery& query : named_queries()) table.rows.push_back({query.name, query.description});
+  return table;
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const std::string format = arguments.flag("--json") ? "json" : arguments.text("--format");
+  QueryResult result;
+  if (arguments.flag("--list")) {
+    result = names();
+  } else {
+    if (!arguments.has("FILE") || !arguments.has("QUESTION")) {
+      throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");
+    }
+    const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
+    result = catalogue.query(arguments.text("QUESTION"));
+  }
+  console.out << (format == "json" ? to_json(result) : format == "csv" ? to_csv(result) : to_table(result));
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow query_command() {
+  return {"query",
+          "Ask a catalogue in SQL, or by the name of a ready question",
+          "The catalogue is opened read-only: a question that would write is refused. The views that SQL may use are "
+          "described in db/README.md; --list names the ready questions.",
+          {{"FILE", "the catalogue", false, false}, {"QUESTION", "SQL, or a name", false, false}},
+          {{"--format", "NAME", "how to print", Takes::text, "table", {"table", "csv", "json"}, false},
+           {"--list", "", "name the ready questions", Takes::flag, "", {}, false}},
+          {"stampede query demos.db failures_by_reason",
+           "stampede query demos.db \"SELECT task, count(*) FROM demos GROUP BY task\" --format csv"},
+          run};
+}
+
+}  // namespace stampede::program

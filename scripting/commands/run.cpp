@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "db/catalogue_writer.h"
+#include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+#include "scripting/program/numerics.h"
+#include "scripting/program/progress.h"
+#include "scripting/program/run_job.h"
+
+namespace stampede::program {
+namespace {
+
+std::int64_t at_least(const Arguments& arguments, const char* name, std::int64_t least) {
+  const std::int64_t value = *arguments.integer(name);
+  if (value < least) throw UsageError(fmt::format("{} is at least {}, not {}", name, least, value));
+  return value;
+}
+
+RunOptions run_options(const Arguments& arguments) {
+  RunOptions options;
+  options.split = arguments.text("--split");
+  options.on_failure = *on_failure_from(arguments.text("--on-failure"));
+  options.controller = arguments.text("--controller");
+  return options;
+}
+
+JobRequest job_request(const Arguments& arguments, const std::string& split) {
+  JobRequest request;
+  request.tasks = arguments.list("TASK");
+  request.episodes = at_least(arguments, "--episodes", 1);
+  request.first_seed = arguments.integer("--seed").value_or(split == "test" ? kFirstTestSeed : 0);
+  request.variation = arguments.text("--variation");
+  try {
+    check_split(split, request.first_seed, request.first_seed + request.episodes - 1);
+  } catch (const Error& error) {
+    throw UsageError(error.where() + ": " + error.message(), error.hint());
+  }
+  return request;
+}
+
+std::string episode_line(const EpisodeRecord& episode) {
+  const std::string name = episode.task + (episode.variation.empty() ? "" : " " + episode.variation);
+  const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
+  if (episode.outcome == Outcome::success) return fmt::format("{} seed {}: success, {:.1f} s", name, episode.seed, seconds);
+  return fmt::format("{} seed {}: {}{}", name, episode.seed, to_string(episode.reason),
+                     episode.detail.empty() ? "" : ", " + episode.detail);
+}
+
+void print_answer(const RunTally& tally, const std::string& out, bool json, Console& console) {
+  if (!json) {
+    for (const auto& [name, task] : tally.tasks) {
+      console.out << fmt::format("{}: {} episodes, {} succeeded, {:.1f} s simulated", name, task.episodes, task.succeeded,
+                                 task.simulated_s);
+      if (task.existing > 0) console.out << fmt::format(", {} were there already", task.existing);
+      for (const auto& [reason, count] : task.reasons) console.out << fmt::format(", {} {}", count, reason);
+      console.out << "\n";
+    }
+    return;
+  }
+  JsonText text;
+  text.object().field("out", out).field("interrupted", tally.interrupted).key("tasks").array();
+  for (const auto& [name, task] : tally.tasks) {
+    text.object().field("task", name).field("episodes", task.episodes).field("succeeded", task.succeeded);
+    text.field("existing", task.existing).field("simulated_s", task.simulated_s).key("reasons").object();
+    for (const auto& [reason, count] : task.reasons) text.field(reason, count);
+    text.end().end();
+  }
+  console.out << text.end().end().text();
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  RunSettings settings;
+  settings.options = run_options(arguments);
+  const JobRequest request = job_request(arguments, settings.options.split);
+  settings.workers = static_cast<int>(at_least(arguments, "--workers", 1));
+  settings.stop = console.stop;
+  const auto library = load_library(arguments);
+  const std::vector<EpisodeJob> jobs = plan_jobs(*library, request);
+  const std::string out = arguments.text("--out");
+  CatalogueWriterOptions writing;
+  writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  CatalogueWriter writer(out, std::move(writing));
+  Progress progress(console);
+  settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
+    progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
+  };
+  const RunTally tally = run_jobs(library, jobs, settings, &writer);
+  writer.finish();
+  progress.finish();
+  print_answer(tally, out, arguments.flag("--json"), console);
+  if (tally.interrupted) {
+    console.err << fmt::format("interrupted: {} of {} episodes are in {}; the same command goes on from there\n",
+                               tally.done(), tally.total, out);
+    return kNo;
+  }
+  return tally.finished > 0 && tally.succeeded == 0 ? kNo : kDone;
+}
+
+}  // namespace
+
+CommandRow run_command() {
+  return {"run",
+          "Run tasks and store every episode in a catalogue",
+          "Episode i of a task has seed S+i and goes through the task's variations in a fixed shuffled order. Episodes "
+          "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
+          "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
+          "succeeded or the run was interrupted.",
+          {{"TASK", "names of tasks", true, true}},
+          {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
+           {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
+           {"--seed", "S", "the first seed; default: 0, or 1000000 in the test split", Takes::integer, "", {}, false},
+           {"--split", "NAME", "seeds from 1000000 up are the test split's", Takes::text, "train", {"train", "test"}, false},
+           {"--workers", "W", "threads; they do not change the data", Takes::integer, "1", {}, false},
+           {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
+           {"--on-failure", "WAY", "after a failed skill", Takes::text, "undo", {"undo", "stop", "recover"}, false},
+           {"--controller", "NAME", "instead of each skill's own", Takes::text, "",
+            {"joint_position", "joint_impedance", "cartesian_impedance"}, false}},
+          {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
+           "stampede run stack_blocks --variation colour=red --seed 7"},
+          run};
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <ostream>
+
+#include "db/catalogue.h"
+#include "scripting/commands/commands.h"
+#include "scripting/program/timeline.h"
+
+namespace stampede::program {
+
+std::int64_t episode_number(const std::string& text) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw UsageError("an episode is a number, not '" + text + "'", "stampede query FILE \"SELECT episode FROM episodes\"");
+  }
+  return number;
+}
+
+namespace {
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const std::int64_t number = episode_number(arguments.text("EPISODE"));
+  const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
+  const EpisodeRecord episode = catalogue.read_episode(number);
+  if (arguments.flag("--json")) {
+    console.out << timeline_json(episode);
+    return kDone;
+  }
+  TimelineStyle style;
+  style.width = console.width;
+  style.constant_facts = arguments.flag("--all");
+  style.title = fmt::format("episode {} of {}", number, arguments.text("FILE"));
+  console.out << timeline(episode, style);
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow show_command() {
+  return {"show",
+          "Show one episode as a timeline",
+          "Skills and their motions as bars, with what each changed, the tries that were undone and why, the points "
+          "passed without stopping, and the facts that came and went.",
+          {{"FILE", "the catalogue", true, false}, {"EPISODE", "the episode's number", true, false}},
+          {{"--all", "", "also the facts that held throughout", Takes::flag, "", {}, false}},
+          {"stampede show demos.db 1"},
+          run};
+}
+
+}  // namespace stampede::program
