@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "db/query.h"
+#include "engine/base/error.h"
 #include "engine/episode/record.h"
 
 namespace stampede {

@@ -1,0 +1,168 @@
+#include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
+#include <functional>
+
+#include "sample_episode.h"
+
+using namespace stampede;
+using namespace stampede::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void run_sql(const std::filesystem::path& path, const std::string& text) {
+  sqlite3* handle = nullptr;
+  REQUIRE(sqlite3_open(path.c_str(), &handle) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(handle, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(handle);
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void make(const std::filesystem::path& path) {
+  Catalogue::write(path).add(sample_episode("lift", "colour=red", 1), kEngine);
+}
+
+// Runs in a process of its own; true when `work` returns true.
+bool in_child(const std::function<bool()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool good = false;
+    try {
+      good = work();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    ::_exit(good ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// Root may write anywhere.
+void become_nobody() {
+  if (::getuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+}
+
+}  // namespace
+
+TEST_CASE("a closed catalogue is one plain file that carries its mark") {
+  const Folder folder;
+  make(folder / "a.db");
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
+  CHECK(files == 1);
+  const std::string bytes = bytes_of(folder / "a.db");
+  CHECK(bytes.substr(68, 4) == "Stmp");
+  CHECK(bytes[18] == 1);  // not WAL
+}
+
+TEST_CASE("files that are not ours are refused with the cure and not touched") {
+  const Folder folder;
+  const auto refuse = [&](const std::string& name, const std::string& complaint, const std::string& cure) {
+    const std::string before = bytes_of(folder / name);
+    CHECK_THROWS_WITH(Catalogue::write(folder / name), Contains(complaint) && Contains(cure));
+    CHECK_THROWS_WITH(Catalogue::open(folder / name), Contains(complaint) && Contains(cure));
+    CHECK(bytes_of(folder / name) == before);
+  };
+  run_sql(folder / "other.db", "CREATE TABLE t (a); PRAGMA application_id = 7");
+  refuse("other.db", "another application", "another file");
+  make(folder / "newer.db");
+  run_sql(folder / "newer.db", "PRAGMA user_version = " + std::to_string(schema_version() + 1));
+  refuse("newer.db", "newer version", "generate");
+  make(folder / "older.db");
+  run_sql(folder / "older.db", "PRAGMA user_version = " + std::to_string(schema_version() - 1));
+  refuse("older.db", "older version", "generate the episodes again");
+  std::ofstream(folder / "text.db") << std::string(2000, 'x');
+  refuse("text.db", "not a database", "name a catalogue");
+}
+
+TEST_CASE("missing files, folders and empty files say what to do") {
+  const Folder folder;
+  CHECK_THROWS_WITH(Catalogue::open(folder / "none.db"), Contains("no such file"));
+  CHECK_THROWS_WITH(Catalogue::write(folder / "none/a.db"), Contains("does not exist"));
+  CHECK_THROWS_WITH(Catalogue::write(folder.path()), Contains("folder"));
+  std::ofstream(folder / "empty.db").flush();
+  CHECK_THROWS_WITH(Catalogue::open(folder / "empty.db"), Contains("empty"));
+  CHECK_NOTHROW(make(folder / "empty.db"));  // a run that was killed at once leaves such a file
+}
+
+TEST_CASE("a catalogue in a read-only folder can be questioned and not written") {
+  const Folder folder;
+  make(folder / "plain.db");
+  make(folder / "log.db");
+  run_sql(folder / "log.db", "PRAGMA journal_mode = WAL");  // as a reader may have left it
+  std::filesystem::remove((folder / "log.db").string() + "-wal");
+  std::filesystem::remove((folder / "log.db").string() + "-shm");
+  for (const char* name : {"plain.db", "log.db"}) ::chmod((folder / name).c_str(), 0444);
+  ::chmod(folder.path().c_str(), 0555);
+  for (const std::string name : {"plain.db", "log.db"}) {
+    CHECK(in_child([&] {
+      become_nobody();
+      return Catalogue::open(folder / name).query("SELECT * FROM demos").rows.size() == 1;
+    }));
+    CHECK(in_child([&] {
+      become_nobody();
+      try {
+        make(folder / name);
+      } catch (const CatalogueError& error) {
+        return std::string(error.what()).find("read-only") != std::string::npos && !error.hint().empty();
+      }
+      return false;
+    }));
+  }
+  ::chmod(folder.path().c_str(), 0755);
+}
+
+TEST_CASE("a disk that takes no more is an error, and what was finished stays") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  CHECK(in_child([&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    Catalogue catalogue = Catalogue::write(path);
+    catalogue.add(sample_episode("lift", "colour=red", 0), kEngine);
+    const rlimit limit{1'000'000, 1'000'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      for (int seed = 1; seed < 100; ++seed)
+        catalogue.add(sample_episode("lift", "colour=red", seed, {120, 15, 10}), kEngine);
+    } catch (const CatalogueError& error) {
+      return !error.hint().empty();
+    }
+    return false;
+  }));
+  Catalogue catalogue = Catalogue::open(path);
+  const auto list = catalogue.episodes();
+  REQUIRE(!list.empty());
+  CHECK(catalogue.read_episode(list.back().id).keyframes.size() == 1);
+}
+
+TEST_CASE("readers see finished episodes while a run writes") {
+  const Folder folder;
+  Catalogue writer = Catalogue::write(folder / "a.db");
+  writer.add(sample_episode("lift", "colour=red", 1), kEngine);
+  const Catalogue reader = Catalogue::open(folder / "a.db");
+  CHECK(reader.episodes().size() == 1);
+  writer.add(sample_episode("lift", "colour=red", 2), kEngine);
+  CHECK(reader.episodes().size() == 2);
+}
+
+TEST_CASE("the same key is not stored twice") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  const EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  catalogue.add(episode, kEngine);
+  CHECK_THROWS_AS(catalogue.add(episode, kEngine), CatalogueError);
+  CHECK(catalogue.find(episode.key) == 1);
+}

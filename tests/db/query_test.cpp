@@ -1,0 +1,156 @@
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "db/table_text.h"
+#include "sample_episode.h"
+
+using namespace stampede;
+using namespace stampede::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Filled {
+  Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  Filled() { catalogue.add(sample_episode("lift", "colour=red", 1), kEngine); }
+};
+
+std::string only(const Catalogue& catalogue, const std::string& sql) {
+  const QueryResult result = catalogue.query(sql);
+  REQUIRE(result.rows.size() == 1);
+  return std::get<std::string>(result.rows[0][0]);
+}
+
+}  // namespace
+
+TEST_CASE("transitions compare what a segment declares with what became of the facts") {
+  const Filled filled;
+  const auto column = [&](const std::string& name) {
+    return only(filled.catalogue, "SELECT " + name + " FROM transitions WHERE skill = 'pick'");
+  };
+  CHECK(column("before") == R"j(["(hand_empty)","(near block1 block2)","(on block1 table)","(on block2 table)"])j");
+  CHECK(column("after") ==
+        R"j(["(clear table)","(holding panda.hand block1)","(lifted block1)","(on block2 table)"])j");
+  CHECK(column("added") == R"j(["(clear table)","(holding panda.hand block1)","(lifted block1)"])j");
+  CHECK(column("removed") == R"j(["(hand_empty)","(near block1 block2)","(on block1 table)"])j");
+  CHECK(column("declared") == R"j(["(holding panda.hand block1)","(not (on block1 table))","(open chest)"])j");
+  CHECK(column("missing") == R"j(["(open chest)"])j");
+  // near is forgotten and clear derived: neither counts.
+  CHECK(column("undeclared") == R"j(["(not (hand_empty))","(lifted block1)"])j");
+}
+
+TEST_CASE("dense views carry the last pose forward") {
+  const Filled filled;
+  const auto count = [&](const std::string& sql) {
+    return std::get<std::int64_t>(filled.catalogue.query(sql).rows[0][0]);
+  };
+  CHECK(count("SELECT count(*) FROM object_state") == 12 + 1);  // one moves, one rests
+  CHECK(count("SELECT count(*) FROM poses") == 2 * 12);
+  CHECK(count("SELECT count(DISTINCT x) FROM poses WHERE object = 'block2'") == 1);
+  CHECK(count("SELECT sum(changed) FROM poses") == 13);
+  CHECK(count("SELECT count(*) FROM camera_pose") == 2);
+  CHECK(count("SELECT count(*) FROM camera_poses") == 12);
+  CHECK(count("SELECT count(*) FROM frames WHERE skill = 'pick'") == 6);
+  CHECK(count("SELECT count(*) FROM tries WHERE skill = 'pick'") == 2);
+  CHECK(count("SELECT try_number FROM tries WHERE skill = 'pick' AND NOT undone") == 2);
+  CHECK(count("SELECT steps FROM plans") == 2);
+}
+
+TEST_CASE("every named query runs and describes itself") {
+  const Filled filled;
+  CHECK(named_queries().size() >= 10);
+  for (const NamedQuery& query : named_queries()) {
+    INFO(query.name);
+    CHECK(query.sql.starts_with("-- "));
+    CHECK(query.description.ends_with("."));
+    CHECK_NOTHROW(filled.catalogue.query(query.name));
+  }
+  CHECK(find_named_query("nonsense") == nullptr);
+  CHECK_THROWS_WITH(filled.catalogue.query("nonsense"), Contains("failures_by_reason"));
+}
+
+TEST_CASE("named queries answer what they promise") {
+  const Filled filled;  // one episode: a pick that was undone once, then succeeded, and a wait
+  CHECK(to_csv(filled.catalogue.query("failures_by_reason")) ==
+        "level,kind,skill,reason,failures,undone\r\ntry,skill,pick,grasp_missed,1,1\r\n");
+  CHECK(to_csv(filled.catalogue.query("success_by_task")) ==
+        "task,split,episodes,successes,success_rate\r\nlift,train,1,1,1.0\r\n");
+  CHECK_THAT(to_csv(filled.catalogue.query("first_try_success")), Contains("pick,off_surface,1,0.0,2,0.5\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("effects_by_skill")), Contains("pick,off_surface,1,1,1,1.0\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("undeclared_changes")),
+             Contains("pick,off_surface,(lifted block1),1,1\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("missing_effects")),
+             Contains("pick,off_surface,success,(open chest),1,1\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("longest_facts")), Contains("(on block2 table),1,lift,0.0,0.55,0.55,1\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("slowest_segments")), Contains("0.3,joint_impedance\r\n"));
+  CHECK(filled.catalogue.query("red_picks").rows.size() == 1);
+  CHECK_THAT(to_csv(filled.catalogue.query("via_speeds")), Contains("pick,approach,1,0.7,0.7\r\n"));
+  CHECK(to_csv(filled.catalogue.query("hardest_contacts")).find("12.5") != std::string::npos);
+  // The via is passed in frame 1 and 18/240 s; keyframe 0 is within one frame.
+  CHECK(filled.catalogue.query("keyframes_without_vias").rows.empty());
+}
+
+TEST_CASE("a query cannot write") {
+  const Filled filled;
+  const std::string before = filled.catalogue.content_hash();
+  for (const char* text :
+       {"DELETE FROM episode", "DROP VIEW demos", "PRAGMA user_version = 9", "PRAGMA journal_mode = DELETE",
+        "ATTACH 'x.db' AS x", "INSERT INTO split VALUES ('train', NULL, NULL, 1, 2)", "CREATE TEMP TABLE t (a)",
+        "SELECT 1; DELETE FROM timing", "BEGIN", "VACUUM INTO 'y.db'", "SELECT load_extension('x')",
+        "WITH a AS (SELECT 1) UPDATE episode SET seed = 3", "REINDEX", "ANALYZE", "SAVEPOINT a"}) {
+    INFO(text);
+    CHECK_THROWS_AS(filled.catalogue.query(text), Error);
+  }
+  CHECK(filled.catalogue.content_hash() == before);
+  CHECK(filled.catalogue.episodes().size() == 1);
+}
+
+TEST_CASE("mistakes in SQL are told with what there is") {
+  const Filled filled;
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT * FROM episods"), Contains("no such table") && Contains("episodes"));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 1; SELECT 2"), Contains("more than one"));
+  CHECK_THROWS_AS(filled.catalogue.query("-- nothing"), Error);
+  CHECK_NOTHROW(filled.catalogue.query("SELECT 1; -- and a comment"));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT ?1"), Contains("takes 1 parameter"));
+  CHECK(std::get<std::int64_t>(filled.catalogue.query("SELECT ?1 + 1", {{std::int64_t{4}}, 0}).rows[0][0]) == 5);
+}
+
+TEST_CASE("answers are bounded and can be interrupted") {
+  const Filled filled;
+  const char* endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n";
+  const QueryResult few = filled.catalogue.query(endless, {{}, 3});
+  CHECK(few.rows.size() == 3);
+  CHECK(few.cut);
+  std::atomic<bool> done = false;
+  std::thread other([&] {
+    while (!done) {
+      filled.catalogue.interrupt();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  CHECK_THROWS_WITH(filled.catalogue.query(std::string("SELECT sum(i) FROM (") + endless + ")"),
+                    Contains("interrupted"));
+  done = true;
+  other.join();
+}
+
+TEST_CASE("answers as table, CSV and JSON") {
+  QueryResult result;
+  result.columns = {"name", "n", "x"};
+  result.rows = {{std::string("a,\"b\"\nc"), std::int64_t{10}, 0.1},
+                 {std::monostate{}, std::int64_t{-1}, 2.0},
+                 {std::string(), std::monostate{}, SqlBlob{std::string("\x01\xff", 2)}},
+                 {std::string("größe\x80"), std::int64_t{3}, INFINITY}};
+  CHECK(to_csv(result) == "name,n,x\r\n\"a,\"\"b\"\"\nc\",10,0.1\r\n,-1,2.0\r\n\"\",,01ff\r\ngröße\x80,3,Infinity\r\n");
+  CHECK(to_json(result) ==
+        "[\n {\"name\": \"a,\\\"b\\\"\\nc\", \"n\": 10, \"x\": 0.1},\n {\"name\": null, \"n\": -1, \"x\": 2.0},\n"
+        " {\"name\": \"\", \"n\": null, \"x\": \"01ff\"},\n {\"name\": \"größe\\ufffd\", \"n\": 3, \"x\": "
+        "\"Infinity\"}\n]\n");
+  QueryResult small;
+  small.columns = {"skill", "n"};
+  small.rows = {{std::string("öffnen"), std::int64_t{5}}, {std::string("a\tb"), std::int64_t{123}}};
+  small.cut = true;
+  CHECK(to_table(small) == "skill     n\n------  ---\nöffnen    5\na\\tb    123\n… and more rows\n");
+  CHECK(to_json({{"a"}, {}, false}) == "[]\n");
+}

@@ -1,0 +1,162 @@
+#include <catch2/catch.hpp>
+
+#include "sample_episode.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+void check_segment(const SegmentRecord& a, const SegmentRecord& b) {
+  CHECK(a.kind == b.kind);
+  CHECK(a.ordinal == b.ordinal);
+  CHECK(a.parent == b.parent);
+  CHECK(a.robot == b.robot);
+  CHECK(a.skill == b.skill);
+  CHECK(a.case_name == b.case_name);
+  CHECK(a.arguments == b.arguments);
+  CHECK(a.controller == b.controller);
+  CHECK(a.span.start_step == b.span.start_step);
+  CHECK(a.span.end_step == b.span.end_step);
+  CHECK(a.span.first_frame == b.span.first_frame);
+  CHECK(a.span.end_frame == b.span.end_frame);
+  CHECK(a.outcome == b.outcome);
+  CHECK(a.reason == b.reason);
+  CHECK(a.detail == b.detail);
+  CHECK(a.precondition_held == b.precondition_held);
+  CHECK(a.effect_held == b.effect_held);
+  CHECK(a.declared_effects == b.declared_effects);
+  CHECK(a.forgotten == b.forgotten);
+  CHECK(a.missing_effects == b.missing_effects);
+  CHECK(a.label == b.label);
+  REQUIRE(a.parameters.size() == b.parameters.size());
+  for (std::size_t i = 0; i < a.parameters.size(); ++i) {
+    const ParameterRecord &p = a.parameters[i], &q = b.parameters[i];
+    CHECK(std::tie(p.name, p.values, p.text, p.unit, p.frame, p.chosen_by) ==
+          std::tie(q.name, q.values, q.text, q.unit, q.frame, q.chosen_by));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("an episode read back is the one that was stored, to the last bit") {
+  const Folder folder;
+  const EpisodeRecord a = sample_episode("lift", "colour=red", 7);
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  REQUIRE(catalogue.add(a, kEngine) == 1);
+  catalogue.close();
+  const EpisodeRecord b = Catalogue::open(folder / "a.db").read_episode(1);
+
+  CHECK(std::tie(a.key, a.task, a.world, a.variation, a.axes, a.seed, a.split, a.outcome, a.reason, a.detail) ==
+        std::tie(b.key, b.task, b.world, b.variation, b.axes, b.seed, b.split, b.outcome, b.reason, b.detail));
+  CHECK(std::tie(a.options, a.physics_hz, a.frame_hz, a.steps, a.state_hash, a.draws, a.wall_s, a.physics_wall_s) ==
+        std::tie(b.options, b.physics_hz, b.frame_hz, b.steps, b.state_hash, b.draws, b.wall_s, b.physics_wall_s));
+  CHECK(a.scene_document == b.scene_document);
+  CHECK(std::tie(a.posed, a.hands, a.predicates, a.keyframes) == std::tie(b.posed, b.hands, b.predicates, b.keyframes));
+  REQUIRE(a.frames.size() == b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    INFO("frame " << i);
+    const FrameRecord &f = a.frames[i], &g = b.frames[i];
+    CHECK(std::tie(f.step, f.reward, f.done, f.joint_position, f.joint_velocity, f.joint_effort, f.object_pose) ==
+          std::tie(g.step, g.reward, g.done, g.joint_position, g.joint_velocity, g.joint_effort, g.object_pose));
+    CHECK(f.camera_pose == g.camera_pose);
+    REQUIRE(g.hands.size() == 1);
+    CHECK(std::tie(f.hands[0].tip, f.hands[0].twist, f.hands[0].opening, f.hands[0].touch) ==
+          std::tie(g.hands[0].tip, g.hands[0].twist, g.hands[0].opening, g.hands[0].touch));
+    REQUIRE(f.action.has_value() == g.action.has_value());
+    if (f.action)
+      CHECK(std::tie(f.action->joint_position, f.action->tool_pose, f.action->gripper) ==
+            std::tie(g.action->joint_position, g.action->tool_pose, g.action->gripper));
+  }
+  REQUIRE(a.commands.size() == b.commands.size());
+  for (std::size_t i = 0; i < a.commands.size(); ++i) {
+    CHECK(a.commands[i].step == b.commands[i].step);
+    CHECK(operation_kind(a.commands[i].operation) == operation_kind(b.commands[i].operation));
+    CHECK(operation_to_bytes(a.commands[i].operation) == operation_to_bytes(b.commands[i].operation));
+  }
+  REQUIRE(a.segments.size() == b.segments.size());
+  for (std::size_t i = 0; i < a.segments.size(); ++i) check_segment(a.segments[i], b.segments[i]);
+  REQUIRE(b.attempts.size() == 1);
+  check_segment(a.attempts[0].segment, b.attempts[0].segment);
+  CHECK(a.attempts[0].before_segment == b.attempts[0].before_segment);
+  CHECK(a.attempts[0].try_number == b.attempts[0].try_number);
+}
+
+TEST_CASE("names, labels and documents come back too") {
+  const Folder folder;
+  const EpisodeRecord a = sample_episode("lift", "colour=red", 7);
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  const EpisodeRecord b = catalogue.read_episode(catalogue.add(a, kEngine));
+  REQUIRE(b.objects.size() == a.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    const Object &o = a.objects[i], &p = b.objects[i];
+    CHECK(std::tie(o.name, o.kind, o.class_name, o.type, o.traits, o.attributes, o.body, o.part, o.numbers) ==
+          std::tie(p.name, p.kind, p.class_name, p.type, p.traits, p.attributes, p.body, p.part, p.numbers));
+    CHECK(o.size == p.size);
+  }
+  REQUIRE(b.joints.size() == a.joints.size());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    const JointName &j = a.joints[i], &k = b.joints[i];
+    CHECK(std::tie(j.name, j.part, j.kind, j.unit, j.lower, j.upper, j.driven) ==
+          std::tie(k.name, k.part, k.kind, k.unit, k.lower, k.upper, k.driven));
+  }
+  REQUIRE(b.facts.size() == a.facts.size());
+  for (std::size_t i = 0; i < a.facts.size(); ++i) {
+    const FactRecord &f = a.facts[i], &g = b.facts[i];
+    CHECK(std::tie(f.fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
+                   f.margin) == std::tie(g.fact, g.start_step, g.end_step, g.first_frame, g.end_frame, g.open_start,
+                                         g.open_end, g.observed, g.margin));
+  }
+  REQUIRE(b.vias.size() == 1);
+  CHECK(
+      std::tie(a.vias[0].segment, a.vias[0].name, a.vias[0].pose, a.vias[0].passed, a.vias[0].step, a.vias[0].speed) ==
+      std::tie(b.vias[0].segment, b.vias[0].name, b.vias[0].pose, b.vias[0].passed, b.vias[0].step, b.vias[0].speed));
+  REQUIRE(b.contacts.size() == 1);
+  CHECK(std::tie(a.contacts[0].object_b, a.contacts[0].part_b, a.contacts[0].end_frame, a.contacts[0].peak_force) ==
+        std::tie(b.contacts[0].object_b, b.contacts[0].part_b, b.contacts[0].end_frame, b.contacts[0].peak_force));
+  REQUIRE(b.grasps.size() == 1);
+  CHECK(std::tie(a.grasps[0].object, a.grasps[0].object_from_tip, a.grasps[0].width, a.grasps[0].held) ==
+        std::tie(b.grasps[0].object, b.grasps[0].object_from_tip, b.grasps[0].width, b.grasps[0].held));
+  REQUIRE(b.language.size() == 2);
+  CHECK(b.language[0].segment == -1);
+  CHECK(b.language[1].segment == 0);
+  CHECK(b.language[1].text == a.language[1].text);
+  REQUIRE(b.documents.size() == 2);
+  CHECK(b.documents[1].text == a.documents[1].text);
+  REQUIRE(b.definitions.size() == 2);
+  CHECK(b.definitions[0].source == a.definitions[0].source);
+  REQUIRE(b.channels.size() == 1);
+  CHECK(b.channels[0].steps == a.channels[0].steps);
+  CHECK(b.channels[0].values == a.channels[0].values);
+  REQUIRE(b.cameras.size() == 1);
+  CHECK(b.cameras[0].mount_from_camera.matrix() == a.cameras[0].mount_from_camera.matrix());
+}
+
+TEST_CASE("what many scenes share is stored once") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  for (int seed = 0; seed < 5; ++seed) catalogue.add(sample_episode("lift", "colour=red", seed), kEngine);
+  const auto count = [&](const std::string& table) {
+    return std::get<std::int64_t>(catalogue.query("SELECT count(*) FROM " + table).rows[0][0]);
+  };
+  CHECK(count("scene") == 5);  // they differ in their seed
+  CHECK(count("asset") == 2);  // the shapes and the robot
+  CHECK(count("definition") == 2);
+  CHECK(count("engine_run") == 1);
+  CHECK(count("text_store") == 2);
+}
+
+TEST_CASE("a record that contradicts itself, or holds no number, leaves nothing behind") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  const std::string empty = catalogue.content_hash();
+  EpisodeRecord ragged = sample_episode("lift", "colour=red", 1);
+  ragged.frames[3].joint_effort.pop_back();
+  CHECK_THROWS_AS(catalogue.add(ragged, kEngine), Error);
+  EpisodeRecord astray = sample_episode("lift", "colour=red", 1);
+  astray.frames[11].joint_effort[0] = std::nan("");
+  CHECK_THROWS_WITH(catalogue.add(astray, kEngine), Catch::Matchers::Contains("NaN"));
+  CHECK(catalogue.episodes().empty());
+  CHECK(catalogue.content_hash() == empty);
+  CHECK(catalogue.add(sample_episode("lift", "colour=red", 1), kEngine) == 1);
+}

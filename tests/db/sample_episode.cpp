@@ -1,0 +1,159 @@
+#include "sample_episode.h"
+
+#include <unistd.h>
+
+#include <cmath>
+
+#include "engine/base/hash.h"
+
+namespace stampede::test {
+namespace {
+
+Pose pose_of(double t) { return {{0.1 + t, 1.0 / 3 + t, -t}, {std::sin(t / 2), 0, 0, std::cos(t / 2)}}; }
+
+Fact fact(std::string predicate, std::vector<std::string> arguments) {
+  return {std::move(predicate), std::move(arguments)};
+}
+
+void add_scene(EpisodeRecord& e, const SampleSize& size) {
+  const std::string points(300, '7');
+  e.scene_document = R"({"bodies":[{"name":"[{\"shapes\":","shapes":[)" + points + "]}],\"robot\":{\"a\":\"" + points +
+                     R"(}"},"seed":)" + std::to_string(e.seed) + ",\"shapes\":[]}";
+  for (int i = 0; i < size.objects; ++i) {
+    Object o;
+    o.name = "block" + std::to_string(i + 1);
+    o.class_name = "cube", o.type = "block", o.body = o.name;
+    o.traits = {"movable", "graspable"};
+    o.attributes = {{"colour", i == 0 ? "red" : "blue"}, {"size", "small"}};
+    o.numbers = {{"open_at", 0.25}};
+    o.size = {0.04, 0.04, 0.04};
+    e.objects.push_back(o);
+    e.posed.push_back(o.name);
+  }
+  for (int i = 0; i < size.joints; ++i)
+    e.joints.push_back({"panda.joint" + std::to_string(i + 1), {-1, i}, "hinge", "rad", -2.9, 2.9, true});
+  e.joints.back() = {"chest.drawer", {3, 1}, "slider", "m", 0, INFINITY, false};
+  e.hands = {"panda.hand"};
+  Camera camera;
+  camera.name = "front";
+  camera.mount_from_camera = to_transform({{1, 2, 3}, {0, 0, 0, 1}});
+  e.cameras = {camera};
+  e.channels = {{"wrench", "N", {"force_x", "force_y"}, 120, {0, 2}, {0.1, 0.2, 0.3, 0.4}}};
+}
+
+void add_frames(EpisodeRecord& e, const SampleSize& size) {
+  for (int i = 0; i < size.frames; ++i) {
+    FrameRecord f;
+    f.step = i * 12;
+    f.reward = i / 7.0;
+    f.done = i + 2 == size.frames;
+    for (std::size_t j = 0; j < e.joints.size(); ++j) {
+      const auto q = static_cast<double>(j) + i * 0.1 + static_cast<double>(e.seed);
+      f.joint_position.push_back(std::sin(q)), f.joint_velocity.push_back(std::cos(q));
+      f.joint_effort.push_back(q * 1e-300);
+    }
+    for (std::size_t j = 0; j < e.posed.size(); ++j) f.object_pose.push_back(pose_of(j == 0 ? i * 0.1 : 0.5));
+    f.hands = {{pose_of(i), {1, 2, 3, 4, 5, 6.5}, 0.08 - i * 1e-3, {0.5, 0.25}}};
+    f.camera_pose = {pose_of(i < 5 ? 0 : 1)};
+    if (i + 1 < size.frames) f.action = ActionRecord{{0.5 + i, -0.5}, pose_of(-i), 0.02};
+    e.frames.push_back(f);
+  }
+  e.steps = (size.frames - 1) * 12;
+}
+
+void add_commands(EpisodeRecord& e) {
+  Trajectory trajectory;
+  trajectory.knots.resize(2);
+  trajectory.knots[1].step = 24;
+  trajectory.knots[1].position = JointVector::Constant(7, 1.0 / 3);
+  for (auto* v : {&trajectory.knots[0].position, &trajectory.knots[0].velocity, &trajectory.knots[0].acceleration,
+                  &trajectory.knots[1].velocity, &trajectory.knots[1].acceleration})
+    *v = JointVector::Constant(7, -0.0);
+  e.commands = {{0, operation::Boundary{}},
+                {0, operation::Controller{ControllerKind::joint_impedance, 600}},
+                {0, operation::Follow{trajectory}},
+                {12, operation::Hand{0.04, 30}}};
+}
+
+SegmentRecord pick_segment() {
+  SegmentRecord s;
+  s.kind = "skill", s.ordinal = 0, s.robot = "panda", s.skill = "pick", s.case_name = "off_surface";
+  s.arguments = {"block1", "table", "panda.hand"};
+  s.controller = "joint_impedance";
+  s.span = {0, 72, 0, 6};
+  s.precondition_held = true, s.effect_held = true;
+  s.label = "pick up the \"red\" block";
+  s.parameters = {{"grasp", {0.1, 0.2, 0.3}, "", "m", "object", "stream"},
+                  {"controller", {}, "joint_impedance", "", "", "default"}};
+  s.declared_effects = {{fact("holding", {"panda.hand", "block1"}), false},
+                        {fact("on", {"block1", "table"}), true},
+                        {fact("open", {"chest"}), false}};
+  s.forgotten = {"near"};
+  return s;
+}
+
+// Before the pick: on(block1,table), hand_empty. After it: holding(hand,block1). lifted is declared by nobody,
+// near is forgotten, clear follows from others.
+void add_labels(EpisodeRecord& e) {
+  SegmentRecord motion;
+  motion.kind = "motion", motion.ordinal = 1, motion.parent = 0, motion.robot = "panda";
+  motion.skill = "move_through", motion.span = {0, 36, 0, 3};
+  SegmentRecord wait;
+  wait.kind = "skill", wait.ordinal = 2, wait.robot = "panda", wait.skill = "wait";
+  wait.span = {72, e.steps, 6, static_cast<std::int64_t>(e.frames.size())};
+  e.segments = {pick_segment(), motion, wait};
+  AttemptRecord undone{pick_segment(), 0, 1};
+  undone.segment.outcome = Outcome::failure, undone.segment.reason = Reason::grasp_missed;
+  undone.segment.detail = "closed on nothing", undone.segment.effect_held = false;
+  undone.segment.missing_effects = {"(holding panda.hand block1)"};
+  e.attempts = {undone};
+  e.vias = {{1, "approach", pose_of(1), pose_of(1.01), 18, 0.7, 0.2}};
+  const auto end = static_cast<std::int64_t>(e.frames.size());
+  const std::int64_t steps = e.steps;
+  e.facts = {{fact("on", {"block1", "table"}), 0, 40, 0, 4, true, false, true, 0.01},
+             {fact("hand_empty", {}), 0, 30, 0, 3, true, false, true, std::nullopt},
+             {fact("holding", {"panda.hand", "block1"}), 30, steps, 3, end, false, true, true, std::nullopt},
+             {fact("lifted", {"block1"}), 50, steps, 5, end, false, true, false, std::nullopt},
+             {fact("near", {"block1", "block2"}), 0, 50, 0, 5, true, false, true, std::nullopt},
+             {fact("clear", {"table"}), 40, steps, 4, end, false, true, true, std::nullopt},
+             {fact("on", {"block2", "table"}), 0, steps, 0, end, true, true, true, std::nullopt}};
+  e.predicates = {{"on", "basic"}, {"holding", "basic"}, {"clear", "derived"}, {"near", "basic"}};
+  e.contacts = {{"block1", "base", "table", "top", 0, 4, 12.5}};
+  e.grasps = {{0, "block1", pose_of(0.3), 0.04, true}};
+  e.language = {{"task", "lift the red block", -1}, {"skill", "pick up the red block", 0}};
+  e.documents = {{"pddl_domain", "(define (domain d))"}, {"plan", "(pick block1 table)\n(place block1 shelf)\n"}};
+  e.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
+}
+
+}  // namespace
+
+EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
+                             const SampleSize& size) {
+  EpisodeRecord e;
+  e.key = content_hash(task + variation + std::to_string(seed));
+  e.task = task, e.world = "tabletop", e.variation = variation, e.seed = seed;
+  e.axes = {{"colour", variation.substr(variation.find('=') + 1)}};
+  e.split = seed >= 1'000'000 ? "test" : "train";
+  e.outcome = Outcome::success;
+  e.options = {{"on_failure", "undo"}};
+  e.definitions = {{"skill", "pick", "skills/pick.lua", "-- Grasp.\n", "aa"},
+                   {"task", task, "tasks/" + task + ".lua", "return task {}", "bb"}};
+  e.state_hash = "cc", e.draws = 3, e.wall_s = 0.2, e.physics_wall_s = 0.1;
+  add_scene(e, size);
+  add_frames(e, size);
+  add_commands(e);
+  add_labels(e);
+  return e;
+}
+
+Folder::Folder() {
+  std::string name = (std::filesystem::temp_directory_path() / "stampede_db_XXXXXX").string();
+  path_ = ::mkdtemp(name.data());
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace stampede::test

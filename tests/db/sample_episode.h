@@ -1,0 +1,31 @@
+// A made-up episode in which every field of the record has a value that would be missed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "db/catalogue.h"
+
+namespace stampede::test {
+
+struct SampleSize {
+  int frames = 12, joints = 3, objects = 2;
+};
+EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
+                             const SampleSize& size = {});
+
+inline const EngineInfo kEngine{"0.1.0", "probe"};
+
+// A folder of its own that goes with the test.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace stampede::test
