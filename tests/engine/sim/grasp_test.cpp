@@ -77,6 +77,27 @@ TEST_CASE("a held cube survives lift, shake and a 10 s hold with less than 2 mm 
   CHECK(force.head<2>().norm() < 0.1);
 }
 
+TEST_CASE("a turning hand presses along its own closing axis, and lets go when it opens", "[sim]") {
+  World world(shared(table_scene(1)));
+  const int cube = body_index(world, "cube1");
+  pick(world, 0.25);
+  const Vector3 above = world.world_from_part({cube, 0}).translation();
+  const Vector3 closing_before = world.world_from_tip().linear().col(1);
+  move_line(world, tip_down(above.x(), above.y(), above.z(), 1.0) * rotation_rpy(0, 0.4, 0), 1.5);
+  run(world, 0.2);
+  const Vector3 closing = world.world_from_tip().linear().col(1);
+  REQUIRE(closing.dot(closing_before) < 0.7);
+  REQUIRE(world.grasped() == PartRef{cube, 0});
+  for (const Contact& contact : world.contacts())
+    if (contact.b == PartRef{cube, 0}) CHECK(std::abs(contact.normal.dot(closing)) > 0.999);
+
+  world.apply(operation::Hand{0.08, 20});
+  const double start = world.world_from_part({cube, 0}).translation().z();
+  run(world, 0.25);
+  const double fallen = start - world.world_from_part({cube, 0}).translation().z();
+  CHECK(fallen == Approx(9.81 * 0.25 * 0.25 / 2).epsilon(0.25));  // less the moment in which the pads let go
+}
+
 TEST_CASE("a hand that closes on nothing holds nothing", "[sim]") {
   World world(shared(table_scene(0)));
   grip(world, 0);
