@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <lua.hpp>
 
 #include "scripting/lua/binding.h"
@@ -40,7 +41,7 @@ int position(lua_State* state) { return push_vector(state, check_pose(state, 1).
 
 int rpy(lua_State* state) {
   const Matrix3 m = check_pose(state, 1).linear();
-  const double pitch = std::asin(std::clamp(-m(2, 0), -1.0, 1.0));
+  const double pitch = std::atan2(-m(2, 0), std::hypot(m(2, 1), m(2, 2)));
   // At the pole only roll - yaw is defined: all of it goes to yaw.
   const bool pole = std::hypot(m(2, 1), m(2, 2)) < 1e-9;
   const double roll = pole ? 0 : std::atan2(m(2, 1), m(2, 2));
