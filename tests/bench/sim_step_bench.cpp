@@ -107,11 +107,26 @@ void snapshot_and_restore(benchmark::State& state) {
   }
 }
 
+void build_world(benchmark::State& state) {
+  const auto scene = bench_scene();
+  for (auto _ : state) {
+    World world(scene);
+    benchmark::DoNotOptimize(world.step_count());
+  }
+}
+
+void freeze_world(benchmark::State& state) {
+  World world(bench_scene());
+  for (auto _ : state) benchmark::DoNotOptimize(world.collision_space());
+}
+
 BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)->MinTime(3);
 BENCHMARK_CAPTURE(engine_against_bare, joint_impedance, ControllerKind::joint_impedance)->MinTime(3);
 BENCHMARK_CAPTURE(engine_against_bare, cartesian_impedance, ControllerKind::cartesian_impedance)->MinTime(3);
 BENCHMARK(collision_query)->ArgName("free_only")->Arg(0)->Arg(1);
 BENCHMARK(snapshot_and_restore);
+BENCHMARK(build_world);
+BENCHMARK(freeze_world);
 
 }  // namespace
 }  // namespace stampede
