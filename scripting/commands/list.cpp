@@ -5,8 +5,8 @@
 
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
+#include "scripting/library/naming.h"
 #include "scripting/program/episode_job.h"
-#include "scripting/program/help.h"
 
 namespace stampede::program {
 namespace {
@@ -16,12 +16,13 @@ struct Shelf {
   DefinitionKind kind;
 };
 constexpr Shelf kShelves[] = {
-    {"tasks", DefinitionKind::task},           {"skills", DefinitionKind::skill},   {"predicates", DefinitionKind::predicate},
-    {"objects", DefinitionKind::object},       {"worlds", DefinitionKind::world},   {"robots", DefinitionKind::robot},
+    {"tasks", DefinitionKind::task},     {"skills", DefinitionKind::skill}, {"predicates", DefinitionKind::predicate},
+    {"objects", DefinitionKind::object}, {"worlds", DefinitionKind::world}, {"robots", DefinitionKind::robot},
 };
 
 const Shelf* shelf_named(const std::string& name) {
-  const auto* found = std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Shelf& s) { return s.name == name; });
+  const auto* found =
+      std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Shelf& s) { return s.name == name; });
   return found == std::end(kShelves) ? nullptr : found;
 }
 
@@ -71,10 +72,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   std::vector<std::string> names;
   for (const Shelf& shelf : kShelves) names.emplace_back(shelf.name);
   for (const ScriptFile* file : library->files(DefinitionKind::task)) names.push_back(file->name);
-  const std::string near = nearest(what, names);
-  throw UsageError("there is nothing to list by the name '" + what + "'",
-                   near.empty() ? "say tasks, skills, predicates, objects, worlds, robots, or a task's name"
-                                : "did you mean '" + near + "'?");
+  throw UsageError("there is nothing to list by the name '" + what + "'", did_you_mean(what, names));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <sstream>
 
 #include "scripting/commands/commands.h"
+#include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
 
 namespace stampede::program {
@@ -60,38 +60,8 @@ constexpr Kind kKinds[] = {
      "}\n"},
 };
 
-constexpr std::array kLuaWords = {"and",   "break", "do",     "else", "elseif", "end",    "false", "for",
-                                  "function", "goto", "if",   "in",   "local",  "nil",    "not",   "or",
-                                  "repeat", "return", "then", "true", "until",  "while"};
-constexpr std::array kPddlWords = {"object", "number", "either", "define", "when", "forall", "exists"};
-
-std::string cleaned(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    const char lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    const bool letter = lower >= 'a' && lower <= 'z';
-    const bool digit = lower >= '0' && lower <= '9';
-    if (letter || (digit && !result.empty())) {
-      result += lower;
-    } else if (!result.empty() && result.back() != '_') {
-      result += '_';
-    }
-  }
-  while (!result.empty() && result.back() == '_') result.pop_back();
-  return result.empty() ? "thing1" : result;
-}
-
-bool reserved(const std::string& name) {
-  return std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() ||
-         std::find(kPddlWords.begin(), kPddlWords.end(), name) != kPddlWords.end();
-}
-
 void check_name(const std::string& name) {
-  if (reserved(name)) throw UsageError("'" + name + "' is a word of Lua or PDDL", "take " + name + "_1");
-  const std::string clean = cleaned(name);
-  if (clean == name) return;
-  throw UsageError("'" + name + "' is no name: names match [a-z][a-z0-9_]*",
-                   "take " + (reserved(clean) ? clean + "_1" : clean));
+  if (const auto fault = name_fault(name)) throw UsageError(*fault, "take " + proposed_name(name));
 }
 
 void check_unused(const Library& library, const std::string& name) {
@@ -106,7 +76,8 @@ void check_unused(const Library& library, const std::string& name) {
 
 ExitCode run(const Arguments& arguments, Console& console) {
   const std::string kind_name = arguments.text("KIND"), name = arguments.text("NAME");
-  const auto* kind = std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.name == kind_name; });
+  const auto* kind =
+      std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.name == kind_name; });
   if (kind == std::end(kKinds)) {
     throw UsageError("there is no kind of file '" + kind_name + "'", "it is one of task, skill, predicate, object");
   }

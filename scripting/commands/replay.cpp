@@ -25,8 +25,8 @@ std::vector<std::int64_t> wanted_episodes(const Catalogue& catalogue, const Argu
 // Said first, because it explains every difference that follows.
 bool numerics_agree(const Catalogue& catalogue, Console& console) {
   const std::string here = numerics_probe();
-  const QueryResult others = catalogue.query("SELECT DISTINCT numerics FROM episodes WHERE numerics <> ?1",
-                                             {.parameters = {here}});
+  const QueryResult others =
+      catalogue.query("SELECT DISTINCT numerics FROM episodes WHERE numerics <> ?1", {.parameters = {here}});
   if (others.rows.empty()) return true;
   console.err << "numerics differ: the catalogue was made by another build or on another class of processor;\n"
                  "    a difference below says that, and nothing about the episodes\n";

@@ -43,7 +43,8 @@ JobRequest job_request(const Arguments& arguments, const std::string& split) {
 std::string episode_line(const EpisodeRecord& episode) {
   const std::string name = episode.task + (episode.variation.empty() ? "" : " " + episode.variation);
   const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
-  if (episode.outcome == Outcome::success) return fmt::format("{} seed {}: success, {:.1f} s", name, episode.seed, seconds);
+  if (episode.outcome == Outcome::success)
+    return fmt::format("{} seed {}: success, {:.1f} s", name, episode.seed, seconds);
   return fmt::format("{} seed {}: {}{}", name, episode.seed, to_string(episode.reason),
                      episode.detail.empty() ? "" : ", " + episode.detail);
 }
@@ -51,8 +52,8 @@ std::string episode_line(const EpisodeRecord& episode) {
 void print_answer(const RunTally& tally, const std::string& out, bool json, Console& console) {
   if (!json) {
     for (const auto& [name, task] : tally.tasks) {
-      console.out << fmt::format("{}: {} episodes, {} succeeded, {:.1f} s simulated", name, task.episodes, task.succeeded,
-                                 task.simulated_s);
+      console.out << fmt::format("{}: {} episodes, {} succeeded, {:.1f} s simulated", name, task.episodes,
+                                 task.succeeded, task.simulated_s);
       if (task.existing > 0) console.out << fmt::format(", {} were there already", task.existing);
       for (const auto& [reason, count] : task.reasons) console.out << fmt::format(", {} {}", count, reason);
       console.out << "\n";
@@ -101,25 +102,37 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow run_command() {
-  return {"run",
-          "Run tasks and store every episode in a catalogue",
-          "Episode i of a task has seed S+i and goes through the task's variations in a fixed shuffled order. Episodes "
-          "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
-          "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
-          "succeeded or the run was interrupted.",
-          {{"TASK", "names of tasks", true, true}},
-          {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
-           {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
-           {"--seed", "S", "the first seed; default: 0, or 1000000 in the test split", Takes::integer, "", {}, false},
-           {"--split", "NAME", "seeds from 1000000 up are the test split's", Takes::text, "train", {"train", "test"}, false},
-           {"--workers", "W", "threads; they do not change the data", Takes::integer, "1", {}, false},
-           {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
-           {"--on-failure", "WAY", "after a failed skill", Takes::text, "undo", {"undo", "stop", "recover"}, false},
-           {"--controller", "NAME", "instead of each skill's own", Takes::text, "",
-            {"joint_position", "joint_impedance", "cartesian_impedance"}, false}},
-          {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
-           "stampede run stack_blocks --variation colour=red --seed 7"},
-          run};
+  return {
+      "run",
+      "Run tasks and store every episode in a catalogue",
+      "Episode i of a task has seed S+i and goes through the task's variations in a fixed shuffled order. Episodes "
+      "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
+      "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
+      "succeeded or the run was interrupted.",
+      {{"TASK", "names of tasks", true, true}},
+      {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
+       {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
+       {"--seed", "S", "the first seed; default: 0, or 1000000 in the test split", Takes::integer, "", {}, false},
+       {"--split",
+        "NAME",
+        "seeds from 1000000 up are the test split's",
+        Takes::text,
+        "train",
+        {"train", "test"},
+        false},
+       {"--workers", "W", "threads; they do not change the data", Takes::integer, "1", {}, false},
+       {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
+       {"--on-failure", "WAY", "after a failed skill", Takes::text, "undo", {"undo", "stop", "recover"}, false},
+       {"--controller",
+        "NAME",
+        "instead of each skill's own",
+        Takes::text,
+        "",
+        {"joint_position", "joint_impedance", "cartesian_impedance"},
+        false}},
+      {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
+       "stampede run stack_blocks --variation colour=red --seed 7"},
+      run};
 }
 
 }  // namespace stampede::program

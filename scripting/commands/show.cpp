@@ -13,7 +13,8 @@ std::int64_t episode_number(const std::string& text) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw UsageError("an episode is a number, not '" + text + "'", "stampede query FILE \"SELECT episode FROM episodes\"");
+    throw UsageError("an episode is a number, not '" + text + "'",
+                     "stampede query FILE \"SELECT episode FROM episodes\"");
   }
   return number;
 }

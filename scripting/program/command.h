@@ -23,17 +23,17 @@ class UsageError : public Error {
 enum class Takes { flag, text, integer, path };
 
 struct OptionRow {
-  std::string name;      // `--episodes`
-  std::string value;     // `N`; empty for a flag
-  std::string help;      // a line, without a full stop
+  std::string name;   // `--episodes`
+  std::string value;  // `N`; empty for a flag
+  std::string help;   // a line, without a full stop
   Takes takes = Takes::flag;
-  std::string initial;   // value when not given, shown in the help
+  std::string initial;  // value when not given, shown in the help
   std::vector<std::string> choices;
   bool repeats = false;
 };
 
 struct PositionalRow {
-  std::string name;      // `TASK`
+  std::string name;  // `TASK`
   std::string help;
   bool required = true;
   bool repeats = false;
@@ -44,7 +44,7 @@ class Arguments {
  public:
   bool has(std::string_view name) const;  // given on the command line
   bool flag(std::string_view name) const { return has(name); }
-  std::string text(std::string_view name) const;                    // given, initial, or empty
+  std::string text(std::string_view name) const;  // given, initial, or empty
   const std::vector<std::string>& list(std::string_view name) const;
   std::optional<std::int64_t> integer(std::string_view name) const;  // given or initial
   void set(std::string name, std::vector<std::string> values, bool given);
@@ -59,8 +59,8 @@ class Arguments {
 
 struct CommandRow {
   std::string name;
-  std::string summary;                // one line for the list of commands
-  std::string description;            // a paragraph for --help
+  std::string summary;      // one line for the list of commands
+  std::string description;  // a paragraph for --help
   std::vector<PositionalRow> positionals;
   std::vector<OptionRow> options;     // beside those that every command has
   std::vector<std::string> examples;  // whole command lines

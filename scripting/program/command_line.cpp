@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/library.h"
+#include "scripting/library/naming.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
 
@@ -58,7 +59,8 @@ void check_value(const OptionRow& option, const std::string& value) {
       throw Usage{option.name + " takes a whole number, not '" + value + "'", ""};
     }
   }
-  if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
+  if (!option.choices.empty() &&
+      std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
     std::string all;
     for (const std::string& choice : option.choices) all += (all.empty() ? "" : ", ") + choice;
     throw Usage{option.name + " cannot be '" + value + "'", "it is one of " + all};
@@ -73,8 +75,7 @@ void check_value(const OptionRow& option, const std::string& value) {
       word != rest.end()) {
     std::vector<std::string> names;
     for (const OptionRow& option : all_options(command)) names.push_back(option.name);
-    const std::string near = nearest(*word, names);
-    if (!near.empty()) hint = "did you mean " + near + "?";
+    if (const auto near = nearest(*word, names)) hint = "did you mean " + *near + "?";
     throw Usage{"stampede " + command.name + " has no option " + *word, hint};
   }
   if (!rest.empty()) throw Usage{"too many arguments: '" + rest.front() + "' has no place", hint};
@@ -92,8 +93,10 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
       options[row.name] = app.add_flag(row.name);
       continue;
     }
-    options[row.name] = app.add_option(row.name, values[row.name])->expected(1)->multi_option_policy(
-        row.repeats ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
+    options[row.name] =
+        app.add_option(row.name, values[row.name])
+            ->expected(1)
+            ->multi_option_policy(row.repeats ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
     if (row.repeats) options[row.name]->allow_extra_args(false);
   }
   for (const PositionalRow& row : command.positionals) {
@@ -151,9 +154,8 @@ ExitCode dispatch(const std::vector<std::string>& words, Console& console) {
     }
     return command.run(arguments, console);
   }
-  const std::string near = nearest(words[0], names);
-  throw Usage{"there is no command '" + words[0] + "'",
-              near.empty() ? "see stampede --help" : "did you mean '" + near + "'?"};
+  const auto near = nearest(words[0], names);
+  throw Usage{"there is no command '" + words[0] + "'", near ? "did you mean '" + *near + "'?" : "see stampede --help"};
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ struct Console {
   std::ostream& err;
   bool out_is_terminal = false;
   bool err_is_terminal = false;
-  int width = 100;                           // columns of the terminal, or what to assume elsewhere
-  const std::atomic<bool>* stop = nullptr;   // set by a signal; never null in the program
+  int width = 100;                          // columns of the terminal, or what to assume elsewhere
+  const std::atomic<bool>* stop = nullptr;  // set by a signal; never null in the program
 
   bool stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 };
@@ -23,7 +23,7 @@ struct Console {
 int display_width(std::string_view text);
 // Cut to `width` columns, the last of them `…`, or padded with blanks.
 std::string clipped(std::string_view text, int width);
-std::string padded(std::string_view text, int width);       // blanks on the right
+std::string padded(std::string_view text, int width);         // blanks on the right
 std::string right_aligned(std::string_view text, int width);  // blanks on the left
 // Words of a paragraph in lines of at most `width` columns, each line but the first led by `indent` blanks.
 std::string wrapped(std::string_view text, int width, int indent);

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "engine/base/hash.h"
-#include "scripting/program/help.h"
+#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {
@@ -44,9 +44,7 @@ const Library::TaskInfo& task_info(const Library& library, const std::string& na
   if (const Library::TaskInfo* task = library.task(name)) return *task;
   std::vector<std::string> names;
   for (const ScriptFile* file : library.files(DefinitionKind::task)) names.push_back(file->name);
-  const std::string near = program::nearest(name, names);
-  throw Error("", "there is no task '" + name + "'",
-              near.empty() ? "stampede list tasks names them all" : "did you mean '" + near + "'?");
+  throw Error("", "there is no task '" + name + "'", did_you_mean(name, names));
 }
 
 std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text) {
@@ -57,9 +55,8 @@ std::vector<std::string> matching_variations(const Library::TaskInfo& task, cons
     if (task.variation_texts[i] == text || agrees(task.variations[i], parts)) found.push_back(task.variation_texts[i]);
   }
   if (!found.empty()) return found;
-  const std::string near = program::nearest(text, task.variation_texts);
   throw Error("--variation", "task '" + task.name + "' has no variation '" + text + "'",
-              near.empty() ? "stampede list " + task.name + " names them all" : "did you mean '" + near + "'?");
+              did_you_mean(text, task.variation_texts));
 }
 
 std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& request) {

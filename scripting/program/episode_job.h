@@ -24,9 +24,9 @@ struct EpisodeJob {
 
 struct JobRequest {
   std::vector<std::string> tasks;
-  std::int64_t episodes = 1;     // per task, good or bad
+  std::int64_t episodes = 1;  // per task, good or bad
   std::int64_t first_seed = 0;
-  std::string variation;         // canonical text or a part of one (`colour=red`); empty: all
+  std::string variation;  // canonical text or a part of one (`colour=red`); empty: all
 };
 
 // Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone.

@@ -58,8 +58,13 @@ constexpr const char* kExitCodes =
 
 const std::vector<OptionRow>& common_options() {
   static const std::vector<OptionRow> options = {
-      {"--root", "DIR", "where tasks/, skills/ and worlds/ are; default: those that came with the program", Takes::path,
-       "", {}, false},
+      {"--root",
+       "DIR",
+       "where tasks/, skills/ and worlds/ are; default: those that came with the program",
+       Takes::path,
+       "",
+       {},
+       false},
       {"--path", "DIR", "a folder of your own of the same shape, whose files win", Takes::path, "", {}, true},
       {"--json", "", "the answer as JSON", Takes::flag, "", {}, false},
       {"--help", "", "this text", Takes::flag, "", {}, false},
@@ -73,8 +78,8 @@ std::string program_help(const std::vector<CommandRow>& commands) {
   return "Stampede runs robot tasks in physics and stores labelled demonstrations in one SQLite file.\n\n"
          "Usage: stampede COMMAND [arguments] [options]\n\nCommands:\n" +
          two_columns(rows) + "\nOptions:\n" +
-         two_columns({{"--help", "this text; `stampede COMMAND --help` tells more"},
-                      {"--version", "the program's version"}}) +
+         two_columns(
+             {{"--help", "this text; `stampede COMMAND --help` tells more"}, {"--version", "the program's version"}}) +
          "\n" + kExitCodes;
 }
 
@@ -127,29 +132,6 @@ std::string bash_completion(const std::vector<CommandRow>& commands) {
          "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
          "}\n"
          "complete -o default -F _stampede stampede\n";
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein's distance, row by row
-    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t kept = diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({kept, row[j] + 1, row[j - 1] + 1});
-      }
-    }
-    if (row.back() < least) {
-      least = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace stampede::program

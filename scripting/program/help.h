@@ -13,7 +13,4 @@ std::string command_help(const CommandRow& command);
 std::string command_reference(const std::vector<CommandRow>& commands);  // Markdown
 std::string bash_completion(const std::vector<CommandRow>& commands);
 
-// The candidate nearest to a mistyped word, or empty when none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
-
 }  // namespace stampede::program

@@ -34,7 +34,7 @@ class JsonText {
   void before_value();
   void new_line();
   std::string text_;
-  std::vector<char> open_;      // closing brackets awaited
+  std::vector<char> open_;  // closing brackets awaited
   std::vector<bool> has_items_;
   bool after_key_ = false;
 };

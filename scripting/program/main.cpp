@@ -35,7 +35,7 @@ int terminal_width() {
 
 int main(int count, char** words) {
   handle_signals();
-  stampede::program::Console console{std::cout,           std::cerr,        isatty(STDOUT_FILENO) == 1,
-                                     isatty(STDERR_FILENO) == 1, terminal_width(), &stop_requested};
+  stampede::program::Console console{
+      std::cout, std::cerr, isatty(STDOUT_FILENO) == 1, isatty(STDERR_FILENO) == 1, terminal_width(), &stop_requested};
   return stampede::program::run_program({words + 1, words + count}, console);
 }

@@ -74,8 +74,7 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
   in_parallel(wanted.size(), settings.workers, stop, [&](std::size_t i) {
     const EpisodeIdentity& one = wanted[i];
     try {
-      EpisodeRecord episode =
-          PreparedEpisode(library, {one.task, one.variation, one.seed}, settings.options).run(stop);
+      EpisodeRecord episode = PreparedEpisode(library, {one.task, one.variation, one.seed}, settings.options).run(stop);
       if (episode.reason == Reason::interrupted) {
         if (writer) writer->abandon(one.key);
         return;

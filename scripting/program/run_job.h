@@ -16,7 +16,7 @@ namespace stampede {
 
 struct TaskTally {
   std::int64_t episodes = 0, succeeded = 0, existing = 0;
-  std::map<std::string, std::int64_t> reasons;           // of the failed ones
+  std::map<std::string, std::int64_t> reasons;                              // of the failed ones
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> variations;  // succeeded, episodes
   double simulated_s = 0;
 };

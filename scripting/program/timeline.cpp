@@ -46,7 +46,8 @@ class Painter {
     const int first = column(start), last = std::max(first + 1, column(end));
     for (int c = first; c < std::min(last, columns_); ++c) cells[static_cast<std::size_t>(c)] = ink;
     for (const std::int64_t mark : marks) cells[static_cast<std::size_t>(std::min(column(mark), columns_ - 1))] = "◆";
-    std::string text = padded(clipped(label, label_), label_) + fmt::format(" {:6.2f} {:6.2f} ", seconds(start), seconds(end));
+    std::string text =
+        padded(clipped(label, label_), label_) + fmt::format(" {:6.2f} {:6.2f} ", seconds(start), seconds(end));
     for (const std::string& cell : cells) text += cell;
     while (text.back() == ' ') text.pop_back();
     return text + "\n";
@@ -94,7 +95,8 @@ std::string header(const EpisodeRecord& episode, const TimelineStyle& style) {
   if (episode.outcome == Outcome::success) {
     text += fmt::format("✓ success after {:.2f} s", seconds);
   } else {
-    text += fmt::format("✗ failure after {:.2f} s: {}, {}", seconds, to_string(episode.reason), describe(episode.reason));
+    text +=
+        fmt::format("✗ failure after {:.2f} s: {}, {}", seconds, to_string(episode.reason), describe(episode.reason));
     if (!episode.detail.empty()) text += " (" + episode.detail + ")";
   }
   text += fmt::format("; {} frames, {} undone tries\n", episode.frames.size(), episode.attempts.size());
@@ -153,7 +155,8 @@ std::string undone(const EpisodeRecord& episode, int before_segment, const Timel
     const Span& span = attempt.segment.span;
     const double seconds = static_cast<double>(span.end_step - span.start_step) / episode.physics_hz;
     text += note(fmt::format("↶ undone after {:.2f} s: {} ({})", seconds, call_text(attempt.segment),
-                             failure_text(attempt.segment)), style, indent);
+                             failure_text(attempt.segment)),
+                 style, indent);
   }
   return text;
 }
@@ -168,11 +171,11 @@ void add_segment(std::string& text, const EpisodeRecord& episode, const SegmentR
   for (const ViaRecord& via : episode.vias) {
     if (via.segment != segment.ordinal) continue;
     marks.push_back(via.step);
-    passed += (passed.empty() ? "◆ " : ", ") + fmt::format("{} passed at {:.2f} s, {:.2f} rad/s", via.name,
-                                                          painter.seconds(via.step), via.speed);
+    passed += (passed.empty() ? "◆ " : ", ") +
+              fmt::format("{} passed at {:.2f} s, {:.2f} rad/s", via.name, painter.seconds(via.step), via.speed);
   }
-  const std::string label = std::string(static_cast<std::size_t>(indent), ' ') + (skill ? verdict(segment) + " " : "· ") +
-                            call_text(segment);
+  const std::string label =
+      std::string(static_cast<std::size_t>(indent), ' ') + (skill ? verdict(segment) + " " : "· ") + call_text(segment);
   text += painter.line(label, segment.span.start_step, segment.span.end_step, skill ? "█" : "▂", marks);
   if (!passed.empty()) text += note(passed, style, indent + 4);
   if (skill && segment.outcome != Outcome::success) text += note(failure_text(segment), style, indent + 4);

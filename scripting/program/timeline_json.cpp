@@ -51,7 +51,8 @@ std::string timeline_json(const EpisodeRecord& episode) {
   for (const FactRecord& fact : episode.facts) {
     json.object().field("predicate", fact.fact.predicate);
     strings(json, "arguments", fact.fact.arguments);
-    json.field("start", static_cast<double>(fact.start_step) / hz).field("end", static_cast<double>(fact.end_step) / hz);
+    json.field("start", static_cast<double>(fact.start_step) / hz)
+        .field("end", static_cast<double>(fact.end_step) / hz);
     json.field("open_start", fact.open_start).field("open_end", fact.open_end).end();
   }
   return json.end().end().text();

@@ -1,0 +1,32 @@
+// One episode as a program that embeds the engine sees it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace stampede {
+
+enum class Outcome;    // outcome.h
+enum class OnFailure;  // outcome.h
+
+struct EpisodeRequest {
+  std::string variation;   // canonical text or some of its axes (`colour=red`: the first that has them); empty: first
+  std::int64_t seed = 0;   // from 1'000'000 up: the test split
+  OnFailure on_failure{};  // undo
+  std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
+};
+
+struct Episode {
+  std::int64_t id = 0;  // in the catalogue; 0 when there is none
+  std::string key;      // of definitions, task, variation, seed and options
+  std::string task, variation;
+  std::int64_t seed = 0;
+  Outcome outcome{};
+  std::string reason;  // `none`, or why it failed, as in the catalogue
+  std::string detail;  // for people
+  std::int64_t frames = 0;
+  double duration_s = 0;  // simulated
+  int undone = 0;         // tries that were taken back
+};
+
+}  // namespace stampede

@@ -1,0 +1,53 @@
+// Runs tasks of Lua scripts and keeps their episodes in a catalogue.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stampede/episode.h"
+#include "stampede/error.h"
+#include "stampede/outcome.h"
+#include "stampede/visibility.h"
+
+namespace stampede {
+
+struct SessionOptions {
+  std::filesystem::path root;                // holds tasks/, skills/, worlds/; empty: those that came with the library
+  std::vector<std::filesystem::path> paths;  // further folders of the same shape, whose files win
+  std::filesystem::path catalogue;           // where episodes go; empty: nowhere
+};
+
+struct Rows {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> values;  // NULL is empty
+};
+
+// Lifetime: movable; one thread at a time. Two sessions never meet, but two must not write one catalogue.
+// Throws: Error for bad scripts, unknown names and unusable catalogues. Bad luck in physics is an Episode with a
+// reason.
+class STAMPEDE_EXPORT Session {
+ public:
+  explicit Session(SessionOptions options);
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
+  std::vector<std::string> tasks() const;                              // by name
+  std::vector<std::string> variations(const std::string& task) const;  // canonical texts, in the task's order
+
+  // Runs one episode and commits it. What the catalogue has already is returned without running.
+  // Repeatable: the same episode, bit for bit, in any session of the same scripts.
+  Episode run(const std::string& task, const EpisodeRequest& request = {});
+
+  // One SELECT, or the name of a ready question, over the catalogue's views.
+  Rows query(std::string_view question) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stampede

@@ -1,0 +1,31 @@
+// What a Session does, behind the public header: the two spell the same enumerations and never meet in one file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "db/query.h"
+#include "stampede/episode.h"
+
+namespace stampede {
+
+class SessionCore {
+ public:
+  SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
+              std::filesystem::path catalogue);
+  std::vector<std::string> tasks() const;
+  std::vector<std::string> variations(const std::string& task) const;
+  Episode run(const std::string& task, const EpisodeRequest& request) const;
+  QueryResult query(std::string_view question) const;
+
+ private:
+  std::optional<Episode> stored(const std::string& key) const;
+  std::shared_ptr<const class Library> library_;
+  std::filesystem::path catalogue_;
+};
+
+}  // namespace stampede
