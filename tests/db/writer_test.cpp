@@ -104,7 +104,7 @@ TEST_CASE("nobody waits for the abandoned; at the end gaps are stepped over") {
 TEST_CASE("running again goes on where it stopped and ends with the same content") {
   const Folder folder;
   const std::vector<EpisodeRecord> episodes = eight();
-  const auto run = [&](const std::string& name, std::size_t most) {
+  const auto run = [&](const std::string& name, int most) {
     CatalogueWriter writer(folder / name, options());
     const auto todo = writer.expect(identities(episodes));
     for (const EpisodeRecord& e : episodes)
