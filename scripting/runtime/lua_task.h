@@ -1,6 +1,7 @@
 // A task file, evaluated for one variation.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "scripting/runtime/value.h"
 
 namespace stampede {
+
+// Files already read: reading a robot's takes longer than all else in a draw.
+using UrdfBodies = std::map<std::filesystem::path, Body>;
 
 class LuaTask : public Task {
  public:
@@ -61,6 +65,7 @@ class LuaTask : public Task {
   std::int64_t seed_;
   std::map<std::string, std::string> axes_;
   int draw_ = 0;
+  UrdfBodies urdfs_;
   Drawn drawn_;
   std::map<std::string, int> functions_;
   int generation_ = -1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <lua.hpp>
 
+#include "engine/base/error.h"
 #include "scripting/lua/binding.h"
 #include "scripting/runtime/pose_binding.h"
 #include "scripting/runtime/sampling_binding.h"
@@ -216,8 +217,19 @@ int wait(lua_State* state) {
   return ask(state, robot_call::Wait{seconds});
 }
 
+// Another skill as a part of this one. All its arguments are named, but for the hand.
 int run(lua_State* state) {
-  return ask(state, robot_call::RunSkill{skill_call_at(state, 2, *context_of(state).library, "robot:run")});
+  const RobotContext& context = context_of(state);
+  SkillCall call = skill_call_at(state, 2, *context.library, "robot:run");
+  const SkillInfo& info = *context.library->skill(call.skill);
+  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+    if (!call.arguments[i].empty()) continue;
+    if (info.parameters[i].type != "hand") {
+      throw Error("robot:run", "'" + call.skill + "' is not told its '" + info.parameters[i].name + "'");
+    }
+    call.arguments[i] = context.view->hand;
+  }
+  return ask(state, robot_call::RunSkill{std::move(call)});
 }
 
 // robot:fail("no_grasp" [, detail]); a text that is no reason is the detail.

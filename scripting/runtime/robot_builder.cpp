@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "engine/model/urdf.h"
 #include "scripting/runtime/scene_builder.h"
 
 namespace stampede {
@@ -121,11 +120,11 @@ void read_pairs(const Value& fields, Robot& robot) {
 
 }  // namespace
 
-Robot build_robot(const std::string& name, const Value& fields, const Transform& world_from_base,
-                  const std::filesystem::path& folder, const Colours& colours) {
+Robot build_robot(const std::string& name, const Value& fields, Body body, const Transform& world_from_base,
+                  const Colours& colours) {
   Robot robot;
   robot.name = name;
-  robot.body = body_from_urdf(folder / fields.text_or("urdf", name + ".urdf"));
+  robot.body = std::move(body);
   robot.body.name = name;
   robot.body.free = false;
   robot.body.world_from_body = world_from_base;

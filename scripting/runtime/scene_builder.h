@@ -36,7 +36,8 @@ class SceneBuilder {
   std::vector<std::string> unplaced_;
 };
 
-Robot build_robot(const std::string& name, const Value& fields, const Transform& world_from_base,
-                  const std::filesystem::path& folder, const Colours& colours);
+// `body`: as its URDF has it. `fields`: of its Lua file.
+Robot build_robot(const std::string& name, const Value& fields, Body body, const Transform& world_from_base,
+                  const Colours& colours);
 
 }  // namespace stampede

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "engine/model/urdf.h"
 #include "scripting/runtime/evaluate.h"
 
 namespace stampede {
@@ -42,8 +43,8 @@ Value overlaid(Value file, const Value& entry) {
 }  // namespace
 
 TaskReader::TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-                       RandomKey key)
-    : scripts_(scripts), file_(file), axes_(axes), key_(key) {}
+                       RandomKey key, UrdfBodies& urdfs)
+    : scripts_(scripts), file_(file), axes_(axes), key_(key), urdfs_(urdfs) {}
 
 LuaTask::Drawn TaskReader::read(lua_State* state) {
   state_ = state;
@@ -148,8 +149,10 @@ void TaskReader::read_world() {
       robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
   const ScriptFile& robot_file = used(DefinitionKind::robot, robot_name, robot);
   const Value robot_fields = definition(DefinitionKind::robot, robot_name, "", robot);
-  builder_->set_robot(
-      build_robot(robot_name, robot_fields, transform_from(robot), robot_file.path.parent_path(), colours_));
+  const auto urdf = robot_file.path.parent_path() / robot_fields.text_or("urdf", robot_name + ".urdf");
+  auto body = urdfs_.find(urdf);
+  if (body == urdfs_.end()) body = urdfs_.emplace(urdf, body_from_urdf(urdf)).first;
+  builder_->set_robot(build_robot(robot_name, robot_fields, body->second, transform_from(robot), colours_));
   drawn_.hand = builder_->hand();
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));

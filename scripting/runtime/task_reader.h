@@ -10,7 +10,7 @@ namespace stampede {
 class TaskReader {
  public:
   TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-             RandomKey key);
+             RandomKey key, UrdfBodies& urdfs);
   LuaTask::Drawn read(lua_State* state);
 
  private:
@@ -36,6 +36,7 @@ class TaskReader {
   const ScriptFile& file_;
   const std::map<std::string, std::string>& axes_;
   RandomKey key_;
+  UrdfBodies& urdfs_;
   lua_State* state_ = nullptr;
   int task_ = 0, variation_ = 0;  // stack indices
   Colours colours_;

@@ -89,7 +89,7 @@ TEST_CASE("each robot method yields its call, one at a time") {
   CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
   const SkillCall child = next<robot_call::RunSkill>(*run, view).call;
   CHECK(child.skill == "counting");
-  CHECK(child.arguments == std::vector<std::string>{"", "bench", ""});
+  CHECK(child.arguments == std::vector<std::string>{"top", "bench", "mini.hand"});
   // The tip must rise by what the held object rises.
   const auto held = next<robot_call::MoveThrough>(*run, view).targets;
   CHECK((held[0].world_from_tip.translation() - tip - Vector3(0, 0, 1)).norm() < 1e-9);
@@ -121,7 +121,7 @@ TEST_CASE("each run of a skill starts from fresh variables, also beside another 
 TEST_CASE("what goes wrong in run is a failed call with a place, not an exception") {
   SmallWorld small;
   const std::pair<double, std::string> ways[] = {
-      {1, "wrong.lua:2"}, {2, "instruction budget"}, {3, "finite"}, {4, "no option 'sped'"}, {5, "wrong.lua:15"}};
+      {1, "wrong.lua:2"}, {2, "instruction budget"}, {3, "finite"}, {4, "no option 'sped'"}, {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);

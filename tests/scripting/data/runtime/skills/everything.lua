@@ -22,7 +22,7 @@ return skill {
     robot:move_part("chest.drawer", 0.1, { speed = 0.2 })
     robot:wait(0.5)
     robot:move_home()
-    robot:run(act.counting { to = "bench" })
+    robot:run(act.counting { "top", to = "bench" })
     robot:move_to(robot:tip_for(p.obj, robot:view():pose(p.obj):offset(0, 0, 1)))
     robot:fail("no_grasp", "as planned")
   end,
