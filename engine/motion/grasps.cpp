@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/error.h"
 #include "engine/motion/candidate_shapes.h"
@@ -32,7 +33,7 @@ const Part& part_of(const Scene& scene, const Object& object, int& body) {
 
 // Everything that might be a grasp, best first: from above, centred, the rest by chance.
 std::vector<Option> make_options(const Scene& scene, const Object& object, const Part& part,
-                                 const Transform& world_from_object, RandomKey key) {
+                                 const Transform& world_from_object, const Transform& world_from_tip, RandomKey key) {
   std::vector<Option> options;
   for (const Grasp& grasp : object.grasps)
     options.push_back({grasp.object_from_tip, grasp.width, grasp.force, grasp.approach, true, 0});
@@ -49,7 +50,10 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
   Random random(key.with("order"));
   for (Option& option : options) {
     const double down = -(world_from_object.linear() * option.object_from_tip.linear().col(2)).z();
-    option.score += 2 * (1 + down) + 0.5 * random.uniform();  // `down` is -1 from straight above
+    const Quaternion turned(world_from_object.linear() * option.object_from_tip.linear());
+    const double turn = angle_between(turned, Quaternion(world_from_tip.linear())) / std::numbers::pi;
+    // `down` is -1 from straight above; half a turn of the wrist costs a second.
+    option.score += 2 * (1 + down) + 0.5 * turn + 0.5 * random.uniform();
   }
   std::stable_sort(options.begin(), options.end(), [](const Option& a, const Option& b) { return a.score < b.score; });
   return options;
@@ -98,7 +102,8 @@ std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World&
   const Scene& scene = world.scene();
   const Part& part = part_of(scene, object, body);
   const Transform world_from_body = world.world_from_part({body, object.part});
-  std::vector<Option> options = make_options(scene, object, part, world_from_body, key);
+  std::vector<Option> options =
+      make_options(scene, object, part, world_from_body, space.arm().world_from_tip(start), key);
   if (options.size() > kMostTested) options.resize(kMostTested);
   std::vector<GraspCandidate> found;
   space.set_padding(0);

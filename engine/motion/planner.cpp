@@ -39,6 +39,8 @@ std::size_t blend_at(const std::vector<JointVector>& waypoints, const std::vecto
 
 }  // namespace
 
+double certified_step(const MotionLimits& limits) { return 0.25 * limits.resolution_rad; }
+
 double clearance_m(const MotionLimits& limits, int care) {
   constexpr double kClearance = 0.002;
   return care < kMostCare ? std::min(limits.padding_m, kClearance) : 0.0;
@@ -93,7 +95,7 @@ JointPath plan_path(CollisionSpace& space, const JointVector& start, const Joint
     path = search_path(space, start, goal, limits, key, care);
     if (path.reason != Reason::none) break;
     Checker checker(space, clearance_m(limits, care), {start, goal});
-    const std::optional<JointVector> touch = first_touch(checker, path.waypoints, limits.resolution_rad);
+    const std::optional<JointVector> touch = first_touch(checker, path.waypoints, certified_step(limits));
     if (!touch) return path;
     if (care < kMostCare) continue;
     path.reason = Reason::no_path;
@@ -118,7 +120,7 @@ PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& way
   for (int round = 0; round < kRounds; ++round) {
     motion.trajectory = time_blended(BlendedPath(kept, blends), space.arm().limits(), limits, physics_hz, speed_limit);
     const std::optional<JointVector> touch =
-        clearance >= 0 ? first_touch(checker, motion.trajectory, physics_hz, limits.resolution_rad) : std::nullopt;
+        clearance >= 0 ? first_touch(checker, motion.trajectory, physics_hz, certified_step(limits)) : std::nullopt;
     if (!touch) return motion;
     motion.detail = "the path found touches: " + checker.contact(*touch);
     const std::size_t corner = blend_at(kept, blends, *touch);

@@ -34,6 +34,10 @@ int samples_between(const Transform& from, const Transform& to);
 // doi:10.3138/FM57-6770-U75U-7727).
 std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, double tolerance_rad);
 
+// Spacing of the samples that certify: a quarter of the resolution that is promised, because no padding bridges the
+// gaps between samples where links graze each other.
+double certified_step(const MotionLimits& limits);
+
 // What a path keeps clear of obstacles when it is certified: contact between two samples is then unlikely too.
 // The last, most careful search is content without.
 double clearance_m(const MotionLimits& limits, int care);

@@ -73,7 +73,7 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
     std::vector<JointVector> dense{tail.waypoints.back()};
     dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
     Checker checker(space, 0, {});
-    if (const auto touch = first_touch(checker, dense, limits.resolution_rad)) {
+    if (const auto touch = first_touch(checker, dense, certified_step(limits))) {
       tail.reason = Reason::no_path;
       tail.detail = "on the way to " + targets[i].name + ": " + checker.contact(*touch);
       return tail;
