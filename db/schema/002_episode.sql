@@ -12,7 +12,7 @@ CREATE TABLE episode (
       'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
       'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
       'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
-      'budget', 'interrupted', 'name')),
+      'budget', 'interrupted')),
   detail TEXT NOT NULL,
   frames INTEGER NOT NULL,
   steps INTEGER NOT NULL,

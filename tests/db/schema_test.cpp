@@ -109,7 +109,7 @@ TEST_CASE("the README documents every column of every view, and no other") {
     names.insert(view.name);
     const auto found = documented.find(view.name);
     REQUIRE(found != documented.end());
-    CHECK(found->second == first_column(catalogue, "SELECT name FROM pragma_table_info('" + view.name + "')"));
+    CHECK(found->second == catalogue.query("SELECT * FROM " + view.name).columns);
   }
   for (const auto& [view, columns] : documented) CHECK(names.contains(view));
 }
