@@ -153,24 +153,6 @@ Value draw(const Value& value, RandomKey key) {
   return number;
 }
 
-void push_plain_table(lua_State* state, const std::map<std::string, Value>& values) {
-  lua_createtable(state, 0, static_cast<int>(values.size()));
-  for (const auto& [name, value] : values) {
-    lua_pushlstring(state, name.data(), name.size());
-    if (value.kind == Value::Kind::boolean) {
-      lua_pushboolean(state, value.boolean ? 1 : 0);
-    } else if (value.kind == Value::Kind::number && value.integer) {
-      lua_pushinteger(state, static_cast<lua_Integer>(value.number));
-    } else if (value.kind == Value::Kind::number) {
-      lua_pushnumber(state, value.number);
-    } else {
-      const std::string& text = value.as_text();
-      lua_pushlstring(state, text.data(), text.size());
-    }
-    lua_rawset(state, -3);
-  }
-}
-
 Value read_value(lua_State* state, int index, const Evaluation& how, const std::string& path) {
   return read(state, lua_absindex(state, index), how, path, 0);
 }

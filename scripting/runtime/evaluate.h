@@ -24,9 +24,6 @@ struct Evaluation {
 // Throws Error; runs Lua, so call it inside a protected call.
 Value read_value(lua_State* state, int index, const Evaluation& how, const std::string& path);
 
-// Pushes a table of plain values: v, as scripts see it.
-void push_plain_table(lua_State* state, const std::map<std::string, Value>& values);
-
 // The draw of a tagged value (one_of, between, sample_of) whose fields have been read; others are returned as they are.
 Value draw(const Value& value, RandomKey key);
 bool is_draw(const Value& value);

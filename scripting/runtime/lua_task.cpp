@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <lua.hpp>
 
-#include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/task_reader.h"
+#include "scripting/runtime/variation.h"
 
 namespace stampede {
 namespace {
@@ -56,10 +56,22 @@ Scene LuaTask::scene(int draw) {
   return drawn_.scene;
 }
 
+int LuaTask::keep_variation() {
+  ScriptState& scripts = tests_.get();
+  int reference = 0;
+  scripts.protect([&](lua_State* state) {
+    scripts.definitions().push(DefinitionKind::task, name_);
+    push_variation(state, lua_gettop(state), axes_, drawn_.files.front()->shown_path);
+    reference = luaL_ref(state, LUA_REGISTRYINDEX);
+  });
+  return reference;
+}
+
 bool LuaTask::call_test(const char* field, const WorldView& view) {
   ScriptState& scripts = tests_.get();
   if (generation_ != tests_.generation()) {
     functions_.clear();
+    v_ = 0;
     generation_ = tests_.generation();
   }
   auto found = functions_.find(field);
@@ -67,11 +79,11 @@ bool LuaTask::call_test(const char* field, const WorldView& view) {
     found = functions_.emplace(field, scripts.function_of(DefinitionKind::task, name_, field)).first;
   }
   if (found->second == 0) return false;
+  if (v_ == 0) v_ = keep_variation();
   const ViewScope scope(scripts.view, view);
-  lua_State* const state = scripts.lua();
   scripts.push_kept(found->second);
   scripts.push_kept(scripts.view_reference());
-  push_plain_table(state, drawn_.variation);
+  scripts.push_kept(v_);
   scripts.sandbox().call(2, 1);
   return true;
 }

@@ -51,12 +51,11 @@ class LuaTask : public Task {
     std::vector<std::pair<std::string, Formula>> subgoals;
     std::vector<std::string> instructions;
     std::vector<const ScriptFile*> files;
-    std::map<std::string, Value> variation;  // v
     double hold_s = 1, horizon_s = 120;
   };
 
  private:
-  // Calls the task's own test; 0 results where it has none.
+  // Calls the task's own test and leaves its result on the stack; false (and nothing) where it has none.
   bool call_test(const char* field, const WorldView& view);
   Drawn make(int draw);
 
@@ -67,7 +66,10 @@ class LuaTask : public Task {
   int draw_ = 0;
   UrdfBodies urdfs_;
   Drawn drawn_;
-  std::map<std::string, int> functions_;
+  int keep_variation();
+
+  std::map<std::string, int> functions_;  // registry references of the tests' state
+  int v_ = 0;
   int generation_ = -1;
 };
 

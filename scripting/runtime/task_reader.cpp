@@ -5,6 +5,7 @@
 
 #include "engine/model/urdf.h"
 #include "scripting/runtime/evaluate.h"
+#include "scripting/runtime/variation.h"
 
 namespace stampede {
 namespace {
@@ -52,7 +53,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   scripts_.definitions().push(DefinitionKind::task, file_.name);
   task_ = lua_gettop(state);
   drawn_.files.push_back(&file_);
-  push_variation();
+  push_variation(state, task_, axes_, file_.shown_path);
   variation_ = lua_gettop(state);
   drawn_.hold_s = field("hold").present() ? field("hold").as_number() : drawn_.hold_s;
   drawn_.horizon_s = field("horizon").present() ? field("horizon").as_number() : drawn_.horizon_s;
@@ -86,26 +87,6 @@ Value TaskReader::field(const char* name) {
   return value;
 }
 
-// v: each axis with the value that the file gives it, found by its text.
-void TaskReader::push_variation() {
-  lua_getfield(state_, task_, "variations");
-  const Value all = read_value(state_, -1, {key_, 0, file_.shown_path, {"where"}}, "variations");
-  lua_pop(state_, 1);
-  for (const auto& [axis, text] : axes_) {
-    const Value* found = nullptr;
-    const auto consider = [&, wanted = &text](const Value& value) {
-      const bool plain_value = value.kind != Value::Kind::table && value.present();
-      if (found == nullptr && plain_value && value.canonical() == *wanted) found = &value;
-    };
-    for (const Value& value : all[axis].items) consider(value);
-    for (const Value& combination : all.items) consider(combination[axis]);
-    if (found == nullptr)
-      throw Error(file_.shown_path + ": variations", "no value of '" + axis + "' reads '" + text + "'");
-    drawn_.variation[axis] = *found;
-  }
-  push_plain_table(state_, drawn_.variation);
-}
-
 const ScriptFile& TaskReader::used(DefinitionKind kind, const std::string& name, const Value& where) {
   const ScriptFile* file = scripts_.library().file(kind, name);
   if (file == nullptr) throw Error(where.place, "there is no " + std::string(to_string(kind)) + " '" + name + "'");
@@ -133,16 +114,27 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
   return source;
 }
 
+// By the language's own words: colours.names and colours.rgb(name).
+void TaskReader::read_colours() {
+  lua_getglobal(state_, "colours");
+  lua_getfield(state_, -1, "names");
+  const int names = lua_gettop(state_);
+  const auto count = static_cast<lua_Integer>(lua_rawlen(state_, names));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_getfield(state_, names - 1, "rgb");
+    lua_rawgeti(state_, names, i);
+    const std::string name = luaL_checkstring(state_, -1);
+    lua_call(state_, 1, 1);
+    colours_[name] = colour_from(read_value(state_, -1, {key_, 0, "colours", {}}, name), {});
+    lua_pop(state_, 1);
+  }
+  lua_pop(state_, 2);
+}
+
 void TaskReader::read_world() {
   const Value name = field("world");
   const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
-  const Value palette = definition(DefinitionKind::colours, "colours", "", name);
-  for (const Value& entry : palette.items) {  // { "red", 0.9, 0.1, 0.1 }
-    const std::vector<Value>& items = entry.items;
-    if (items.size() < 4) entry.expected("{ name, red, green, blue }");
-    colours_[items[0].as_text()] = {items[1].as_number(), items[2].as_number(), items[3].as_number(), 1.0};
-  }
-  for (const auto& [colour, entry] : palette.fields) colours_[colour] = colour_from(entry, {});
+  read_colours();
   builder_ = std::make_unique<SceneBuilder>(name.text, colours_);
   const Value& robot = world["robot"];
   const std::string robot_name =

@@ -16,7 +16,7 @@ class TaskReader {
  private:
   Value field(const char* name);      // of the task, drawn
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
-  void push_variation();
+  void read_colours();
   void read_world();
   void read_objects();
   void add_group(const std::string& name, int index);
