@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+
+#include "db/catalogue.h"
+#include "scripting/program/episode_job.h"
+#include "scripting/program/roots.h"
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
+
+std::vector<std::string> run_words(const std::string& out, std::vector<std::string> more) {
+  std::vector<std::string> words = {"run", "reach_target", "--root", kRoot, "--out", out};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string hash_of(const std::string& path) { return Catalogue::open(path).content_hash(); }
+
+}  // namespace
+
+TEST_CASE("episode i has seed S+i, and the first V episodes meet each of V variations once") {
+  const auto library = Library::load(make_roots(kRoot, {}));
+  const auto count = static_cast<std::int64_t>(task_info(*library, "reach_target").variation_texts.size());
+  const std::vector<EpisodeJob> jobs = plan_jobs(*library, {{"reach_target"}, count, 50, ""});
+  std::set<std::string> variations;
+  std::set<std::int64_t> seeds;
+  for (const EpisodeJob& job : jobs) {
+    variations.insert(job.variation);
+    seeds.insert(job.seed);
+  }
+  CHECK(std::is_sorted(jobs.begin(), jobs.end()));
+  CHECK(static_cast<std::int64_t>(variations.size()) == count);
+  CHECK(*seeds.begin() == 50);
+  CHECK(*seeds.rbegin() == 50 + count - 1);
+  for (const EpisodeJob& job : plan_jobs(*library, {{"reach_target"}, 5, 0, "colour=red"})) {
+    CHECK(job.variation.find("colour=red") != std::string::npos);
+  }
+  CHECK_THROWS_AS(plan_jobs(*library, {{"reach_targett"}, 1, 0, ""}), Error);
+  CHECK_THROWS_AS(plan_jobs(*library, {{"reach_target"}, 1, 0, "colour=rde"}), Error);
+}
+
+TEST_CASE("a key tells apart seed, variation, options and definitions, and nothing else") {
+  const std::vector<DefinitionRecord> files = {{"task", "a", "a.lua", "", "h1"}, {"skill", "b", "b.lua", "", "h2"}};
+  const std::vector<DefinitionRecord> reversed = {files[1], files[0]};
+  const std::string key = episode_key(files, {"a", "v", 1}, {});
+  CHECK(key == episode_key(reversed, {"a", "v", 1}, {}));
+  CHECK(key != episode_key(files, {"a", "v", 2}, {}));
+  CHECK(key != episode_key(files, {"a", "w", 1}, {}));
+  RunOptions stop;
+  stop.on_failure = OnFailure::stop;
+  CHECK(key != episode_key(files, {"a", "v", 1}, stop));
+  std::vector<DefinitionRecord> edited = files;
+  edited[1].hash = "h3";
+  CHECK(key != episode_key(edited, {"a", "v", 1}, {}));
+}
+
+TEST_CASE("two workers write what one writes; a second run adds nothing; replay needs no scripts") {
+  const Folder folder;
+  REQUIRE(say(run_words(folder / "one.db", {"--episodes", "4"})).code == kDone);
+  REQUIRE(say(run_words(folder / "two.db", {"--episodes", "4", "--workers", "2"})).code == kDone);
+  const std::string hash = hash_of(folder / "one.db");
+  CHECK(hash == hash_of(folder / "two.db"));
+
+  const Said again = say(run_words(folder / "one.db", {"--episodes", "4"}));
+  CHECK(again.code == kDone);
+  CHECK(again.out.find("4 were there already") != std::string::npos);
+  CHECK(hash == hash_of(folder / "one.db"));
+
+  // Half now and half later is the same as all at once.
+  REQUIRE(say(run_words(folder / "late.db", {"--episodes", "2"})).code == kDone);
+  REQUIRE(say(run_words(folder / "late.db", {"--episodes", "4"})).code == kDone);
+  CHECK(hash == hash_of(folder / "late.db"));
+
+  const Folder empty;
+  const Said replayed = say({"replay", folder / "one.db", "--root", empty.text()});
+  CHECK(replayed.code == kDone);
+  CHECK(replayed.out.find("4 replayed bit for bit, 0 different") != std::string::npos);
+
+  const Said shown = say({"show", folder / "one.db", "1"});
+  CHECK(shown.code == kDone);
+  CHECK(shown.out.find("reach_target") != std::string::npos);
+
+  const Said counted = say({"query", folder / "one.db", "SELECT count(*) AS n FROM episodes", "--format", "csv"});
+  CHECK(counted.out == "n\r\n4\r\n");
+  CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
+}
+
+TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends with 3") {
+  const Folder mine;
+  for (const char* kind : {"task", "skill", "predicate", "object"}) {
+    const Said made = say({"new", kind, std::string("my_") + kind, "--root", kRoot, "--path", mine.text()});
+    INFO(made.err);
+    REQUIRE(made.code == kDone);
+  }
+  const Said sound = say({"check", "--root", kRoot, "--path", mine.text()});
+  INFO(sound.out);
+  CHECK(sound.code == kDone);
+  CHECK(say({"new", "task", "my_task", "--root", kRoot, "--path", mine.text()}).code == kUsage);
+
+  std::ofstream(mine / "tasks/my_task.lua") << "-- Wrong.\nreturn task {\n  object = {},\n}\n";
+  const Said wrong = say({"check", "my_task", "--root", kRoot, "--path", mine.text()});
+  CHECK(wrong.code == kBadInput);
+  CHECK(wrong.out.find("did you mean 'objects'?") != std::string::npos);
+}
+
+}  // namespace stampede::program

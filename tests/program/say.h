@@ -1,0 +1,51 @@
+// Runs the program inside the test and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scripting/program/command_line.h"
+
+namespace stampede::program {
+
+struct Said {
+  ExitCode code = kBug;
+  std::string out, err;
+};
+
+inline Said say(std::vector<std::string> words) {
+  std::ostringstream out, err;
+  Console console{out, err, false, false, 100, nullptr};
+  Said said;
+  said.code = run_program(words, console);
+  said.out = out.str();
+  said.err = err.str();
+  return said;
+}
+
+// A folder of its own that goes when the test ends.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("stampede_" + std::to_string(std::random_device()()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string text() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string file_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace stampede::program

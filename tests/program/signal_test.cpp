@@ -1,0 +1,60 @@
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+
+#include "db/catalogue.h"
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+// Starts a long run, sends the signal once a first episode is reported, and waits for the end.
+int signalled_run(const std::string& out, const std::string& story, int signal_number) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!std::freopen(story.c_str(), "w", stderr) || !std::freopen("/dev/null", "w", stdout)) _exit(126);
+    execl(STAMPEDE_PROGRAM, "stampede", "run", "reach_target", "--episodes", "100000", "--root", STAMPEDE_SOURCE_DIR,
+          "--variation", "colour=red", "--workers", "2", "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 2400 && file_text(story).find("[2/") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  kill(child, signal_number);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("Ctrl-C and SIGTERM end a run cleanly: what is finished stays whole, the rest leaves no trace") {
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const Folder folder;
+    const int status = signalled_run(folder / "demos.db", folder / "story.txt", signal_number);
+    INFO(file_text(folder / "story.txt").substr(0, 2000));
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == kNo);
+    CHECK_FALSE(std::filesystem::exists(folder / "demos.db-wal"));
+    const auto episodes = Catalogue::open(folder / "demos.db").episodes();
+    CHECK(episodes.size() >= 2);
+    for (const EpisodeSummary& episode : episodes) CHECK(episode.reason != Reason::interrupted);
+    CHECK(say({"replay", folder / "demos.db", "1"}).code == kDone);
+  }
+}
+
+TEST_CASE("kill -9 during a run leaves whole episodes only") {
+  const Folder folder;
+  const int status = signalled_run(folder / "demos.db", folder / "story.txt", SIGKILL);
+  REQUIRE(WIFSIGNALED(status));
+  Catalogue::write(folder / "demos.db").close();  // recovers what the dead writer left
+  const Said replayed = say({"replay", folder / "demos.db"});
+  INFO(replayed.out + replayed.err);
+  CHECK(replayed.code == kDone);
+}
+
+}  // namespace stampede::program
