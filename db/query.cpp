@@ -27,6 +27,8 @@ int allow_reading(void*, int action, const char* first, const char* second, cons
       const bool sets = second && is_one_of(first, {"application_id", "user_version"});
       return harmless && !sets ? SQLITE_OK : SQLITE_DENY;
     }
+    case SQLITE_UPDATE:  // asked when pragma_table_info() is set up; SQLite itself never lets a statement do it
+      return is_one_of(first, {"sqlite_master", "sqlite_temp_master"}) ? SQLITE_OK : SQLITE_DENY;
     default:
       return SQLITE_DENY;
   }

@@ -4,7 +4,8 @@ SELECT 'try' AS level, t.episode, t.task, t.variation, t.seed, t.undone, t.segme
 FROM tries t
 WHERE t.outcome = 'failure'
 UNION ALL
-SELECT 'episode', e.id, e.task, e.variation, e.seed, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0.0, e.duration_s,
+SELECT 'episode', e.id, e.task, e.variation, e.seed, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0.0,
+       e.duration_s,
        e.reason, e.detail, NULL
 FROM episode e
 WHERE e.outcome = 'failure';

@@ -98,12 +98,18 @@ TEST_CASE("a query cannot write") {
        {"DELETE FROM episode", "DROP VIEW demos", "PRAGMA user_version = 9", "PRAGMA journal_mode = DELETE",
         "ATTACH 'x.db' AS x", "INSERT INTO split VALUES ('train', NULL, NULL, 1, 2)", "CREATE TEMP TABLE t (a)",
         "SELECT 1; DELETE FROM timing", "BEGIN", "VACUUM INTO 'y.db'", "SELECT load_extension('x')",
-        "WITH a AS (SELECT 1) UPDATE episode SET seed = 3", "REINDEX", "ANALYZE", "SAVEPOINT a"}) {
+        "WITH a AS (SELECT 1) UPDATE episode SET seed = 3", "REINDEX", "ANALYZE", "SAVEPOINT a",
+        "UPDATE sqlite_master SET sql = ''"}) {
     INFO(text);
     CHECK_THROWS_AS(filled.catalogue.query(text), Error);
   }
   CHECK(filled.catalogue.content_hash() == before);
   CHECK(filled.catalogue.episodes().size() == 1);
+}
+
+TEST_CASE("a query may ask what columns there are") {
+  const Filled filled;
+  CHECK(filled.catalogue.query("SELECT name FROM pragma_table_info('demos')").rows.size() > 10);
 }
 
 TEST_CASE("mistakes in SQL are told with what there is") {
