@@ -121,7 +121,8 @@ TEST_CASE("each run of a skill starts from fresh variables, also beside another 
 TEST_CASE("what goes wrong in run is a failed call with a place, not an exception") {
   SmallWorld small;
   const std::pair<double, std::string> ways[] = {
-      {1, "wrong.lua:2"}, {2, "instruction budget"}, {3, "finite"}, {4, "no option 'sped'"}, {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
+      {1, "wrong.lua:2"},      {2, "instruction budget"}, {3, "finite"},
+      {4, "no option 'sped'"}, {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);
