@@ -1,0 +1,439 @@
+#include "scripting/library/formula_reader.h"
+
+#include <algorithm>
+
+#include "engine/symbolic/pddl.h"
+#include "scripting/library/naming.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::size_t kMostOrders = 5040;  // 7!
+
+std::string trimmed(std::string text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+bool is_group(const std::string& name) { return name.size() > 1 && name.back() == '*'; }
+
+std::string shown(const std::string& predicate, std::size_t count) {
+  return predicate + " takes " + (count == 0 ? "no arguments" : count == 1 ? "1 argument" : std::to_string(count) + " arguments");
+}
+
+class Reader {
+ public:
+  explicit Reader(const FormulaContext& context) : context_(context), domain_(*context.domain) {}
+
+  Formula formula(const Node& node) {
+    if (node.is_table() && node.tag().empty() && !node.items.empty()) return list(node, Formula::Kind::conjunction);
+    const std::string tag = node.tag();
+    const Line line(*this, node);
+    if (tag == "literal") return literal_formula(node);
+    if (tag == "all_of" || tag == "in_order") return list(node, Formula::Kind::conjunction);
+    if (tag == "any_of") {
+      ++narrow_;
+      Formula result = list(node, Formula::Kind::disjunction);
+      --narrow_;
+      return result;
+    }
+    if (tag == "not") return negation(formula(one_item(node)));
+    if (tag == "exists" || tag == "forall") return quantified(node, tag == "exists");
+    if (tag == "any_order") return any_order(node);
+    if (tag == "equal") return equal(node);
+    if (tag == "pddl") return formula_from_pddl(node["text"].text, place());
+    if (tag == "when") fail("when belongs to effects, not to conditions", "any_of and is_not say it in conditions");
+    if (tag == "call") fail("a skill call is no condition", "write act in steps, is in conditions");
+    fail("a literal or formula is missing, this is " + node.type_name(), "write for example is.on(\"cup\", \"shelf\")");
+  }
+
+  void effects(const Node& node, std::vector<Effect>& result, const Effect& frame, int depth) {
+    const std::string tag = node.tag();
+    const Line line(*this, node);
+    if (node.is_table() && (tag.empty() || tag == "all_of")) {
+      for (const Node& item : node.items) effects(item, result, frame, depth);
+    } else if (tag == "literal") {
+      result.push_back(effect(node, frame));
+    } else if (tag == "when") {
+      if (frame.when.kind != Formula::Kind::always) fail("a when inside a when", "join both conditions with all_of");
+      Effect inner = frame;
+      inner.when = formula(node["condition"]);
+      effects(node["effects"], result, inner, depth);
+    } else if (tag == "forall") {
+      if (!frame.forall.empty()) fail("a forall inside a forall", "give one forall both variables");
+      if (depth > 0) fail("effects nest one level", {});
+      Effect inner = frame;
+      inner.forall = variables(node);
+      for (const Parameter& variable : inner.forall) open(variable.name);
+      effects(one_item(node), result, inner, depth + 1);
+      for (std::size_t i = 0; i < inner.forall.size(); ++i) scope_.pop_back();
+    } else {
+      fail("an effect is a literal, when or forall, this is " + node.type_name(), {});
+    }
+  }
+
+  void literals(const Node& node, std::vector<Literal>& result) {
+    const Line line(*this, node);
+    const std::string tag = node.tag();
+    if (node.is_table() && (tag.empty() || tag == "all_of")) {
+      for (const Node& item : node.items) literals(item, result);
+      return;
+    }
+    if (tag == "not" && one_item(node).tag() == "literal" && !one_item(node)["negated"].boolean) {
+      Node inner = one_item(node);
+      inner.fields["negated"].boolean = true;
+      return literals(inner, result);
+    }
+    if (tag != "literal") fail("only is and is_not stand here, this is " + node.type_name(), "formulas belong to the goal");
+    check_predicate(node);
+    for (const std::vector<Term>& terms : expanded(node)) {
+      Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
+      for (const Term& term : terms) {
+        if (term.variable) fail("variables belong to formulas, '?" + term.name + "' stands in a list of facts", {});
+        literal.fact.arguments.push_back(term.name);
+      }
+      result.push_back(std::move(literal));
+    }
+  }
+
+ private:
+  // The line of the innermost value that knows its own.
+  class Line {
+   public:
+    Line(Reader& reader, const Node& node) : reader_(reader), before_(reader.line_) {
+      if (node.line() > 0) reader.line_ = node.line();
+    }
+    ~Line() { reader_.line_ = before_; }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+   private:
+    Reader& reader_;
+    int before_;
+  };
+
+  std::string place() const { return line_ > 0 ? context_.file + ":" + std::to_string(line_) : context_.file; }
+  [[noreturn]] void fail(const std::string& what, const std::string& hint) const {
+    throw Error(place(), context_.field.empty() ? what : context_.field + ": " + what, hint);
+  }
+
+  const Node& one_item(const Node& node) const {
+    if (node.items.size() != 1) fail(node.tag() + " takes one formula", {});
+    return node.items[0];
+  }
+
+  Formula list(const Node& node, Formula::Kind kind) {
+    std::vector<Formula> parts;
+    for (const Node& item : node.items) parts.push_back(formula(item));
+    return kind == Formula::Kind::conjunction ? conjunction(std::move(parts)) : disjunction(std::move(parts));
+  }
+
+  void check_predicate(const Node& node) {
+    const std::string& name = node["predicate"].text;
+    const auto trait = std::find(domain_.traits.begin(), domain_.traits.end(), name);
+    if (domain_.predicate(name) != nullptr || trait != domain_.traits.end()) return;
+    std::vector<std::string> known = domain_.traits;
+    for (const Predicate& predicate : domain_.predicates) known.push_back(predicate.name);
+    std::string hint = did_you_mean(name, known);
+    if (domain_.types.contains(name)) hint = "it is a type: write exists(\"?x: " + name + "\", …)";
+    fail("there is no predicate '" + name + "'", hint);
+  }
+
+  std::vector<Parameter> parameters_of(const std::string& name) const {
+    if (const Predicate* predicate = domain_.predicate(name)) return predicate->parameters;
+    return {{"obj", "", {}}};  // a trait
+  }
+
+  bool in_scope(const std::string& name) const {
+    if (std::find(scope_.begin(), scope_.end(), name) != scope_.end()) return true;
+    return std::any_of(context_.parameters.begin(), context_.parameters.end(),
+                       [&](const Parameter& parameter) { return parameter.name == name; });
+  }
+
+  std::vector<std::string> names_in_scope() const {
+    std::vector<std::string> names;
+    for (const std::string& name : scope_) names.push_back("?" + name);
+    for (const Parameter& parameter : context_.parameters) names.push_back(context_.schema ? parameter.name : "?" + parameter.name);
+    return names;
+  }
+
+  Term term(const std::string& text, const Parameter* parameter) {
+    if (!text.empty() && text[0] == '?') {
+      const std::string name = text.substr(1);
+      if (!in_scope(name)) fail("unknown variable '" + text + "'", did_you_mean(text, names_in_scope()));
+      return {true, name};
+    }
+    if (parameter != nullptr && parameter->type == "value") return {false, text};
+    if (context_.schema) {
+      if (!in_scope(text)) fail("unknown parameter '" + text + "'", did_you_mean(text, names_in_scope()));
+      return {true, text};
+    }
+    if (context_.object_fault) {
+      if (const auto fault = context_.object_fault(text)) fail("there is no object '" + text + "'", *fault);
+    }
+    return {false, text};
+  }
+
+  Term hand_term() {
+    for (const Parameter& parameter : context_.parameters) {
+      if (parameter.type == "hand") return {true, parameter.name};
+    }
+    if (context_.schema) fail("the hand is left out and there is no parameter of type hand", "add a parameter \"hand: hand\"");
+    return {false, context_.hand};
+  }
+
+  // The argument tuples of a literal: one, or one per member of each group that it names.
+  std::vector<std::vector<Term>> expanded(const Node& node) {
+    const std::string& name = node["predicate"].text;
+    const std::vector<Parameter> parameters = parameters_of(name);
+    const int hand = hand_position(parameters, domain_);
+    const std::size_t given = node.items.size();
+    const bool fill = hand >= 0 && given + 1 == parameters.size();
+    if (given != parameters.size() && !fill) {
+      std::string hint = "is." + name + "(";
+      for (std::size_t i = 0; i < parameters.size(); ++i) hint += (i > 0 ? ", " : "") + parameters[i].name;
+      fail(shown(name, parameters.size()) + ", not " + std::to_string(given), "write " + hint + ")");
+    }
+    std::vector<std::vector<Term>> tuples(1);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (fill && static_cast<int>(i) == hand) {
+        for (auto& tuple : tuples) tuple.push_back(hand_term());
+        continue;
+      }
+      const std::string& text = node.items[next++].text;
+      if (!is_group(text)) {
+        const Term one = term(text, &parameters[i]);
+        for (auto& tuple : tuples) tuple.push_back(one);
+        continue;
+      }
+      std::vector<std::vector<Term>> longer;
+      const std::vector<std::string> names = members(text);
+      for (const auto& tuple : tuples) {
+        for (const std::string& member : names) {
+          longer.push_back(tuple);
+          longer.back().push_back({false, member});
+        }
+      }
+      tuples = std::move(longer);
+    }
+    return tuples;
+  }
+
+  std::vector<std::string> members(const std::string& group) const {
+    if (context_.schema) fail("groups such as '" + group + "' belong to tasks", "quantify instead: forall(\"?x: block\", …)");
+    if (narrow_ > 0) {
+      fail("the group '" + group + "' stands for all its members, which any_of and exists cannot mean",
+           "quantify over it: exists(\"?x: " + group + "\", …)");
+    }
+    return group_members(group);
+  }
+
+  std::vector<std::string> group_members(const std::string& group) const {
+    if (!context_.expand) fail("groups cannot stand here: '" + group + "'", {});
+    try {
+      return context_.expand(group);
+    } catch (const Error& error) {
+      fail(error.message(), error.hint());
+    }
+  }
+
+  Formula literal_formula(const Node& node) {
+    const std::string& name = node["predicate"].text;
+    if (name == "same" && domain_.predicate(name) == nullptr) return equal(node);
+    check_predicate(node);
+    const bool negated = node["negated"].boolean;
+    std::vector<Formula> parts;
+    for (std::vector<Term>& terms : expanded(node)) {
+      Formula one = atom(name, std::move(terms));
+      parts.push_back(negated ? negation(std::move(one)) : std::move(one));
+    }
+    return conjunction(std::move(parts));
+  }
+
+  Formula equal(const Node& node) {
+    if (node.items.size() != 2) fail("same takes 2 arguments, not " + std::to_string(node.items.size()), {});
+    Formula result;
+    result.kind = Formula::Kind::equal;
+    for (const Node& item : node.items) result.terms.push_back(term(item.text, nullptr));
+    return node["negated"].boolean ? negation(std::move(result)) : result;
+  }
+
+  void open(const std::string& name) {
+    if (in_scope(name)) fail("the variable '?" + name + "' shadows another of that name", "rename it");
+    scope_.push_back(name);
+  }
+
+  std::vector<Parameter> variables(const Node& node) const {
+    std::vector<Parameter> result;
+    for (const Node& variable : node["variables"].items) {
+      if (variable.text.empty() || variable.text[0] != '?') {
+        fail("write variables with a question mark: \"?" + variable.text + "\"", {});
+      }
+      result.push_back(parameter_from(variable.text.substr(1), domain_, place()));
+    }
+    return result;
+  }
+
+  // A variable whose range is a group is replaced by each member.
+  Formula quantified(const Node& node, bool exists) {
+    for (std::size_t i = 0; i < node["variables"].items.size(); ++i) {
+      const std::string& text = node["variables"].items[i].text;
+      const std::size_t colon = text.find(':');
+      if (colon == std::string::npos || !is_group(trimmed(text.substr(colon + 1)))) continue;
+      Node rest = node;
+      auto& left = rest.fields["variables"].items;
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+      std::vector<Formula> parts;
+      const std::string name = trimmed(text.substr(0, colon));
+      for (const std::string& member : group_members(trimmed(text.substr(colon + 1)))) {
+        parts.push_back(quantified(replaced(rest, name, member), exists));
+      }
+      return exists ? disjunction(std::move(parts)) : conjunction(std::move(parts));
+    }
+    if (node["variables"].items.empty()) return formula(one_item(node));
+    Formula result;
+    result.kind = exists ? Formula::Kind::exists : Formula::Kind::forall;
+    result.variables = variables(node);
+    for (const Parameter& variable : result.variables) open(variable.name);
+    narrow_ += exists ? 1 : 0;
+    result.parts.push_back(formula(one_item(node)));
+    narrow_ -= exists ? 1 : 0;
+    for (std::size_t i = 0; i < result.variables.size(); ++i) scope_.pop_back();
+    return result;
+  }
+
+  static Node replaced(Node node, const std::string& name, const std::string& by) {
+    if (node.is_text() && node.text == name) node.text = by;
+    for (Node& item : node.items) item = replaced(std::move(item), name, by);
+    for (auto& [key, field] : node.fields) {
+      if (key != "predicate" && key != "tag") field = replaced(std::move(field), name, by);
+    }
+    return node;
+  }
+
+  // The disjunction over all ordered choices of n distinct members.
+  Formula any_order(const Node& node) {
+    const std::vector<std::string> names = group_members(node["group"].text);
+    const auto count = static_cast<std::size_t>(node["n"].number);
+    if (count > names.size()) {
+      fail("any_order chooses " + std::to_string(count) + " of the " + std::to_string(names.size()) + " members of '" +
+               node["group"].text + "'", "make the group larger: count = " + std::to_string(count));
+    }
+    std::size_t orders = 1;
+    for (std::size_t i = 0; i < count; ++i) orders *= names.size() - i;
+    if (orders > kMostOrders) fail("any_order has " + std::to_string(orders) + " orders, at most 5040", "choose fewer members");
+    std::vector<Formula> parts;
+    std::vector<std::size_t> chosen;
+    choose(node, names, count, chosen, parts);
+    return disjunction(std::move(parts));
+  }
+
+  void choose(const Node& node, const std::vector<std::string>& names, std::size_t count, std::vector<std::size_t>& chosen,
+              std::vector<Formula>& parts) {
+    if (chosen.size() == count) {
+      Node part = one_item(node);
+      for (std::size_t i = 0; i < count; ++i) {
+        part = replaced(std::move(part), node["variables"].items[i].text, names[chosen[i]]);
+      }
+      ++narrow_;
+      parts.push_back(formula(part));
+      --narrow_;
+      return;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
+      chosen.push_back(i);
+      choose(node, names, count, chosen, parts);
+      chosen.pop_back();
+    }
+  }
+
+  Effect effect(const Node& node, const Effect& frame) {
+    check_predicate(node);
+    const std::string& name = node["predicate"].text;
+    const Predicate* predicate = domain_.predicate(name);
+    if (predicate == nullptr) fail("an effect cannot change the trait '" + name + "'", {});
+    if (predicate->kind == PredicateKind::derived) {
+      fail("an effect cannot name the derived predicate '" + name + "'", "name the facts that it is derived from");
+    }
+    if (predicate->kind == PredicateKind::fixed) fail("an effect cannot change the static predicate '" + name + "'", {});
+    Effect result = frame;
+    result.predicate = name;
+    result.terms = expanded(node).at(0);
+    result.negated = node["negated"].boolean;
+    return result;
+  }
+
+  const FormulaContext& context_;
+  const Domain& domain_;
+  std::vector<std::string> scope_;                   // quantified variables, outermost first
+  int line_ = 0;
+  int narrow_ = 0;                                   // inside any_of or exists
+};
+
+}  // namespace
+
+int hand_position(const std::vector<Parameter>& parameters, const Domain&) {
+  int position = -1;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].type != "hand") continue;
+    if (position >= 0) return -1;  // two hands: the author says which
+    position = static_cast<int>(i);
+  }
+  return position;
+}
+
+Parameter parameter_from(const std::string& text, const Domain& domain, const std::string& place) {
+  Parameter parameter;
+  const std::size_t colon = text.find(':');
+  parameter.name = trimmed(text.substr(0, colon));
+  if (const auto fault = name_fault(parameter.name)) {
+    throw Error(place, "the parameter name '" + parameter.name + "' " + *fault,
+                "such as '" + proposed_name(parameter.name) + "'");
+  }
+  std::string rest = colon == std::string::npos ? std::string() : text.substr(colon + 1) + "&";
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('&');
+    const std::string word = trimmed(rest.substr(0, end));
+    rest.erase(0, end + 1);
+    if (std::find(domain.traits.begin(), domain.traits.end(), word) != domain.traits.end()) {
+      parameter.traits.push_back(word);
+    } else if (domain.types.contains(word) && parameter.type.empty()) {
+      parameter.type = word;
+    } else if (domain.types.contains(word)) {
+      throw Error(place, "'" + parameter.name + "' has two types, " + parameter.type + " and " + word, "keep one");
+    } else {
+      std::vector<std::string> known = domain.traits;
+      for (const auto& [type, parent] : domain.types) known.push_back(type);
+      throw Error(place, "'" + word + "' is neither a type nor a trait", did_you_mean(word, known));
+    }
+  }
+  return parameter;
+}
+
+Formula formula_from(const Node& node, const FormulaContext& context) { return Reader(context).formula(node); }
+
+std::vector<Formula> stages_from(const Node& node, const FormulaContext& context) {
+  const bool wrapped = node.is_table() && node.tag().empty() && node.items.size() == 1;
+  const Node& goal = wrapped ? node.items[0] : node;
+  if (goal.tag() != "in_order") return {};
+  std::vector<Formula> stages;
+  for (const Node& part : goal.items) stages.push_back(Reader(context).formula(part));
+  return stages;
+}
+
+std::vector<Effect> effects_from(const Node& node, const FormulaContext& context) {
+  std::vector<Effect> result;
+  Reader(context).effects(node, result, {}, 0);
+  return result;
+}
+
+std::vector<Literal> literals_from(const Node& node, const FormulaContext& context) {
+  std::vector<Literal> result;
+  Reader(context).literals(node, result);
+  return result;
+}
+
+}  // namespace stampede

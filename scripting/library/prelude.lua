@@ -1,0 +1,234 @@
+-- The words of the authoring language. Runs once in every state, before any definition file; `api` is C++'s part.
+-- Every value that the engine must understand is a table with a field `tag`:
+--   definition  { kind = "task" | "skill" | …, line, <the author's fields> }        (kind instead of tag)
+--   literal     { tag = "literal", predicate, negated, line, "arg1", … }            is.on("a", "b")
+--   call        { tag = "call", skill, line, "arg1", …, <named arguments> }         act.pick("a", "b")
+--   formula     { tag = "all_of" | "any_of" | "in_order", line, part1, … }
+--               { tag = "not", line, part }
+--               { tag = "forall" | "exists", variables = { "?x: type", … }, line, part }
+--               { tag = "any_order", group, n, variables = { "?any1", … }, line, part }
+--               { tag = "when", condition, effects, line }                         effects only
+--               { tag = "equal", line, "a", "b" }   { tag = "pddl", text, line }
+--   draw        { tag = "one_of", values }, { tag = "sample_of", values, n }, { tag = "between", low, high }
+--   stream      { tag = "stream", source = "grasps", object = "obj" } or { …, source = "sample", literal }
+--   shape       { tag = "shape", shape = "box", 1, 2, 3, at, rpy, yaw, colour, … }
+local api = ...
+local setmetatable, here, fail = api.setmetatable, api.here, api.fail
+local type, ipairs, pairs, tostring, select, math = type, ipairs, pairs, tostring, select, math
+local words = api.words
+
+local function say(format, ...) fail(string.format(format, ...)) end
+
+-- Definitions -------------------------------------------------------------------------------------------------------
+for _, kind in ipairs { "task", "skill", "predicate", "object", "world", "robot" } do
+  words[kind] = function(fields)
+    if type(fields) ~= "table" then say("%s takes a table: %s { … }", kind, kind) end
+    if fields.kind ~= nil then say("a %s has no field 'kind'", kind) end
+    if fields.line ~= nil then say("a %s has no field 'line'", kind) end
+    fields.kind, fields.line = kind, here()
+    return fields
+  end
+end
+
+-- Literals and calls --------------------------------------------------------------------------------------------------
+local nothing = { tag = "nothing" } -- b[0] of any_order: a literal that names it is left out
+
+local function literal(predicate, negated)
+  return function(...)
+    local value = { tag = "literal", predicate = predicate, negated = negated, line = here() }
+    for i = 1, select("#", ...) do
+      local argument = (select(i, ...))
+      if argument == nothing then return { tag = "all_of", line = here() } end
+      if type(argument) ~= "string" then
+        say("%s: argument %d is a %s, arguments are names such as \"cup\" or \"?x\"", predicate, i, type(argument))
+      end
+      value[i] = argument
+    end
+    return value
+  end
+end
+
+local function by_name(make)
+  local made = {}
+  return function(_, name)
+    if type(name) ~= "string" then say("a name is text, this is a %s", type(name)) end
+    if made[name] == nil then made[name] = make(name) end
+    return made[name]
+  end
+end
+
+local function fixed(_, name) say("'%s' cannot be assigned here: it follows from a file", tostring(name)) end
+
+local function is_value(value)
+  return type(value) == "table" and (type(value.tag) == "string")
+end
+
+local function one_part(word, part)
+  if not is_value(part) then say("%s takes a literal or formula, this is a %s", word, type(part)) end
+  return part
+end
+
+local function parts_of(tag, ...)
+  local list = { ... }
+  if #list == 1 and type(list[1]) == "table" and list[1].tag == nil then list = list[1] end -- any_of { … } or any_of(…)
+  local value = { tag = tag, line = here() }
+  for i = 1, #list do value[i] = one_part(tag, list[i]) end
+  return value
+end
+
+words.is = setmetatable({}, { __index = by_name(function(name) return literal(name, false) end), __newindex = fixed })
+words.is_not = setmetatable({}, {
+  __index = by_name(function(name) return literal(name, true) end),
+  __newindex = fixed,
+  __call = function(_, part) return { tag = "not", line = here(), one_part("is_not", part) } end,
+})
+words.act = setmetatable({}, {
+  __index = by_name(function(name)
+    return function(...)
+      local value = { tag = "call", skill = name, line = here() }
+      local list = { ... }
+      if #list == 1 and type(list[1]) == "table" then list = list[1] end -- act.place{ "cup", to = "shelf" }
+      for key, argument in pairs(list) do
+        if type(argument) ~= "string" then say("%s: arguments are names of objects, '%s' is a %s", name, key, type(argument)) end
+        value[key] = argument
+      end
+      return value
+    end
+  end),
+  __newindex = fixed,
+})
+
+-- Formulas ------------------------------------------------------------------------------------------------------------
+function words.all_of(...) return parts_of("all_of", ...) end
+function words.any_of(...) return parts_of("any_of", ...) end
+function words.in_order(...) return parts_of("in_order", ...) end
+function words.equal(a, b) return { tag = "equal", line = here(), a, b } end
+function words.pddl(text) return { tag = "pddl", text = text, line = here() } end
+
+-- exists("?x: block", "?y: block", formula); the formula may be a function of the variables' names.
+local function quantified(tag, ...)
+  local value = { tag = tag, line = here(), variables = {} }
+  local count = select("#", ...)
+  local part = (select(count, ...))
+  local names = {}
+  for i = 1, count - 1 do
+    local variable = (select(i, ...))
+    if type(variable) ~= "string" then say("%s: write variables as \"?x: type\"", tag) end
+    value.variables[i] = variable
+    local colon = string.find(variable, ":")
+    names[i] = colon and string.sub(variable, 1, colon - 1) or variable
+  end
+  if count < 2 then say("%s takes variables and a formula: %s(\"?x: movable\", is.on(\"?x\", \"table\"))", tag, tag) end
+  if type(part) == "function" then part = part(table.unpack(names)) end
+  if type(part) == "table" and part.tag == nil then part = parts_of("all_of", part) end
+  value[1] = one_part(tag, part)
+  return value
+end
+function words.forall(...) return quantified("forall", ...) end
+function words.exists(...) return quantified("exists", ...) end
+
+-- n distinct members of the group, in some order, such that f(b, i) holds for i = 1 … n. b[i] is the i-th of them;
+-- a literal that names b[0] is left out, so that chains are written without a special case.
+function words.any_order(group, n, f)
+  if type(group) ~= "string" or type(f) ~= "function" or math.type(n) ~= "integer" or n < 1 then
+    say("any_order takes a group, a whole number and a function: any_order(\"block*\", 2, function(b, i) … end)")
+  end
+  if n > 8 then say("any_order chooses at most 8 members, not %d", n) end
+  local value = { tag = "any_order", group = group, n = n, variables = {}, line = here() }
+  local b = { [0] = nothing }
+  for i = 1, n do
+    b[i] = "?any" .. i
+    value.variables[i] = b[i]
+  end
+  local part = { tag = "all_of", line = here() }
+  for i = 1, n do part[i] = one_part("any_order", f(b, i)) end
+  value[1] = part
+  return value
+end
+
+-- Effects and streams -------------------------------------------------------------------------------------------------
+function words.when(condition, effects)
+  if is_value(effects) then effects = { effects } end
+  if type(effects) ~= "table" then say("when takes a condition and a list of effects") end
+  return { tag = "when", condition = one_part("when", condition), effects = effects, line = here() }
+end
+
+-- stream("grasps") or stream("grasps", "obj"); stream(is.on("obj", "to")): the predicate's sample.
+function words.stream(source, object)
+  if source == "sample" then source = object end -- stream("sample", is.on("obj", "to"))
+  if source == "grasps" then return { tag = "stream", source = "grasps", object = object, line = here() } end
+  if is_value(source) and source.tag == "literal" then
+    return { tag = "stream", source = "sample", literal = source, line = here() }
+  end
+  say("stream takes \"grasps\" or a literal such as is.on(\"obj\", \"to\")")
+end
+
+-- Draws, per episode ----------------------------------------------------------------------------------------------------
+function words.one_of(...)
+  local values = { ... }
+  if #values == 1 and type(values[1]) == "table" and values[1].tag == nil then values = values[1] end
+  if #values == 0 then say("one_of draws from nothing") end
+  return { tag = "one_of", values = values, line = here() }
+end
+function words.sample_of(values, n)
+  if type(values) ~= "table" or math.type(n) ~= "integer" then say("sample_of takes a list and a whole number") end
+  if n > #values then say("sample_of draws %d of %d values", n, #values) end
+  return { tag = "sample_of", values = values, n = n, line = here() }
+end
+function words.between(low, high)
+  if type(low) ~= "number" or type(high) ~= "number" or not (low <= high) then
+    say("between takes two numbers, the lower one first")
+  end
+  return { tag = "between", low = low, high = high, line = here() }
+end
+
+-- Shapes ----------------------------------------------------------------------------------------------------------------
+for _, shape in ipairs { "box", "sphere", "cylinder", "capsule", "cone", "hull", "lathe", "mesh" } do
+  words[shape] = function(fields, ...)
+    if type(fields) ~= "table" then fields = { fields, ... } end -- box(0.1, 0.1, 0.1) is box { 0.1, 0.1, 0.1 }
+    fields.tag, fields.shape, fields.line = "shape", shape, here()
+    return fields
+  end
+end
+
+-- Helpers -----------------------------------------------------------------------------------------------------------------
+words.deg = math.rad -- deg(40) is 40 degrees in radians
+words.mm = function(x) return x / 1000 end
+words.cm = function(x) return x / 100 end
+
+-- each(list, f): the list of f(value, index); in Lua, so that f may contain robot calls.
+function words.each(list, f)
+  local result = {}
+  for i, value in ipairs(list) do result[#result + 1] = f(value, i) end
+  return result
+end
+
+function words.range(first, last, step)
+  local result = {}
+  for i = first, last, step or 1 do result[#result + 1] = i end
+  return result
+end
+
+-- colours: worlds/colours.lua returns { red = { 0.9, 0.1, 0.1 }, … } (sRGB, 0 … 1); names are in alphabetical order.
+local colours = { names = {} }
+local by_colour = {}
+for name, rgb in pairs(api.colours) do
+  colours.names[#colours.names + 1] = name
+  by_colour[name] = rgb
+end
+function colours.rgb(name)
+  local rgb = by_colour[name]
+  if rgb == nil then say("there is no colour '%s' in worlds/colours.lua", tostring(name)) end
+  return { rgb[1], rgb[2], rgb[3] }
+end
+function colours.except(...)
+  local left_out, result = {}, {}
+  for _, name in ipairs { ... } do
+    for _, one in ipairs(type(name) == "table" and name or { name }) do left_out[one] = true end
+  end
+  for _, name in ipairs(colours.names) do
+    if not left_out[name] then result[#result + 1] = name end
+  end
+  return result
+end
+words.colours = setmetatable({}, { __index = colours, __newindex = fixed })
