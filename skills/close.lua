@@ -1,4 +1,4 @@
--- Shut a drawer or door by its handle.
+-- Push a drawer or door shut, the tips of the closed fingers against its handle.
 return skill {
   params = { "part: openable" },
   precondition = { is.hand_empty(), is_not.closed("part") },
@@ -9,11 +9,11 @@ return skill {
   },
   label = "close the {part}",
   run = function(robot, p, c)
-    robot:open_hand(0.05)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose }
-    robot:close_hand(p.part, { force = c.grasp.force })
-    robot:move_part(p.part, 0, { speed = c.speed })
-    robot:open_hand(0.05)
+    local reach = 0.018 -- m from the middle of the handle back to the tip: the closed fingers just do not touch
+    robot:close_hand()
+    robot:move_through { approach = c.grasp.approach, goal = c.grasp.pose:along(0, 0, -reach) }
+    robot:move_part(p.part, -0.005, { speed = c.speed }) -- pushes a little past the stop
     robot:retreat(0.08)
+    robot:open_hand()
   end,
 }

@@ -4,7 +4,7 @@ return task {
   variations = { level = { "bottom", "middle", "top" } },
   objects = function(v)
     return {
-      chest = { "chest", at = { between(0.40, 0.43), between(-0.10, 0.10), 0.75 },
+      chest = { "chest", at = { between(0.52, 0.55), between(-0.10, 0.10), 0.75 },
         joints = { [v.level .. "_drawer"] = between(0.08, 0.14) } },
     }
   end,

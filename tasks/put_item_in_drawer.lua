@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", at = { between(0.40, 0.43), between(0.12, 0.16), 0.75 } },
+    chest = { "chest", at = { between(0.52, 0.55), between(0.12, 0.16), 0.75 } },
     item = { "cube", colour = one_of(colours.names) },
   },
   init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),

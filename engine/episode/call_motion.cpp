@@ -54,18 +54,18 @@ JointVector planning_start(const World& world) {
   return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
 }
 
-std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<int>& touchable) {
+std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
   World& world = rollout.world();
   auto space = world.collision_space();
   space->set_opening(world.opening());
   if (rollout.keep && rollout.keep->body >= 0 &&
       world.scene().bodies[static_cast<std::size_t>(rollout.keep->body)].free)
     space->hold(rollout.keep->body, world.world_from_tip().inverse() * world.world_from_part(*rollout.keep));
-  for (const int body : touchable) space->allow(body);
+  for (const PartRef part : touchable) space->allow(part);
   return space;
 }
 
-PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<int>& touchable, RandomKey key) {
+PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
   World& world = rollout.world();
   const JointVector start = planning_start(world);
   FollowOptions options;

@@ -16,12 +16,12 @@ struct PlannedCall {
   std::string detail;
 };
 
-// Plans one robot call from where the reference is. `touchable`: bodies that hand and held object may touch near the
+// Plans one robot call from where the reference is. `touchable`: parts that hand and held object may touch near the
 // targets. Repeatable: a pure function of its arguments. RunSkill, Done and Fail are not motions.
-PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<int>& touchable, RandomKey key);
+PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key);
 
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
-std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<int>& touchable);
+std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
 
 // Where plans start: the reference, or the arm itself where contact keeps it away from its reference.
 JointVector planning_start(const World& world);

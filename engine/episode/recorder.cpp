@@ -51,6 +51,14 @@ FrameRecord FrameReader::read(const WorldView& view) const {
     frame.joint_effort.push_back(world.joint_effort(joint.part));
   }
   for (const std::string& name : posed_) frame.object_pose.push_back(to_pose(view.world_from(name)));
+  for (const Camera& camera : view.scene().cameras) {
+    Transform world_from_mount = Transform::Identity();
+    const bool robot = camera.mount_body == view.scene().robot.name;
+    if (!camera.mount_body.empty())
+      world_from_mount =
+          world.world_from_part({robot ? -1 : view.scene().body_index(camera.mount_body), camera.mount_part});
+    frame.camera_pose.push_back(to_pose(world_from_mount * camera.mount_from_camera));
+  }
   HandRecord hand;
   hand.tip = to_pose(world.world_from_tip());
   const Eigen::Matrix<double, 6, 1> twist = world.arm().jacobian(world.arm_position()) * world.arm_velocity();

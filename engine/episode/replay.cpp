@@ -1,5 +1,6 @@
 // Re-simulates a stored episode from its scene and its commands: no script, no planner.
-#include <cstring>
+#include <cmath>
+#include <cstdio>
 
 #include "engine/episode/recorder.h"
 #include "engine/episode/runner.h"
@@ -13,8 +14,8 @@ std::string number(double value) {
   return text;
 }
 
-// Bitwise: -0 and 0 differ, and so do two NaNs of different payload.
-bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+// Every bit counts but the sign of zero, which SQLite does not keep.
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 class Comparison {
  public:
@@ -52,6 +53,8 @@ std::string compare(std::int64_t index, const EpisodeRecord& episode, const Fram
   }
   for (std::size_t i = 0; i < episode.posed.size() && i < stored.object_pose.size(); ++i)
     comparison.pose(episode.posed[i], stored.object_pose[i], now.object_pose[i]);
+  for (std::size_t i = 0; i < stored.camera_pose.size() && i < now.camera_pose.size(); ++i)
+    comparison.pose("camera " + std::to_string(i), stored.camera_pose[i], now.camera_pose[i]);
   for (std::size_t i = 0; i < stored.hands.size() && i < now.hands.size(); ++i) {
     comparison.pose("tip", stored.hands[i].tip, now.hands[i].tip);
     comparison.values("twist", stored.hands[i].twist, now.hands[i].twist);

@@ -174,7 +174,7 @@ Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& in
 }
 
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
-std::vector<int> SkillDriver::touchable(const Context& context) const {
+std::vector<PartRef> SkillDriver::touchable(const Context& context) const {
   std::vector<std::string> names;
   if (rollout_.keep) {
     names = context.arguments;
@@ -183,14 +183,13 @@ std::vector<int> SkillDriver::touchable(const Context& context) const {
       if (info.source == ContinuousInfo::Source::grasps)
         names.push_back(argument(context.info.parameters, context.arguments, info.object));
   }
-  std::vector<int> bodies;
+  std::vector<PartRef> parts;
   for (const std::string& name : names) {
     const Object* thing = rollout_.view().scene().object(name);
     if (thing == nullptr || thing->body.empty()) continue;
-    const int body = rollout_.view().scene().body_index(thing->body);
-    if (body >= 0) bodies.push_back(body);
+    parts.push_back(rollout_.view().part_of(name));
   }
-  return bodies;
+  return parts;
 }
 
 SkillResult SkillDriver::execute(const Context& context, const SkillCall& call) {

@@ -48,7 +48,7 @@ class SkillDriver {
   void after_hand(const robot_call::Hand& hand, int segment, bool ok);
   SkillResult settle_effects(const Context& context, const std::vector<Literal>& effects);
   std::vector<std::string> missing(const std::vector<Literal>& effects, bool& pending) const;
-  std::vector<int> touchable(const Context& context) const;
+  std::vector<PartRef> touchable(const Context& context) const;
   SkillResult watch_goal(std::int64_t patience, std::int64_t hold);
 
   Rollout& rollout_;

@@ -119,7 +119,7 @@ std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World&
     grasp.force = option.force;
     grasp.index = static_cast<int>(found.size());
     // Authored grasps may touch what they were authored for; those from geometry start clear of it.
-    if (option.authored) space.allow(body);
+    if (option.authored) space.allow({body, object.part});
     if (feasible(space, grasp, start, key.with("ik"))) found.push_back(grasp);
   }
   if (!object.grasps.empty()) space.clear_allowed();

@@ -54,8 +54,9 @@ class ExactCollisionSpace final : public CollisionSpace {
   void hold(int body, const Transform& tip_from_body) override;
   void release() override { held_.reset(); }
   std::optional<int> held() const override { return held_; }
-  void allow(int body) override { allowed_.at(static_cast<std::size_t>(body)) = true; }
-  void clear_allowed() override { std::fill(allowed_.begin(), allowed_.end(), false); }
+  void allow(PartRef part) override { allowed_.push_back(part); }
+  std::vector<PartRef> allowed() const override { return allowed_; }
+  void clear_allowed() override { allowed_.clear(); }
   void set_opening(double opening_m) override { opening_ = opening_m; }
   void set_padding(double padding_m) override { padding_ = padding_m; }
   void move_body(int body, const Transform& world_from_body) override;
@@ -86,7 +87,7 @@ class ExactCollisionSpace final : public CollisionSpace {
   std::vector<BodyState> states_;
   std::vector<Piece> bodies_;       // of all bodies, in body and part order
   std::vector<Range> body_pieces_;  // pieces of each body
-  std::vector<bool> allowed_;
+  std::vector<PartRef> allowed_;    // few: searched in order
   std::optional<int> held_;
   Transform tip_from_held_ = Transform::Identity();
   std::vector<Piece> carried_;  // the held body's, moving with the tip
@@ -117,7 +118,6 @@ ExactCollisionSpace::ExactCollisionSpace(const World::Impl& world)
     states_.push_back(state);
     for (std::size_t i = begin; i < bodies_.size(); ++i) bodies_[i].place(world.world_from_part(bodies_[i].part));
   }
-  allowed_.assign(scene_->bodies.size(), false);
 }
 
 void ExactCollisionSpace::find_hand() {
@@ -170,8 +170,9 @@ void ExactCollisionSpace::place_robot(const JointVector& q) {
 
 bool ExactCollisionSpace::meets_bodies(const Piece& piece, bool of_hand, CollisionPair* pair) const {
   for (std::size_t b = 0; b < body_pieces_.size(); ++b) {
-    if (held_ == static_cast<int>(b) || (of_hand && allowed_[b])) continue;
+    if (held_ == static_cast<int>(b)) continue;
     for (std::size_t i = body_pieces_[b].begin; i < body_pieces_[b].end; ++i) {
+      if (of_hand && std::find(allowed_.begin(), allowed_.end(), bodies_[i].part) != allowed_.end()) continue;
       if (!near(piece, bodies_[i], padding_)) continue;
       if (pair) *pair = {piece.part, bodies_[i].part};
       return true;

@@ -23,14 +23,15 @@ class CollisionSpace {
   virtual void hold(int body, const Transform& tip_from_body) = 0;
   virtual void release() = 0;
   virtual std::optional<int> held() const = 0;
-  // Contact between the hand (or what it holds) and this body does not count; empty the list with clear_allowed().
-  virtual void allow(int body) = 0;
+  // Contact between the hand (or what it holds) and this part does not count; empty the list with clear_allowed().
+  virtual void allow(PartRef part) = 0;
+  virtual std::vector<PartRef> allowed() const = 0;
   virtual void clear_allowed() = 0;
   virtual void set_opening(double opening_m) = 0;
   virtual void set_padding(double padding_m) = 0;  // obstacles grow by this; default 0
   virtual void move_body(int body, const Transform& world_from_body) = 0;
 
-  virtual bool free(const JointVector& q) = 0;                              // no contact anywhere
+  virtual bool free(const JointVector& q) = 0;                                   // no contact anywhere
   virtual std::optional<CollisionPair> first_contact(const JointVector& q) = 0;  // in a fixed order
   // Would this free body, placed here, touch anything but what it may rest on? Used by scene sampling.
   virtual bool body_free(int body, const Transform& world_from_body, double padding_m) = 0;

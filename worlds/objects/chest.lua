@@ -1,5 +1,13 @@
--- A chest of three drawers that open towards -x; its frame is at the middle of its floor.
-local handle_tilt = math.rad(40) -- the hand comes from above at this angle: level hands do not reach all heights
+-- A cabinet with three drawers that open towards -x; its frame is below the drawers, 0.75 m above the floor.
+-- A grasp of the handle by a hand that comes forwards and down at an angle; level hands do not reach all heights.
+-- `side` 1 or -1: which finger is on which side of the handle.
+local function from_above(degrees, side)
+  local pitch = math.pi / 2 - math.rad(degrees)
+  return {
+    at = { -0.145, 0, 0 }, rpy = { math.pi, side * pitch, side > 0 and math.pi or 0 },
+    width = 0.012, approach = 0.07, force = 30,
+  }
+end
 
 local function drawer(z)
   return {
@@ -13,21 +21,19 @@ local function drawer(z)
       box { 0.20, 0.008, 0.05, at = { 0, 0.107, -0.008 } },
       box { 0.20, 0.008, 0.05, at = { 0, -0.107, -0.008 } },
       box { 0.008, 0.22, 0.05, at = { 0.096, 0, -0.008 } },
-      cylinder { 0.006, 0.11, at = { -0.145, 0, 0 }, rpy = { math.pi / 2, 0, 0 }, colour = { 0.2, 0.2, 0.22 } }, -- handle
-      box { 0.036, 0.008, 0.008, at = { -0.128, 0.05, 0 }, colour = { 0.2, 0.2, 0.22 } },
-      box { 0.036, 0.008, 0.008, at = { -0.128, -0.05, 0 }, colour = { 0.2, 0.2, 0.22 } },
+      cylinder { 0.006, 0.05, at = { -0.145, 0, 0 }, colour = { 0.2, 0.2, 0.22 } }, -- an upright handle on two posts
+      box { 0.036, 0.008, 0.008, at = { -0.128, 0, 0.02 }, colour = { 0.2, 0.2, 0.22 } },
+      box { 0.036, 0.008, 0.008, at = { -0.128, 0, -0.02 }, colour = { 0.2, 0.2, 0.22 } },
     },
-    grasps = {
-      { at = { -0.145, 0, 0 }, rpy = { math.pi / 2 + handle_tilt, 0, math.pi / 2 }, width = 0.012, approach = 0.07, force = 30 },
-      { at = { -0.145, 0, 0 }, rpy = { -math.pi / 2 - handle_tilt, 0, -math.pi / 2 }, width = 0.012, approach = 0.07, force = 30 },
-    },
-    regions = { inside = { at = { 0, 0, 0 }, size = { 0.19, 0.21, 0.07 } } },
+    grasps = { from_above(40, 1), from_above(40, -1), from_above(55, 1), from_above(55, -1) },
+    regions = { inside = { at = { 0, 0, 0.003 }, size = { 0.19, 0.20, 0.064 } } },
   }
 end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = { 0.66, 0.50, 0.33 },
   shapes = {
+    box { 0.22, 0.26, 0.75, at = { 0.01, 0, -0.375 } }, -- what it stands on
     box { 0.22, 0.26, 0.01, at = { 0.01, 0, 0.005 } },
     box { 0.22, 0.26, 0.01, at = { 0.01, 0, 0.275 } },
     box { 0.22, 0.01, 0.28, at = { 0.01, 0.125, 0.14 } },

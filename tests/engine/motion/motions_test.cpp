@@ -34,7 +34,7 @@ MotionResult grasp(World& world, const Object& cube) {
   const auto space = world.collision_space();
   const auto grasps = grasp_candidates(*space, world, cube, world.arm_position(), RandomKey("grasp"), 1);
   REQUIRE_FALSE(grasps.empty());
-  space->allow(world.scene().body_index(cube.body));
+  space->allow({world.scene().body_index(cube.body), 0});
   const auto plan = plan_through(*space, world.arm_position(),
                                  {{"approach", grasps[0].world_from_approach}, {"grasp", grasps[0].world_from_tip}}, {},
                                  RandomKey("reach"));

@@ -88,7 +88,7 @@ TEST_CASE("the arm is free at home, and meets what is put in its way", "[sim]") 
   REQUIRE(pair);
   CHECK(pair->other == PartRef{cube, 0});
   CHECK(pair->robot_part.body == -1);
-  space->allow(cube);
+  space->allow({cube, 0});
   CHECK(space->free(home));
   space->clear_allowed();
   CHECK_FALSE(space->free(home));
@@ -128,7 +128,7 @@ TEST_CASE("a held body collides in the arm's stead", "[sim]") {
   REQUIRE(pair);
   CHECK(pair->robot_part == PartRef{held, 0});
   CHECK(pair->other == PartRef{0, 0});
-  space->allow(0);
+  space->allow({0, 0});
   CHECK(space->free(q));
   space->clear_allowed();
   space->hold(held, translation(0, 0, 0.02));
