@@ -195,7 +195,7 @@ bool ExactCollisionSpace::search(const JointVector& q, CollisionPair* pair) {
   place_robot(q);
   for (const Piece& piece : robot_) {
     const auto part = static_cast<std::size_t>(piece.part.part);
-    if (moved_[part] && meets_bodies(piece, hand_[part], pair)) return true;
+    if (moved_[part] && meets_bodies(piece, hand_[part] && !held_, pair)) return true;
   }
   for (const auto& [one, two] : scene_->robot.checked_pairs) {
     const Range range = robot_parts_[static_cast<std::size_t>(one)];

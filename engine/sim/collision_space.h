@@ -23,7 +23,7 @@ class CollisionSpace {
   virtual void hold(int body, const Transform& tip_from_body) = 0;
   virtual void release() = 0;
   virtual std::optional<int> held() const = 0;
-  // Contact between the hand (or what it holds) and this part does not count; empty the list with clear_allowed().
+  // Contact between the empty hand, or what the hand holds, and this part does not count. clear_allowed() forgets all.
   virtual void allow(PartRef part) = 0;
   virtual std::vector<PartRef> allowed() const = 0;
   virtual void clear_allowed() = 0;
