@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 
-#include "db/catalogue.h"
 #include "scripting/program/episode_job.h"
 #include "scripting/program/roots.h"
 #include "tests/program/say.h"
@@ -9,14 +8,6 @@ namespace stampede::program {
 namespace {
 
 constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
-
-std::vector<std::string> run_words(const std::string& out, std::vector<std::string> more) {
-  std::vector<std::string> words = {"run", "reach_target", "--root", kRoot, "--out", out};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-std::string hash_of(const std::string& path) { return Catalogue::open(path).content_hash(); }
 
 }  // namespace
 
@@ -54,37 +45,6 @@ TEST_CASE("a key tells apart seed, variation, options and definitions, and nothi
   std::vector<DefinitionRecord> edited = files;
   edited[1].hash = "h3";
   CHECK(key != episode_key(edited, {"a", "v", 1}, {}));
-}
-
-TEST_CASE("two workers write what one writes; a second run adds nothing; replay needs no scripts") {
-  const Folder folder;
-  REQUIRE(say(run_words(folder / "one.db", {"--episodes", "4"})).code == kDone);
-  REQUIRE(say(run_words(folder / "two.db", {"--episodes", "4", "--workers", "2"})).code == kDone);
-  const std::string hash = hash_of(folder / "one.db");
-  CHECK(hash == hash_of(folder / "two.db"));
-
-  const Said again = say(run_words(folder / "one.db", {"--episodes", "4"}));
-  CHECK(again.code == kDone);
-  CHECK(again.out.find("4 were there already") != std::string::npos);
-  CHECK(hash == hash_of(folder / "one.db"));
-
-  // Half now and half later is the same as all at once.
-  REQUIRE(say(run_words(folder / "late.db", {"--episodes", "2"})).code == kDone);
-  REQUIRE(say(run_words(folder / "late.db", {"--episodes", "4"})).code == kDone);
-  CHECK(hash == hash_of(folder / "late.db"));
-
-  const Folder empty;
-  const Said replayed = say({"replay", folder / "one.db", "--root", empty.text()});
-  CHECK(replayed.code == kDone);
-  CHECK(replayed.out.find("4 replayed bit for bit, 0 different") != std::string::npos);
-
-  const Said shown = say({"show", folder / "one.db", "1"});
-  CHECK(shown.code == kDone);
-  CHECK(shown.out.find("reach_target") != std::string::npos);
-
-  const Said counted = say({"query", folder / "one.db", "SELECT count(*) AS n FROM episodes", "--format", "csv"});
-  CHECK(counted.out == "n\r\n4\r\n");
-  CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
 }
 
 TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends with 3") {

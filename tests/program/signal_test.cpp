@@ -17,7 +17,7 @@ int signalled_run(const std::string& out, const std::string& story, int signal_n
   const pid_t child = fork();
   if (child == 0) {
     if (!std::freopen(story.c_str(), "w", stderr) || !std::freopen("/dev/null", "w", stdout)) _exit(126);
-    execl(STAMPEDE_PROGRAM, "stampede", "run", "reach_target", "--episodes", "100000", "--root", STAMPEDE_SOURCE_DIR,
+    execl(STAMPEDE_PROGRAM, "stampede", "run", "reach_target", "--episodes", "2000", "--root", STAMPEDE_SOURCE_DIR,
           "--variation", "colour=red", "--workers", "2", "--out", out.c_str(), nullptr);
     _exit(127);
   }
