@@ -35,7 +35,8 @@ class DefinitionState {
 // (`parameters`); anything else is an object. Groups (`block*`) expand by `expand` (task goals and init).
 Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,
                      const Domain& domain,
-                     const std::function<std::vector<std::string>(const std::string& group)>& expand = {});
+                     const std::function<std::vector<std::string>(const std::string& group)>& expand = {},
+                     const std::string& hand = "panda.hand");  // fills the place of a hand left out, in a task
 Literal read_literal(lua_State* state, int index, const std::string& place);
 
 }  // namespace stampede

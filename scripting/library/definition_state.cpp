@@ -1,0 +1,180 @@
+#include <string>
+
+#include "engine/base/error.h"
+#include "scripting/library/definitions.h"
+#include "scripting/library/formula_reader.h"
+#include "scripting/library/node.h"
+#include "scripting/library/prelude.h"
+#include "scripting/lua/binding.h"
+
+namespace stampede {
+namespace {
+
+constexpr const char kDefinitionsKey[] = "stampede.definitions";
+
+// The innermost line that an author wrote: prelude.lua and C++ are passed over. False: a tail call has hidden it.
+bool author_line(lua_State* state, lua_Debug& found) {
+  for (int level = 1; lua_getstack(state, level, &found) != 0; ++level) {
+    lua_getinfo(state, "Sl", &found);
+    if (found.currentline > 0 && found.source[0] == '@') return true;
+  }
+  return false;
+}
+
+int here(lua_State* state) {
+  lua_Debug found;
+  lua_pushinteger(state, author_line(state, found) ? found.currentline : 0);
+  return 1;
+}
+
+int fail(lua_State* state) {
+  const char* message = luaL_checkstring(state, 1);
+  lua_Debug found;
+  if (author_line(state, found)) {
+    lua_pushfstring(state, "%s:%d: %s", found.source + 1, found.currentline, message);
+  } else {
+    lua_pushstring(state, message);
+  }
+  return lua_error(state);
+}
+
+int set_metatable(lua_State* state) {
+  luaL_checktype(state, 1, LUA_TTABLE);
+  luaL_checktype(state, 2, LUA_TTABLE);
+  lua_settop(state, 2);
+  lua_setmetatable(state, 1);
+  return 1;
+}
+
+// Arguments: bytecode, has worlds/colours.lua.
+int run_prelude(lua_State* state) {
+  const auto* bytecode = static_cast<const std::string*>(lua_touserdata(state, 1));
+  const bool colours = lua_toboolean(state, 2) != 0;
+  lua_settop(state, 0);
+  if (luaL_loadbufferx(state, bytecode->data(), bytecode->size(), "=prelude", "b") != LUA_OK) return lua_error(state);
+  lua_newtable(state);
+  const LuaFunction own[] = {
+      {"here", lua_function<here>}, {"fail", lua_function<fail>}, {"setmetatable", lua_function<set_metatable>}};
+  set_functions(state, own);
+  lua_pushglobaltable(state);
+  lua_setfield(state, 2, "words");
+  if (colours) {
+    lua_getglobal(state, "require");
+    lua_pushliteral(state, "worlds.colours");
+    lua_call(state, 1, 1);
+    luaL_argexpected(state, lua_istable(state, -1), 1, "worlds/colours.lua returns a table of colours by name");
+  } else {
+    lua_newtable(state);
+  }
+  lua_setfield(state, 2, "colours");
+  lua_call(state, 1, 0);
+  lua_newtable(state);
+  lua_setfield(state, LUA_REGISTRYINDEX, kDefinitionsKey);
+  return 0;
+}
+
+const std::string& prelude_bytecode() {
+  static const std::string kBytecode = [] {
+    std::string bytecode = Sandbox::compile(kPreludeSource, "prelude");
+    return bytecode;
+  }();
+  return kBytecode;
+}
+
+std::string home_of(DefinitionKind kind) { return std::string(to_string(kind)); }
+
+}  // namespace
+
+struct DefinitionState::Impl {
+  std::shared_ptr<const Library> library;
+  Sandbox sandbox;
+  Impl(std::shared_ptr<const Library> the_library, const SandboxLimits& limits)
+      : library(std::move(the_library)), sandbox(limits, [raw = library.get()](std::string_view name) {
+          const ScriptFile* file = raw->module(name);
+          return file == nullptr ? std::string_view() : std::string_view(file->bytecode);
+        }) {}
+};
+
+DefinitionState::DefinitionState(std::shared_ptr<const Library> library, const SandboxLimits& limits)
+    : impl_(std::make_unique<Impl>(std::move(library), limits)) {
+  lua_State* lua = state();
+  lua_pushcfunction(lua, lua_function<run_prelude>);
+  lua_pushlightuserdata(lua, const_cast<std::string*>(&prelude_bytecode()));
+  lua_pushboolean(lua, impl_->library->module("worlds.colours") != nullptr);
+  sandbox().call(2, 0);
+}
+
+DefinitionState::~DefinitionState() = default;
+Sandbox& DefinitionState::sandbox() { return impl_->sandbox; }
+lua_State* DefinitionState::state() { return impl_->sandbox.state(); }
+const Library& DefinitionState::library() const { return *impl_->library; }
+
+void DefinitionState::push(DefinitionKind kind, std::string_view name) {
+  lua_State* lua = state();
+  luaL_checkstack(lua, 8, "too many values");
+  const std::string key = home_of(kind) + "/" + std::string(name);
+  lua_getfield(lua, LUA_REGISTRYINDEX, kDefinitionsKey);
+  if (lua_getfield(lua, -1, key.c_str()) != LUA_TNIL) {
+    lua_remove(lua, -2);
+    return;
+  }
+  lua_pop(lua, 1);
+  const ScriptFile* file = library().file(kind, name);
+  if (file == nullptr) {
+    lua_pop(lua, 1);
+    throw Error(std::string(name), "there is no " + home_of(kind) + " '" + std::string(name) + "'");
+  }
+  try {
+    sandbox().run(file->bytecode, "@" + file->shown_path, 1);
+  } catch (const Error& error) {
+    lua_settop(lua, lua_gettop(lua) - 1);
+    if (!error.where().empty()) throw;
+    throw Error(file->shown_path, error.message(), error.hint());
+  }
+  const bool plain = kind == DefinitionKind::types || kind == DefinitionKind::colours || kind == DefinitionKind::module;
+  std::string got = luaL_typename(lua, -1);
+  if (lua_istable(lua, -1) && !plain) {
+    lua_getfield(lua, -1, "kind");
+    got = lua_isstring(lua, -1) != 0 ? lua_tostring(lua, -1) : "table";
+    lua_pop(lua, 1);
+  }
+  if (plain ? got != "table" : got != to_string(kind)) {
+    lua_pop(lua, 2);
+    throw Error(file->shown_path, "the file returns a " + got + (got == "nil" ? " value" : "") + ", not a " + home_of(kind),
+                plain ? "end it with return { … }" : "end it with return " + home_of(kind) + " { … }");
+  }
+  if (!plain) {
+    lua_pushlstring(lua, name.data(), name.size());
+    lua_setfield(lua, -2, "name");
+  }
+  lua_pushvalue(lua, -1);
+  lua_setfield(lua, -3, key.c_str());
+  lua_remove(lua, -2);
+}
+
+Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,
+                     const Domain& domain,
+                     const std::function<std::vector<std::string>(const std::string& group)>& expand,
+                     const std::string& hand) {
+  FormulaContext context;
+  const std::size_t colon = place.find(": ");
+  context.file = place.substr(0, colon);
+  if (colon != std::string::npos) context.field = place.substr(colon + 2);
+  context.domain = &domain;
+  context.schema = !parameters.empty();
+  context.parameters = parameters;
+  context.hand = hand;
+  context.expand = expand;
+  return formula_from(read_node(state, index, place), context);
+}
+
+Literal read_literal(lua_State* state, int index, const std::string& place) {
+  const Node node = read_node(state, index, place);
+  const std::string where = node.line() > 0 ? place.substr(0, place.find(": ")) + ":" + std::to_string(node.line()) : place;
+  if (node.tag() != "literal") throw Error(where, "only is and is_not stand here, this is " + node.type_name());
+  Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
+  for (const Node& item : node.items) literal.fact.arguments.push_back(item.text);
+  return literal;
+}
+
+}  // namespace stampede
