@@ -78,8 +78,20 @@ void check_value(const OptionRow& option, const std::string& value) {
     if (const auto near = nearest(*word, names)) hint = "did you mean " + *near + "?";
     throw Usage{"stampede " + command.name + " has no option " + *word, hint};
   }
-  if (!rest.empty()) throw Usage{"too many arguments: '" + rest.front() + "' has no place", hint};
   throw Usage{error.what(), hint};
+}
+
+void place_positionals(const CommandRow& command, const std::vector<std::string>& places, Arguments& arguments) {
+  auto next = places.begin();
+  for (const PositionalRow& row : command.positionals) {
+    const auto end = row.repeats || next == places.end() ? places.end() : next + 1;
+    if (row.required && next == end) throw Usage{"stampede " + command.name + " needs " + row.name, row.help};
+    arguments.set(row.name, {next, end}, next != end);
+    next = end;
+  }
+  if (next != places.end()) {
+    throw Usage{"too many arguments: '" + *next + "' has no place", "see stampede " + command.name + " --help"};
+  }
 }
 
 Arguments parse(const CommandRow& command, std::vector<std::string> words) {
@@ -99,11 +111,8 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
             ->multi_option_policy(row.repeats ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
     if (row.repeats) options[row.name]->allow_extra_args(false);
   }
-  for (const PositionalRow& row : command.positionals) {
-    CLI::Option* option = app.add_option(row.name, values[row.name]);
-    option->expected(0, row.repeats ? 1 << 20 : 1);
-    options[row.name] = option;
-  }
+  std::vector<std::string> places;  // shared out by hand: CLI11 gives the first positional all it can
+  app.add_option("words", places)->expected(0, 1 << 20);
   std::reverse(words.begin(), words.end());  // CLI11 takes vectors from the back
   try {
     app.parse(words);
@@ -117,13 +126,7 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
     if (!given && !row.initial.empty()) values[row.name] = {row.initial};
     arguments.set(row.name, values[row.name], given);
   }
-  const bool helped = arguments.has("--help");
-  for (const PositionalRow& row : command.positionals) {
-    if (row.required && values[row.name].empty() && !helped) {
-      throw Usage{"stampede " + command.name + " needs " + row.name, row.help};
-    }
-    arguments.set(row.name, values[row.name], !values[row.name].empty());
-  }
+  if (!arguments.has("--help")) place_positionals(command, places, arguments);
   return arguments;
 }
 

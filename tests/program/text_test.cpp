@@ -18,7 +18,7 @@ TEST_CASE("widths count code points, and cut text is as wide as asked") {
 
 TEST_CASE("wrapped lines keep all words and none is wider than asked") {
   const std::string text = wrapped("one two three four five six", 9, 2);
-  CHECK(text == "one two\n  three\n  four\n  five six");
+  CHECK(text == "one two\n  three\n  four\n  five\n  six");  // the first line starts at the indent too
 }
 
 TEST_CASE("JSON escapes what it must and writes numbers that read back") {
