@@ -3,7 +3,7 @@ return skill {
   params = { "obj: movable", "to: surface" },
   precondition = { is.holding("obj") },
   effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
-  continuous = { spot = stream("sample", is.on("obj", "to")) },         -- pose of the object
+  continuous = { spot = stream(is.on("obj", "to")) },         -- pose of the object
   label = "put the {obj} on the {to}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in

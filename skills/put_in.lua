@@ -3,7 +3,7 @@ return skill {
   params = { "obj: movable", "box: container & openable" },
   precondition = { is.holding("obj"), is.open("box") },
   effect = { is.inside("obj", "box"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
-  continuous = { spot = stream("sample", is.inside("obj", "box")) },    -- pose of the object
+  continuous = { spot = stream(is.inside("obj", "box")) },    -- pose of the object
   label = "put the {obj} into the {box}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.005))

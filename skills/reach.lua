@@ -2,7 +2,7 @@
 return skill {
   params = { "place: target" },
   precondition = { is_not.at("place") },
-  effect = { is.at("place"), forall("?other: target", when(is_not.same("?other", "place"), is_not.at("?other"))) },
+  effect = { is.at("place"), forall("?other: target", when(is_not(equal("?other", "place")), is_not.at("?other"))) },
   label = "reach the {place}",
   run = function(robot, p)
     local place = robot:view():pose(p.place)

@@ -3,7 +3,7 @@ return skill {
   params = { "obj: movable", "below: stackable" },
   precondition = { is.holding("obj"), is.clear("below") },
   effect = { is.on("obj", "below"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
-  continuous = { spot = stream("sample", is.on("obj", "below")) },      -- pose of the object
+  continuous = { spot = stream(is.on("obj", "below")) },      -- pose of the object
   label = "stack the {obj} on the {below}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))

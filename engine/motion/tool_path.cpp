@@ -87,11 +87,23 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
 }
 
 // Free motion to the tail's start, then the tail.
+// The free way to the first target, on which nothing may be touched when straight lines follow it: what is to be
+// grasped is then still an obstacle.
+JointPath search_way(CollisionSpace& space, const JointVector& start, const Tail& tail, const MotionLimits& limits,
+                     RandomKey key, int care) {
+  const std::vector<PartRef> allowed = space.allowed();
+  if (tail.waypoints.size() > 1) space.clear_allowed();
+  JointPath path = search_path(space, start, tail.waypoints.front(), limits, key, care);
+  if (tail.waypoints.size() > 1)
+    for (const PartRef part : allowed) space.allow(part);
+  return path;
+}
+
 PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, const Tail& tail,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
   PlannedMotion motion;
   for (int care = 0; care <= kMostCare; ++care) {
-    JointPath path = search_path(space, start, tail.waypoints.front(), limits, key, care);
+    JointPath path = search_way(space, start, tail, limits, key, care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;

@@ -133,6 +133,10 @@ Robot build_robot(const std::string& name, const Value& fields, Body body, const
   read_limits(fields, robot);
   read_hand(fields, robot);
   read_pairs(fields, robot);
+  for (const int finger : robot.fingers) {  // an episode starts with the hand open
+    Joint& joint = robot.body.parts[static_cast<std::size_t>(finger)].joint;
+    joint.initial = std::min(joint.upper, robot.opening_max / static_cast<double>(robot.fingers.size()));
+  }
   for (const auto& [link, colour] : fields["colours"].fields) {
     const int part = part_index_of(robot.body, link, colour);
     for (Shape& shape : robot.body.parts[static_cast<std::size_t>(part)].shapes) {

@@ -4,11 +4,13 @@ return robot {
   arm = { "joint1", "joint2", "joint3", "joint4", "joint5", "joint6", "joint7" },
   fingers = { "left_finger", "right_finger" },
   pads = { "left_finger", "right_finger" },
-  tip = { part = "hand", at = { 0, 0, 0.1034 } },
+  tip = { link = "hand", at = { 0, 0, 0.1034 } },
   home = { 0, -math.pi / 4, 0, -3 * math.pi / 4, 0, math.pi / 2, math.pi / 4 },
-  acceleration = { 15, 7.5, 10, 12.5, 15, 20, 20 }, -- rad/s^2
-  jerk = { 7500, 3750, 5000, 6250, 7500, 10000, 10000 }, -- rad/s^3
-  checked_pairs = { -- the other links never meet
+  limits = { -- beside those of the URDF
+    acceleration = { 15, 7.5, 10, 12.5, 15, 20, 20 }, -- rad/s^2
+    jerk = { 7500, 3750, 5000, 6250, 7500, 10000, 10000 }, -- rad/s^3
+  },
+  checked = { -- the other links never meet
     { "link0", "link5" }, { "link0", "link6" }, { "link0", "link7" }, { "link0", "hand" }, { "link0", "left_finger" }, { "link0", "right_finger" },
     { "link1", "link5" }, { "link1", "link6" }, { "link1", "link7" }, { "link1", "hand" }, { "link1", "left_finger" }, { "link1", "right_finger" },
     { "link2", "link5" }, { "link2", "link7" }, { "link2", "hand" }, { "link2", "left_finger" }, { "link2", "right_finger" },
@@ -17,5 +19,5 @@ return robot {
   opening = 0.08,
   grip_force = 20,
   finger_speed = 0.1,
-  pad = { friction = 1.0, rolling = 0.01, spinning = 0.01, anchor = true },
+  pad_friction = 1.0,
 }
