@@ -61,7 +61,9 @@ constexpr Kind kKinds[] = {
 };
 
 void check_name(const std::string& name) {
-  if (const auto fault = name_fault(name)) throw UsageError(*fault, "take " + proposed_name(name));
+  if (const auto fault = name_fault(name)) {
+    throw UsageError("'" + name + "' cannot be a name: it " + *fault, "take " + proposed_name(name));
+  }
 }
 
 void check_unused(const Library& library, const std::string& name) {
