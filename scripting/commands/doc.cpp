@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "scripting/commands/commands.h"
+#include "scripting/library/fields.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
 
@@ -30,7 +31,8 @@ std::string read(const fs::path& path) {
 }
 
 std::vector<Document> documents(const fs::path& root) {
-  return {{root / "scripting/commands/reference.md", command_reference(all_commands())},
+  return {{root / "scripting/library/stampede.lua", luals_annotations()},
+          {root / "scripting/commands/reference.md", command_reference(all_commands())},
           {root / "scripting/commands/completion.bash", bash_completion(all_commands())}};
 }
 
