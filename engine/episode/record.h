@@ -63,7 +63,7 @@ struct SegmentRecord {
 struct AttemptRecord {
   SegmentRecord segment;
   int before_segment = 0;  // ordinal of the segment that took its place in the end (or the segment count)
-  int try_number = 0;      // per skill position
+  int try_number = 0;      // at this place in the plan, from 1
 };
 
 struct ViaRecord {

@@ -37,12 +37,14 @@ class EpisodeRunner {
   SkillResult with_undo();
   SkillResult straight();
   SkillResult with_recovery();
-  SkillResult one_step(std::size_t position, int attempt);
-  SkillResult finish_goal();
+  SkillResult one_step(std::size_t index, std::size_t position);
+  SkillResult finish_goal(std::size_t position);
+  void remember(int segment, std::size_t position);
   void open_subgoal();
   void after_skill();
   Place here();
-  void back_to(const Place& place, int try_number);
+  void back_to(const Place& place);
+  void place_attempts();
   void close(const SkillResult& result);
   std::int64_t frames(double seconds) const;
 
@@ -58,6 +60,12 @@ class EpisodeRunner {
   std::size_t subgoal_ = 0;
   int subgoal_segment_ = 0;
   Plan plan_;
+  struct Slot {
+    std::size_t position = 0;
+    int try_number = 0;
+  };
+  std::map<int, Slot> slots_;         // of skill segments, by ordinal
+  std::map<std::size_t, int> tries_;  // runs so far at a place in the plan: never undone, so draws never repeat
   bool explicit_steps_ = false;
 };
 
@@ -141,38 +149,42 @@ SkillResult EpisodeRunner::behave() {
   return {};
 }
 
-SkillResult EpisodeRunner::one_step(std::size_t position, int attempt) {
+SkillResult EpisodeRunner::one_step(std::size_t index, std::size_t position) {
   const PlanStep step =
-      explicit_steps_ ? resolve_step(plan_[position], symbols_.domain(), rollout_->facts()) : plan_[position];
-  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), attempt);
+      explicit_steps_ ? resolve_step(plan_[index], symbols_.domain(), rollout_->facts()) : plan_[index];
+  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), tries_[position]);
+  remember(result.segment, position);
   if (result.ok()) after_skill();
   return result;
 }
 
-SkillResult EpisodeRunner::finish_goal() {
-  return driver_->wait_for_goal(frames(kGoalPatience), frames(task_.hold_s()), subgoal_segment_);
+SkillResult EpisodeRunner::finish_goal(std::size_t position) {
+  SkillResult result = driver_->wait_for_goal(frames(kGoalPatience), frames(task_.hold_s()), subgoal_segment_);
+  remember(result.segment, position);
+  return result;
 }
+
+void EpisodeRunner::remember(int segment, std::size_t position) { slots_[segment] = {position, ++tries_[position]}; }
 
 SkillResult EpisodeRunner::straight() {
   for (std::size_t i = 0; i < plan_.size(); ++i) {
     here();  // contact caches are dropped at every boundary, whether or not anything will be undone
-    if (SkillResult result = one_step(i, 0); !result.ok()) return result;
+    if (SkillResult result = one_step(i, i); !result.ok()) return result;
   }
   here();
-  return finish_goal();
+  return finish_goal(plan_.size());
 }
 
 SkillResult EpisodeRunner::with_recovery() {
-  for (int tries = 0, position = 0;; ++position) {
+  std::size_t position = 0;
+  for (int tries = 0;; ++position) {
     SkillResult result;
     for (std::size_t i = 0; result.ok() && i < plan_.size(); ++i, ++position) {
-      const PlanStep step = explicit_steps_ ? resolve_step(plan_[i], symbols_.domain(), rollout_->facts()) : plan_[i];
       here();
-      result = driver_->run(step, subgoal_segment_, position, tries);
-      if (result.ok()) after_skill();
+      result = one_step(i, position);
     }
     here();
-    if (result.ok()) result = finish_goal();
+    if (result.ok()) result = finish_goal(position);
     if (result.ok() || result.ends_episode || explicit_steps_ || ++tries >= options_.tries_per_episode) return result;
     if (const SkillResult planned = make_plan({}); !planned.ok()) return planned;
   }
@@ -185,11 +197,10 @@ SkillResult EpisodeRunner::with_undo() {
   int tries = 0;
   for (int plans = 0; plans < options_.plans; ++plans) {
     std::vector<Place> places = {start};
-    std::vector<int> failures(plan_.size() + 1, 0), runs(plan_.size() + 1, plans * options_.tries_per_episode);
+    std::vector<int> failures(plan_.size() + 1, 0);
     std::size_t i = 0;
     while (true) {
-      // Draws never repeat: the count of runs goes on where the world goes back.
-      last = i == plan_.size() ? finish_goal() : one_step(i, runs[i]++);
+      last = i == plan_.size() ? finish_goal(i) : one_step(i, i);
       if (last.ok() && i == plan_.size()) return last;
       if (last.ok()) {
         places.resize(++i);
@@ -200,12 +211,12 @@ SkillResult EpisodeRunner::with_undo() {
       if (i == plan_.size() && i > 0) --i;
       while (++failures[i] >= options_.tries_per_skill && i > 0) failures[i--] = 0;
       if (i == 0 && failures[0] >= options_.tries_per_skill) break;
-      back_to(places[i], tries);
+      back_to(places[i]);
     }
     if (explicit_steps_ || plan_.empty()) return last;
     forbidden.insert(plan_.front());
     const Plan failed = plan_;
-    back_to(start, tries);
+    back_to(start);
     if (!make_plan(forbidden).ok()) {
       plan_ = failed;  // no other way: what failed stays the episode's result
       SkillResult again = straight();
@@ -234,15 +245,30 @@ void EpisodeRunner::after_skill() {
 
 EpisodeRunner::Place EpisodeRunner::here() { return {rollout_->checkpoint(), subgoal_, subgoal_segment_}; }
 
-void EpisodeRunner::back_to(const Place& place, int try_number) {
+void EpisodeRunner::back_to(const Place& place) {
   Recorder& recorder = rollout_->recorder();
   const std::size_t kept = place.checkpoint.record.segments;
-  for (std::size_t i = kept; i < recorder.segments.size(); ++i)
-    if (recorder.segments[i].kind == "skill")
-      recorder.attempts.push_back({recorder.segments[i], static_cast<int>(kept), try_number});
+  Slot slot;
+  for (std::size_t i = kept; i < recorder.segments.size(); ++i) {
+    if (recorder.segments[i].kind != "skill") continue;
+    if (const auto own = slots_.find(static_cast<int>(i)); own != slots_.end()) slot = own->second;  // else a child's
+    recorder.attempts.push_back({recorder.segments[i], static_cast<int>(slot.position), slot.try_number});
+  }
+  slots_.erase(slots_.lower_bound(static_cast<int>(kept)), slots_.end());
   rollout_->restore(place.checkpoint);
   subgoal_ = place.subgoal;
   subgoal_segment_ = place.subgoal_segment;
+}
+
+// Until here an attempt knows its place in the plan; now it learns the segment that took its place in the end.
+void EpisodeRunner::place_attempts() {
+  Recorder& recorder = rollout_->recorder();
+  for (AttemptRecord& attempt : recorder.attempts) {
+    const auto position = static_cast<std::size_t>(attempt.before_segment);
+    attempt.before_segment = static_cast<int>(recorder.segments.size());
+    for (const auto& [segment, slot] : slots_)
+      if (slot.position == position) attempt.before_segment = segment;
+  }
 }
 
 void EpisodeRunner::close(const SkillResult& result) {
@@ -264,6 +290,7 @@ void EpisodeRunner::close(const SkillResult& result) {
   record_.facts = rollout_->facts().intervals(record_.steps, rollout_->steps_per_frame());
   record_.state_hash = rollout_->world().state_hash();
   record_.physics_wall_s = rollout_->physics_wall_s();
+  place_attempts();
   recorder.finish(record_, record_.steps);
   for (const SegmentRecord& segment : record_.segments)
     if (segment.kind == "skill" && !segment.label.empty())
