@@ -1,0 +1,136 @@
+// Every task that ships: made, planned, executed, labelled and replayed, one seed a variation of three.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "engine/episode/runner.h"
+#include "engine/symbolic/pddl.h"
+#include "scripting/library/library.h"
+#include "scripting/runtime/episode_scripts.h"
+
+using namespace stampede;
+
+namespace {
+
+std::shared_ptr<const Library> library() {
+  static const std::shared_ptr<const Library> shared = Library::load(Roots{{STAMPEDE_SOURCE_DIR}});
+  return shared;
+}
+
+EpisodeRecord run(const std::string& task, const std::string& variation, std::int64_t seed) {
+  EpisodeScripts scripts(library(), task, variation, seed);
+  RunOptions options;
+  options.seed = seed;
+  return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+}
+
+// The first, the middle and the last variation.
+std::vector<std::string> some_variations(const std::string& task) {
+  const auto& all = library()->task(task)->variation_texts;
+  std::vector<std::string> some = {all.front(), all[all.size() / 2], all.back()};
+  some.erase(std::unique(some.begin(), some.end()), some.end());
+  return some;
+}
+
+const DocumentRecord& document(const EpisodeRecord& episode, const std::string& kind) {
+  const auto found = std::find_if(episode.documents.begin(), episode.documents.end(),
+                                  [&](const DocumentRecord& candidate) { return candidate.kind == kind; });
+  REQUIRE(found != episode.documents.end());
+  return *found;
+}
+
+void check_tiling(const EpisodeRecord& episode) {
+  for (const std::string kind : {"subgoal", "skill", "motion"}) {
+    std::vector<int> covered(episode.frames.size(), 0);
+    for (const SegmentRecord& segment : episode.segments)
+      if (segment.kind == kind)
+        for (std::int64_t frame = segment.span.first_frame; frame < segment.span.end_frame; ++frame)
+          ++covered[static_cast<std::size_t>(frame)];
+    INFO(kind);
+    CHECK(covered == std::vector<int>(episode.frames.size(), 1));
+  }
+}
+
+void check_effects(const EpisodeRecord& episode) {
+  for (const SegmentRecord& segment : episode.segments) {
+    if (segment.kind != "skill" || segment.skill == "wait") continue;
+    INFO(segment.label);
+    CHECK(segment.precondition_held == true);
+    CHECK(segment.effect_held == true);
+    CHECK_FALSE(segment.declared_effects.empty());
+  }
+}
+
+void check_plan(const EpisodeRecord& episode) {
+  const Domain domain = domain_from_pddl(document(episode, "pddl_domain").text, "domain");
+  const Problem problem = problem_from_pddl(document(episode, "pddl_problem").text, "problem", domain);
+  const Validation verdict = validate(domain, problem, plan_from_text(document(episode, "plan").text, "plan"));
+  INFO(verdict.explanation);
+  CHECK(verdict.valid);
+}
+
+}  // namespace
+
+TEST_CASE("each task succeeds, its labels agree with the world, and it replays bit for bit") {
+  const auto task = GENERATE(as<std::string>{}, "reach_target", "pick_and_lift", "stack_blocks", "put_item_in_drawer",
+                             "push_buttons", "close_drawer");
+  std::int64_t seed = 40;
+  for (const std::string& variation : some_variations(task)) {
+    const EpisodeRecord episode = run(task, variation, ++seed);
+    INFO(task << " " << variation << " seed " << seed << ": " << to_string(episode.reason) << " " << episode.detail);
+    REQUIRE(episode.outcome == Outcome::success);
+    check_tiling(episode);
+    check_effects(episode);
+    check_plan(episode);
+    CHECK(replay_episode(episode) == "");
+  }
+}
+
+TEST_CASE("every task has its variations and at least four instructions, all filled in") {
+  const std::vector<std::pair<std::string, std::size_t>> counts = {
+      {"reach_target", 20},      {"pick_and_lift", 20}, {"stack_blocks", 60},
+      {"put_item_in_drawer", 3}, {"push_buttons", 20},  {"close_drawer", 3}};
+  for (const auto& [name, count] : counts) {
+    INFO(name);
+    const Library::TaskInfo* info = library()->task(name);
+    REQUIRE(info != nullptr);
+    CHECK(info->variation_texts.size() == count);
+    EpisodeScripts scripts(library(), name, info->variation_texts.front(), 1);
+    const auto instructions = scripts.task().instructions();
+    CHECK(instructions.size() >= 4);
+    for (const std::string& sentence : instructions) CHECK(sentence.find('{') == std::string::npos);
+  }
+}
+
+TEST_CASE("pressing a later button first fails the episode as out of order") {
+  const auto& variations = library()->task("push_buttons")->variation_texts;
+  const auto two = std::find_if(variations.begin(), variations.end(),
+                                [](const std::string& text) { return text.find("count=2") != std::string::npos; });
+  REQUIRE(two != variations.end());
+  EpisodeScripts scripts(library(), "push_buttons", *two, 7);
+  class Reversed : public Task {  // the same task, demonstrated the wrong way round
+   public:
+    explicit Reversed(Task& task) : task_(task) {}
+    std::string name() const override { return task_.name(); }
+    std::string variation() const override { return task_.variation(); }
+    std::map<std::string, std::string> axes() const override { return task_.axes(); }
+    Scene scene(int draw) override { return task_.scene(draw); }
+    std::vector<std::string> unplaced() const override { return task_.unplaced(); }
+    std::vector<Literal> init() const override { return task_.init(); }
+    Formula goal() const override { return task_.goal(); }
+    std::vector<Formula> stages() const override { return task_.stages(); }
+    std::optional<std::vector<PlanStep>> steps() const override {
+      return std::vector<PlanStep>{{"press", {"button2.cap", "panda.hand"}}, {"press", {"button1.cap", "panda.hand"}}};
+    }
+    std::vector<std::string> instructions() const override { return task_.instructions(); }
+
+   private:
+    Task& task_;
+  } reversed(scripts.task());
+  RunOptions options;
+  options.seed = 7;
+  options.on_failure = OnFailure::stop;
+  const EpisodeRecord episode = run_episode(reversed, scripts.symbols(), scripts.skills(), options);
+  CHECK(episode.outcome == Outcome::failure);
+  CHECK(episode.reason == Reason::out_of_order);
+}
