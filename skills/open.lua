@@ -11,7 +11,8 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     robot:open_hand(0.05)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose }
+    local pulled = w:part_at(p.part, w:number(p.part, "pull")):times(w:pose(p.part):inverse()):times(c.grasp.pose)
+    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose, ahead = pulled }
     robot:close_hand(p.part, { force = c.grasp.force })
     robot:move_part(p.part, w:number(p.part, "pull"), { speed = c.speed })
     robot:open_hand(0.05)

@@ -10,7 +10,9 @@ return skill {
   label = "pick up the {obj}",
   run = function(robot, p, c)
     robot:open_hand(c.grasp.opening)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose } -- planned, blended: does not stop at the approach
+    robot:move_through { -- planned, blended: does not stop at the approach
+      approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(0, 0, c.height),
+    }
     robot:close_hand(p.obj, { force = c.grasp.force })
     robot:lift(c.height) -- world z
   end,

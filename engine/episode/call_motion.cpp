@@ -18,19 +18,6 @@ PlannedCall from(PlannedMotion planned, FollowOptions options) {
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
-// Pose of a joint's part when the joint is elsewhere, all else as it is.
-Transform part_at(const World& world, PartRef ref, double position) {
-  const Body& body = world.scene().bodies[static_cast<std::size_t>(ref.body)];
-  const Part& part = body.parts[static_cast<std::size_t>(ref.part)];
-  const Transform world_from_parent = world.world_from_part({ref.body, part.parent});
-  Transform moved = Transform::Identity();
-  if (part.joint.kind == JointKind::hinge)
-    moved.linear() = Eigen::AngleAxisd(position, part.joint.axis.normalized()).toRotationMatrix();
-  else
-    moved.translation() = position * part.joint.axis.normalized();
-  return world_from_parent * part.joint.parent_from_joint * moved;
-}
-
 PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, CollisionSpace& space,
                            const JointVector& start, FollowOptions options, RandomKey key) {
   const World& world = rollout.world();
@@ -38,7 +25,8 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, C
   const double from_position = world.joint_position(ref);
   const Transform part_from_tip = world.world_from_part(ref).inverse() * world.arm().world_from_tip(start);
   const auto path = [&](double s) {
-    return Transform(part_at(world, ref, from_position + s * (call.position - from_position)) * part_from_tip);
+    return Transform(rollout.view().part_at(call.object, from_position + s * (call.position - from_position)) *
+                     part_from_tip);
   };
   LineOptions line;
   line.tool_speed = call.speed;

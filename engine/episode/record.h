@@ -12,10 +12,10 @@
 #include "engine/geometry/transform.h"
 #include "engine/sim/world.h"
 #include "engine/symbolic/symbols.h"
+#include "stampede/outcome.h"
 
 namespace stampede {
 
-enum class Outcome { success, failure };
 std::string_view to_string(Outcome outcome);
 
 // A span of steps and frames, half-open. end_frame = first frame at or after end_step.

@@ -10,7 +10,6 @@
 
 namespace stampede {
 
-enum class OnFailure { undo, stop, recover };
 std::string_view to_string(OnFailure value);
 std::optional<OnFailure> on_failure_from(std::string_view text);
 

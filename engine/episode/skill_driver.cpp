@@ -143,7 +143,7 @@ Reason SkillDriver::draw_grasp(const Context& context, const ContinuousInfo& inf
 
 Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& info, ContinuousValue& value,
                                 std::string& detail) {
-  constexpr int kSamples = 24;
+  constexpr int kSamples = 64;
   Fact fact{info.literal.predicate, {}};
   for (const std::string& name : info.literal.arguments)
     fact.arguments.push_back(argument(context.info.parameters, context.arguments, name));

@@ -34,6 +34,8 @@ class WorldView {
   double joint_velocity(std::string_view part) const;
   std::pair<double, double> joint_range(std::string_view part) const;
 
+  Transform part_at(std::string_view part, double position) const;  // world pose with its joint elsewhere
+
   bool touching(std::string_view a, std::string_view b) const;
   double contact_force(std::string_view a, std::string_view b) const;  // mean normal, N
   // The upward share of contact force on `object` that comes from `surface`: at least a quarter of its weight, and

@@ -12,10 +12,10 @@ struct GraspCandidate {
   Transform world_from_tip;       // at the grasp
   Transform world_from_approach;  // tip pose before, along the tip's -z
   Transform object_from_tip;
-  double width = 0.04;            // expected opening at contact, m
-  double opening = 0.08;          // to approach with, m
-  double force = 20;              // N
-  int index = 0;                  // k of the stream
+  double width = 0.04;    // expected opening at contact, m
+  double opening = 0.08;  // to approach with, m
+  double force = 20;      // N
+  int index = 0;          // k of the stream
 };
 
 // Antipodal grasps of a part's shapes (parallel faces of boxes, diameters of round shapes, opposed facets of hulls)
@@ -33,8 +33,8 @@ std::vector<Transform> free_spots(CollisionSpace& space, const World& world, con
 std::vector<Transform> region_spots(CollisionSpace& space, const World& world, const Region& region,
                                     const Object& object, RandomKey key, int most);
 // The one pose on top of another object, centred, with a yaw symmetric to it (stacking).
-std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, const Object& below,
-                                   const Object& object, RandomKey key, int most);
+std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, const Object& below, const Object& object,
+                                   RandomKey key, int most);
 
 // Pose of an object (body, part or region centre) in the world.
 Transform world_from_object(const World& world, const Object& object);

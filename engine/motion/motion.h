@@ -41,12 +41,12 @@ class Motion {
 struct FollowOptions {
   std::string kind = "move";
   std::vector<PlannedVia> vias;
-  std::optional<PartRef> keep;       // must stay grasped
+  std::optional<PartRef> keep;  // must stay grasped
   double tolerance_rad = 0.01;
-  double settle_s = 0.5;             // allowance after the trajectory's end
-  bool stop_on_contact = false;      // done at the first new contact of hand or held part above contact_force
-  double contact_force = 3;          // N
-  bool tolerate_error = false;       // arriving short of the target is no failure (pressing, pushing, pulling)
+  double settle_s = 0.5;         // allowance after the trajectory's end
+  bool stop_on_contact = false;  // done at the first new contact of hand or held part above contact_force
+  double contact_force = 3;      // N
+  bool tolerate_error = false;   // arriving short of the target is no failure (pressing, pushing, pulling)
 };
 std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options);
 

@@ -14,24 +14,25 @@
 namespace stampede {
 
 struct MotionLimits {
-  double speed = 1.0;               // share of the joint velocity limits, (0, 1]
-  double acceleration = 0.5;        // share of the joint acceleration limits; jerk limits always hold in full
-  double resolution_rad = 0.01;     // spacing at which every path is certified (greatest joint difference)
-  int iterations = 4000;            // tree extensions before no_path
-  int shortcuts = 60;               // attempts of the shortener
-  double padding_m = 0.005;         // obstacles grow by this while planning; certification is without
+  double speed = 1.0;            // share of the joint velocity limits, (0, 1]
+  double acceleration = 0.5;     // share of the joint acceleration limits; jerk limits always hold in full
+  double resolution_rad = 0.01;  // spacing at which every path is certified (greatest joint difference)
+  int iterations = 4000;         // tree extensions before no_path
+  int shortcuts = 60;            // attempts of the shortener
+  double padding_m = 0.005;      // obstacles grow by this while planning; certification is without
 };
 
 struct PlannedMotion {
-  Reason reason = Reason::none;     // none: trajectory is valid
-  std::string detail;               // for people: what touches what, which target has no IK solution
+  Reason reason = Reason::none;  // none: trajectory is valid
+  std::string detail;            // for people: what touches what, which target has no IK solution
   Trajectory trajectory;
   std::vector<PlannedVia> vias;
 };
 
 struct ToolTarget {
-  std::string name;                 // of the via-point; the last one is the goal
+  std::string name;  // of the via-point; the last one is the goal
   Transform world_from_tip;
+  bool ahead = false;  // after the goal: not travelled now, but the arm must be able to go on there in a straight line
 };
 
 // Joint path between two configurations: our own RRT-Connect (Kuffner, LaValle, ICRA 2000,
@@ -43,8 +44,8 @@ struct JointPath {
   std::string detail;
   std::vector<JointVector> waypoints;
 };
-JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal, const MotionLimits& limits,
-                    RandomKey key);
+JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+                    const MotionLimits& limits, RandomKey key);
 
 // Times a joint path: corners are rounded (blends stay within the certified tube or shrink), the path is passed at
 // the highest speed that respects velocity, acceleration and jerk limits. `stops`: waypoint indices at which to halt.
@@ -63,10 +64,10 @@ PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const
 // The tip follows world_from_tip(s), s in [0, 1], by IK at dense samples with joint continuity (no sample more than
 // 0.3 rad from the last). `collide`: check for collisions. Speed limits of the tool, m/s and rad/s, hold as well.
 struct LineOptions {
-  double tool_speed = 0.25;   // m/s
-  double tool_turn = 1.0;     // rad/s
+  double tool_speed = 0.25;  // m/s
+  double tool_turn = 1.0;    // rad/s
   bool collide = false;
-  int samples = 0;            // 0: one each 5 mm or 0.02 rad
+  int samples = 0;  // 0: one each 5 mm or 0.02 rad
 };
 PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
                              const std::function<Transform(double)>& world_from_tip, const LineOptions& line,

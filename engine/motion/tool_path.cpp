@@ -62,7 +62,8 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
     tail.detail = "at " + targets[0].name + " " + contact;
     return tail;
   }
-  for (std::size_t i = 1; i < targets.size(); ++i) {
+  std::size_t i = 1;
+  for (; i < targets.size() && !targets[i].ahead; ++i) {
     const Transform from = targets[i - 1].world_from_tip, to = targets[i].world_from_tip;
     const ToolPath line = follow_tool(
         space.arm(), tail.waypoints.back(), [&](double s) { return between(from, to, s); }, samples_between(from, to),
@@ -82,11 +83,20 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
     tail.waypoints.insert(tail.waypoints.end(), sparse.begin() + 1, sparse.end());
     tail.at_target.push_back(tail.waypoints.back());
   }
+  for (JointVector from = tail.waypoints.back(); i < targets.size(); ++i) {
+    const Transform here = targets[i - 1].world_from_tip, there = targets[i].world_from_tip;
+    const ToolPath line = follow_tool(
+        space.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
+        key.with(static_cast<std::int64_t>(i)));
+    tail.reason = line.reason;
+    tail.detail = "on from " + targets[i - 1].name + ": " + line.detail;
+    if (tail.reason != Reason::none) return tail;
+    from = line.waypoints.back();
+  }
   tail.detail.clear();
   return tail;
 }
 
-// Free motion to the tail's start, then the tail.
 // The free way to the first target, on which nothing may be touched when straight lines follow it: what is to be
 // grasped is then still an obstacle.
 JointPath search_way(CollisionSpace& space, const JointVector& start, const Tail& tail, const MotionLimits& limits,
@@ -99,6 +109,7 @@ JointPath search_way(CollisionSpace& space, const JointVector& start, const Tail
   return path;
 }
 
+// Free motion to the tail's start, then the tail.
 PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, const Tail& tail,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
   PlannedMotion motion;
@@ -112,7 +123,7 @@ PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, cons
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;
-  for (std::size_t i = 0; i + 1 < targets.size(); ++i)
+  for (std::size_t i = 0; i + 1 < tail.at_target.size(); ++i)
     motion.vias.push_back({targets[i].name, targets[i].world_from_tip,
                            nearest_step(motion.trajectory, tail.at_target[i], space.scene().physics_hz)});
   return motion;
@@ -169,7 +180,7 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::functi
 
 PlannedMotion plan_through(CollisionSpace& space, const JointVector& start, const std::vector<ToolTarget>& targets,
                            const MotionLimits& limits, RandomKey key) {
-  if (targets.empty()) throw Error("motion planning", "a motion needs at least one target");
+  if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
   PlannedMotion motion;
   const JointPath ends = check_ends(space, start, start);

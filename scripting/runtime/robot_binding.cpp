@@ -111,8 +111,10 @@ void listed_targets(lua_State* state, std::vector<ToolTarget>& targets) {
 }
 
 // A table with names has no order of its own: approach first, then the others by name, then grasp, goal or place.
+// `ahead` is where the arm must be able to go on to.
 int rank(const std::string& name) {
   if (name == "approach") return 0;
+  if (name == "ahead") return 3;
   return name == "grasp" || name == "goal" || name == "place" || name == "target" ? 2 : 1;
 }
 
@@ -134,7 +136,8 @@ int move_through(lua_State* state) {
   robot_call::MoveThrough call;
   const bool listed = lua_rawlen(state, 2) > 0;
   listed ? listed_targets(state, call.targets) : named_targets(state, call.targets);
-  luaL_argcheck(state, !call.targets.empty(), 2, "expected at least one named pose");
+  for (ToolTarget& target : call.targets) target.ahead = target.name == "ahead";
+  luaL_argcheck(state, !call.targets.empty() && !call.targets[0].ahead, 2, "expected at least one named pose");
   return ask(state, std::move(call));
 }
 

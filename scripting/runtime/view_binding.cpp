@@ -55,6 +55,11 @@ int pose(lua_State* state) {
   return 1;
 }
 
+int part_at(lua_State* state) {
+  push_pose(state, view_of(state).part_at(check_text(state, 2), luaL_checknumber(state, 3)));
+  return 1;
+}
+
 int speed(lua_State* state) {
   lua_pushnumber(state, view_of(state).velocity(check_text(state, 2)).norm());
   return 1;
@@ -205,6 +210,7 @@ constexpr luaL_Reg kMethods[] = {
     {"joint_fraction", lua_function<number_of<&WorldView::joint_fraction>>},
     {"joint_velocity", lua_function<number_of<&WorldView::joint_velocity>>},
     {"joint_range", lua_function<joint_range>},
+    {"part_at", lua_function<part_at>},
     {"touching", lua_function<pair_test<&WorldView::touching>>},
     {"force", lua_function<force>},
     {"supports", lua_function<pair_test<&WorldView::supports>>},

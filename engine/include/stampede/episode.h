@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <string>
 
-namespace stampede {
+#include "stampede/outcome.h"
 
-enum class Outcome;    // outcome.h
-enum class OnFailure;  // outcome.h
+namespace stampede {
 
 struct EpisodeRequest {
   std::string variation;   // canonical text or some of its axes (`colour=red`: the first that has them); empty: first
   std::int64_t seed = 0;   // from 1'000'000 up: the test split
-  OnFailure on_failure{};  // undo
+  OnFailure on_failure = OnFailure::undo;
   std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
 };
 
@@ -21,7 +20,7 @@ struct Episode {
   std::string key;      // of definitions, task, variation, seed and options
   std::string task, variation;
   std::int64_t seed = 0;
-  Outcome outcome{};
+  Outcome outcome = Outcome::failure;
   std::string reason;  // `none`, or why it failed, as in the catalogue
   std::string detail;  // for people
   std::int64_t frames = 0;
