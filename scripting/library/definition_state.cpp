@@ -1,3 +1,4 @@
+#include <cstring>
 #include <string>
 
 #include "engine/base/error.h"
@@ -16,7 +17,7 @@ constexpr const char kDefinitionsKey[] = "stampede.definitions";
 bool author_line(lua_State* state, lua_Debug& found) {
   for (int level = 1; lua_getstack(state, level, &found) != 0; ++level) {
     lua_getinfo(state, "Sl", &found);
-    if (found.currentline > 0 && found.source[0] == '@') return true;
+    if (found.currentline > 0 && found.source[0] == '@' && std::strcmp(found.source, "@prelude") != 0) return true;
   }
   return false;
 }

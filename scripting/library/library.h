@@ -17,6 +17,10 @@ namespace stampede {
 enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, module };
 std::string_view to_string(DefinitionKind kind);
 
+// The smallest file of a kind that passes `check` beside our worlds and predicates (for `stampede new`).
+// Throws Error for a bad name, with a sound one as cure.
+std::string new_file(DefinitionKind kind, std::string_view name);
+
 struct ScriptFile {
   DefinitionKind kind = DefinitionKind::task;
   std::string name;         // the file's name without .lua
@@ -64,6 +68,7 @@ class Library {
 
   struct TaskInfo {
     std::string name, world, description;
+    std::string hand;                                            // the world's hand: `panda.hand`
     std::vector<std::map<std::string, std::string>> variations;  // axis -> value as text, in the file's order
     std::vector<std::string> variation_texts;                    // canonical: `colour=red,height=3`; `` for none
     std::vector<std::string> instructions;

@@ -1,6 +1,7 @@
 #include "scripting/lua/sandbox.h"
 
 #include <cstdlib>
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -65,6 +66,9 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
   return result;
 }
 
+// An error outside every protected call (a push that found no memory): leave by an exception before Lua aborts.
+int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
+
 void on_count(lua_State* state, lua_Debug*) {
   Sandbox::Impl& impl = impl_of(state);
   impl.used += lua_gethookcount(state);
@@ -95,7 +99,7 @@ std::string readable_trace(const char* trace) {
     std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     while (!line.empty() && (line.front() == '\t' || line.front() == ' ')) line.remove_prefix(1);
-    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") || line.starts_with("=")) continue;
+    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") || line.starts_with("prelude:")) continue;
     if (!first) result += "\n    ";
     result += first ? "in " : "from ";
     result += line;
@@ -113,6 +117,11 @@ int add_trace(lua_State* state) {
   lua_settop(state, 2);
   luaL_traceback(state, state, nullptr, 1);
   lua_pushfstring(state, "%s\n\x01%s", message, lua_tostring(state, -1));
+  return 1;
+}
+
+int trace_of(lua_State* state) {
+  luaL_traceback(state, static_cast<lua_State*>(lua_touserdata(state, 1)), nullptr, 0);
   return 1;
 }
 
@@ -230,6 +239,7 @@ Sandbox::Sandbox(const SandboxLimits& limits, FindModule find_module) : impl_(st
   impl_->state = lua_newstate(allocate, impl_.get());
   if (impl_->state == nullptr) throw Error({}, "no memory for a Lua state");
   *static_cast<Impl**>(lua_getextraspace(impl_->state)) = impl_.get();
+  lua_atpanic(impl_->state, on_panic);
   lua_pushcfunction(impl_->state, lua_function<set_up>);
   if (lua_pcall(impl_->state, 0, 0, 0) != LUA_OK) {
     const std::string message = lua_tostring(impl_->state, -1);
@@ -272,10 +282,7 @@ bool Sandbox::resume(lua_State* coroutine, int arguments, int& results) {
   lua_State* state = impl_->state;
   std::string trace;
   if (status != LUA_ERRMEM && !impl_->spent) {
-    lua_pushcfunction(state, lua_function<[](lua_State* inner) {
-                        luaL_traceback(inner, static_cast<lua_State*>(lua_touserdata(inner, 1)), nullptr, 0);
-                        return 1;
-                      }>);
+    lua_pushcfunction(state, lua_function<trace_of>);
     lua_pushlightuserdata(state, coroutine);
     if (lua_pcall(state, 1, 1, 0) == LUA_OK) trace = readable_trace(lua_tostring(state, -1));
     lua_pop(state, 1);

@@ -1,0 +1,117 @@
+#include "scripting/library/builder.h"
+
+#include <algorithm>
+
+#include "scripting/library/naming.h"
+#include "scripting/library/source_lines.h"
+
+namespace stampede {
+namespace {
+
+constexpr SandboxLimits kCheckLimits{5'000'000, 32u << 20};  // a definition that needs more is a runaway
+
+// `file:12` sorts as a file and a number.
+std::pair<std::string, int> place_of(const Error& error) {
+  const std::size_t colon = error.where().rfind(':');
+  if (colon == std::string::npos) return {error.where(), 0};
+  return {error.where().substr(0, colon), std::atoi(error.where().c_str() + colon + 1)};
+}
+
+}  // namespace
+
+LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints)
+    : complaints_(complaints), library_(std::make_shared<Library>()) {
+  library_->roots_ = roots;
+}
+
+std::shared_ptr<const Library> LibraryBuilder::build() {
+  library_->files_ = find_files(library_->roots_, complaints_);
+  check_names();
+  read_types();
+  read_definitions();
+  declare_predicates();
+  declare_attributes();
+  define_predicates();
+  check_strata();
+  check_objects();
+  check_worlds();
+  read_skills();
+  read_tasks();
+  finish();
+  return library_;
+}
+
+void LibraryBuilder::check_names() {
+  for (const ScriptFile& file : library_->files_) {
+    if (file.kind == DefinitionKind::module) continue;
+    const auto fault = name_fault(file.name);
+    if (!fault) continue;
+    std::vector<std::string> taken;
+    for (const ScriptFile* other : library_->files(file.kind)) taken.push_back(other->name);
+    add(Error(file.shown_path, "the name '" + file.name + "' " + *fault,
+              "rename the file, to " + proposed_name(file.name, taken) + ".lua for example"));
+  }
+}
+
+void LibraryBuilder::read_definitions() {
+  for (const ScriptFile& file : library_->files_) {
+    if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::module || file.bytecode.empty()) continue;
+    guarded([&] {
+      DefinitionState state(library_, kCheckLimits);
+      state.push(file.kind, file.name);
+      Definition definition{&file, read_node(state.state(), -1, file.shown_path), field_lines(file.source)};
+      if (definition.node.line() > 0) definition.lines[""] = definition.node.line();
+      if (const Record* fields = record(to_string(file.kind))) {
+        check_record(*fields, definition.node, {}, complainer(definition));
+      }
+      if (file.description.empty() && file.kind != DefinitionKind::colours) {
+        add(Error(file.shown_path + ":1", "the first line is no comment that describes the " + std::string(to_string(file.kind)),
+                  "begin the file with -- and one sentence"));
+      }
+      of(file.kind).emplace(file.name, std::move(definition));
+    });
+  }
+}
+
+Error LibraryBuilder::error_at(const Definition& definition, const std::string& path, const std::string& what,
+                               const std::string& hint) const {
+  const std::string place = definition.file->shown_path + ":" + std::to_string(line_of(definition.lines, path));
+  return Error(place, path.empty() ? what : path + ": " + what, hint);
+}
+
+void LibraryBuilder::complain(const Definition& definition, const std::string& path, const std::string& what,
+                              const std::string& hint) {
+  add(error_at(definition, path, what, hint));
+}
+
+Complain LibraryBuilder::complainer(const Definition& definition) {
+  return [this, &definition](const std::string& path, const std::string& what, const std::string& hint) {
+    complain(definition, path, what, hint);
+  };
+}
+
+void LibraryBuilder::add(const Error& error) {
+  const auto same = [&](const Error& other) {
+    return other.where() == error.where() && other.message() == error.message();
+  };
+  if (std::none_of(complaints_.begin(), complaints_.end(), same)) complaints_.push_back(error);
+}
+
+FormulaContext LibraryBuilder::context(const Definition& definition, const std::string& field) const {
+  FormulaContext result;
+  result.file = definition.file->shown_path;
+  result.field = field;
+  result.domain = &library_->domain_;
+  return result;
+}
+
+void LibraryBuilder::finish() {
+  Domain& domain = library_->domain_;
+  domain.name = "stampede";
+  const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
+  std::sort(domain.actions.begin(), domain.actions.end(), by_name);
+  std::stable_sort(complaints_.begin(), complaints_.end(),
+                   [](const Error& a, const Error& b) { return place_of(a) < place_of(b); });
+}
+
+}  // namespace stampede

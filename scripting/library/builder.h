@@ -1,0 +1,110 @@
+// Makes a Library: runs every file once, checks everything that can be checked without physics, collects complaints.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scripting/library/definitions.h"
+#include "scripting/library/fields.h"
+#include "scripting/library/formula_reader.h"
+#include "scripting/library/library.h"
+#include "scripting/library/node.h"
+
+namespace stampede {
+
+// Finds and compiles the Lua files of all roots; a later root's file replaces an earlier one's of the same path.
+std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints);
+
+struct Definition {
+  const ScriptFile* file = nullptr;
+  Node node;
+  std::map<std::string, int> lines;
+};
+
+// One thing that a task's scene will have, as far as files tell.
+struct SceneObject {
+  std::string type;
+  std::vector<std::string> traits;
+  bool free = false;       // must be placed
+  bool positioned = false;  // its entry says where it is
+};
+using SceneObjects = std::map<std::string, SceneObject>;
+
+class LibraryBuilder {
+ public:
+  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints);
+  std::shared_ptr<const Library> build();
+
+ private:
+  using Definitions = std::map<std::string, Definition>;
+
+  // builder.cpp
+  void read_definitions();
+  void check_names();
+  void finish();
+  Definitions& of(DefinitionKind kind) { return definitions_[kind]; }
+  Error error_at(const Definition& definition, const std::string& path, const std::string& what, const std::string& hint) const;
+  void complain(const Definition& definition, const std::string& path, const std::string& what, const std::string& hint = {});
+  Complain complainer(const Definition& definition);
+  FormulaContext context(const Definition& definition, const std::string& field) const;
+  // Runs `work`; what it throws becomes a complaint.
+  template <typename Work>
+  bool guarded(const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const Error& error) {
+      add(error);
+      return false;
+    }
+  }
+  void add(const Error& error);
+
+  // check_predicates.cpp
+  void read_types();
+  void declare_predicates();   // names and parameters
+  void define_predicates();    // traits, derived formulas
+  void check_strata();
+  void declare_attributes();
+  std::vector<Parameter> parameters_of(const Definition& definition, bool add_hand);
+  void check_label(const Definition& definition, const std::string& label, const std::vector<Parameter>& parameters);
+
+  // check_skills.cpp
+  void read_skills();
+  void read_skill(const Definition& definition);
+  void read_action(const Definition& definition, const SkillInfo& info, const Node& fields, const std::string& case_name);
+  void read_continuous(const Definition& definition, SkillInfo& info);
+
+  // check_objects.cpp
+  void check_objects();
+  void check_worlds();
+  void check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what);
+  void add_object(SceneObjects& objects, const std::string& name, const Node& entry) const;
+  SceneObjects world_objects(const std::string& world) const;
+  void check_body(const Definition& definition, const Node& body, const std::string& path);
+  std::string hand_of(const std::string& world) const;
+
+  // check_tasks.cpp, variations.cpp
+  void read_tasks();
+  void read_task(const Definition& definition);
+  std::vector<Node> variations_of(const Definition& definition, DefinitionState& state);
+  void check_variation(const Definition& definition, DefinitionState& state, const Node& variation, const std::string& text);
+  Node field_for(const Definition& definition, DefinitionState& state, const char* field, const Node& variation);
+  void check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields, const SceneObjects& objects,
+                           const std::map<std::string, std::vector<std::string>>& groups);
+  void check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line);
+  void check_instructions(const Definition& definition, const Node& texts, const Node& variation);
+
+  std::vector<Error>& complaints_;
+  std::shared_ptr<Library> library_;
+  std::map<DefinitionKind, Definitions> definitions_;
+  std::set<std::string> attributes_;
+};
+
+void push_node(lua_State* state, const Node& node);
+std::string variation_text(const Node& variation);  // `colour=red,height=3`
+
+}  // namespace stampede

@@ -1,0 +1,181 @@
+// Validation against the field tables.
+#include <algorithm>
+
+#include "scripting/library/fields.h"
+#include "scripting/library/naming.h"
+
+namespace stampede {
+namespace {
+
+bool is_draw(const Node& node) {
+  const std::string tag = node.tag();
+  return tag == "one_of" || tag == "between" || tag == "sample_of";
+}
+
+bool is_formula(const Node& node) {
+  static const std::vector<std::string> kTags = {"literal", "all_of", "any_of", "in_order", "not",  "forall",
+                                                 "exists",  "any_order", "equal", "pddl",  "when", "call"};
+  return std::find(kTags.begin(), kTags.end(), node.tag()) != kTags.end();  // which of them: the formula reader says
+}
+
+bool numbers(const Node& node, std::size_t least, std::size_t most) {
+  if (!node.is_table() || node.items.size() < least || node.items.size() > most || !node.tag().empty()) return false;
+  return std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return has_type(item, "number"); });
+}
+
+// A draw has a type when all that it may give has it.
+bool draw_has_type(const Node& node, std::string_view type) {
+  if (node.tag() == "between") return type == "number";
+  const Node& values = node["values"];
+  return std::all_of(values.items.begin(), values.items.end(), [&](const Node& value) { return has_type(value, type); });
+}
+
+bool has_plain_type(const Node& node, std::string_view type) {
+  if (type == "any") return node.present();
+  if (type == "string") return node.is_text();
+  if (type == "number") return node.is_number();
+  if (type == "integer") return node.is_number() && node.integer;
+  if (type == "boolean") return node.kind == Node::Kind::boolean;
+  if (type == "function") return node.is_function();
+  if (type == "vector") return numbers(node, 3, 3);
+  if (type == "range" || type == "size") return numbers(node, 2, 2);
+  if (type == "numbers") return numbers(node, 0, 1000);
+  if (type == "colour") return node.is_text() || numbers(node, 3, 4);
+  if (type == "formula" || type == "effect" || type == "call" || type == "literal") return is_formula(node);
+  if (type == "shape") return node.tag() == "shape";
+  return node.is_table();  // table, or a record, whose own fields are checked after this
+}
+
+bool has_one_type(const Node& node, std::string_view type) {
+  if (type.size() > 2 && type.ends_with("[]")) {
+    type.remove_suffix(2);
+    return node.is_table() && node.tag().empty() && node.fields.empty() &&
+           std::all_of(node.items.begin(), node.items.end(), [&](const Node& item) { return has_one_type(item, type); });
+  }
+  if (type.front() == '{') return node.is_table() && node.items.empty();
+  return is_draw(node) ? draw_has_type(node, type) : has_plain_type(node, type);
+}
+
+std::vector<std::string_view> alternatives(std::string_view type) {
+  std::vector<std::string_view> result;
+  while (!type.empty()) {
+    const std::size_t end = std::min(type.find('|'), type.size());
+    result.push_back(type.substr(0, end));
+    type.remove_prefix(std::min(end + 1, type.size()));
+  }
+  return result;
+}
+
+// What a type asks for, for people: `a list of texts`.
+std::string in_words(std::string_view type) {
+  std::string text;
+  for (std::string_view one : alternatives(type)) {
+    if (!text.empty()) text += " or ";
+    if (one.front() == '{') {
+      text += "a table by names";
+      continue;
+    }
+    const bool list = one.ends_with("[]");
+    while (one.ends_with("[]")) one.remove_suffix(2);
+    const std::string word = one == "string"    ? "text"
+                             : one == "integer" ? "whole number"
+                             : one == "boolean" ? "true or false"
+                             : one == "vector"  ? "{ x, y, z }"
+                             : one == "range"   ? "{ lower, upper }"
+                             : one == "size"    ? "{ width, height }"
+                             : one == "numbers" ? "list of numbers"
+                             : one == "colour"  ? "colour (a name or { r, g, b })"
+                                                : std::string(one);
+    text += list ? "a list of " + word : word;
+  }
+  return text;
+}
+
+// Records inside a field's value.
+void check_inner(const Field& field, const Node& node, const std::string& path, const Complain& complain) {
+  for (std::string_view type : alternatives(field.type)) {
+    const bool map = type.front() == '{', list = type.ends_with("[]");
+    std::string_view name = type;
+    if (map) name = type.substr(1, type.size() - 2);
+    if (list) name.remove_suffix(2);
+    const Record* inner = record(name);
+    if (inner == nullptr || name == "entry" || !node.is_table()) continue;  // entries: checked with their class
+    if (map) {
+      for (const auto& [key, entry] : node.fields) {
+        const std::string inner_path = path + "." + key;
+        if (const auto fault = name_fault(key)) {
+          complain(inner_path, "the name '" + key + "' " + *fault, "such as '" + proposed_name(key) + "'");
+        }
+        if (entry.is_table()) {
+          check_record(*inner, entry, inner_path, complain);
+        } else {
+          complain(inner_path, "a " + std::string(name) + " is a table, this is " + entry.type_name(), {});
+        }
+      }
+    } else if (list) {
+      for (std::size_t i = 0; i < node.items.size(); ++i) {
+        check_record(*inner, node.items[i], path + "." + std::to_string(i + 1), complain);
+      }
+    } else {
+      check_record(*inner, node, path, complain);
+    }
+  }
+}
+
+}  // namespace
+
+bool has_type(const Node& node, std::string_view type) {
+  for (const std::string_view one : alternatives(type)) {
+    if (has_one_type(node, one)) return true;
+  }
+  return false;
+}
+
+void check_record(const Record& record, const Node& table, const std::string& path, const Complain& complain,
+                  const std::vector<std::string>& also_known) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  const bool outermost = path.empty();
+  std::vector<std::string> known = field_names(record);
+  known.insert(known.end(), also_known.begin(), also_known.end());
+  for (const auto& [key, value] : table.fields) {
+    if (outermost && (key == "kind" || key == "line" || key == "name")) continue;
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    complain(prefix + key, std::string("a ") + record.name + " has no field '" + key + "'", did_you_mean(key, known));
+  }
+  if (table.items.size() > 0 && std::string_view(record.head).empty()) {
+    complain(path, std::string("a ") + record.name + " has fields with names only, this one lists values", {});
+  }
+  for (const Field& field : record.fields) {
+    const Node& value = table[field.name];
+    if (!value.present()) {
+      if (!field.required) continue;
+      complain(outermost ? field.name : path, std::string("a ") + record.name + " needs the field '" + field.name + "': " + field.description,
+               std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
+      continue;
+    }
+    if (field.of_variation && value.is_function()) continue;  // its value is checked for each variation
+    if (!has_type(value, field.type)) {
+      complain(prefix + field.name, "expects " + in_words(field.type) + ", this is " + value.type_name(),
+               std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
+      continue;
+    }
+    check_inner(field, value, prefix + field.name, complain);
+  }
+}
+
+std::string field_help(const Record& record) {
+  std::string text = std::string(record.name) + ": " + record.description + "\n";
+  for (const Field& field : record.fields) {
+    std::string line = std::string("  ") + field.name;
+    line.resize(std::max<std::size_t>(line.size() + 1, 16), ' ');
+    line += in_words(field.type);
+    if (field.required) line += ", required";
+    if (*field.otherwise != 0) line += std::string(", default ") + field.otherwise;
+    if (*field.unit != 0) line += std::string(" [") + field.unit + "]";
+    if (*field.description != 0) line += std::string(": ") + field.description;
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace stampede

@@ -1,0 +1,206 @@
+// Objects, worlds, and the names that a scene will have.
+#include <algorithm>
+
+#include "scripting/library/builder.h"
+#include "scripting/library/naming.h"
+
+namespace stampede {
+namespace {
+
+std::vector<std::string> texts(const Node& list) {
+  std::vector<std::string> result;
+  for (const Node& item : list.items) result.push_back(item.text);
+  return result;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string type_or(const Node& node, const std::string& otherwise) { return node["type"].is_text() ? node["type"].text : otherwise; }
+
+}  // namespace
+
+void LibraryBuilder::check_body(const Definition& definition, const Node& body, const std::string& path) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  const Domain& domain = library_->domain_;
+  if (body["type"].is_text() && !domain.types.contains(body["type"].text)) {
+    std::vector<std::string> known;
+    for (const auto& [name, parent] : domain.types) known.push_back(name);
+    complain(definition, prefix + "type", "there is no type '" + body["type"].text + "'", did_you_mean(body["type"].text, known));
+  }
+  for (const std::string& trait : texts(body["traits"])) {
+    if (!contains(domain.traits, trait)) {
+      complain(definition, prefix + "traits", "there is no trait '" + trait + "'", did_you_mean(trait, domain.traits));
+    }
+  }
+  for (const char* table : {"numbers", "attributes"}) {
+    for (const auto& [name, value] : body[table].fields) {
+      const std::string where = prefix + table + "." + name;
+      if (const auto fault = name_fault(name)) complain(definition, where, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+      const std::string_view wanted = std::string_view(table) == "numbers" ? "number" : "string|number|boolean";
+      if (!has_type(value, wanted)) complain(definition, where, "this is " + value.type_name());
+    }
+  }
+  for (const char* number : {"mass", "friction", "restitution"}) {
+    if (body[number].is_number() && body[number].number < 0) complain(definition, prefix + number, "is negative");
+  }
+  if (body["colour"].is_text()) {
+    const auto colours = of(DefinitionKind::colours).find("colours");
+    if (colours == of(DefinitionKind::colours).end() || colours->second.node[body["colour"].text].present()) return;
+    std::vector<std::string> known;
+    for (const auto& [name, rgb] : colours->second.node.fields) known.push_back(name);
+    complain(definition, prefix + "colour", "there is no colour '" + body["colour"].text + "'", did_you_mean(body["colour"].text, known));
+  }
+}
+
+void LibraryBuilder::check_objects() {
+  for (const auto& [name, definition] : of(DefinitionKind::object)) {
+    const Node& node = definition.node;
+    check_body(definition, node, {});
+    if (!node["region"].present() && !node["type"].is_text()) {
+      complain(definition, {}, "an object needs the field 'type'", "one of worlds/types.lua");
+    }
+    if (!node["shape"].present() && !node["shapes"].present() && !node["urdf"].present() && !node["region"].present()) {
+      complain(definition, {}, "an object needs shapes, a region or a urdf", "shape = box { 0.04, 0.04, 0.04 }");
+    }
+    for (const auto& [part_name, part] : node["parts"].fields) {
+      const std::string path = "parts." + part_name;
+      check_body(definition, part, path);
+      const int joints = part["slider"].present() + part["hinge"].present() + part["fixed"].present();
+      if (joints != 1 && !node["urdf"].present()) complain(definition, path, "a part needs one of slider, hinge and fixed");
+      if (part["parent"].is_text() && !node["parts"][part["parent"].text].present() && !node["urdf"].present()) {
+        std::vector<std::string> known;
+        for (const auto& [other, unused] : node["parts"].fields) known.push_back(other);
+        complain(definition, path + ".parent", "there is no part '" + part["parent"].text + "'", did_you_mean(part["parent"].text, known));
+      }
+      for (const auto& [region_name, region] : part["regions"].fields) check_body(definition, region, path + ".regions." + region_name);
+    }
+    for (const auto& [region_name, region] : node["regions"].fields) check_body(definition, region, "regions." + region_name);
+  }
+}
+
+void LibraryBuilder::check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what) {
+  if (!entry.is_table() || entry.items.empty() || !entry.items[0].is_text()) {
+    if (entry.is_table() && !entry.items.empty() && !entry.items[0].tag().empty()) return;  // a drawn class
+    return complain(definition, path, std::string("an entry begins with the name of its ") + what, "such as { \"cube\" }");
+  }
+  const std::string& class_name = entry.items[0].text;
+  const bool robot = std::string_view(what) == "robot";
+  const Definitions& classes = of(robot ? DefinitionKind::robot : DefinitionKind::object);
+  const auto found = classes.find(class_name);
+  const auto kind = robot ? DefinitionKind::robot : DefinitionKind::object;
+  if (found == classes.end()) {
+    if (library_->file(kind, class_name) != nullptr) return;  // its own file has complaints
+    std::vector<std::string> known;
+    for (const auto& [name, unused] : classes) known.push_back(name);
+    return complain(definition, path, std::string("there is no ") + what + " '" + class_name + "'", did_you_mean(class_name, known));
+  }
+  std::vector<std::string> known = field_names(*record(robot ? "robot" : "object"));
+  for (const char* table : {"numbers", "attributes"}) {
+    for (const auto& [name, unused] : found->second.node[table].fields) known.push_back(name);
+  }
+  check_record(*record("entry"), entry, path, complainer(definition), known);
+  check_body(definition, entry, path);
+  for (const auto& [part, position] : entry["joints"].fields) {
+    const Node& parts = found->second.node["parts"];
+    if (parts[part].present() || found->second.node["urdf"].present()) continue;
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : parts.fields) names.push_back(name);
+    complain(definition, path + ".joints", "'" + class_name + "' has no part '" + part + "'", did_you_mean(part, names));
+  }
+  if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
+}
+
+void LibraryBuilder::check_worlds() {
+  for (const auto& [name, definition] : of(DefinitionKind::world)) {
+    const Node& node = definition.node;
+    if (node["robot"].is_table()) check_entry(definition, node["robot"], "robot", "robot");
+    for (const auto& [fixture, entry] : node["fixtures"].fields) {
+      check_entry(definition, entry, "fixtures." + fixture, "object");
+      if (const auto fault = name_fault(fixture)) {
+        complain(definition, "fixtures." + fixture, "the name '" + fixture + "' " + *fault, "such as '" + proposed_name(fixture) + "'");
+      }
+    }
+    const int physics = node["physics_hz"].is_number() ? static_cast<int>(node["physics_hz"].number) : 240;
+    const int frames = node["frame_hz"].is_number() ? static_cast<int>(node["frame_hz"].number) : 20;
+    if (physics <= 0 || frames <= 0 || physics % frames != 0) {
+      std::string divisors;
+      for (int rate = 1; rate <= physics; ++rate) {
+        if (physics % rate == 0) divisors += (divisors.empty() ? "" : " ") + std::to_string(rate);
+      }
+      complain(definition, "frame_hz", std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz", "these do: " + divisors);
+    }
+    const SceneObjects objects = world_objects(name);
+    for (const auto& [camera, entry] : node["cameras"].fields) {
+      const std::string& target = entry["look_at"].text;
+      if (!entry["look_at"].is_text() || objects.contains(target)) continue;
+      std::vector<std::string> known;
+      for (const auto& [object, unused] : objects) known.push_back(object);
+      complain(definition, "cameras." + camera + ".look_at", "there is no object '" + target + "'", did_you_mean(target, known));
+    }
+  }
+}
+
+// The object with its parts (name.part) and regions (name.region, name.part.region).
+void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, const Node& entry) const {
+  SceneObject object;
+  const std::string class_name = entry.items.empty() ? "" : entry.items[0].text;
+  const auto kind = definitions_.find(DefinitionKind::object);
+  const Definition* found = nullptr;
+  if (kind != definitions_.end()) {
+    const auto at = kind->second.find(class_name);
+    if (at != kind->second.end()) found = &at->second;
+  }
+  static const Node kEmpty;
+  const Node& node = found == nullptr ? kEmpty : found->node;
+  const auto either = [&](const char* field) -> const Node& { return entry[field].present() ? entry[field] : node[field]; };
+  const bool region = either("region").present();
+  object.type = either("type").is_text() ? either("type").text : region ? "region" : "";
+  object.traits = texts(either("traits"));
+  object.positioned = entry["at"].present();
+  const bool fixed = either("fixed").kind == Node::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
+  object.free = found != nullptr && !fixed && !region && node["parts"].fields.empty();
+  objects[name] = object;
+  const auto add_regions = [&](const std::string& owner, const Node& body) {
+    for (const auto& [region_name, one] : body["regions"].fields) {
+      objects[owner + "." + region_name] = {type_or(one, "region"), texts(one["traits"]), false, false};
+    }
+  };
+  add_regions(name, node);
+  for (const auto& [part_name, part] : node["parts"].fields) {
+    objects[name + "." + part_name] = {type_or(part, ""), texts(part["traits"]), false, false};
+    add_regions(name + "." + part_name, part);
+  }
+}
+
+std::string LibraryBuilder::hand_of(const std::string& world) const {
+  const auto worlds = definitions_.find(DefinitionKind::world);
+  const auto found = worlds == definitions_.end() ? Definitions::const_iterator{} : worlds->second.find(world);
+  if (worlds == definitions_.end() || found == worlds->second.end()) return "panda.hand";
+  const Node& entry = found->second.node["robot"];
+  const std::string robot = entry.items.empty() ? "robot" : entry.items[0].text;
+  std::string hand = "hand";
+  const auto robots = definitions_.find(DefinitionKind::robot);
+  if (robots != definitions_.end()) {
+    const auto definition = robots->second.find(robot);
+    if (definition != robots->second.end() && definition->second.node["hand"].is_text()) hand = definition->second.node["hand"].text;
+  }
+  return robot + "." + hand;
+}
+
+SceneObjects LibraryBuilder::world_objects(const std::string& world) const {
+  SceneObjects objects;
+  objects[hand_of(world)] = {"hand", {}, false, false};
+  const auto worlds = definitions_.find(DefinitionKind::world);
+  if (worlds == definitions_.end()) return objects;
+  const auto found = worlds->second.find(world);
+  if (found == worlds->second.end()) return objects;
+  for (const auto& [name, entry] : found->second.node["fixtures"].fields) add_object(objects, name, entry);
+  for (const auto& [name, region] : found->second.node["regions"].fields) {
+    objects[name] = {type_or(region, "region"), texts(region["traits"]), false, false};
+  }
+  return objects;
+}
+
+}  // namespace stampede

@@ -1,0 +1,237 @@
+// Types, traits, predicates, attributes.
+#include <algorithm>
+#include <functional>
+
+#include "scripting/library/builder.h"
+#include "scripting/library/naming.h"
+#include "scripting/library/source_lines.h"
+
+namespace stampede {
+namespace {
+
+constexpr const char kRoot[] = "object";
+
+// Every predicate that a formula reads, with whether it stands under a negation.
+void predicates_in(const Formula& formula, bool negated, const std::function<void(const std::string&, bool)>& visit) {
+  if (formula.kind == Formula::Kind::atom) visit(formula.predicate, negated);
+  const bool flips = formula.kind == Formula::Kind::negation;
+  const bool both = formula.kind == Formula::Kind::forall;  // forall is not exists not: what it ranges over counts as negated
+  for (const Formula& part : formula.parts) predicates_in(part, flips ? !negated : (negated || both), visit);
+}
+
+}  // namespace
+
+// worlds/types.lua: types = { cube = { parent = "block" } } or { cube = "block" }; traits by name or as a list.
+void LibraryBuilder::read_types() {
+  Domain& domain = library_->domain_;
+  domain.types = {{"hand", kRoot}, {"region", kRoot}};
+  const ScriptFile* file = library_->file(DefinitionKind::types, "types");
+  if (file == nullptr || file->bytecode.empty()) return;
+  Definition definition{file, {}, field_lines(file->source)};
+  if (!guarded([&] {
+        DefinitionState state(library_);
+        state.push(DefinitionKind::types, "types");
+        definition.node = read_node(state.state(), -1, file->shown_path);
+      })) {
+    return;
+  }
+  for (const auto& [name, entry] : definition.node["types"].fields) {
+    const Node& parent = entry.is_table() ? entry["parent"] : entry;
+    domain.types[name] = parent.is_text() ? parent.text : kRoot;
+    if (const auto fault = name_fault(name)) {
+      complain(definition, "types." + name, "the type name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    }
+  }
+  std::vector<std::string> known;
+  for (const auto& [name, parent] : domain.types) known.push_back(name);
+  for (auto& [name, parent] : domain.types) {
+    if (parent != kRoot && !domain.types.contains(parent)) {
+      complain(definition, "types." + name, "its parent '" + parent + "' is not a type", did_you_mean(parent, known));
+      parent = kRoot;
+    }
+  }
+  for (auto& [name, parent] : domain.types) {
+    std::string chain = name, at = name;
+    for (std::size_t step = 0; at != kRoot && step <= domain.types.size(); ++step) {
+      at = domain.types.at(at);
+      chain += " < " + at;
+      if (at != name) continue;
+      complain(definition, "types." + name, "a cycle of types: " + chain, "every type ends at object");
+      parent = kRoot;
+      break;
+    }
+  }
+  const Node& traits = definition.node["traits"];
+  for (const Node& item : traits.items) domain.traits.push_back(item.text);
+  for (const auto& [name, description] : traits.fields) domain.traits.push_back(name);
+  std::sort(domain.traits.begin(), domain.traits.end());
+  for (const std::string& name : domain.traits) {
+    if (const auto fault = name_fault(name)) {
+      complain(definition, "traits." + name, "the trait name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    } else if (domain.types.contains(name)) {
+      complain(definition, "traits." + name, "'" + name + "' is a type too", "call the trait " + proposed_name(name, {name}));
+    }
+  }
+  for (const auto& [key, value] : definition.node.fields) {
+    if (key != "types" && key != "traits") {
+      complain(definition, key, "types.lua has no field '" + key + "'", did_you_mean(key, {"types", "traits"}));
+    }
+  }
+}
+
+std::vector<Parameter> LibraryBuilder::parameters_of(const Definition& definition, bool add_hand) {
+  std::vector<Parameter> result;
+  const std::string place = definition.file->shown_path + ":" + std::to_string(line_of(definition.lines, "params"));
+  for (const Node& text : definition.node["params"].items) {
+    if (!text.is_text()) continue;
+    guarded([&] {
+      Parameter parameter;
+      try {
+        parameter = parameter_from(text.text, library_->domain_, place);
+      } catch (const Error& error) {
+        throw Error(error.where(), "params: " + error.message(), error.hint());
+      }
+      for (const Parameter& other : result) {
+        if (other.name == parameter.name) throw Error(place, "params: two parameters are called '" + parameter.name + "'", "rename one");
+      }
+      result.push_back(std::move(parameter));
+    });
+  }
+  const bool has_hand = std::any_of(result.begin(), result.end(), [](const Parameter& one) { return one.type == "hand"; });
+  if (add_hand && !has_hand) result.push_back({"hand", "hand", {}});
+  return result;
+}
+
+void LibraryBuilder::check_label(const Definition& definition, const std::string& label, const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  for (std::size_t open = label.find('{'); open != std::string::npos; open = label.find('{', open + 1)) {
+    const std::size_t close = label.find('}', open);
+    const std::string name = label.substr(open + 1, close == std::string::npos ? close : close - open - 1);
+    if (close == std::string::npos) return complain(definition, "label", "a { without }");
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      complain(definition, "label", "there is no parameter '" + name + "'", did_you_mean(name, names));
+    }
+  }
+}
+
+void LibraryBuilder::declare_predicates() {
+  Domain& domain = library_->domain_;
+  for (const auto& [name, definition] : of(DefinitionKind::predicate)) {
+    const bool taken = domain.types.contains(name) || std::find(domain.traits.begin(), domain.traits.end(), name) != domain.traits.end();
+    if (taken) {
+      complain(definition, {}, "'" + name + "' is already a type or trait of worlds/types.lua",
+               "rename the file, to " + proposed_name(name, {name}) + ".lua for example");
+      continue;
+    }
+    Predicate predicate;
+    predicate.name = name;
+    predicate.parameters = parameters_of(definition, false);
+    predicate.label = definition.node["label"].text;
+    const bool derived = definition.node["derived"].present();
+    if (derived) predicate.kind = PredicateKind::derived;
+    if (!derived && definition.node["static"].boolean) predicate.kind = PredicateKind::fixed;
+    check_label(definition, predicate.label, predicate.parameters);
+    if (derived && definition.node["holds"].present()) {
+      complain(definition, "derived", "a predicate has holds or derived, not both", "keep one");
+    } else if (!derived && !definition.node["holds"].present()) {
+      complain(definition, {}, "a predicate needs holds or derived", "holds = function(w, …) return … end");
+    }
+    domain.predicates.push_back(std::move(predicate));
+  }
+}
+
+// (colour block1 red): declared when a formula speaks of it.
+void LibraryBuilder::declare_attributes() {
+  Domain& domain = library_->domain_;
+  attributes_ = {"colour"};
+  for (const auto& [name, definition] : of(DefinitionKind::object)) {
+    for (const auto& [attribute, value] : definition.node["attributes"].fields) attributes_.insert(attribute);
+    for (const auto& [part_name, part] : definition.node["parts"].fields) {
+      for (const auto& [attribute, value] : part["attributes"].fields) attributes_.insert(attribute);
+    }
+  }
+  for (const std::string& attribute : attributes_) {
+    const auto used = [&](const ScriptFile& file) {
+      return file.source.find("is." + attribute + "(") != std::string::npos ||
+             file.source.find("is_not." + attribute + "(") != std::string::npos;
+    };
+    if (domain.predicate(attribute) != nullptr || std::none_of(library_->files_.begin(), library_->files_.end(), used)) continue;
+    Predicate predicate;
+    predicate.name = attribute;
+    predicate.kind = PredicateKind::fixed;
+    predicate.parameters = {{"obj", "", {}}, {"value", "value", {}}};
+    predicate.label = "the " + attribute + " of the {obj} is {value}";
+    domain.types["value"] = kRoot;
+    domain.predicates.push_back(std::move(predicate));
+  }
+  std::sort(domain.predicates.begin(), domain.predicates.end(),
+            [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
+}
+
+void LibraryBuilder::define_predicates() {
+  for (const auto& [name, definition] : of(DefinitionKind::predicate)) {
+    const auto found = std::find_if(library_->domain_.predicates.begin(), library_->domain_.predicates.end(),
+                                    [&, wanted = name](const Predicate& one) { return one.name == wanted; });
+    if (found == library_->domain_.predicates.end()) continue;
+    const Node& node = definition.node;
+    PredicateTraits traits;
+    traits.settle_s = node["settle"].number;
+    traits.momentary = node["momentary"].boolean;
+    traits.remember = node["remember"].boolean;
+    const std::string& pairs = node["requires"].text;
+    if (pairs == "touching") traits.requires_pairs = Pairs::touching;
+    if (pairs == "near") traits.requires_pairs = Pairs::near;
+    if (!pairs.empty() && pairs != "touching" && pairs != "near" && pairs != "all") {
+      complain(definition, "requires", "'" + pairs + "' is not a kind of pairs", did_you_mean(pairs, {"all", "near", "touching"}));
+    }
+    if (traits.settle_s < 0) complain(definition, "settle", "a settle time is not negative");
+    if (traits.momentary && traits.settle_s > 0) {
+      complain(definition, "settle", "a momentary predicate has no settle time", "remove one of both");
+    }
+    library_->predicate_traits_[name] = traits;
+    for (const Node& other : node["mutex"].items) {
+      if (library_->domain_.predicate(other.text) != nullptr) continue;
+      std::vector<std::string> known;
+      for (const Predicate& one : library_->domain_.predicates) known.push_back(one.name);
+      complain(definition, "mutex", "there is no predicate '" + other.text + "'", did_you_mean(other.text, known));
+    }
+    if (!node["derived"].present()) continue;
+    guarded([&] {
+      FormulaContext where = context(definition, "derived");
+      where.schema = true;
+      where.parameters = found->parameters;
+      found->derived = formula_from(node["derived"], where);
+    });
+  }
+}
+
+// A derived predicate may not depend on its own negation: then no order of evaluation gives it a meaning.
+void LibraryBuilder::check_strata() {
+  const Domain& domain = library_->domain_;
+  std::map<std::string, int> stratum;
+  const int most = static_cast<int>(domain.predicates.size());
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const Predicate& predicate : domain.predicates) {
+      if (predicate.kind != PredicateKind::derived) continue;
+      int level = 0;
+      predicates_in(predicate.derived, false, [&](const std::string& name, bool negated) {
+        const Predicate* used = domain.predicate(name);
+        if (used != nullptr && used->kind == PredicateKind::derived) level = std::max(level, stratum[name] + (negated ? 1 : 0));
+      });
+      if (level <= stratum[predicate.name] || stratum[predicate.name] > most) continue;
+      stratum[predicate.name] = level;
+      changed = true;
+    }
+  }
+  for (const Predicate& predicate : domain.predicates) {
+    if (stratum[predicate.name] <= most) continue;
+    const auto found = of(DefinitionKind::predicate).find(predicate.name);
+    complain(found->second, "derived", "'" + predicate.name + "' depends on its own negation",
+             "break the circle: derive it from basic predicates");
+  }
+}
+
+}  // namespace stampede

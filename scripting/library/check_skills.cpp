@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <limits>
+
+#include "scripting/library/builder.h"
+#include "scripting/library/naming.h"
+#include "scripting/library/source_lines.h"
+
+namespace stampede {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// A bound: one number for all components, or one each.
+std::vector<double> bound(const Node& node, std::size_t count, double otherwise) {
+  std::vector<double> result(count, node.is_number() ? node.number : otherwise);
+  for (std::size_t i = 0; i < node.items.size() && i < count; ++i) result[i] = node.items[i].number;
+  return result;
+}
+
+}  // namespace
+
+void LibraryBuilder::read_skills() {
+  for (const auto& [name, definition] : of(DefinitionKind::skill)) read_skill(definition);
+  std::map<std::string, std::string> owner;
+  for (const Action& action : library_->domain_.actions) {
+    const auto [found, fresh] = owner.emplace(action.name, action.skill);
+    if (fresh || found->second == action.skill) continue;
+    complain(of(DefinitionKind::skill).at(action.skill), {}, "the action '" + action.name + "' is also one of skill '" + found->second + "'",
+             "rename the skill or its case");
+  }
+}
+
+void LibraryBuilder::read_skill(const Definition& definition) {
+  const Node& node = definition.node;
+  SkillInfo info;
+  info.name = definition.file->name;
+  info.parameters = parameters_of(definition, true);
+  info.label = node["label"].text;
+  info.stiffness = node["stiffness"].number;
+  check_label(definition, info.label, info.parameters);
+  const std::vector<std::string> controllers = {"joint_position", "joint_impedance", "cartesian_impedance"};
+  const std::string& controller = node["controller"].text;
+  const auto kind = std::find(controllers.begin(), controllers.end(), controller.empty() ? controllers[0] : controller);
+  if (kind == controllers.end()) {
+    complain(definition, "controller", "there is no controller '" + controller + "'", did_you_mean(controller, controllers));
+  } else {
+    info.controller = static_cast<ControllerKind>(kind - controllers.begin());
+  }
+  std::vector<std::string> predicates;
+  for (const Predicate& predicate : library_->domain_.predicates) predicates.push_back(predicate.name);
+  for (const Node& forgotten : node["forgets"].items) {
+    info.forgets.push_back(forgotten.text);
+    if (contains(predicates, forgotten.text)) continue;
+    complain(definition, "forgets", "there is no predicate '" + forgotten.text + "'", did_you_mean(forgotten.text, predicates));
+  }
+  guarded([&] { read_continuous(definition, info); });
+  const Node& cases = node["cases"];
+  if (cases.present()) {
+    for (const char* field : {"precondition", "effect"}) {
+      if (node[field].present()) complain(definition, field, "a skill with cases says it in each case", "move it into the cases");
+    }
+    for (const auto& [name, fields] : cases.fields) read_action(definition, info, fields, name);
+  } else {
+    read_action(definition, info, node, {});
+  }
+  for (const Action& action : library_->domain_.actions) {
+    if (action.skill == info.name) info.actions.push_back(action.name);
+  }
+  library_->skills_[info.name] = std::move(info);
+}
+
+void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& info, const Node& fields,
+                                 const std::string& case_name) {
+  Action action;
+  action.skill = info.name;
+  action.case_name = case_name;
+  action.name = case_name.empty() ? info.name : info.name + "_" + case_name;
+  action.parameters = info.parameters;
+  const Node& cost = fields["cost"].present() ? fields["cost"] : definition.node["cost"];
+  if (cost.is_number()) action.cost = static_cast<int>(cost.number);
+  if (action.cost < 0) complain(definition, "cost", "a cost is not negative");
+  const std::string prefix = case_name.empty() ? "" : "cases." + case_name + ".";
+  bool sound = guarded([&] {
+    FormulaContext where = context(definition, prefix + "precondition");
+    where.schema = true;
+    where.parameters = info.parameters;
+    if (fields["precondition"].present()) action.precondition = formula_from(fields["precondition"], where);
+  });
+  sound &= guarded([&] {
+    FormulaContext where = context(definition, prefix + "effect");
+    where.schema = true;
+    where.parameters = info.parameters;
+    if (fields["effect"].present()) action.effects = effects_from(fields["effect"], where);
+  });
+  const std::vector<std::string> names = names_of(info.parameters);
+  for (const Node& pair : definition.node["may_equal"].items) {
+    if (pair.items.size() != 2) {
+      complain(definition, "may_equal", "a pair has two parameters", "such as may_equal = { { \"from\", \"to\" } }");
+      continue;
+    }
+    for (const Node& name : pair.items) {
+      if (!contains(names, name.text)) complain(definition, "may_equal", "there is no parameter '" + name.text + "'", did_you_mean(name.text, names));
+    }
+    action.may_equal.emplace_back(pair.items[0].text, pair.items[1].text);
+  }
+  if (sound) library_->domain_.actions.push_back(std::move(action));
+}
+
+void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& info) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<std::string> names = names_of(info.parameters);
+  for (const auto& [name, node] : definition.node["continuous"].fields) {
+    const std::string path = "continuous." + name;
+    ContinuousInfo one;
+    one.name = name;
+    if (const auto fault = name_fault(name)) complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    if (name == "controller" || name == "stiffness") {
+      complain(definition, path, "'" + name + "' is a continuous parameter of every skill already", "set the field " + name + " of the skill");
+    }
+    if (node.tag() == "stream" && node["source"].text == "grasps") {
+      one.source = ContinuousInfo::Source::grasps;
+      one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
+      if (!contains(names, one.object)) complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
+    } else if (node.tag() == "stream") {
+      one.source = ContinuousInfo::Source::sample;
+      FormulaContext where = context(definition, path);
+      where.schema = true;
+      where.parameters = info.parameters;
+      const Formula literal = formula_from(node["literal"], where);
+      one.literal.predicate = literal.predicate;
+      for (const Term& term : literal.terms) one.literal.arguments.push_back(term.name);
+      const auto predicate = of(DefinitionKind::predicate).find(literal.predicate);
+      if (predicate == of(DefinitionKind::predicate).end() || !predicate->second.node["sample"].present()) {
+        complain(definition, path, "the predicate '" + literal.predicate + "' has no sample to draw from", "give it one, or a fixed value here");
+      }
+    } else if (node.is_number() || (node.is_table() && node.tag().empty())) {
+      if (node.is_number()) one.initial = {node.number};
+      for (const Node& item : node.items) {
+        if (item.is_number()) one.initial.push_back(item.number);
+      }
+      if (one.initial.empty()) complain(definition, path, "a continuous parameter begins with its default", "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");
+      one.lower = bound(node["min"], one.initial.size(), -infinite);
+      one.upper = bound(node["max"], one.initial.size(), infinite);
+      one.unit = node["unit"].text;
+      one.frame = node["frame"].text;
+      for (std::size_t i = 0; i < one.initial.size(); ++i) {
+        if (one.initial[i] < one.lower[i] || one.initial[i] > one.upper[i]) {
+          complain(definition, path, "its default " + std::to_string(one.initial[i]) + " lies outside min and max");
+        }
+      }
+      const std::vector<std::string> known = {"min", "max", "unit", "frame"};
+      for (const auto& [key, value] : node.fields) {
+        if (!contains(known, key)) complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'", did_you_mean(key, known));
+      }
+    } else {
+      complain(definition, path, "a continuous parameter is a number, a list or a stream, this is " + node.type_name());
+    }
+    info.continuous.push_back(std::move(one));
+  }
+}
+
+}  // namespace stampede

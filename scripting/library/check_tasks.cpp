@@ -1,0 +1,231 @@
+#include <algorithm>
+
+#include "scripting/library/builder.h"
+#include "scripting/library/naming.h"
+#include "scripting/library/source_lines.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::size_t kMostChecked = 240;  // variations whose functions are called by a check
+constexpr SandboxLimits kLimits{5'000'000, 32u << 20};
+
+std::string with_context(const std::string& what, const std::string& text, std::size_t count) {
+  return count > 1 ? what + " (variation " + text + ")" : what;
+}
+
+void collect_variables(const Node& node, std::vector<std::string>& names) {
+  for (const auto& [axis, value] : node.fields) names.push_back(axis);
+}
+
+}  // namespace
+
+void LibraryBuilder::read_tasks() {
+  for (const auto& [name, definition] : of(DefinitionKind::task)) {
+    guarded([&, &task = definition] { read_task(task); });
+  }
+}
+
+void LibraryBuilder::read_task(const Definition& definition) {
+  DefinitionState state(library_, kLimits);
+  Library::TaskInfo info;
+  info.name = definition.file->name;
+  info.description = definition.file->description;
+  info.world = definition.node["world"].text;
+  const Definitions& worlds = of(DefinitionKind::world);
+  if (definition.node["world"].is_text() && !worlds.contains(info.world) && library_->file(DefinitionKind::world, info.world) == nullptr) {
+    std::vector<std::string> known;
+    for (const auto& [name, unused] : worlds) known.push_back(name);
+    complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
+  }
+  info.hand = hand_of(info.world);
+  const std::vector<Node> variations = variations_of(definition, state);
+  for (const Node& variation : variations) {
+    std::map<std::string, std::string> axes;
+    for (const auto& [axis, value] : variation.fields) axes[axis] = plain_text(value);
+    info.variations.push_back(std::move(axes));
+    info.variation_texts.push_back(variation_text(variation));
+  }
+  const Node& texts = definition.node["instructions"];
+  if (texts.is_text()) info.instructions.push_back(texts.text);
+  for (const Node& text : texts.items) info.instructions.push_back(text.text);
+  const std::size_t stride = variations.size() / kMostChecked + 1;
+  for (std::size_t i = 0; i < variations.size(); i += stride) {
+    const std::size_t before = complaints_.size();
+    check_variation(definition, state, variations[i], variations.size() > 1 ? info.variation_texts[i] : std::string());
+    if (complaints_.size() > before) break;  // the others would say the same
+  }
+  library_->tasks_[info.name] = std::move(info);
+}
+
+void LibraryBuilder::check_variation(const Definition& definition, DefinitionState& state, const Node& variation,
+                                     const std::string& text) {
+  std::map<std::string, Node> fields;
+  for (const Field& field : record("task")->fields) {
+    if (!field.of_variation) continue;
+    const Node value = field_for(definition, state, field.name, variation);
+    if (!value.present()) {
+      if (!definition.node[field.name].is_function()) continue;
+      complain(definition, field.name, with_context("the function returns nothing", text, text.size() + 1), "end it with return");
+      continue;
+    }
+    if (!has_type(value, field.type)) {
+      if (definition.node[field.name].is_function()) {
+        complain(definition, field.name, with_context("the function returns " + value.type_name() + ", which is not what this field holds", text, text.size() + 1));
+      }
+      continue;
+    }
+    fields[field.name] = value;
+  }
+  SceneObjects objects = world_objects(definition.node["world"].text);
+  std::map<std::string, std::vector<std::string>> groups;
+  for (const auto& [name, entry] : fields["objects"].fields) {
+    const std::string path = "objects." + name;
+    if (const auto fault = name_fault(name)) complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    check_entry(definition, entry, path, "object");
+    const Node& count = entry["count"];
+    std::vector<std::string> members = {name};
+    if (count.is_number()) {
+      if (count.number < 0 || count.number > 1000) {
+        complain(definition, path + ".count", "a count is 0 … 1000");
+        continue;
+      }
+      members.clear();
+      for (int i = 1; i <= static_cast<int>(count.number); ++i) members.push_back(name + std::to_string(i));
+      groups[name + "*"] = members;
+    }
+    for (const std::string& member : members) {
+      if (objects.contains(member)) {
+        complain(definition, path, "the name '" + member + "' is used twice", "rename one, to " + proposed_name(member, {member}) + " for example");
+      }
+      add_object(objects, member, entry);
+    }
+  }
+  check_task_formulas(definition, fields, objects, groups);
+  if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
+}
+
+void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields,
+                                         const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups) {
+  std::vector<std::string> known;
+  for (const auto& [name, unused] : objects) known.push_back(name);
+  FormulaContext where = context(definition, "init");
+  where.hand = hand_of(definition.node["world"].text);
+  where.expand = [&](const std::string& group) {
+    if (const auto found = groups.find(group); found != groups.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : groups) names.push_back(name);
+    const std::string single = group.substr(0, group.size() - 1);
+    throw Error({}, "there is no group '" + group + "'",
+                objects.contains(single) ? "'" + single + "' is one object: give it count = n to make a group" : did_you_mean(group, names));
+  };
+  where.object_fault = [&](const std::string& name) -> std::optional<std::string> {
+    if (objects.contains(name)) return std::nullopt;
+    if (groups.contains(name + "*")) return "'" + name + "' is a group: write \"" + name + "*\" or \"" + name + "1\"";
+    return did_you_mean(name, known);
+  };
+  std::vector<std::string> placed;
+  const auto init = fields.find("init");
+  bool init_sound = true;
+  if (init != fields.end()) {
+    init_sound = guarded([&] {
+      for (const Literal& literal : literals_from(init->second, where)) {
+        std::vector<Term> terms;
+        for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
+        check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "init"));
+        const auto predicate = of(DefinitionKind::predicate).find(literal.fact.predicate);
+        const bool places = !literal.negated && predicate != of(DefinitionKind::predicate).end() && predicate->second.node["sample"].present();
+        for (const std::string& argument : literal.fact.arguments) {
+          if (argument == where.hand) continue;
+          if (places) placed.push_back(argument);
+          break;
+        }
+      }
+    });
+  }
+  for (const auto& [name, object] : objects) {
+    if (!init_sound || !object.free || object.positioned || std::find(placed.begin(), placed.end(), name) != placed.end()) continue;
+    complain(definition, "init", "nothing places the free object '" + name + "'",
+             "name it in init, such as is.on(\"" + name + "\", \"table\"), or give it at = { x, y, z }");
+  }
+  for (const char* field : {"goal", "subgoals"}) {
+    const auto found = fields.find(field);
+    if (found == fields.end()) continue;
+    where.field = field;
+    std::vector<const Node*> formulas;
+    if (field == std::string_view("goal")) formulas.push_back(&found->second);
+    for (const auto& [name, formula] : found->second.fields) {
+      if (field == std::string_view("subgoals")) formulas.push_back(&formula);
+    }
+    for (const Node* formula : formulas) {
+      guarded([&] { check_arguments(definition, formula_from(*formula, where), objects, line_of(definition.lines, field)); });
+    }
+  }
+  const auto steps = fields.find("steps");
+  if (steps == fields.end()) return;
+  const std::vector<Node> single = {steps->second};
+  std::vector<std::string> skills;
+  for (const ScriptFile* file : library_->files(DefinitionKind::skill)) skills.push_back(file->name);
+  for (const Node& call : steps->second.tag() == "call" ? single : steps->second.items) {
+    const std::string place = definition.file->shown_path + ":" + std::to_string(call.line() > 0 ? call.line() : line_of(definition.lines, "steps"));
+    const std::string& name = call["skill"].text;
+    const SkillInfo* skill = library_->skill(name);
+    if (skill == nullptr) {
+      if (std::find(skills.begin(), skills.end(), name) == skills.end()) add(Error(place, "steps: there is no skill '" + name + "'", did_you_mean(name, skills)));
+      continue;
+    }
+    if (call.items.size() > skill->parameters.size()) {
+      add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " + std::to_string(call.items.size())));
+    }
+    for (const Node& argument : call.items) {
+      if (objects.contains(argument.text)) continue;
+      add(Error(place, "steps: there is no object '" + argument.text + "'", did_you_mean(argument.text, known)));
+    }
+  }
+}
+
+// Objects named in an atom must have the type and traits that its predicate asks for.
+void LibraryBuilder::check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line) {
+  for (const Formula& part : formula.parts) check_arguments(definition, part, objects, line);
+  const Predicate* predicate = formula.kind == Formula::Kind::atom ? library_->domain_.predicate(formula.predicate) : nullptr;
+  if (predicate == nullptr || predicate->parameters.size() != formula.terms.size()) return;
+  for (std::size_t i = 0; i < formula.terms.size(); ++i) {
+    const auto object = objects.find(formula.terms[i].name);
+    if (formula.terms[i].variable || object == objects.end()) continue;
+    const Parameter& parameter = predicate->parameters[i];
+    const std::string place = definition.file->shown_path + ":" + std::to_string(line);
+    const std::string what = "is." + formula.predicate + ": '" + object->first + "' ";
+    if (!parameter.type.empty() && !object->second.type.empty() && !library_->domain_.is_a(object->second.type, parameter.type)) {
+      add(Error(place, what + "is a " + object->second.type + ", the " + parameter.name + " must be a " + parameter.type));
+    }
+    for (const std::string& trait : parameter.traits) {
+      const auto& traits = object->second.traits;
+      if (std::find(traits.begin(), traits.end(), trait) != traits.end()) continue;
+      add(Error(place, what + "has not the trait '" + trait + "', which the " + parameter.name + " must have", "add it to the traits of its object file, or name another object"));
+    }
+  }
+}
+
+void LibraryBuilder::check_instructions(const Definition& definition, const Node& texts, const Node& variation) {
+  std::vector<std::string> axes;
+  collect_variables(variation, axes);
+  std::vector<std::string> all;
+  if (texts.is_text()) all.push_back(texts.text);
+  for (const Node& text : texts.items) all.push_back(text.text);
+  if (all.empty()) complain(definition, "instructions", "at least one sentence is needed", "instructions = { \"…\" }");
+  for (const std::string& text : all) {
+    for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+      const std::size_t close = text.find('}', open);
+      if (close == std::string::npos) {
+        complain(definition, "instructions", "a { without } in \"" + text + "\"");
+        break;
+      }
+      const std::string name = text.substr(open + 1, close - open - 1);
+      if (std::find(axes.begin(), axes.end(), name) == axes.end()) {
+        complain(definition, "instructions", "there is no axis '" + name + "'", did_you_mean(name, axes));
+      }
+    }
+  }
+}
+
+}  // namespace stampede

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "engine/base/hash.h"
+#include "scripting/library/builder.h"
+#include "scripting/lua/sandbox.h"
+
+namespace stampede {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargest = 1u << 20;  // bytes of one file
+
+struct Home {
+  const char* folder;
+  DefinitionKind kind;
+};
+constexpr Home kHomes[] = {{"tasks", DefinitionKind::task},
+                           {"skills", DefinitionKind::skill},
+                           {"worlds", DefinitionKind::world},
+                           {"worlds/objects", DefinitionKind::object},
+                           {"worlds/predicates", DefinitionKind::predicate},
+                           {"worlds/robots", DefinitionKind::robot}};
+
+DefinitionKind kind_of(const std::string& shown_path) {
+  if (shown_path == "worlds/types.lua") return DefinitionKind::types;
+  if (shown_path == "worlds/colours.lua") return DefinitionKind::colours;
+  const std::string folder = shown_path.substr(0, shown_path.rfind('/'));
+  for (const Home& home : kHomes) {
+    if (folder == home.folder) return home.kind;
+  }
+  return DefinitionKind::module;
+}
+
+// The first line when it is a comment, without its dashes and full stop.
+std::string description_of(const std::string& source) {
+  if (!source.starts_with("--")) return {};
+  std::string line = source.substr(0, source.find('\n'));
+  line.erase(0, line.find_first_not_of("- \t") == std::string::npos ? line.size() : line.find_first_not_of("- \t"));
+  while (!line.empty() && (line.back() == '.' || line.back() == ' ' || line.back() == '\r')) line.pop_back();
+  return line;
+}
+
+// Regular files that really lie inside the root: a link out of it is no file of ours.
+std::vector<fs::path> lua_files(const fs::path& root, const char* folder, std::vector<Error>& complaints) {
+  std::vector<fs::path> found;
+  std::error_code code;
+  const fs::path start = root / folder;
+  if (!fs::is_directory(start, code)) return found;
+  const fs::path inside = fs::canonical(root, code);
+  for (fs::recursive_directory_iterator entry(start, code), end; !code && entry != end; entry.increment(code)) {
+    if (entry->path().extension() != ".lua" || !entry->is_regular_file(code)) continue;
+    const fs::path real = fs::canonical(entry->path(), code);
+    if (std::mismatch(inside.begin(), inside.end(), real.begin(), real.end()).first != inside.end()) {
+      complaints.emplace_back(entry->path().string(), "a link that leads out of its root", "copy the file instead");
+      continue;
+    }
+    found.push_back(entry->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void read_file(const fs::path& root, const fs::path& path, std::map<std::string, ScriptFile>& files,
+               std::vector<Error>& complaints) {
+  ScriptFile file;
+  file.path = path;
+  file.shown_path = path.lexically_relative(root).generic_string();
+  file.kind = kind_of(file.shown_path);
+  file.name = path.stem().string();
+  std::error_code code;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || fs::file_size(path, code) > kLargest) {
+    complaints.emplace_back(file.shown_path, stream ? "larger than 1 MiB" : "cannot be read");
+    return;
+  }
+  file.source.assign(std::istreambuf_iterator<char>(stream), {});
+  file.description = description_of(file.source);
+  file.hash = content_hash(file.source);
+  try {
+    file.bytecode = Sandbox::compile(file.source, file.shown_path);
+  } catch (const Error& error) {
+    complaints.push_back(error);
+  }
+  files[file.shown_path] = std::move(file);
+}
+
+}  // namespace
+
+std::string_view to_string(DefinitionKind kind) {
+  switch (kind) {
+    case DefinitionKind::task: return "task";
+    case DefinitionKind::skill: return "skill";
+    case DefinitionKind::predicate: return "predicate";
+    case DefinitionKind::object: return "object";
+    case DefinitionKind::world: return "world";
+    case DefinitionKind::robot: return "robot";
+    case DefinitionKind::types: return "types";
+    case DefinitionKind::colours: return "colours";
+    case DefinitionKind::module: return "module";
+  }
+  return {};
+}
+
+std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints) {
+  std::map<std::string, ScriptFile> files;
+  for (const fs::path& root : roots.folders) {
+    std::error_code code;
+    if (!fs::is_directory(root, code)) {
+      complaints.emplace_back(root.string(), "is not a folder", "--root and --path take folders with tasks, skills and worlds");
+      continue;
+    }
+    for (const char* folder : {"tasks", "skills", "worlds"}) {
+      for (const fs::path& path : lua_files(root, folder, complaints)) read_file(root, path, files, complaints);
+    }
+  }
+  std::vector<ScriptFile> result;
+  for (auto& [path, file] : files) result.push_back(std::move(file));
+  std::stable_sort(result.begin(), result.end(), [](const ScriptFile& a, const ScriptFile& b) {
+    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+  });
+  return result;
+}
+
+}  // namespace stampede
