@@ -69,13 +69,15 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
 // An error outside every protected call (a push that found no memory): leave by an exception before Lua aborts.
 int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
 
-void on_count(lua_State* state, lua_Debug*) {
+void on_count(lua_State* state, lua_Debug* where) {
   Sandbox::Impl& impl = impl_of(state);
   impl.used += lua_gethookcount(state);
   if (impl.used < impl.limits.instructions && !impl.spent) return;
   impl.spent = true;
   lua_sethook(state, on_count, LUA_MASKCOUNT, 1);
-  luaL_error(state, "%s", kSpent);
+  lua_getinfo(state, "Sl", where);  // luaL_error would name the caller
+  lua_pushfstring(state, "%s:%d: %s", where->short_src, where->currentline, kSpent);
+  lua_error(state);
 }
 
 // `tasks/stack.lua:4: message` → place and message.
