@@ -91,6 +91,11 @@ std::string in_words(std::string_view type) {
   return text;
 }
 
+std::string with_article(std::string_view word) {
+  const bool vowel = std::string_view("aeiou").find(word.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + std::string(word);
+}
+
 // Records inside a field's value.
 void check_inner(const Field& field, const Node& node, const std::string& path, const Complain& complain) {
   for (std::string_view type : alternatives(field.type)) {
@@ -109,7 +114,7 @@ void check_inner(const Field& field, const Node& node, const std::string& path, 
         if (entry.is_table()) {
           check_record(*inner, entry, inner_path, complain);
         } else {
-          complain(inner_path, "a " + std::string(name) + " is a table, this is " + entry.type_name(), {});
+          complain(inner_path, with_article(name) + " is a table, this is " + entry.type_name(), {});
         }
       }
     } else if (list) {
@@ -140,16 +145,16 @@ void check_record(const Record& record, const Node& table, const std::string& pa
   for (const auto& [key, value] : table.fields) {
     if (outermost && (key == "kind" || key == "line" || key == "name")) continue;
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    complain(prefix + key, std::string("a ") + record.name + " has no field '" + key + "'", did_you_mean(key, known));
+    complain(prefix + key, with_article(record.name) + " has no field '" + key + "'", did_you_mean(key, known));
   }
   if (table.items.size() > 0 && std::string_view(record.head).empty()) {
-    complain(path, std::string("a ") + record.name + " has fields with names only, this one lists values", {});
+    complain(path, with_article(record.name) + " has fields with names only, this one lists values", {});
   }
   for (const Field& field : record.fields) {
     const Node& value = table[field.name];
     if (!value.present()) {
       if (!field.required) continue;
-      complain(outermost ? field.name : path, std::string("a ") + record.name + " needs the field '" + field.name + "': " + field.description,
+      complain(outermost ? field.name : path, with_article(record.name) + " needs the field '" + field.name + "': " + field.description,
                std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
       continue;
     }

@@ -89,7 +89,8 @@ std::vector<Parameter> LibraryBuilder::parameters_of(const Definition& definitio
       try {
         parameter = parameter_from(text.text, library_->domain_, place);
       } catch (const Error& error) {
-        throw Error(error.where(), "params: " + error.message(), error.hint());
+        add(Error(error.where(), "params: " + error.message(), error.hint()));
+        parameter.name = text.text.substr(0, text.text.find(':'));  // kept, so that one fault is one complaint
       }
       for (const Parameter& other : result) {
         if (other.name == parameter.name) throw Error(place, "params: two parameters are called '" + parameter.name + "'", "rename one");

@@ -143,7 +143,8 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       }
     } else if (node.is_number() || (node.is_table() && node.tag().empty())) {
       if (node.is_number()) one.initial = {node.number};
-      for (const Node& item : node.items) {
+      const bool vector = !node.items.empty() && node.items.front().is_table();  // { { x, y, z }, unit = … }
+      for (const Node& item : vector ? node.items.front().items : node.items) {
         if (item.is_number()) one.initial.push_back(item.number);
       }
       if (one.initial.empty()) complain(definition, path, "a continuous parameter begins with its default", "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");

@@ -49,8 +49,9 @@ void LibraryBuilder::read_task(const Definition& definition) {
   const Node& texts = definition.node["instructions"];
   if (texts.is_text()) info.instructions.push_back(texts.text);
   for (const Node& text : texts.items) info.instructions.push_back(text.text);
+  const bool world_known = worlds.contains(info.world);  // otherwise every name of its fixtures would be a complaint
   const std::size_t stride = variations.size() / kMostChecked + 1;
-  for (std::size_t i = 0; i < variations.size(); i += stride) {
+  for (std::size_t i = 0; world_known && i < variations.size(); i += stride) {
     const std::size_t before = complaints_.size();
     check_variation(definition, state, variations[i], variations.size() > 1 ? info.variation_texts[i] : std::string());
     if (complaints_.size() > before) break;  // the others would say the same

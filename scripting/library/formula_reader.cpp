@@ -27,7 +27,7 @@ class Reader {
   explicit Reader(const FormulaContext& context) : context_(context), domain_(*context.domain) {}
 
   Formula formula(const Node& node) {
-    if (node.is_table() && node.tag().empty() && !node.items.empty()) return list(node, Formula::Kind::conjunction);
+    if (node.is_table() && node.tag().empty() && node.fields.empty()) return list(node, Formula::Kind::conjunction);
     const std::string tag = node.tag();
     const Line line(*this, node);
     if (tag == "literal") return literal_formula(node);

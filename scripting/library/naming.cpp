@@ -32,7 +32,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
   std::optional<std::string> best;
-  const int limit = std::max(1, static_cast<int>(std::min<std::size_t>(word.size(), 64)) / 3);
+  const int limit = std::max(1, static_cast<int>(std::min<std::size_t>(word.size(), 64) + 2) / 3);
   int best_distance = limit + 1;
   for (const std::string& candidate : known) {
     const int distance = edit_distance(word.substr(0, 64), candidate);

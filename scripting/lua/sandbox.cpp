@@ -56,7 +56,7 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
     if (fresh && old_size == LUA_TSTRING && new_size > kLongestString) return nullptr;
     if (impl.memory - held + new_size > impl.limits.memory_bytes) return nullptr;
     impl.used += static_cast<std::int64_t>(new_size) / kBytesPerInstruction;
-    if (impl.depth > 0 && impl.used > impl.limits.instructions) {
+    if (impl.depth > 0 && impl.used > impl.limits.instructions && !impl.spent) {  // once spent, the message needs room
       impl.spent = true;
       return nullptr;
     }
