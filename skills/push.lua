@@ -1,6 +1,6 @@
 -- Slide an object along the surface into a marked area with the closed fingers.
 return skill {
-  params = { "obj: movable", "area: marked", "top: surface" },
+  params = { "obj: movable", "area: marked & container", "top: surface" },
   precondition = { is.hand_empty(), is.on("obj", "top"), is_not.inside("obj", "area") },
   effect = { is.inside("obj", "area") },
   continuous = { speed = { 0.08, min = 0.02, max = 0.2, unit = "m/s" } },

@@ -18,7 +18,7 @@ return {
     support = "other things can rest on it",
     surface = "a level place to put things down",
     stackable = "one thing fits centred on top",
-    container = "holds things inside it",
+    container = "things can be inside it: a drawer, a box, a marked volume",
     openable = "a drawer, door or lid on a joint",
     pressable = "a button",
     target = "a place for the tip to reach",

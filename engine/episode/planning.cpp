@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/episode/effects.h"
@@ -79,6 +80,11 @@ PlanningTask planning_task(const Task& task, const Domain& domain, const FactTra
   std::vector<std::vector<Literal>> literals(stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i) collect(stages[i], literals[i]);
   for (Action& action : planning.domain.actions) advance_stages(action, literals);
+  std::set<std::string> named;  // the effects speak of these objects, so the domain must know them
+  for (const auto& stage : literals)
+    for (const Literal& literal : stage) named.insert(literal.fact.arguments.begin(), literal.fact.arguments.end());
+  for (const TypedObject& object : facts.objects())
+    if (named.contains(object.name)) planning.domain.constants.push_back(object);
   std::vector<Formula> goal = {task.goal(), atom(stage_name(stages.size()), {}), negation(atom("out_of_order", {}))};
   for (std::size_t i = 1; i <= stages.size(); ++i)
     planning.domain.predicates.push_back({stage_name(i), {}, {}, {}, {}});

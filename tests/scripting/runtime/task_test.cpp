@@ -182,7 +182,7 @@ TEST_CASE("fields that are functions of the variation, sentences, and subgoals i
   CHECK(task.hold_s() == 1.5);
   CHECK(task.horizon_s() == 33.0);
   CHECK(task.axes() == std::map<std::string, std::string>{{"colour", "red"}, {"height", "3"}});
-  CHECK(task.instructions() == std::vector<std::string>{"stack 3 red blocks", "a {tower}"});
+  CHECK(task.instructions() == std::vector<std::string>{"stack 3 red blocks", "a tower of 3"});
   REQUIRE(task.subgoals().size() == 2);
   CHECK(task.subgoals()[0].first == "zebra");
   CHECK(task.subgoals()[0].second == atom("holding", {{false, "mini.hand"}, {false, "block1"}}));

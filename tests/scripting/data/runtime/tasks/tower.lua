@@ -25,5 +25,5 @@ return task {
   reward = function(w, v) return v.height / 4 end,
   hold = function(v) return v.height / 2 end,
   horizon = 33,
-  instructions = { "stack {height} {colour} blocks", "a {tower}" },
+  instructions = { "stack {height} {colour} blocks", "a tower of {height}" },
 }

@@ -1,0 +1,331 @@
+---@meta
+-- Made by `stampede doc` from the field tables of scripting/library/fields.cpp: do not edit.
+
+---@class stampede.draw
+---@class stampede.literal: stampede.formula, stampede.effect
+---@class stampede.formula
+---@class stampede.effect
+---@class stampede.call
+
+---@type table<string, fun(...: string): stampede.literal>
+is = {}
+---@type table<string, fun(...: string): stampede.literal>|fun(part: stampede.formula): stampede.formula
+is_not = {}
+---@type table<string, fun(...: string): stampede.call>
+act = {}
+
+---@return stampede.formula
+function all_of(...) end
+---@return stampede.formula
+function any_of(...) end
+---@return stampede.formula
+function in_order(...) end
+---@param group string
+---@param n integer
+---@param f fun(b: string[], i: integer): stampede.formula
+---@return stampede.formula
+function any_order(group, n, f) end
+---@return stampede.formula
+function forall(...) end
+---@return stampede.formula
+function exists(...) end
+---@return stampede.formula
+function equal(a, b) end
+---@param text string
+---@return stampede.formula
+function pddl(text) end
+---@return stampede.effect
+function when(condition, effects) end
+function stream(source, object) end
+---@return stampede.draw
+function one_of(...) end
+---@return stampede.draw
+function sample_of(values, n) end
+---@param low number
+---@param high number
+---@return stampede.draw
+function between(low, high) end
+---@param degrees number
+---@return number
+function deg(degrees) end
+function mm(x) end
+function cm(x) end
+function each(list, f) end
+function range(first, last, step) end
+---@type { names: string[], except: (fun(...): string[]), rgb: fun(name: string): number[] }
+colours = {}
+
+-- What is to be done: objects, how they start, what must be true at the end
+---@class stampede.task
+---@field world string  the world file it takes place in
+---@field variations? table|table[]  axes (their product) or an explicit list of variations (default {})
+---@field where? fun(...): any  function(v): false leaves a combination of the axes out
+---@field objects? table<string, stampede.entry>|fun(v: table): any  the objects by name; count = n makes name1 … namen (default {})
+---@field init? stampede.formula[]|stampede.formula|fun(v: table): any  what holds at the start, in the order in which it is made true (default {})
+---@field goal stampede.formula|stampede.formula[]|fun(v: table): any  what must hold at the end
+---@field steps? stampede.call[]|stampede.call|fun(v: table): any  the skills to execute, instead of a plan
+---@field also? fun(...): any  function(w): a further test beside the goal
+---@field fails? fun(...): any  function(w): true ends the episode as failed
+---@field reward? fun(...): any  function(w): a shaped reward, added to 1 at success
+---@field subgoals? table|fun(v: table): any  formulas by name, or a list of { "name", formula } in order (default {})
+---@field horizon? number|fun(v: table): any  the longest an episode may take [s] (default 120)
+---@field hold? number|fun(v: table): any  for how long the goal must stay true at the end [s] (default 1.0)
+---@field instructions string[]|string|fun(v: table): any  sentences; {axis} is the variation's value
+
+-- A parameterised action: when it may be done, what it brings about, and how
+---@class stampede.skill
+---@field params string[]  "name: type & trait"; the hand is appended by itself
+---@field precondition? stampede.formula[]|stampede.formula  what must hold before (default {})
+---@field effect? stampede.effect[]|stampede.effect  what holds afterwards; tested after each run (default {})
+---@field cases? table<string, stampede.case>  instead of precondition and effect: several operators that share run
+---@field continuous? table  continuous parameters by name: a number or vector with min max unit, or a stream (default {})
+---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
+---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
+---@field label string  what it does in words, with {params}
+---@field run fun(...): any  function(robot, p, c): p parameters, c continuous parameters
+---@field forgets? string[]  predicates that contact leaves uncertain (default {})
+---@field cost? integer  of the action in a plan (default 1)
+---@field may_equal? string[][]  pairs of parameters that may be one object (default {})
+
+-- A typed symbol with a test on the state of the world
+---@class stampede.predicate
+---@field params string[]  "name: type & trait"; one of type hand may be left out in literals
+---@field label string  the fact in words, with {params}
+---@field holds? fun(...): any  function(w, …): does it hold, and a signed margin if there is one
+---@field derived? stampede.formula  the formula that it stands for, instead of holds
+---@field sample? fun(...): any  function(w, …, rng): poses or joint positions that make it true
+---@field static? boolean  read once, at the start (default false)
+---@field settle? number  a shorter change is noise [s] (default 0)
+---@field momentary? boolean  read at every physics step, without settle time (default false)
+---@field remember? boolean  stays true once true (default false)
+---@field requires? string  evaluate only pairs that are "touching" or "near" (default "all")
+---@field mutex? string[]  predicates that cannot hold of the same first argument (default {})
+---@field functional? boolean|string  at most one value of the last (or named) parameter (default false)
+---@field observable? fun(...): any|boolean  function(w, …): can it be seen (default true)
+---@field margin_unit? string  unit of the margin
+
+-- A thing: shape, mass, type, traits, parts, grasps
+---@class stampede.object
+---@field type? string  its class in the type tree of worlds/types.lua
+---@field traits? string[]  what can be done with it (default {})
+---@field shape? stampede.shape  its one shape
+---@field shapes? stampede.shape[]  its shapes, convex each (default {})
+---@field mass? number  of the whole body or part [kg] (default 0)
+---@field friction? number  Coulomb coefficient; a pair's is the product of both (default 0.5)
+---@field rolling? number  rolling friction [m] (default 0.001)
+---@field spinning? number  friction about the contact normal [m] (default 0.001)
+---@field restitution? number  bounce, 0 … 1 (default 0)
+---@field colour? string|number[]  of every shape that has none; a name is an attribute too
+---@field attributes? table  static facts: texts by name (default {})
+---@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
+---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
+---@field grasps? stampede.grasp[]  where a hand may take it; none: from its geometry (default {})
+---@field size? number[]|number[]|number  edge lengths where a file builds its shape from them [m]
+---@field scale? number|number[]  of its meshes (default 1)
+---@field fixed? boolean  stands still (furniture) (default not movable)
+---@field region? stampede.region  the whole object is a region: no mass, no contact
+---@field parts? table<string, stampede.part>  articulated parts, addressed object.part (default {})
+---@field urdf? string  a URDF file beside this one, instead of shapes
+
+-- Where tasks take place: robot, fixtures, cameras, sensors, light
+---@class stampede.world
+---@field robot stampede.entry  the robot file and where it stands
+---@field fixtures? table<string, stampede.entry>  objects that every task has (default {})
+---@field cameras? table<string, stampede.camera>  by name (default {})
+---@field sensors? table<string, stampede.sensor>  by name (default {})
+---@field light? table  direction, ambient, diffuse (default {})
+---@field regions? table<string, stampede.region>  fixed to the world (default {})
+---@field gravity? number[]   [m/s^2] (default { 0, 0, -9.81 })
+---@field physics_hz? integer  physics and control [Hz] (default 240)
+---@field frame_hz? integer  recorded frames; divides physics_hz [Hz] (default 20)
+
+-- What a URDF cannot say about an arm
+---@class stampede.robot
+---@field urdf string  the URDF file beside this one
+---@field arm string[]  its driven joints from base to tip
+---@field tip table  the tool centre point: link, at, rpy [m, rad]
+---@field home number[]  where every episode starts [rad]
+---@field fingers? string[]  two sliding joints, coupled (default {})
+---@field pads? string[]  the links whose contact counts as touch (default {})
+---@field limits? table  numbers or one per joint: velocity, acceleration, jerk, effort [rad/s …] (default {})
+---@field velocity? number[]  limits, one per joint; more than the URDF says is cut [rad/s]
+---@field acceleration? number[]  limits, one per joint [rad/s^2]
+---@field jerk? number[]  limits, one per joint [rad/s^3]
+---@field effort? number[]  limits, one per joint [N m]
+---@field checked_pairs? string[][]  the same as checked
+---@field allowed_pairs? string[][]  the same as allowed
+---@field pad? table  surface of the pads: friction, rolling, spinning, anchor (default {})
+---@field allowed? string[][]  pairs of links that never meet (default {})
+---@field checked? string[][]  pairs of links that are tested for collision; instead of allowed
+---@field opening? number  both fingers together [m] (default 0.08)
+---@field grip_force? number  of the fingers [N] (default 20)
+---@field finger_speed? number  of each finger [m/s] (default 0.1)
+---@field hand? string  name of its hand: ROBOT.hand (default "hand")
+---@field pad_friction? number  Coulomb coefficient of the pads
+---@field colours? table  colours by link (default {})
+
+-- One line of a task's objects or a world's fixtures: a class and what differs from its file
+---@class stampede.entry
+---@field [integer] string
+---@field count? integer  makes a group name1 … namen (0: an empty one)
+---@field at? number[]  fixed position of the body in the world [m]
+---@field yaw? number  turn about the vertical [rad] (default 0)
+---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
+---@field quaternion? number[]  orientation x y z w, instead of yaw
+---@field joints? table  initial joint positions by part [rad or m] (default {})
+
+-- One operator of a skill with several
+---@class stampede.case
+---@field precondition? stampede.formula[]|stampede.formula  what must hold before (default {})
+---@field effect stampede.effect[]|stampede.effect  what holds afterwards
+---@field cost? integer  of this action in a plan (default 1)
+
+-- A moving part of an object
+---@class stampede.part
+---@field type? string  its class in the type tree of worlds/types.lua
+---@field traits? string[]  what can be done with it (default {})
+---@field shape? stampede.shape  its one shape
+---@field shapes? stampede.shape[]  its shapes, convex each (default {})
+---@field mass? number  of the whole body or part [kg] (default 0)
+---@field friction? number  Coulomb coefficient; a pair's is the product of both (default 0.5)
+---@field rolling? number  rolling friction [m] (default 0.001)
+---@field spinning? number  friction about the contact normal [m] (default 0.001)
+---@field restitution? number  bounce, 0 … 1 (default 0)
+---@field colour? string|number[]  of every shape that has none; a name is an attribute too
+---@field attributes? table  static facts: texts by name (default {})
+---@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
+---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
+---@field grasps? stampede.grasp[]  where a hand may take it; none: from its geometry (default {})
+---@field size? number[]|number[]|number  edge lengths where a file builds its shape from them [m]
+---@field scale? number|number[]  of its meshes (default 1)
+---@field parent? string  the part that it hangs on (default the base)
+---@field slider? stampede.joint  moves along an axis
+---@field hinge? stampede.joint  turns about an axis
+---@field fixed? stampede.joint|boolean  does not move relative to its parent
+
+-- How a part moves
+---@class stampede.joint
+---@field axis? number[]  in the joint's frame (default { 0, 0, 1 })
+---@field at? number[]  origin in the parent's frame [m] (default { 0, 0, 0 })
+---@field rpy? number[]  orientation in the parent's frame [rad] (default { 0, 0, 0 })
+---@field yaw? number  instead of rpy [rad] (default 0)
+---@field range? number[]  lower and upper limit [rad or m]
+---@field initial? number  position at the start [rad or m] (default 0)
+---@field damping? number  torque or force per speed [N m s or N s/m] (default 0)
+---@field friction? number  greatest friction [N m or N] (default 0)
+---@field spring? number  constant force back to spring_target [N m or N] (default 0)
+---@field spring_target? number  where the spring pushes to [rad or m] (default 0)
+---@field detent? number  holds at a limit until this is exceeded [N m or N] (default 0)
+---@field latch? stampede.latch  locked until another joint is moved
+
+-- A lock that another part opens
+---@class stampede.latch
+---@field key string  the part whose joint unlocks this one
+---@field open number  the key's position that unlocks [rad or m]
+---@field close? number  locks again below this position [rad or m] (default 0)
+
+-- A named box without mass or contact
+---@class stampede.region
+---@field at? number[]  its centre [m] (default { 0, 0, 0 })
+---@field rpy? number[]  its orientation [rad] (default { 0, 0, 0 })
+---@field yaw? number  instead of rpy [rad] (default 0)
+---@field size number[]  full edge lengths [m]
+---@field type? string  its class in the type tree (default "region")
+---@field traits? string[]  what can be done with it (default {})
+---@field attributes? table  static facts (default {})
+---@field numbers? table  numbers by name (default {})
+---@field visible? boolean  drawn in pictures (default false)
+---@field colour? string|number[]  when visible
+
+-- Where a hand may take an object
+---@class stampede.grasp
+---@field at? number[]  tool centre point in the object's frame [m] (default { 0, 0, 0 })
+---@field rpy? number[]  z out of the hand, y along the closing axis [rad] (default { 0, 0, 0 })
+---@field yaw? number  instead of rpy [rad] (default 0)
+---@field quaternion? number[]  instead of rpy
+---@field width? number  opening at contact [m] (default 0.04)
+---@field approach? number  way of the straight approach [m] (default 0.08)
+---@field force? number  of the fingers [N] (default 20)
+
+-- box { x, y, z }  sphere { r }  cylinder { r, length }  capsule { r, length }  cone { r, length }  hull { points }  lathe { { r, z }, … }  mesh { "file" }
+---@class stampede.shape
+---@field [integer] any
+---@field tag string  set by the words
+---@field shape string  set by the words
+---@field line? integer  set by the words
+---@field at? number[]  in the part's frame [m] (default { 0, 0, 0 })
+---@field rpy? number[]  in the part's frame [rad] (default { 0, 0, 0 })
+---@field yaw? number  instead of rpy [rad] (default 0)
+---@field quaternion? number[]  instead of rpy
+---@field colour? string|number[]  of this shape
+---@field collides? boolean  touches others (default true)
+---@field visible? boolean  is drawn (default true)
+---@field scale? number|number[]  of a mesh file (default 1)
+---@field segments? integer  wedges of a lathe (default 16)
+
+-- Where pictures are taken from
+---@class stampede.camera
+---@field at number[]  position, in the world or on its mount [m]
+---@field look_at? string|number[]  an object of the world or a point
+---@field rpy? number[]  instead of look_at [rad]
+---@field quaternion? number[]  instead of look_at
+---@field up? number[]  which way is up in the picture (default { 0, 0, 1 })
+---@field mount? string  what it moves with
+---@field fov? number  vertical field of view [rad] (default deg(40))
+---@field size? number[]  width and height [pixels] (default { 128, 128 })
+---@field near? number   [m] (default 0.01)
+---@field far? number   [m] (default 4.5)
+
+-- Something measured beside the frames
+---@class stampede.sensor
+---@field [integer] string
+---@field on? string  where it sits
+---@field rate? number  divides the physics rate [Hz]
+
+---@param fields stampede.task
+---@return stampede.task
+function task(fields) end
+
+---@param fields stampede.skill
+---@return stampede.skill
+function skill(fields) end
+
+---@param fields stampede.predicate
+---@return stampede.predicate
+function predicate(fields) end
+
+---@param fields stampede.object
+---@return stampede.object
+function object(fields) end
+
+---@param fields stampede.world
+---@return stampede.world
+function world(fields) end
+
+---@param fields stampede.robot
+---@return stampede.robot
+function robot(fields) end
+
+---@return stampede.shape
+function box(fields) end
+
+---@return stampede.shape
+function sphere(fields) end
+
+---@return stampede.shape
+function cylinder(fields) end
+
+---@return stampede.shape
+function capsule(fields) end
+
+---@return stampede.shape
+function cone(fields) end
+
+---@return stampede.shape
+function hull(fields) end
+
+---@return stampede.shape
+function lathe(fields) end
+
+---@return stampede.shape
+function mesh(fields) end
