@@ -31,6 +31,8 @@ target_include_directories(stampede_options INTERFACE ${PROJECT_SOURCE_DIR} ${PR
 if(STAMPEDE_SANITIZE)
   add_compile_options(-fsanitize=${STAMPEDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g)
   add_link_options(-fsanitize=${STAMPEDE_SANITIZE})
+  # The checks a sanitizer weaves in hide from GCC 12 that Eigen's and the standard library's values are set.
+  add_compile_options(-Wno-maybe-uninitialized)
 endif()
 
 # stampede_room(base SOURCES a.cpp … USES rooms and packages its headers need … INSIDE those only its sources need …)
