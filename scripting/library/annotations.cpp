@@ -107,7 +107,8 @@ std::string luals_annotations() {
     for (const Field& field : one.fields) text += annotation(field);
   }
   for (const char* kind : {"task", "skill", "predicate", "object", "world", "robot"}) {
-    text += "\n---@param fields " + class_name(kind) + "\n---@return " + class_name(kind) + "\nfunction " + kind + "(fields) end\n";
+    text += "\n---@param fields " + class_name(kind) + "\n---@return " + class_name(kind) + "\nfunction " + kind +
+            "(fields) end\n";
   }
   for (const char* shape : {"box", "sphere", "cylinder", "capsule", "cone", "hull", "lathe", "mesh"}) {
     text += "\n---@return " + class_name("shape") + "\nfunction " + shape + "(fields) end\n";

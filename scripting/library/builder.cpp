@@ -65,7 +65,8 @@ void LibraryBuilder::read_definitions() {
         check_record(*fields, definition.node, {}, complainer(definition));
       }
       if (file.description.empty() && file.kind != DefinitionKind::colours) {
-        add(Error(file.shown_path + ":1", "the first line is no comment that describes the " + std::string(to_string(file.kind)),
+        add(Error(file.shown_path + ":1",
+                  "the first line is no comment that describes the " + std::string(to_string(file.kind)),
                   "begin the file with -- and one sentence"));
       }
       of(file.kind).emplace(file.name, std::move(definition));

@@ -28,7 +28,7 @@ struct Definition {
 struct SceneObject {
   std::string type;
   std::vector<std::string> traits;
-  bool free = false;       // must be placed
+  bool free = false;        // must be placed
   bool positioned = false;  // its entry says where it is
 };
 using SceneObjects = std::map<std::string, SceneObject>;
@@ -46,8 +46,10 @@ class LibraryBuilder {
   void check_names();
   void finish();
   Definitions& of(DefinitionKind kind) { return definitions_[kind]; }
-  Error error_at(const Definition& definition, const std::string& path, const std::string& what, const std::string& hint) const;
-  void complain(const Definition& definition, const std::string& path, const std::string& what, const std::string& hint = {});
+  Error error_at(const Definition& definition, const std::string& path, const std::string& what,
+                 const std::string& hint) const;
+  void complain(const Definition& definition, const std::string& path, const std::string& what,
+                const std::string& hint = {});
   Complain complainer(const Definition& definition);
   FormulaContext context(const Definition& definition, const std::string& field) const;
   // Runs `work`; what it throws becomes a complaint.
@@ -65,8 +67,8 @@ class LibraryBuilder {
 
   // check_predicates.cpp
   void read_types();
-  void declare_predicates();   // names and parameters
-  void define_predicates();    // traits, derived formulas
+  void declare_predicates();  // names and parameters
+  void define_predicates();   // traits, derived formulas
   void check_strata();
   void declare_attributes();
   std::vector<Parameter> parameters_of(const Definition& definition, bool add_hand);
@@ -75,7 +77,8 @@ class LibraryBuilder {
   // check_skills.cpp
   void read_skills();
   void read_skill(const Definition& definition);
-  void read_action(const Definition& definition, const SkillInfo& info, const Node& fields, const std::string& case_name);
+  void read_action(const Definition& definition, const SkillInfo& info, const Node& fields,
+                   const std::string& case_name);
   void read_continuous(const Definition& definition, SkillInfo& info);
 
   // check_objects.cpp
@@ -91,10 +94,11 @@ class LibraryBuilder {
   void read_tasks();
   void read_task(const Definition& definition);
   std::vector<Node> variations_of(const Definition& definition, DefinitionState& state);
-  void check_variation(const Definition& definition, DefinitionState& state, const Node& variation, const std::string& text);
+  void check_variation(const Definition& definition, DefinitionState& state, const Node& variation,
+                       const std::string& text);
   Node field_for(const Definition& definition, DefinitionState& state, const char* field, const Node& variation);
-  void check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields, const SceneObjects& objects,
-                           const std::map<std::string, std::vector<std::string>>& groups);
+  void check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields,
+                           const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups);
   void check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line);
   void check_instructions(const Definition& definition, const Node& texts, const Node& variation);
 

@@ -13,8 +13,8 @@ bool is_draw(const Node& node) {
 }
 
 bool is_formula(const Node& node) {
-  static const std::vector<std::string> kTags = {"literal", "all_of", "any_of", "in_order", "not",  "forall",
-                                                 "exists",  "any_order", "equal", "pddl",  "when", "call"};
+  static const std::vector<std::string> kTags = {"literal", "all_of",    "any_of", "in_order", "not",  "forall",
+                                                 "exists",  "any_order", "equal",  "pddl",     "when", "call"};
   return std::find(kTags.begin(), kTags.end(), node.tag()) != kTags.end();  // which of them: the formula reader says
 }
 
@@ -27,7 +27,8 @@ bool numbers(const Node& node, std::size_t least, std::size_t most) {
 bool draw_has_type(const Node& node, std::string_view type) {
   if (node.tag() == "between") return type == "number";
   const Node& values = node["values"];
-  return std::all_of(values.items.begin(), values.items.end(), [&](const Node& value) { return has_type(value, type); });
+  return std::all_of(values.items.begin(), values.items.end(),
+                     [&](const Node& value) { return has_type(value, type); });
 }
 
 bool has_plain_type(const Node& node, std::string_view type) {
@@ -50,7 +51,8 @@ bool has_one_type(const Node& node, std::string_view type) {
   if (type.size() > 2 && type.ends_with("[]")) {
     type.remove_suffix(2);
     return node.is_table() && node.tag().empty() && node.fields.empty() &&
-           std::all_of(node.items.begin(), node.items.end(), [&](const Node& item) { return has_one_type(item, type); });
+           std::all_of(node.items.begin(), node.items.end(),
+                       [&](const Node& item) { return has_one_type(item, type); });
   }
   if (type.front() == '{') return node.is_table() && node.items.empty();
   return is_draw(node) ? draw_has_type(node, type) : has_plain_type(node, type);
@@ -154,14 +156,17 @@ void check_record(const Record& record, const Node& table, const std::string& pa
     const Node& value = table[field.name];
     if (!value.present()) {
       if (!field.required) continue;
-      complain(outermost ? field.name : path, with_article(record.name) + " needs the field '" + field.name + "': " + field.description,
-               std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
+      complain(
+          outermost ? field.name : path,
+          with_article(record.name) + " needs the field '" + field.name + "': " + field.description,
+          std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
       continue;
     }
     if (field.of_variation && value.is_function()) continue;  // its value is checked for each variation
     if (!has_type(value, field.type)) {
-      complain(prefix + field.name, "expects " + in_words(field.type) + ", this is " + value.type_name(),
-               std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
+      complain(
+          prefix + field.name, "expects " + in_words(field.type) + ", this is " + value.type_name(),
+          std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
       continue;
     }
     check_inner(field, value, prefix + field.name, complain);

@@ -17,7 +17,9 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string type_or(const Node& node, const std::string& otherwise) { return node["type"].is_text() ? node["type"].text : otherwise; }
+std::string type_or(const Node& node, const std::string& otherwise) {
+  return node["type"].is_text() ? node["type"].text : otherwise;
+}
 
 }  // namespace
 
@@ -27,7 +29,8 @@ void LibraryBuilder::check_body(const Definition& definition, const Node& body, 
   if (body["type"].is_text() && !domain.types.contains(body["type"].text)) {
     std::vector<std::string> known;
     for (const auto& [name, parent] : domain.types) known.push_back(name);
-    complain(definition, prefix + "type", "there is no type '" + body["type"].text + "'", did_you_mean(body["type"].text, known));
+    complain(definition, prefix + "type", "there is no type '" + body["type"].text + "'",
+             did_you_mean(body["type"].text, known));
   }
   for (const std::string& trait : texts(body["traits"])) {
     if (!contains(domain.traits, trait)) {
@@ -37,7 +40,8 @@ void LibraryBuilder::check_body(const Definition& definition, const Node& body, 
   for (const char* table : {"numbers", "attributes"}) {
     for (const auto& [name, value] : body[table].fields) {
       const std::string where = prefix + table + "." + name;
-      if (const auto fault = name_fault(name)) complain(definition, where, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+      if (const auto fault = name_fault(name))
+        complain(definition, where, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
       const std::string_view wanted = std::string_view(table) == "numbers" ? "number" : "string|number|boolean";
       if (!has_type(value, wanted)) complain(definition, where, "this is " + value.type_name());
     }
@@ -50,7 +54,8 @@ void LibraryBuilder::check_body(const Definition& definition, const Node& body, 
     if (colours == of(DefinitionKind::colours).end() || colours->second.node[body["colour"].text].present()) return;
     std::vector<std::string> known;
     for (const auto& [name, rgb] : colours->second.node.fields) known.push_back(name);
-    complain(definition, prefix + "colour", "there is no colour '" + body["colour"].text + "'", did_you_mean(body["colour"].text, known));
+    complain(definition, prefix + "colour", "there is no colour '" + body["colour"].text + "'",
+             did_you_mean(body["colour"].text, known));
   }
 }
 
@@ -68,22 +73,28 @@ void LibraryBuilder::check_objects() {
       const std::string path = "parts." + part_name;
       check_body(definition, part, path);
       const int joints = part["slider"].present() + part["hinge"].present() + part["fixed"].present();
-      if (joints != 1 && !node["urdf"].present()) complain(definition, path, "a part needs one of slider, hinge and fixed");
+      if (joints != 1 && !node["urdf"].present())
+        complain(definition, path, "a part needs one of slider, hinge and fixed");
       if (part["parent"].is_text() && !node["parts"][part["parent"].text].present() && !node["urdf"].present()) {
         std::vector<std::string> known;
         for (const auto& [other, unused] : node["parts"].fields) known.push_back(other);
-        complain(definition, path + ".parent", "there is no part '" + part["parent"].text + "'", did_you_mean(part["parent"].text, known));
+        complain(definition, path + ".parent", "there is no part '" + part["parent"].text + "'",
+                 did_you_mean(part["parent"].text, known));
       }
-      for (const auto& [region_name, region] : part["regions"].fields) check_body(definition, region, path + ".regions." + region_name);
+      for (const auto& [region_name, region] : part["regions"].fields)
+        check_body(definition, region, path + ".regions." + region_name);
     }
-    for (const auto& [region_name, region] : node["regions"].fields) check_body(definition, region, "regions." + region_name);
+    for (const auto& [region_name, region] : node["regions"].fields)
+      check_body(definition, region, "regions." + region_name);
   }
 }
 
-void LibraryBuilder::check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what) {
+void LibraryBuilder::check_entry(const Definition& definition, const Node& entry, const std::string& path,
+                                 const char* what) {
   if (!entry.is_table() || entry.items.empty() || !entry.items[0].is_text()) {
     if (entry.is_table() && !entry.items.empty() && !entry.items[0].tag().empty()) return;  // a drawn class
-    return complain(definition, path, std::string("an entry begins with the name of its ") + what, "such as { \"cube\" }");
+    return complain(definition, path, std::string("an entry begins with the name of its ") + what,
+                    "such as { \"cube\" }");
   }
   const std::string& class_name = entry.items[0].text;
   const bool robot = std::string_view(what) == "robot";
@@ -94,7 +105,8 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
     if (library_->file(kind, class_name) != nullptr) return;  // its own file has complaints
     std::vector<std::string> known;
     for (const auto& [name, unused] : classes) known.push_back(name);
-    return complain(definition, path, std::string("there is no ") + what + " '" + class_name + "'", did_you_mean(class_name, known));
+    return complain(definition, path, std::string("there is no ") + what + " '" + class_name + "'",
+                    did_you_mean(class_name, known));
   }
   std::vector<std::string> known = field_names(*record(robot ? "robot" : "object"));
   for (const char* table : {"numbers", "attributes"}) {
@@ -107,7 +119,8 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
     if (parts[part].present() || found->second.node["urdf"].present()) continue;
     std::vector<std::string> names;
     for (const auto& [name, unused] : parts.fields) names.push_back(name);
-    complain(definition, path + ".joints", "'" + class_name + "' has no part '" + part + "'", did_you_mean(part, names));
+    complain(definition, path + ".joints", "'" + class_name + "' has no part '" + part + "'",
+             did_you_mean(part, names));
   }
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
 }
@@ -119,7 +132,8 @@ void LibraryBuilder::check_worlds() {
     for (const auto& [fixture, entry] : node["fixtures"].fields) {
       check_entry(definition, entry, "fixtures." + fixture, "object");
       if (const auto fault = name_fault(fixture)) {
-        complain(definition, "fixtures." + fixture, "the name '" + fixture + "' " + *fault, "such as '" + proposed_name(fixture) + "'");
+        complain(definition, "fixtures." + fixture, "the name '" + fixture + "' " + *fault,
+                 "such as '" + proposed_name(fixture) + "'");
       }
     }
     const int physics = node["physics_hz"].is_number() ? static_cast<int>(node["physics_hz"].number) : 240;
@@ -129,7 +143,9 @@ void LibraryBuilder::check_worlds() {
       for (int rate = 1; rate <= physics; ++rate) {
         if (physics % rate == 0) divisors += (divisors.empty() ? "" : " ") + std::to_string(rate);
       }
-      complain(definition, "frame_hz", std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz", "these do: " + divisors);
+      complain(definition, "frame_hz",
+               std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz",
+               "these do: " + divisors);
     }
     const SceneObjects objects = world_objects(name);
     for (const auto& [camera, entry] : node["cameras"].fields) {
@@ -137,7 +153,8 @@ void LibraryBuilder::check_worlds() {
       if (!entry["look_at"].is_text() || objects.contains(target)) continue;
       std::vector<std::string> known;
       for (const auto& [object, unused] : objects) known.push_back(object);
-      complain(definition, "cameras." + camera + ".look_at", "there is no object '" + target + "'", did_you_mean(target, known));
+      complain(definition, "cameras." + camera + ".look_at", "there is no object '" + target + "'",
+               did_you_mean(target, known));
     }
   }
 }
@@ -154,12 +171,15 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   }
   static const Node kEmpty;
   const Node& node = found == nullptr ? kEmpty : found->node;
-  const auto either = [&](const char* field) -> const Node& { return entry[field].present() ? entry[field] : node[field]; };
+  const auto either = [&](const char* field) -> const Node& {
+    return entry[field].present() ? entry[field] : node[field];
+  };
   const bool region = either("region").present();
   object.type = either("type").is_text() ? either("type").text : region ? "region" : "";
   object.traits = texts(either("traits"));
   object.positioned = entry["at"].present();
-  const bool fixed = either("fixed").kind == Node::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
+  const bool fixed =
+      either("fixed").kind == Node::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
   object.free = found != nullptr && !fixed && !region && node["parts"].fields.empty();
   objects[name] = object;
   const auto add_regions = [&](const std::string& owner, const Node& body) {
@@ -184,7 +204,8 @@ std::string LibraryBuilder::hand_of(const std::string& world) const {
   const auto robots = definitions_.find(DefinitionKind::robot);
   if (robots != definitions_.end()) {
     const auto definition = robots->second.find(robot);
-    if (definition != robots->second.end() && definition->second.node["hand"].is_text()) hand = definition->second.node["hand"].text;
+    if (definition != robots->second.end() && definition->second.node["hand"].is_text())
+      hand = definition->second.node["hand"].text;
   }
   return robot + "." + hand;
 }

@@ -15,7 +15,8 @@ constexpr const char kRoot[] = "object";
 void predicates_in(const Formula& formula, bool negated, const std::function<void(const std::string&, bool)>& visit) {
   if (formula.kind == Formula::Kind::atom) visit(formula.predicate, negated);
   const bool flips = formula.kind == Formula::Kind::negation;
-  const bool both = formula.kind == Formula::Kind::forall;  // forall is not exists not: what it ranges over counts as negated
+  const bool both =
+      formula.kind == Formula::Kind::forall;  // forall is not exists not: what it ranges over counts as negated
   for (const Formula& part : formula.parts) predicates_in(part, flips ? !negated : (negated || both), visit);
 }
 
@@ -39,7 +40,8 @@ void LibraryBuilder::read_types() {
     const Node& parent = entry.is_table() ? entry["parent"] : entry;
     domain.types[name] = parent.is_text() ? parent.text : kRoot;
     if (const auto fault = name_fault(name)) {
-      complain(definition, "types." + name, "the type name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+      complain(definition, "types." + name, "the type name '" + name + "' " + *fault,
+               "such as '" + proposed_name(name) + "'");
     }
   }
   std::vector<std::string> known;
@@ -67,9 +69,11 @@ void LibraryBuilder::read_types() {
   std::sort(domain.traits.begin(), domain.traits.end());
   for (const std::string& name : domain.traits) {
     if (const auto fault = name_fault(name)) {
-      complain(definition, "traits." + name, "the trait name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+      complain(definition, "traits." + name, "the trait name '" + name + "' " + *fault,
+               "such as '" + proposed_name(name) + "'");
     } else if (domain.types.contains(name)) {
-      complain(definition, "traits." + name, "'" + name + "' is a type too", "call the trait " + proposed_name(name, {name}));
+      complain(definition, "traits." + name, "'" + name + "' is a type too",
+               "call the trait " + proposed_name(name, {name}));
     }
   }
   for (const auto& [key, value] : definition.node.fields) {
@@ -93,17 +97,20 @@ std::vector<Parameter> LibraryBuilder::parameters_of(const Definition& definitio
         parameter.name = text.text.substr(0, text.text.find(':'));  // kept, so that one fault is one complaint
       }
       for (const Parameter& other : result) {
-        if (other.name == parameter.name) throw Error(place, "params: two parameters are called '" + parameter.name + "'", "rename one");
+        if (other.name == parameter.name)
+          throw Error(place, "params: two parameters are called '" + parameter.name + "'", "rename one");
       }
       result.push_back(std::move(parameter));
     });
   }
-  const bool has_hand = std::any_of(result.begin(), result.end(), [](const Parameter& one) { return one.type == "hand"; });
+  const bool has_hand =
+      std::any_of(result.begin(), result.end(), [](const Parameter& one) { return one.type == "hand"; });
   if (add_hand && !has_hand) result.push_back({"hand", "hand", {}});
   return result;
 }
 
-void LibraryBuilder::check_label(const Definition& definition, const std::string& label, const std::vector<Parameter>& parameters) {
+void LibraryBuilder::check_label(const Definition& definition, const std::string& label,
+                                 const std::vector<Parameter>& parameters) {
   std::vector<std::string> names;
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
   for (std::size_t open = label.find('{'); open != std::string::npos; open = label.find('{', open + 1)) {
@@ -119,7 +126,8 @@ void LibraryBuilder::check_label(const Definition& definition, const std::string
 void LibraryBuilder::declare_predicates() {
   Domain& domain = library_->domain_;
   for (const auto& [name, definition] : of(DefinitionKind::predicate)) {
-    const bool taken = domain.types.contains(name) || std::find(domain.traits.begin(), domain.traits.end(), name) != domain.traits.end();
+    const bool taken = domain.types.contains(name) ||
+                       std::find(domain.traits.begin(), domain.traits.end(), name) != domain.traits.end();
     if (taken) {
       complain(definition, {}, "'" + name + "' is already a type or trait of worlds/types.lua",
                "rename the file, to " + proposed_name(name, {name}) + ".lua for example");
@@ -157,7 +165,8 @@ void LibraryBuilder::declare_attributes() {
       return file.source.find("is." + attribute + "(") != std::string::npos ||
              file.source.find("is_not." + attribute + "(") != std::string::npos;
     };
-    if (domain.predicate(attribute) != nullptr || std::none_of(library_->files_.begin(), library_->files_.end(), used)) continue;
+    if (domain.predicate(attribute) != nullptr || std::none_of(library_->files_.begin(), library_->files_.end(), used))
+      continue;
     Predicate predicate;
     predicate.name = attribute;
     predicate.kind = PredicateKind::fixed;
@@ -184,7 +193,8 @@ void LibraryBuilder::define_predicates() {
     if (pairs == "touching") traits.requires_pairs = Pairs::touching;
     if (pairs == "near") traits.requires_pairs = Pairs::near;
     if (!pairs.empty() && pairs != "touching" && pairs != "near" && pairs != "all") {
-      complain(definition, "requires", "'" + pairs + "' is not a kind of pairs", did_you_mean(pairs, {"all", "near", "touching"}));
+      complain(definition, "requires", "'" + pairs + "' is not a kind of pairs",
+               did_you_mean(pairs, {"all", "near", "touching"}));
     }
     if (traits.settle_s < 0) complain(definition, "settle", "a settle time is not negative");
     if (traits.momentary && traits.settle_s > 0) {
@@ -220,7 +230,8 @@ void LibraryBuilder::check_strata() {
       int level = 0;
       predicates_in(predicate.derived, false, [&](const std::string& name, bool negated) {
         const Predicate* used = domain.predicate(name);
-        if (used != nullptr && used->kind == PredicateKind::derived) level = std::max(level, stratum[name] + (negated ? 1 : 0));
+        if (used != nullptr && used->kind == PredicateKind::derived)
+          level = std::max(level, stratum[name] + (negated ? 1 : 0));
       });
       if (level <= stratum[predicate.name] || stratum[predicate.name] > most) continue;
       stratum[predicate.name] = level;

@@ -33,7 +33,8 @@ void LibraryBuilder::read_skills() {
   for (const Action& action : library_->domain_.actions) {
     const auto [found, fresh] = owner.emplace(action.name, action.skill);
     if (fresh || found->second == action.skill) continue;
-    complain(of(DefinitionKind::skill).at(action.skill), {}, "the action '" + action.name + "' is also one of skill '" + found->second + "'",
+    complain(of(DefinitionKind::skill).at(action.skill), {},
+             "the action '" + action.name + "' is also one of skill '" + found->second + "'",
              "rename the skill or its case");
   }
 }
@@ -50,7 +51,8 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   const std::string& controller = node["controller"].text;
   const auto kind = std::find(controllers.begin(), controllers.end(), controller.empty() ? controllers[0] : controller);
   if (kind == controllers.end()) {
-    complain(definition, "controller", "there is no controller '" + controller + "'", did_you_mean(controller, controllers));
+    complain(definition, "controller", "there is no controller '" + controller + "'",
+             did_you_mean(controller, controllers));
   } else {
     info.controller = static_cast<ControllerKind>(kind - controllers.begin());
   }
@@ -59,13 +61,15 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   for (const Node& forgotten : node["forgets"].items) {
     info.forgets.push_back(forgotten.text);
     if (contains(predicates, forgotten.text)) continue;
-    complain(definition, "forgets", "there is no predicate '" + forgotten.text + "'", did_you_mean(forgotten.text, predicates));
+    complain(definition, "forgets", "there is no predicate '" + forgotten.text + "'",
+             did_you_mean(forgotten.text, predicates));
   }
   guarded([&] { read_continuous(definition, info); });
   const Node& cases = node["cases"];
   if (cases.present()) {
     for (const char* field : {"precondition", "effect"}) {
-      if (node[field].present()) complain(definition, field, "a skill with cases says it in each case", "move it into the cases");
+      if (node[field].present())
+        complain(definition, field, "a skill with cases says it in each case", "move it into the cases");
     }
     for (const auto& [name, fields] : cases.fields) read_action(definition, info, fields, name);
   } else {
@@ -107,7 +111,8 @@ void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& 
       continue;
     }
     for (const Node& name : pair.items) {
-      if (!contains(names, name.text)) complain(definition, "may_equal", "there is no parameter '" + name.text + "'", did_you_mean(name.text, names));
+      if (!contains(names, name.text))
+        complain(definition, "may_equal", "there is no parameter '" + name.text + "'", did_you_mean(name.text, names));
     }
     action.may_equal.emplace_back(pair.items[0].text, pair.items[1].text);
   }
@@ -121,14 +126,17 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
     const std::string path = "continuous." + name;
     ContinuousInfo one;
     one.name = name;
-    if (const auto fault = name_fault(name)) complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    if (const auto fault = name_fault(name))
+      complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
     if (name == "controller" || name == "stiffness") {
-      complain(definition, path, "'" + name + "' is a continuous parameter of every skill already", "set the field " + name + " of the skill");
+      complain(definition, path, "'" + name + "' is a continuous parameter of every skill already",
+               "set the field " + name + " of the skill");
     }
     if (node.tag() == "stream" && node["source"].text == "grasps") {
       one.source = ContinuousInfo::Source::grasps;
       one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
-      if (!contains(names, one.object)) complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
+      if (!contains(names, one.object))
+        complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
     } else if (node.tag() == "stream") {
       one.source = ContinuousInfo::Source::sample;
       FormulaContext where = context(definition, path);
@@ -139,7 +147,8 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       for (const Term& term : literal.terms) one.literal.arguments.push_back(term.name);
       const auto predicate = of(DefinitionKind::predicate).find(literal.predicate);
       if (predicate == of(DefinitionKind::predicate).end() || !predicate->second.node["sample"].present()) {
-        complain(definition, path, "the predicate '" + literal.predicate + "' has no sample to draw from", "give it one, or a fixed value here");
+        complain(definition, path, "the predicate '" + literal.predicate + "' has no sample to draw from",
+                 "give it one, or a fixed value here");
       }
     } else if (node.is_number() || (node.is_table() && node.tag().empty())) {
       if (node.is_number()) one.initial = {node.number};
@@ -147,7 +156,9 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       for (const Node& item : vector ? node.items.front().items : node.items) {
         if (item.is_number()) one.initial.push_back(item.number);
       }
-      if (one.initial.empty()) complain(definition, path, "a continuous parameter begins with its default", "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");
+      if (one.initial.empty())
+        complain(definition, path, "a continuous parameter begins with its default",
+                 "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");
       one.lower = bound(node["min"], one.initial.size(), -infinite);
       one.upper = bound(node["max"], one.initial.size(), infinite);
       one.unit = node["unit"].text;
@@ -159,7 +170,9 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       }
       const std::vector<std::string> known = {"min", "max", "unit", "frame"};
       for (const auto& [key, value] : node.fields) {
-        if (!contains(known, key)) complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'", did_you_mean(key, known));
+        if (!contains(known, key))
+          complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'",
+                   did_you_mean(key, known));
       }
     } else {
       complain(definition, path, "a continuous parameter is a number, a list or a stream, this is " + node.type_name());

@@ -33,7 +33,8 @@ void LibraryBuilder::read_task(const Definition& definition) {
   info.description = definition.file->description;
   info.world = definition.node["world"].text;
   const Definitions& worlds = of(DefinitionKind::world);
-  if (definition.node["world"].is_text() && !worlds.contains(info.world) && library_->file(DefinitionKind::world, info.world) == nullptr) {
+  if (definition.node["world"].is_text() && !worlds.contains(info.world) &&
+      library_->file(DefinitionKind::world, info.world) == nullptr) {
     std::vector<std::string> known;
     for (const auto& [name, unused] : worlds) known.push_back(name);
     complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
@@ -67,12 +68,15 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
     const Node value = field_for(definition, state, field.name, variation);
     if (!value.present()) {
       if (!definition.node[field.name].is_function()) continue;
-      complain(definition, field.name, with_context("the function returns nothing", text, text.size() + 1), "end it with return");
+      complain(definition, field.name, with_context("the function returns nothing", text, text.size() + 1),
+               "end it with return");
       continue;
     }
     if (!has_type(value, field.type)) {
       if (definition.node[field.name].is_function()) {
-        complain(definition, field.name, with_context("the function returns " + value.type_name() + ", which is not what this field holds", text, text.size() + 1));
+        complain(definition, field.name,
+                 with_context("the function returns " + value.type_name() + ", which is not what this field holds",
+                              text, text.size() + 1));
       }
       continue;
     }
@@ -82,7 +86,8 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
   std::map<std::string, std::vector<std::string>> groups;
   for (const auto& [name, entry] : fields["objects"].fields) {
     const std::string path = "objects." + name;
-    if (const auto fault = name_fault(name)) complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    if (const auto fault = name_fault(name))
+      complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
     check_entry(definition, entry, path, "object");
     const Node& count = entry["count"];
     std::vector<std::string> members = {name};
@@ -97,7 +102,8 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
     }
     for (const std::string& member : members) {
       if (objects.contains(member)) {
-        complain(definition, path, "the name '" + member + "' is used twice", "rename one, to " + proposed_name(member, {member}) + " for example");
+        complain(definition, path, "the name '" + member + "' is used twice",
+                 "rename one, to " + proposed_name(member, {member}) + " for example");
       }
       add_object(objects, member, entry);
     }
@@ -107,7 +113,8 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
 }
 
 void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields,
-                                         const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups) {
+                                         const SceneObjects& objects,
+                                         const std::map<std::string, std::vector<std::string>>& groups) {
   std::vector<std::string> known;
   for (const auto& [name, unused] : objects) known.push_back(name);
   FormulaContext where = context(definition, "init");
@@ -118,7 +125,8 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
     for (const auto& [name, unused] : groups) names.push_back(name);
     const std::string single = group.substr(0, group.size() - 1);
     throw Error({}, "there is no group '" + group + "'",
-                objects.contains(single) ? "'" + single + "' is one object: give it count = n to make a group" : did_you_mean(group, names));
+                objects.contains(single) ? "'" + single + "' is one object: give it count = n to make a group"
+                                         : did_you_mean(group, names));
   };
   where.object_fault = [&](const std::string& name) -> std::optional<std::string> {
     if (objects.contains(name)) return std::nullopt;
@@ -135,7 +143,8 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
         for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
         check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "init"));
         const auto predicate = of(DefinitionKind::predicate).find(literal.fact.predicate);
-        const bool places = !literal.negated && predicate != of(DefinitionKind::predicate).end() && predicate->second.node["sample"].present();
+        const bool places = !literal.negated && predicate != of(DefinitionKind::predicate).end() &&
+                            predicate->second.node["sample"].present();
         for (const std::string& argument : literal.fact.arguments) {
           if (argument == where.hand) continue;
           if (places) placed.push_back(argument);
@@ -145,7 +154,9 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
     });
   }
   for (const auto& [name, object] : objects) {
-    if (!init_sound || !object.free || object.positioned || std::find(placed.begin(), placed.end(), name) != placed.end()) continue;
+    if (!init_sound || !object.free || object.positioned ||
+        std::find(placed.begin(), placed.end(), name) != placed.end())
+      continue;
     complain(definition, "init", "nothing places the free object '" + name + "'",
              "name it in init, such as is.on(\"" + name + "\", \"table\"), or give it at = { x, y, z }");
   }
@@ -159,7 +170,9 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
       if (field == std::string_view("subgoals")) formulas.push_back(&formula);
     }
     for (const Node* formula : formulas) {
-      guarded([&] { check_arguments(definition, formula_from(*formula, where), objects, line_of(definition.lines, field)); });
+      guarded([&] {
+        check_arguments(definition, formula_from(*formula, where), objects, line_of(definition.lines, field));
+      });
     }
   }
   const auto steps = fields.find("steps");
@@ -168,15 +181,18 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
   std::vector<std::string> skills;
   for (const ScriptFile* file : library_->files(DefinitionKind::skill)) skills.push_back(file->name);
   for (const Node& call : steps->second.tag() == "call" ? single : steps->second.items) {
-    const std::string place = definition.file->shown_path + ":" + std::to_string(call.line() > 0 ? call.line() : line_of(definition.lines, "steps"));
+    const std::string place = definition.file->shown_path + ":" +
+                              std::to_string(call.line() > 0 ? call.line() : line_of(definition.lines, "steps"));
     const std::string& name = call["skill"].text;
     const SkillInfo* skill = library_->skill(name);
     if (skill == nullptr) {
-      if (std::find(skills.begin(), skills.end(), name) == skills.end()) add(Error(place, "steps: there is no skill '" + name + "'", did_you_mean(name, skills)));
+      if (std::find(skills.begin(), skills.end(), name) == skills.end())
+        add(Error(place, "steps: there is no skill '" + name + "'", did_you_mean(name, skills)));
       continue;
     }
     if (call.items.size() > skill->parameters.size()) {
-      add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " + std::to_string(call.items.size())));
+      add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " +
+                           std::to_string(call.items.size())));
     }
     for (const Node& argument : call.items) {
       if (objects.contains(argument.text)) continue;
@@ -186,9 +202,11 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
 }
 
 // Objects named in an atom must have the type and traits that its predicate asks for.
-void LibraryBuilder::check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line) {
+void LibraryBuilder::check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects,
+                                     int line) {
   for (const Formula& part : formula.parts) check_arguments(definition, part, objects, line);
-  const Predicate* predicate = formula.kind == Formula::Kind::atom ? library_->domain_.predicate(formula.predicate) : nullptr;
+  const Predicate* predicate =
+      formula.kind == Formula::Kind::atom ? library_->domain_.predicate(formula.predicate) : nullptr;
   if (predicate == nullptr || predicate->parameters.size() != formula.terms.size()) return;
   for (std::size_t i = 0; i < formula.terms.size(); ++i) {
     const auto object = objects.find(formula.terms[i].name);
@@ -196,13 +214,16 @@ void LibraryBuilder::check_arguments(const Definition& definition, const Formula
     const Parameter& parameter = predicate->parameters[i];
     const std::string place = definition.file->shown_path + ":" + std::to_string(line);
     const std::string what = "is." + formula.predicate + ": '" + object->first + "' ";
-    if (!parameter.type.empty() && !object->second.type.empty() && !library_->domain_.is_a(object->second.type, parameter.type)) {
-      add(Error(place, what + "is a " + object->second.type + ", the " + parameter.name + " must be a " + parameter.type));
+    if (!parameter.type.empty() && !object->second.type.empty() &&
+        !library_->domain_.is_a(object->second.type, parameter.type)) {
+      add(Error(place,
+                what + "is a " + object->second.type + ", the " + parameter.name + " must be a " + parameter.type));
     }
     for (const std::string& trait : parameter.traits) {
       const auto& traits = object->second.traits;
       if (std::find(traits.begin(), traits.end(), trait) != traits.end()) continue;
-      add(Error(place, what + "has not the trait '" + trait + "', which the " + parameter.name + " must have", "add it to the traits of its object file, or name another object"));
+      add(Error(place, what + "has not the trait '" + trait + "', which the " + parameter.name + " must have",
+                "add it to the traits of its object file, or name another object"));
     }
   }
 }

@@ -141,7 +141,8 @@ void DefinitionState::push(DefinitionKind kind, std::string_view name) {
   }
   if (plain ? got != "table" : got != to_string(kind)) {
     lua_pop(lua, 2);
-    throw Error(file->shown_path, "the file returns a " + got + (got == "nil" ? " value" : "") + ", not a " + home_of(kind),
+    throw Error(file->shown_path,
+                "the file returns a " + got + (got == "nil" ? " value" : "") + ", not a " + home_of(kind),
                 plain ? "end it with return { … }" : "end it with return " + home_of(kind) + " { … }");
   }
   if (!plain) {
@@ -171,7 +172,8 @@ Formula read_formula(lua_State* state, int index, const std::string& place, cons
 
 Literal read_literal(lua_State* state, int index, const std::string& place) {
   const Node node = read_node(state, index, place);
-  const std::string where = node.line() > 0 ? place.substr(0, place.find(": ")) + ":" + std::to_string(node.line()) : place;
+  const std::string where =
+      node.line() > 0 ? place.substr(0, place.find(": ")) + ":" + std::to_string(node.line()) : place;
   if (node.tag() != "literal") throw Error(where, "only is and is_not stand here, this is " + node.type_name());
   Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
   for (const Node& item : node.items) literal.fact.arguments.push_back(item.text);

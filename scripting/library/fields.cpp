@@ -41,20 +41,24 @@ const Record kEntry{
 const Record kSkill{
     "skill",
     "A parameterised action: when it may be done, what it brings about, and how",
-    {{"params", "string[]", true, "", "", "\"name: type & trait\"; the hand is appended by itself", "{ \"obj: movable\" }"},
+    {{"params", "string[]", true, "", "", "\"name: type & trait\"; the hand is appended by itself",
+      "{ \"obj: movable\" }"},
      {"precondition", "formula[]|formula", false, "{}", "", "what must hold before", "{ is.hand_empty() }"},
      {"effect", "effect[]|effect", false, "{}", "", "what holds afterwards; tested after each run",
       "{ is.holding(\"obj\") }"},
      {"cases", "{case}", false, "", "", "instead of precondition and effect: several operators that share run"},
-     {"continuous", "table", false, "{}", "", "continuous parameters by name: a number or vector with min max unit, or a stream",
+     {"continuous", "table", false, "{}", "",
+      "continuous parameters by name: a number or vector with min max unit, or a stream",
       "{ height = { 0.1, min = 0.02, max = 0.3, unit = \"m\" }, grasp = stream(\"grasps\") }"},
-     {"controller", "string", false, "\"joint_position\"", "", "joint_position, joint_impedance or cartesian_impedance"},
+     {"controller", "string", false, "\"joint_position\"", "",
+      "joint_position, joint_impedance or cartesian_impedance"},
      {"stiffness", "number", false, "0", "N/m or N m/rad", "of an impedance controller; 0: its default"},
      {"label", "string", true, "", "", "what it does in words, with {params}", "\"pick up the {obj}\""},
      {"run", "function", true, "", "", "function(robot, p, c): p parameters, c continuous parameters"},
      {"forgets", "string[]", false, "{}", "", "predicates that contact leaves uncertain", "{ \"on\" }"},
      {"cost", "integer", false, "1", "", "of the action in a plan"},
-     {"may_equal", "string[][]", false, "{}", "", "pairs of parameters that may be one object", "{ { \"from\", \"to\" } }"}}};
+     {"may_equal", "string[][]", false, "{}", "", "pairs of parameters that may be one object",
+      "{ { \"from\", \"to\" } }"}}};
 
 const Record kCase{"case",
                    "One operator of a skill with several",
@@ -94,7 +98,8 @@ const std::vector<Field> kBodyFields = {
     {"restitution", "number", false, "0", "", "bounce, 0 … 1"},
     {"colour", "colour", false, "", "", "of every shape that has none; a name is an attribute too", "\"red\""},
     {"attributes", "table", false, "{}", "", "static facts: texts by name", "{ material = \"wood\" }"},
-    {"numbers", "table", false, "{}", "", "numbers by name for predicates: w:number(obj, \"open_at\")", "{ open_at = 0.15 }"},
+    {"numbers", "table", false, "{}", "", "numbers by name for predicates: w:number(obj, \"open_at\")",
+     "{ open_at = 0.15 }"},
     {"regions", "{region}", false, "{}", "", "named boxes fixed to it, without mass"},
     {"grasps", "grasp[]", false, "{}", "", "where a hand may take it; none: from its geometry"},
     {"size", "vector|numbers|number", false, "", "m", "edge lengths where a file builds its shape from them"},
@@ -105,17 +110,19 @@ std::vector<Field> body_fields_and(std::vector<Field> more) {
   return more;
 }
 
-const Record kObject{"object", "A thing: shape, mass, type, traits, parts, grasps",
-                     body_fields_and({{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
-                                      {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
-                                      {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
-                                      {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"}})};
+const Record kObject{
+    "object", "A thing: shape, mass, type, traits, parts, grasps",
+    body_fields_and({{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
+                     {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
+                     {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
+                     {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"}})};
 
-const Record kPart{"part", "A moving part of an object",
-                   body_fields_and({{"parent", "string", false, "the base", "", "the part that it hangs on"},
-                                    {"slider", "joint", false, "", "", "moves along an axis"},
-                                    {"hinge", "joint", false, "", "", "turns about an axis"},
-                                    {"fixed", "joint|boolean", false, "", "", "does not move relative to its parent"}})};
+const Record kPart{
+    "part", "A moving part of an object",
+    body_fields_and({{"parent", "string", false, "the base", "", "the part that it hangs on"},
+                     {"slider", "joint", false, "", "", "moves along an axis"},
+                     {"hinge", "joint", false, "", "", "turns about an axis"},
+                     {"fixed", "joint|boolean", false, "", "", "does not move relative to its parent"}})};
 
 const Record kJoint{"joint",
                     "How a part moves",
@@ -215,7 +222,8 @@ const Record kRobot{
     "What a URDF cannot say about an arm",
     {{"urdf", "string", true, "", "", "the URDF file beside this one", "\"panda.urdf\""},
      {"arm", "string[]", true, "", "", "its driven joints from base to tip"},
-     {"tip", "table", true, "", "m, rad", "the tool centre point: link, at, rpy", "{ link = \"hand\", at = { 0, 0, 0.1034 } }"},
+     {"tip", "table", true, "", "m, rad", "the tool centre point: link, at, rpy",
+      "{ link = \"hand\", at = { 0, 0, 0.1034 } }"},
      {"home", "numbers", true, "", "rad", "where every episode starts"},
      {"fingers", "string[]", false, "{}", "", "two sliding joints, coupled"},
      {"pads", "string[]", false, "{}", "", "the links whose contact counts as touch"},
@@ -239,8 +247,8 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {kTask, kSkill, kPredicate, kObject, kWorld,  kRobot, kEntry,
-                                               kCase, kPart,  kJoint,     kLatch,  kRegion, kGrasp, kShape, kCamera, kSensor};
+  static const std::vector<Record> kRecords = {kTask, kSkill, kPredicate, kObject, kWorld, kRobot, kEntry,  kCase,
+                                               kPart, kJoint, kLatch,     kRegion, kGrasp, kShape, kCamera, kSensor};
   return kRecords;
 }
 

@@ -17,18 +17,18 @@ struct Field {
   const char* name;
   const char* type;
   bool required = false;
-  const char* otherwise = "";    // the default, as written in Lua; empty: none
+  const char* otherwise = "";  // the default, as written in Lua; empty: none
   const char* unit = "";
   const char* description = "";  // a sentence without a full stop
   const char* example = "";
-  bool of_variation = false;     // may be a function of the variation
+  bool of_variation = false;  // may be a function of the variation
 };
 
 struct Record {
-  const char* name;         // task skill predicate object world robot, and the tables inside them: joint, camera …
+  const char* name;  // task skill predicate object world robot, and the tables inside them: joint, camera …
   const char* description;
   std::vector<Field> fields;
-  const char* head = "";    // type of the items [1], [2] …; empty: none allowed
+  const char* head = "";  // type of the items [1], [2] …; empty: none allowed
 };
 
 const std::vector<Record>& records();
@@ -43,7 +43,7 @@ void check_record(const Record& record, const Node& table, const std::string& pa
                   const std::vector<std::string>& also_known = {});
 bool has_type(const Node& node, std::string_view type);
 
-std::string luals_annotations();              // the editor's definition file, scripting/library/stampede.lua
+std::string luals_annotations();               // the editor's definition file, scripting/library/stampede.lua
 std::string field_help(const Record& record);  // for people: one line a field
 
 }  // namespace stampede

@@ -92,15 +92,24 @@ void read_file(const fs::path& root, const fs::path& path, std::map<std::string,
 
 std::string_view to_string(DefinitionKind kind) {
   switch (kind) {
-    case DefinitionKind::task: return "task";
-    case DefinitionKind::skill: return "skill";
-    case DefinitionKind::predicate: return "predicate";
-    case DefinitionKind::object: return "object";
-    case DefinitionKind::world: return "world";
-    case DefinitionKind::robot: return "robot";
-    case DefinitionKind::types: return "types";
-    case DefinitionKind::colours: return "colours";
-    case DefinitionKind::module: return "module";
+    case DefinitionKind::task:
+      return "task";
+    case DefinitionKind::skill:
+      return "skill";
+    case DefinitionKind::predicate:
+      return "predicate";
+    case DefinitionKind::object:
+      return "object";
+    case DefinitionKind::world:
+      return "world";
+    case DefinitionKind::robot:
+      return "robot";
+    case DefinitionKind::types:
+      return "types";
+    case DefinitionKind::colours:
+      return "colours";
+    case DefinitionKind::module:
+      return "module";
   }
   return {};
 }
@@ -110,7 +119,8 @@ std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& compl
   for (const fs::path& root : roots.folders) {
     std::error_code code;
     if (!fs::is_directory(root, code)) {
-      complaints.emplace_back(root.string(), "is not a folder", "--root and --path take folders with tasks, skills and worlds");
+      complaints.emplace_back(root.string(), "is not a folder",
+                              "--root and --path take folders with tasks, skills and worlds");
       continue;
     }
     for (const char* folder : {"tasks", "skills", "worlds"}) {

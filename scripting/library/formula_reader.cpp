@@ -19,7 +19,10 @@ std::string trimmed(std::string text) {
 bool is_group(const std::string& name) { return name.size() > 1 && name.back() == '*'; }
 
 std::string shown(const std::string& predicate, std::size_t count) {
-  return predicate + " takes " + (count == 0 ? "no arguments" : count == 1 ? "1 argument" : std::to_string(count) + " arguments");
+  return predicate + " takes " +
+         (count == 0   ? "no arguments"
+          : count == 1 ? "1 argument"
+                       : std::to_string(count) + " arguments");
 }
 
 class Reader {
@@ -85,7 +88,8 @@ class Reader {
       inner.fields["negated"].boolean = true;
       return literals(inner, result);
     }
-    if (tag != "literal") fail("only is and is_not stand here, this is " + node.type_name(), "formulas belong to the goal");
+    if (tag != "literal")
+      fail("only is and is_not stand here, this is " + node.type_name(), "formulas belong to the goal");
     check_predicate(node);
     for (const std::vector<Term>& terms : expanded(node)) {
       Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
@@ -125,7 +129,11 @@ class Reader {
 
   Formula list(const Node& node, Formula::Kind kind) {
     std::vector<Formula> parts;
-    for (const Node& item : node.items) parts.push_back(formula(item));
+    for (const Node& item : node.items) {
+      Formula part = formula(item);
+      const bool empty = kind == Formula::Kind::conjunction && part.kind == Formula::Kind::always;  // b[0] of any_order
+      if (!empty) parts.push_back(std::move(part));
+    }
     return kind == Formula::Kind::conjunction ? conjunction(std::move(parts)) : disjunction(std::move(parts));
   }
 
@@ -154,7 +162,8 @@ class Reader {
   std::vector<std::string> names_in_scope() const {
     std::vector<std::string> names;
     for (const std::string& name : scope_) names.push_back("?" + name);
-    for (const Parameter& parameter : context_.parameters) names.push_back(context_.schema ? parameter.name : "?" + parameter.name);
+    for (const Parameter& parameter : context_.parameters)
+      names.push_back(context_.schema ? parameter.name : "?" + parameter.name);
     return names;
   }
 
@@ -179,7 +188,8 @@ class Reader {
     for (const Parameter& parameter : context_.parameters) {
       if (parameter.type == "hand") return {true, parameter.name};
     }
-    if (context_.schema) fail("the hand is left out and there is no parameter of type hand", "add a parameter \"hand: hand\"");
+    if (context_.schema)
+      fail("the hand is left out and there is no parameter of type hand", "add a parameter \"hand: hand\"");
     return {false, context_.hand};
   }
 
@@ -222,7 +232,8 @@ class Reader {
   }
 
   std::vector<std::string> members(const std::string& group) const {
-    if (context_.schema) fail("groups such as '" + group + "' belong to tasks", "quantify instead: forall(\"?x: block\", …)");
+    if (context_.schema)
+      fail("groups such as '" + group + "' belong to tasks", "quantify instead: forall(\"?x: block\", …)");
     if (narrow_ > 0) {
       fail("the group '" + group + "' stands for all its members, which any_of and exists cannot mean",
            "quantify over it: exists(\"?x: " + group + "\", …)");
@@ -319,19 +330,21 @@ class Reader {
     const auto count = static_cast<std::size_t>(node["n"].number);
     if (count > names.size()) {
       fail("any_order chooses " + std::to_string(count) + " of the " + std::to_string(names.size()) + " members of '" +
-               node["group"].text + "'", "make the group larger: count = " + std::to_string(count));
+               node["group"].text + "'",
+           "make the group larger: count = " + std::to_string(count));
     }
     std::size_t orders = 1;
     for (std::size_t i = 0; i < count; ++i) orders *= names.size() - i;
-    if (orders > kMostOrders) fail("any_order has " + std::to_string(orders) + " orders, at most 5040", "choose fewer members");
+    if (orders > kMostOrders)
+      fail("any_order has " + std::to_string(orders) + " orders, at most 5040", "choose fewer members");
     std::vector<Formula> parts;
     std::vector<std::size_t> chosen;
     choose(node, names, count, chosen, parts);
     return disjunction(std::move(parts));
   }
 
-  void choose(const Node& node, const std::vector<std::string>& names, std::size_t count, std::vector<std::size_t>& chosen,
-              std::vector<Formula>& parts) {
+  void choose(const Node& node, const std::vector<std::string>& names, std::size_t count,
+              std::vector<std::size_t>& chosen, std::vector<Formula>& parts) {
     if (chosen.size() == count) {
       Node part = one_item(node);
       for (std::size_t i = 0; i < count; ++i) {
@@ -358,7 +371,8 @@ class Reader {
     if (predicate->kind == PredicateKind::derived) {
       fail("an effect cannot name the derived predicate '" + name + "'", "name the facts that it is derived from");
     }
-    if (predicate->kind == PredicateKind::fixed) fail("an effect cannot change the static predicate '" + name + "'", {});
+    if (predicate->kind == PredicateKind::fixed)
+      fail("an effect cannot change the static predicate '" + name + "'", {});
     Effect result = frame;
     result.predicate = name;
     result.terms = expanded(node).at(0);
@@ -368,9 +382,9 @@ class Reader {
 
   const FormulaContext& context_;
   const Domain& domain_;
-  std::vector<std::string> scope_;                   // quantified variables, outermost first
+  std::vector<std::string> scope_;  // quantified variables, outermost first
   int line_ = 0;
-  int narrow_ = 0;                                   // inside any_of or exists
+  int narrow_ = 0;  // inside any_of or exists
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace stampede {
 
 // Where a formula stands. A schema (skill, predicate) has parameters and no objects; a task has objects.
 struct FormulaContext {
-  std::string file;               // `tasks/stack.lua`; lines come from the values
-  std::string field;              // `goal`
+  std::string file;   // `tasks/stack.lua`; lines come from the values
+  std::string field;  // `goal`
   const Domain* domain = nullptr;
   bool schema = false;
   std::vector<Parameter> parameters;

@@ -23,7 +23,7 @@ std::string new_file(DefinitionKind kind, std::string_view name);
 
 struct ScriptFile {
   DefinitionKind kind = DefinitionKind::task;
-  std::string name;         // the file's name without .lua
+  std::string name;  // the file's name without .lua
   std::filesystem::path path;
   std::string shown_path;   // relative to its root, for messages and catalogues
   std::string description;  // its first comment line

@@ -8,10 +8,11 @@ namespace stampede {
 namespace {
 
 constexpr std::array<std::string_view, 43> kReserved = {
-    "and",    "break", "do",     "else",   "elseif", "end",    "false",  "for",       "function",   "goto",  "if",
-    "in",     "local", "nil",    "not",    "or",     "repeat", "return", "then",      "true",       "until", "while",
-    "object", "number", "either", "define", "when",   "forall", "exists", "domain",    "problem",    "imply", "assign",
-    "increase", "decrease", "total_cost", "minimize", "maximize", "metric", "always", "sometime", "within", "preference"};
+    "and",      "break",    "do",     "else",    "elseif",   "end",    "false",     "for",      "function",
+    "goto",     "if",       "in",     "local",   "nil",      "not",    "or",        "repeat",   "return",
+    "then",     "true",     "until",  "while",   "object",   "number", "either",    "define",   "when",
+    "forall",   "exists",   "domain", "problem", "imply",    "assign", "increase",  "decrease", "total_cost",
+    "minimize", "maximize", "metric", "always",  "sometime", "within", "preference"};
 
 }  // namespace
 
@@ -54,7 +55,9 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return text;
 }
 
-bool is_reserved(std::string_view word) { return std::find(kReserved.begin(), kReserved.end(), word) != kReserved.end(); }
+bool is_reserved(std::string_view word) {
+  return std::find(kReserved.begin(), kReserved.end(), word) != kReserved.end();
+}
 
 std::optional<std::string> name_fault(std::string_view name) {
   if (name.empty()) return "is empty";
@@ -84,7 +87,8 @@ std::string proposed_name(std::string_view name, const std::vector<std::string>&
   if (sound.back() == '_') sound += "name";
   if (is_reserved(sound)) sound += "_it";
   const std::string stem = sound;
-  for (int i = 2; std::find(taken.begin(), taken.end(), sound) != taken.end(); ++i) sound = stem + "_" + std::to_string(i);
+  for (int i = 2; std::find(taken.begin(), taken.end(), sound) != taken.end(); ++i)
+    sound = stem + "_" + std::to_string(i);
   return sound;
 }
 

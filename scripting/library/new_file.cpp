@@ -5,7 +5,8 @@ namespace stampede {
 
 std::string new_file(DefinitionKind kind, std::string_view name) {
   if (const auto fault = name_fault(name)) {
-    throw Error(std::string(name), "the name '" + std::string(name) + "' " + *fault, "such as '" + proposed_name(name) + "'");
+    throw Error(std::string(name), "the name '" + std::string(name) + "' " + *fault,
+                "such as '" + proposed_name(name) + "'");
   }
   switch (kind) {
     case DefinitionKind::task:
@@ -47,7 +48,9 @@ std::string new_file(DefinitionKind kind, std::string_view name) {
              "  robot = { \"panda\", at = { -0.30, 0, 0.75 } },\n"
              "  fixtures = { table = { \"work_table\", at = { 0.19, 0, 0.75 } } },\n"
              "}\n";
-    default: throw Error(std::string(to_string(kind)), "there is no template for this kind", "task, skill, predicate, object or world");
+    default:
+      throw Error(std::string(to_string(kind)), "there is no template for this kind",
+                  "task, skill, predicate, object or world");
   }
 }
 

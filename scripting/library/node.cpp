@@ -50,7 +50,8 @@ Node read(lua_State* state, int index, Reading& reading, int depth) {
   luaL_checkstack(state, 8, "definition nested too deeply");
   Node node;
   switch (lua_type(state, index)) {
-    case LUA_TNIL: break;
+    case LUA_TNIL:
+      break;
     case LUA_TBOOLEAN:
       node.kind = Node::Kind::boolean;
       node.boolean = lua_toboolean(state, index) != 0;
@@ -67,8 +68,11 @@ Node read(lua_State* state, int index, Reading& reading, int depth) {
       node.text.assign(text, size);
       break;
     }
-    case LUA_TTABLE: return read_table(state, index, reading, depth);
-    case LUA_TFUNCTION: node.kind = Node::Kind::function; break;
+    case LUA_TTABLE:
+      return read_table(state, index, reading, depth);
+    case LUA_TFUNCTION:
+      node.kind = Node::Kind::function;
+      break;
     default:
       node.kind = Node::Kind::other;
       node.text = luaL_typename(state, index);
@@ -95,13 +99,20 @@ int Node::line() const { return static_cast<int>((*this)["line"].number); }
 
 std::string Node::type_name() const {
   switch (kind) {
-    case Kind::nothing: return "nothing";
-    case Kind::boolean: return boolean ? "true" : "false";
-    case Kind::number: return "the number " + plain_text(*this);
-    case Kind::text: return "the text \"" + (text.size() > 40 ? text.substr(0, 37) + "..." : text) + "\"";
-    case Kind::table: return tag().empty() ? "a table" : "a " + tag();
-    case Kind::function: return "a function";
-    case Kind::other: return "a " + text;
+    case Kind::nothing:
+      return "nothing";
+    case Kind::boolean:
+      return boolean ? "true" : "false";
+    case Kind::number:
+      return "the number " + plain_text(*this);
+    case Kind::text:
+      return "the text \"" + (text.size() > 40 ? text.substr(0, 37) + "..." : text) + "\"";
+    case Kind::table:
+      return tag().empty() ? "a table" : "a " + tag();
+    case Kind::function:
+      return "a function";
+    case Kind::other:
+      return "a " + text;
   }
   return {};
 }
@@ -126,8 +137,10 @@ Node read_node(lua_State* state, int index, const std::string& place) {
 
 std::string plain_text(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::boolean: return node.boolean ? "true" : "false";
-    case Node::Kind::text: return node.text;
+    case Node::Kind::boolean:
+      return node.boolean ? "true" : "false";
+    case Node::Kind::text:
+      return node.text;
     case Node::Kind::number: {
       char text[40];
       if (node.integer) {
@@ -148,7 +161,8 @@ std::string plain_text(const Node& node) {
       for (const auto& [key, field] : node.fields) text += (text.size() > 1 ? "," : "") + key + "=" + plain_text(field);
       return text + "}";
     }
-    default: return {};
+    default:
+      return {};
   }
 }
 

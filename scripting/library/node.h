@@ -17,10 +17,10 @@ struct Node {
   bool boolean = false;
   bool integer = false;
   double number = 0;
-  std::string text;                                   // text; other: Lua's name of its type
-  std::vector<Node> items;                            // table: 1 … n
-  std::map<std::string, Node, std::less<>> fields;    // table: text keys
-  bool odd_keys = false;                              // table: keys that are neither (0, 2.5, true …)
+  std::string text;                                 // text; other: Lua's name of its type
+  std::vector<Node> items;                          // table: 1 … n
+  std::map<std::string, Node, std::less<>> fields;  // table: text keys
+  bool odd_keys = false;                            // table: keys that are neither (0, 2.5, true …)
 
   bool present() const { return kind != Kind::nothing; }
   bool is_text() const { return kind == Kind::text; }
@@ -33,7 +33,8 @@ struct Node {
   std::string type_name() const;                         // for people: `a table`, `the text "x"` …
 };
 
-// The value at `index`; the stack is left as it was. Throws Error for trees deeper than 24 or larger than 200,000 values.
+// The value at `index`; the stack is left as it was. Throws Error for trees deeper than 24 or larger than 200,000
+// values.
 Node read_node(lua_State* state, int index, const std::string& place);
 
 // Numbers and texts as people write them: 2, 0.25, red. Tables: {1,2}.

@@ -103,8 +103,8 @@ class Scanner {
   std::size_t at_ = 0;
   int line_ = 1, word_line_ = 1, depth_ = 0;
   std::string_view last_word_;
-  std::string pending_;                 // the key whose value begins
-  std::vector<std::string> keys_;       // of the tables around
+  std::string pending_;            // the key whose value begins
+  std::vector<std::string> keys_;  // of the tables around
   std::map<std::string, int> lines_;
 };
 

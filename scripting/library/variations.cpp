@@ -17,9 +17,7 @@ int push_protected(lua_State* state) {
   return 1;
 }
 
-bool is_plain(const Node& value) {
-  return value.is_text() || value.is_number() || value.kind == Node::Kind::boolean;
-}
+bool is_plain(const Node& value) { return value.is_text() || value.is_number() || value.kind == Node::Kind::boolean; }
 
 Node table_of_nothing() {
   Node node;
@@ -32,7 +30,9 @@ Node table_of_nothing() {
 void push_node(lua_State* state, const Node& node) {
   luaL_checkstack(state, 4, "value nested too deeply");
   switch (node.kind) {
-    case Node::Kind::boolean: lua_pushboolean(state, node.boolean); break;
+    case Node::Kind::boolean:
+      lua_pushboolean(state, node.boolean);
+      break;
     case Node::Kind::number:
       if (node.integer) {
         lua_pushinteger(state, static_cast<lua_Integer>(node.number));
@@ -40,7 +40,9 @@ void push_node(lua_State* state, const Node& node) {
         lua_pushnumber(state, node.number);
       }
       break;
-    case Node::Kind::text: lua_pushlstring(state, node.text.data(), node.text.size()); break;
+    case Node::Kind::text:
+      lua_pushlstring(state, node.text.data(), node.text.size());
+      break;
     case Node::Kind::table:
       lua_createtable(state, static_cast<int>(node.items.size()), static_cast<int>(node.fields.size()));
       for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -52,7 +54,8 @@ void push_node(lua_State* state, const Node& node) {
         lua_setfield(state, -2, key.c_str());
       }
       break;
-    default: lua_pushnil(state);
+    default:
+      lua_pushnil(state);
   }
 }
 
@@ -62,7 +65,8 @@ std::string variation_text(const Node& variation) {
   return text;
 }
 
-// The product of the axes (the first in alphabetical order varies slowest) or the list, without what `where` leaves out.
+// The product of the axes (the first in alphabetical order varies slowest) or the list, without what `where` leaves
+// out.
 std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, DefinitionState& state) {
   const Node& written = definition.node["variations"];
   std::vector<Node> all;
@@ -72,9 +76,11 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
     all.push_back(table_of_nothing());
     for (const auto& [axis, values] : written.fields) {
       const std::string path = "variations." + axis;
-      if (const auto fault = name_fault(axis)) complain(definition, path, "the name '" + axis + "' " + *fault, "such as '" + proposed_name(axis) + "'");
+      if (const auto fault = name_fault(axis))
+        complain(definition, path, "the name '" + axis + "' " + *fault, "such as '" + proposed_name(axis) + "'");
       if (!values.is_table() || values.items.empty() || !values.tag().empty()) {
-        throw error_at(definition, path, "an axis is a list of values, this is " + values.type_name(), "such as " + axis + " = { 1, 2 }");
+        throw error_at(definition, path, "an axis is a list of values, this is " + values.type_name(),
+                       "such as " + axis + " = { 1, 2 }");
       }
       std::vector<Node> longer;
       for (const Node& before : all) {
@@ -83,7 +89,8 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
           longer.back().fields[axis] = value;
         }
       }
-      if (longer.size() > kMostVariations) throw error_at(definition, "variations", "more than 10000 variations", "leave an axis out");
+      if (longer.size() > kMostVariations)
+        throw error_at(definition, "variations", "more than 10000 variations", "leave an axis out");
       all = std::move(longer);
     }
   }
@@ -91,7 +98,9 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
   std::vector<std::string> texts;
   for (const Node& variation : all) {
     for (const auto& [axis, value] : variation.fields) {
-      if (!is_plain(value)) throw error_at(definition, "variations", "the value of '" + axis + "' is " + value.type_name(), "values are numbers, texts, true and false");
+      if (!is_plain(value))
+        throw error_at(definition, "variations", "the value of '" + axis + "' is " + value.type_name(),
+                       "values are numbers, texts, true and false");
     }
     if (definition.node["where"].is_function()) {
       lua_State* lua = state.state();
@@ -118,7 +127,8 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
 }
 
 // A field's value for a variation: functions of it are called.
-Node LibraryBuilder::field_for(const Definition& definition, DefinitionState& state, const char* field, const Node& variation) {
+Node LibraryBuilder::field_for(const Definition& definition, DefinitionState& state, const char* field,
+                               const Node& variation) {
   if (!definition.node[field].is_function()) return definition.node[field];
   lua_State* lua = state.state();
   state.push(DefinitionKind::task, definition.file->name);

@@ -1,7 +1,7 @@
 #include "scripting/lua/sandbox.h"
 
-#include <cstdlib>
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ struct Sandbox::Impl {
   lua_State* state = nullptr;
   std::size_t memory = 0;
   std::int64_t used = 0;
-  int depth = 0;       // nested calls share the outermost one's budget
+  int depth = 0;  // nested calls share the outermost one's budget
   bool limited = false;
   bool spent = false;  // for good
 
@@ -101,7 +101,8 @@ std::string readable_trace(const char* trace) {
     std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     while (!line.empty() && (line.front() == '\t' || line.front() == ' ')) line.remove_prefix(1);
-    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") || line.starts_with("prelude:")) continue;
+    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") || line.starts_with("prelude:"))
+      continue;
     if (!first) result += "\n    ";
     result += first ? "in " : "from ";
     result += line;

@@ -10,7 +10,7 @@ namespace stampede {
 namespace {
 
 constexpr std::size_t kLongestRep = kLongestString - 64;  // room for the header of a string
-constexpr std::size_t kLongestNeedle = 256;  // find is quadratic at worst: this and the charge bound it
+constexpr std::size_t kLongestNeedle = 256;               // find is quadratic at worst: this and the charge bound it
 constexpr lua_Integer kMostUnpacked = 10'000;
 
 // tostring without addresses: two runs must print the same.
@@ -62,8 +62,8 @@ int bounded_rep(lua_State* state) {
   const lua_Integer times = std::max<lua_Integer>(0, luaL_checkinteger(state, 2));
   const std::string_view between = lua_isnoneornil(state, 3) ? std::string_view() : check_text(state, 3);
   const std::size_t each = text.size() + between.size();
-  if (times > 0 && (static_cast<std::uint64_t>(times) > kLongestRep ||
-                    each * static_cast<std::size_t>(times) > kLongestRep)) {
+  if (times > 0 &&
+      (static_cast<std::uint64_t>(times) > kLongestRep || each * static_cast<std::size_t>(times) > kLongestRep)) {
     return luaL_error(state, "string.rep makes at most %d bytes", static_cast<int>(kLongestRep));
   }
   charge(state, static_cast<std::int64_t>(each) * times / 16 + times);
@@ -84,7 +84,8 @@ int plain_find(lua_State* state) {
   if (from == 0) from = 1;
   if (needle.size() > kLongestNeedle) return luaL_error(state, "string.find looks for at most 256 bytes");
   charge(state, length / 4 + 1);
-  const std::size_t at = from > length + 1 ? std::string_view::npos : text.find(needle, static_cast<std::size_t>(from - 1));
+  const std::size_t at =
+      from > length + 1 ? std::string_view::npos : text.find(needle, static_cast<std::size_t>(from - 1));
   if (at == std::string_view::npos) {
     lua_pushnil(state);
     return 1;
@@ -241,11 +242,11 @@ int sorted_pairs(lua_State* state) {
   return 3;
 }
 
-int read_only(lua_State* state) { return luaL_error(state, "'%s' cannot be changed", luaL_tolstring(state, 2, nullptr)); }
-
-int unknown_word(lua_State* state) {
-  return luaL_error(state, "unknown name '%s'", luaL_tolstring(state, 2, nullptr));
+int read_only(lua_State* state) {
+  return luaL_error(state, "'%s' cannot be changed", luaL_tolstring(state, 2, nullptr));
 }
+
+int unknown_word(lua_State* state) { return luaL_error(state, "unknown name '%s'", luaL_tolstring(state, 2, nullptr)); }
 
 // Copies a field of the table on top to the table at `to`, through `wrapper` when there is one.
 void copy_function(lua_State* state, int to, const char* name, lua_CFunction wrapper = nullptr) {
@@ -299,9 +300,9 @@ void install_math(lua_State* state, int globals) {
   lua_newtable(state);
   const int own = lua_gettop(state);
   luaL_requiref(state, "math", luaopen_math, 0);
-  for (const char* name : {"abs", "acos", "asin", "atan", "ceil", "cos", "deg", "exp", "floor", "fmod", "log", "max",
-                           "min", "modf", "rad", "sin", "sqrt", "tan", "tointeger", "type", "ult", "pi", "huge",
-                           "maxinteger", "mininteger"}) {
+  for (const char* name : {"abs",       "acos", "asin", "atan", "ceil", "cos",        "deg",       "exp",  "floor",
+                           "fmod",      "log",  "max",  "min",  "modf", "rad",        "sin",       "sqrt", "tan",
+                           "tointeger", "type", "ult",  "pi",   "huge", "maxinteger", "mininteger"}) {
     copy_function(state, own, name);
   }
   lua_pop(state, 1);

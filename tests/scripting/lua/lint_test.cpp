@@ -19,9 +19,11 @@ TEST_CASE("nothing in scripting catches everything, and one file wraps Lua funct
     CHECK(text.find("catch (...)") == std::string::npos);
     CHECK(text.find("catch(...)") == std::string::npos);
     // A function handed to Lua goes through lua_function, which holds the try block.
-    for (std::size_t at = text.find("lua_pushcfunction("); at != std::string::npos; at = text.find("lua_pushcfunction(", at + 1)) {
+    for (std::size_t at = text.find("lua_pushcfunction("); at != std::string::npos;
+         at = text.find("lua_pushcfunction(", at + 1)) {
       const std::string call = text.substr(at, text.find('\n', at) - at);
-      const bool wrapped = call.find("lua_function<") != std::string::npos || call.find("entry.function") != std::string::npos ||
+      const bool wrapped = call.find("lua_function<") != std::string::npos ||
+                           call.find("entry.function") != std::string::npos ||
                            call.find("wrapper") != std::string::npos;
       INFO(call);
       CHECK(wrapped);

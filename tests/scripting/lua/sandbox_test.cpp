@@ -1,10 +1,11 @@
 // What untrusted scripts can and cannot do.
+#include "scripting/lua/sandbox.h"
+
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
 #include "engine/base/error.h"
 #include "scripting/lua/binding.h"
-#include "scripting/lua/sandbox.h"
 
 using namespace stampede;
 
@@ -33,9 +34,10 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("what is not on the whitelist is not there") {
-  for (const char* name : {"io", "os", "debug", "load", "loadstring", "dofile", "loadfile", "next", "rawset", "rawget", "rawequal",
-                           "rawlen", "pcall", "xpcall", "coroutine", "setmetatable", "getmetatable", "collectgarbage", "print",
-                           "package", "_G", "_VERSION", "utf8", "warn"}) {
+  for (const char* name : {"io",       "os",      "debug",     "load",         "loadstring",   "dofile",
+                           "loadfile", "next",    "rawset",    "rawget",       "rawequal",     "rawlen",
+                           "pcall",    "xpcall",  "coroutine", "setmetatable", "getmetatable", "collectgarbage",
+                           "print",    "package", "_G",        "_VERSION",     "utf8",         "warn"}) {
     INFO(name);
     Fixture fixture;
     const std::string text = fixture.fault(std::string("return ") + name);
@@ -60,11 +62,15 @@ TEST_CASE("globals and libraries cannot be changed") {
 
 TEST_CASE("pairs goes through keys in order: whole numbers, then texts") {
   Fixture fixture;
-  const std::string body = "local s = '' for k, v in pairs(t) do s = s .. tostring(k) .. '=' .. tostring(v) .. ' ' end return s";
+  const std::string body =
+      "local s = '' for k, v in pairs(t) do s = s .. tostring(k) .. '=' .. tostring(v) .. ' ' end return s";
   CHECK(fixture.run("local t = { b = 1, a = 2, [10] = 3, [-1] = 4, 7 } " + body) == "-1=4 1=7 10=3 a=2 b=1 ");
   // What is removed while it runs is passed over.
-  CHECK(fixture.run("local t = { a = 1, b = 2, c = 3 } local n = 0 for k in pairs(t) do t.b = nil n = n + 1 end return n") == "2");
-  CHECK(fixture.fault("for k in pairs { [true] = 1 } do end").find("keys are names and whole numbers") != std::string::npos);
+  CHECK(fixture.run(
+            "local t = { a = 1, b = 2, c = 3 } local n = 0 for k in pairs(t) do t.b = nil n = n + 1 end return n") ==
+        "2");
+  CHECK(fixture.fault("for k in pairs { [true] = 1 } do end").find("keys are names and whole numbers") !=
+        std::string::npos);
 }
 
 TEST_CASE("no address leaks") {
@@ -85,7 +91,8 @@ TEST_CASE("strings and tables keep their bounds") {
   CHECK(fixture.run("return ('abc'):find('z')") == "nil");
   CHECK(fixture.fault("return ('a'):find(('a'):rep(300))").find("at most 256") != std::string::npos);
   CHECK(fixture.fault("return table.unpack({}, 1, 1e8)").find("at most 10000") != std::string::npos);
-  CHECK(fixture.run("local t = { 1, 2 } table.insert(t, 1, 0) table.insert(t, 3) return table.concat(t, ',')") == "0,1,2,3");
+  CHECK(fixture.run("local t = { 1, 2 } table.insert(t, 1, 0) table.insert(t, 3) return table.concat(t, ',')") ==
+        "0,1,2,3");
   CHECK(fixture.run("local t = { 1, 2, 3 } local x = table.remove(t, 1) return x .. #t") == "12");
 }
 
@@ -93,9 +100,11 @@ TEST_CASE("sort is stable and ends for every comparator") {
   Fixture fixture;
   const std::string show = " local s = '' for _, v in ipairs(t) do s = s .. v.k .. v.n end return s";
   CHECK(fixture.run("local t = { {k=2,n='a'}, {k=1,n='b'}, {k=2,n='c'}, {k=1,n='d'}, {k=0,n='e'} } "
-                    "table.sort(t, function(a, b) return a.k < b.k end)" + show) == "0e1b1d2a2c");
+                    "table.sort(t, function(a, b) return a.k < b.k end)" +
+                    show) == "0e1b1d2a2c");
   CHECK(fixture.run("local t = { 3, 1, 2 } table.sort(t) return table.concat(t)") == "123");
-  CHECK(fixture.run("local t = {} for i = 1, 50 do t[i] = i end table.sort(t, function() return true end) return #t") == "50");
+  CHECK(fixture.run("local t = {} for i = 1, 50 do t[i] = i end table.sort(t, function() return true end) return #t") ==
+        "50");
 }
 
 TEST_CASE("a runaway script is an error with its place, never a hang") {
@@ -116,7 +125,8 @@ TEST_CASE("a runaway script is an error with its place, never a hang") {
     CHECK(text.find("instruction budget is spent") != std::string::npos);
   }
   Fixture fixture;
-  CHECK_THAT(fixture.fault("local x = 1\nwhile true do end"), Catch::StartsWith("test.lua:2: the script ran for too long"));
+  CHECK_THAT(fixture.fault("local x = 1\nwhile true do end"),
+             Catch::StartsWith("test.lua:2: the script ran for too long"));
 }
 
 TEST_CASE("a spent budget stays spent") {
@@ -132,8 +142,9 @@ TEST_CASE("each call has a budget of its own") {
 }
 
 TEST_CASE("memory ends in an error, and a string in its limit") {
-  for (const char* source : {"local t = {} for i = 1, 1e9 do t[i] = { i, i, i } end",
-                             "local s = 'x' while true do s = s .. s end", "local t = {} for i = 1, 1e9 do t[i] = ('x'):rep(60000) .. i end"}) {
+  for (const char* source :
+       {"local t = {} for i = 1, 1e9 do t[i] = { i, i, i } end", "local s = 'x' while true do s = s .. s end",
+        "local t = {} for i = 1, 1e9 do t[i] = ('x'):rep(60000) .. i end"}) {
     INFO(source);
     Fixture fixture;
     const std::string text = fixture.fault(source);
@@ -165,7 +176,9 @@ TEST_CASE("the budget holds inside coroutines, and stays spent on all of them") 
 TEST_CASE("an error in a coroutine tells its place and who called") {
   Fixture fixture;
   lua_State* main = fixture.sandbox.state();
-  fixture.sandbox.run(Sandbox::compile("local function inner() error('oops') end\nreturn function() inner() return 1 end", "skill.lua"), "skill.lua", 1);
+  fixture.sandbox.run(
+      Sandbox::compile("local function inner() error('oops') end\nreturn function() inner() return 1 end", "skill.lua"),
+      "skill.lua", 1);
   lua_State* thread = lua_newthread(main);
   lua_insert(main, -2);
   lua_xmove(main, thread, 1);
@@ -207,12 +220,18 @@ TEST_CASE("require gives a module once and names what it lacks") {
   const std::string module = Sandbox::compile("local n = { count = 0 } return n", "tasks/lib/a.lua");
   const std::string loop = Sandbox::compile("return require 'loop'", "loop.lua");
   Sandbox sandbox(kSmall, [&](std::string_view name) -> std::string_view {
-    return name == "tasks.lib.a" ? std::string_view(module) : name == "loop" ? std::string_view(loop) : std::string_view();
+    return name == "tasks.lib.a" ? std::string_view(module)
+           : name == "loop"      ? std::string_view(loop)
+                                 : std::string_view();
   });
-  sandbox.run(Sandbox::compile("local a = require 'tasks.lib.a' a.count = a.count + 1 return require('tasks.lib.a').count", "t.lua"), "t.lua", 1);
+  sandbox.run(Sandbox::compile(
+                  "local a = require 'tasks.lib.a' a.count = a.count + 1 return require('tasks.lib.a').count", "t.lua"),
+              "t.lua", 1);
   CHECK(lua_tointeger(sandbox.state(), -1) == 1);
-  CHECK_THROWS_WITH(sandbox.run(Sandbox::compile("require '../../etc/passwd'", "t.lua"), "t.lua", 0), Catch::Contains("finds no"));
-  CHECK_THROWS_WITH(sandbox.run(Sandbox::compile("require 'loop'", "t.lua"), "t.lua", 0), Catch::Contains("requires itself"));
+  CHECK_THROWS_WITH(sandbox.run(Sandbox::compile("require '../../etc/passwd'", "t.lua"), "t.lua", 0),
+                    Catch::Contains("finds no"));
+  CHECK_THROWS_WITH(sandbox.run(Sandbox::compile("require 'loop'", "t.lua"), "t.lua", 0),
+                    Catch::Contains("requires itself"));
 }
 
 TEST_CASE("a syntax error names file and line") {

@@ -1,0 +1,88 @@
+// Formulas as C++ values, against what they mean by hand.
+#include <catch2/catch.hpp>
+#include <lua.hpp>
+
+#include "scripting/library/definitions.h"
+#include "scripting/library/library.h"
+#include "scripting/library/node.h"
+
+using namespace stampede;
+
+namespace {
+
+struct Fixture {
+  std::shared_ptr<const Library> library = Library::load({{STAMPEDE_SOURCE_DIR}});
+  DefinitionState state{library};
+  Formula formula(const std::string& source, const std::vector<Parameter>& parameters = {}) {
+    state.sandbox().run(Sandbox::compile("return " + source, "t.lua"), "t.lua", 1);
+    const Formula result =
+        read_formula(state.state(), -1, "t.lua: goal", parameters, library->domain(), [](const std::string& group) {
+          const std::string name = group.substr(0, group.size() - 1);
+          return std::vector<std::string>{name + "1", name + "2", name + "3"};
+        });
+    lua_pop(state.state(), 1);
+    return result;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the hand that is left out is the world's, or the parameter") {
+  Fixture fixture;
+  CHECK(fixture.formula("is.holding('a')") == atom("holding", {{false, "panda.hand"}, {false, "a"}}));
+  CHECK(fixture.formula("is.hand_empty()") == atom("hand_empty", {{false, "panda.hand"}}));
+  CHECK(fixture.formula("is.holding('other.hand', 'a')") == atom("holding", {{false, "other.hand"}, {false, "a"}}));
+  const Formula inside = fixture.formula("is.holding('obj')", {{"obj", "", {"movable"}}, {"hand", "hand", {}}});
+  CHECK(inside == atom("holding", {{true, "hand"}, {true, "obj"}}));
+  CHECK_THROWS_WITH(fixture.formula("is.hand_empty()", {{"obj", "", {}}}), Catch::Contains("the hand is left out"));
+}
+
+TEST_CASE("groups are conjunctions over their members") {
+  Fixture fixture;
+  const Formula all = fixture.formula("is.on('b*', 'table')");
+  REQUIRE(all.kind == Formula::Kind::conjunction);
+  REQUIRE(all.parts.size() == 3);
+  CHECK(all.parts[2] == atom("on", {{false, "b3"}, {false, "table"}}));
+  CHECK(fixture.formula("is_not.on('b*', 'table')").parts[0].kind == Formula::Kind::negation);
+  const Formula some = fixture.formula("exists('?x: b*', is.on('?x', 'table'))");
+  CHECK(some.kind == Formula::Kind::disjunction);
+  CHECK(some.parts.size() == 3);
+}
+
+TEST_CASE("any_order is the disjunction of all ordered choices") {
+  Fixture fixture;
+  const Formula chain = fixture.formula("any_order('b*', 2, function(b, i) return is.on(b[i], b[i - 1]) end)");
+  REQUIRE(chain.kind == Formula::Kind::disjunction);
+  CHECK(chain.parts.size() == 6);                                       // 3 x 2
+  CHECK(chain.parts[0] == atom("on", {{false, "b2"}, {false, "b1"}}));  // b[0] is left out
+  CHECK(fixture.formula("any_order('b*', 3, function(b, i) return is.on(b[i], b[i - 1]) end)").parts.size() == 6);
+}
+
+TEST_CASE("quantifiers keep types and traits") {
+  Fixture fixture;
+  const Formula formula = fixture.formula("forall('?x: cube & movable', is.on('?x', 'table'))");
+  REQUIRE(formula.kind == Formula::Kind::forall);
+  CHECK(formula.variables[0] == Parameter{"x", "cube", {"movable"}});
+  CHECK(formula.parts[0] == atom("on", {{true, "x"}, {false, "table"}}));
+  const Formula same = fixture.formula("is_not.same('a', 'b')");
+  REQUIRE(same.kind == Formula::Kind::negation);
+  CHECK(same.parts[0].kind == Formula::Kind::equal);
+}
+
+TEST_CASE("a definition runs once per state and not across states") {
+  Fixture fixture;
+  fixture.state.push(DefinitionKind::task, "stack_blocks");
+  fixture.state.push(DefinitionKind::task, "stack_blocks");
+  CHECK(lua_rawequal(fixture.state.state(), -1, -2) == 1);
+  CHECK(read_node(fixture.state.state(), -1, "")["name"].text == "stack_blocks");
+  CHECK_THROWS_WITH(fixture.state.push(DefinitionKind::task, "nothing"), Catch::Contains("there is no task 'nothing'"));
+}
+
+TEST_CASE("a table that doubles itself is refused, not unfolded") {
+  Fixture fixture;
+  fixture.state.sandbox().run(Sandbox::compile("local t = {1} for i = 1, 30 do t = { t, t } end return t", "t.lua"),
+                              "t.lua", 1);
+  CHECK_THROWS_AS(read_node(fixture.state.state(), -1, "t.lua"), Error);
+  fixture.state.sandbox().run(Sandbox::compile("local t = {} t.t = t return t", "t.lua"), "t.lua", 1);
+  CHECK_THROWS_WITH(read_node(fixture.state.state(), -1, "t.lua"), Catch::Contains("nested too deeply"));
+}

@@ -1,0 +1,74 @@
+// What is made from the field tables, and the templates.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "scripting/library/fields.h"
+#include "scripting/library/library.h"
+#include "scripting/library/naming.h"
+#include "scripting/library/source_lines.h"
+
+using namespace stampede;
+namespace fs = std::filesystem;
+
+TEST_CASE("the editor's file is what the field tables say (run stampede doc)") {
+  std::ifstream file(STAMPEDE_SOURCE_DIR "/scripting/library/stampede.lua");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK(text == luals_annotations());
+}
+
+TEST_CASE("each field has a type that something has, and a sentence") {
+  for (const Record& one : records()) {
+    for (const Field& field : one.fields) {
+      INFO(one.name << "." << field.name);
+      CHECK(std::string_view(field.type).size() > 0);
+      CHECK(field_help(one).find(std::string("  ") + field.name + " ") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("new files pass the check beside ours") {
+  const fs::path root = fs::temp_directory_path() / "stampede_new_file_test";
+  fs::remove_all(root);
+  const std::pair<DefinitionKind, const char*> kinds[] = {{DefinitionKind::task, "tasks"},
+                                                          {DefinitionKind::skill, "skills"},
+                                                          {DefinitionKind::predicate, "worlds/predicates"},
+                                                          {DefinitionKind::object, "worlds/objects"},
+                                                          {DefinitionKind::world, "worlds"}};
+  for (const auto& [kind, folder] : kinds) {
+    fs::create_directories(root / folder);
+    std::ofstream(root / folder / "my_new_one.lua") << new_file(kind, "my_new_one");
+  }
+  std::vector<Error> complaints;
+  Library::load({{STAMPEDE_SOURCE_DIR, root}}, complaints);
+  for (const Error& complaint : complaints) UNSCOPED_INFO(complaint.what());
+  CHECK(complaints.empty());
+  fs::remove_all(root);
+  CHECK_THROWS_WITH(new_file(DefinitionKind::task, "end"), Catch::Contains("reserved") && Catch::Contains("end_it"));
+}
+
+TEST_CASE("names: distance, neighbours, proposals") {
+  CHECK(edit_distance("object", "objects") == 1);
+  CHECK(edit_distance("cuont", "count") == 1);  // a swap of neighbours
+  CHECK(edit_distance("", "abc") == 3);
+  CHECK(nearest("wrold", {"world", "word", "goal"}) == "world");
+  CHECK_FALSE(nearest("zzz", {"world"}).has_value());
+  CHECK(proposed_name("MyTask 2") == "my_task_2");
+  CHECK(proposed_name("3d") == "my_3d");
+  CHECK(proposed_name("when") == "when_it");
+  CHECK(proposed_name("cup", {"cup", "cup_2"}) == "cup_3");
+  CHECK_FALSE(name_fault(proposed_name("Ünicode!")).has_value());
+}
+
+TEST_CASE("lines of fields are those of the source") {
+  const auto lines = field_lines(
+      "-- a\n-- b = {\nreturn task {\n  a = { x = 1,\n    y = 2 },\n  b = function(v)\n    return { z = v.a == 1 }\n  "
+      "end,\n"
+      "  c = [[\n d = 1 ]],\n  e = \"f = 2\",\n}\n");
+  const std::map<std::string, int> expected = {{"", 3},  {"a", 4},   {"a.x", 4}, {"a.y", 5},
+                                               {"b", 6}, {"b.z", 7}, {"c", 9},   {"e", 11}};
+  CHECK(lines == expected);
+  CHECK(line_of(lines, "a.y.deep") == 5);
+  CHECK(line_of(lines, "missing") == 3);
+}
