@@ -29,10 +29,12 @@ target_compile_definitions(stampede_options INTERFACE $<$<CONFIG:Release>:NDEBUG
 target_include_directories(stampede_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/engine/include
   ${PROJECT_SOURCE_DIR}/db/include ${PROJECT_SOURCE_DIR}/scripting/include)
 if(STAMPEDE_SANITIZE)
-  add_compile_options(-fsanitize=${STAMPEDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g)
+  add_compile_options(-fsanitize=${STAMPEDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1)
   add_link_options(-fsanitize=${STAMPEDE_SANITIZE})
   # The checks a sanitizer weaves in hide from GCC 12 that Eigen's and the standard library's values are set.
   add_compile_options(-Wno-maybe-uninitialized)
+  # Checks woven into every dereference double the build, and the address sanitizer traps a bad pointer anyway.
+  add_compile_options(-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
 endif()
 
 # stampede_room(base SOURCES a.cpp … USES rooms and packages its headers need … INSIDE those only its sources need …)
