@@ -7,7 +7,7 @@ _stampede() {
     run) words="--episodes --variation --seed --split --workers --out --on-failure --controller --root --path --json --help" ;;
     show) words="--all --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --root --path --json --help" ;;
-    query) words="--format --list --root --path --json --help" ;;
+    query) words="--format --list --hash --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;
     new) words="--root --path --json --help" ;;
     doc) words="--check --root --path --json --help" ;;

@@ -19,6 +19,10 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QueryResult result;
   if (arguments.flag("--list")) {
     result = names();
+  } else if (arguments.flag("--hash")) {
+    if (!arguments.has("FILE")) throw UsageError("stampede query --hash needs FILE", "name a catalogue");
+    result.columns = {"content_hash"};
+    result.rows = {{Catalogue::open(arguments.text("FILE")).content_hash()}};
   } else {
     if (!arguments.has("FILE") || !arguments.has("QUESTION")) {
       throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");
@@ -39,7 +43,14 @@ CommandRow query_command() {
           "described in db/README.md; --list names the ready questions.",
           {{"FILE", "the catalogue", false, false}, {"QUESTION", "SQL, or a name", false, false}},
           {{"--format", "NAME", "how to print", Takes::text, "table", {"table", "csv", "json"}, false},
-           {"--list", "", "name the ready questions", Takes::flag, "", {}, false}},
+           {"--list", "", "name the ready questions", Takes::flag, "", {}, false},
+           {"--hash",
+            "",
+            "print the hash of all that is in FILE but host times: equal data, equal hash",
+            Takes::flag,
+            "",
+            {},
+            false}},
           {"stampede query demos.db failures_by_reason",
            "stampede query demos.db \"SELECT task, count(*) FROM demos GROUP BY task\" --format csv"},
           run};
