@@ -6,6 +6,7 @@ namespace stampede::symbolic {
 namespace {
 
 constexpr std::int64_t kWindowExpansions = 25;
+constexpr std::int64_t kWholeExpansions = 400;
 constexpr std::int64_t kWindowWork = 4'000'000;  // operators times expansions: bounds the time on large tasks
 
 std::int64_t total(const GroundTask& task, const std::vector<int>& plan) {
@@ -91,6 +92,24 @@ bool shorten_windows(const GroundTask& task, const Semantics& semantics, Heurist
   return better;
 }
 
+// Searches for the whole plan again, each time for a shorter one: for tasks whose stretches cannot be replaced because
+// what they need to achieve cannot be regressed (axioms, conditional effects).
+std::vector<int> search_again(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
+                              std::int64_t budget, std::vector<int> plan) {
+  for (const int weight : {3, 1}) {
+    while (budget > 0) {
+      PlanLimits limits;
+      limits.expansions = budget;
+      const SearchResult found = lazy_search(task, semantics, heuristic, limits,
+                                             {semantics.initial(), task.goal, weight, static_cast<int>(plan.size())});
+      budget -= found.evaluated;
+      if (!found.solved || total(task, found.plan) >= total(task, plan)) break;
+      plan = eliminate(task, semantics, found.plan);
+    }
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
@@ -99,9 +118,9 @@ std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heu
   plan = eliminate(task, semantics, std::move(plan));
   const bool regresses = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
                                                             [](const Operator& op) { return op.conditional.empty(); });
-  if (!regresses) return plan;
   std::int64_t budget =
       std::min<std::int64_t>(expansions, kWindowWork / static_cast<std::int64_t>(task.operators.size() + 100));
+  if (!regresses) return search_again(task, semantics, heuristic, std::min(budget, kWholeExpansions), std::move(plan));
   for (const std::size_t length : {8, 16}) {
     if (shorten_windows(task, semantics, heuristic, length, budget, plan)) {
       plan = eliminate(task, semantics, std::move(plan));
