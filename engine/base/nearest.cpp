@@ -5,42 +5,46 @@
 namespace stampede {
 namespace {
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+// Counts a swap of neighbours once (Damerau 1964, doi:10.1145/363958.363994, restricted form).
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    now[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
     }
+    std::swap(before, last);
+    std::swap(last, now);
   }
-  return row[b.size()];
+  return last[b.size()];
 }
 
 }  // namespace
 
-std::string nearest(std::string_view word, const std::vector<std::string>& names) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(word, name);
-    if (distance < least) {
-      least = distance;
-      best = name;
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
+  std::optional<std::string> best;
+  const int limit = std::max(1, static_cast<int>(std::min<std::size_t>(word.size(), 64) + 2) / 3);
+  int best_distance = limit + 1;
+  for (const std::string& candidate : known) {
+    const int distance = edit_distance(word.substr(0, 64), candidate);
+    if (distance < best_distance || (distance == best_distance && best && candidate < *best)) {
+      best_distance = distance;
+      best = candidate;
     }
   }
   return best;
 }
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-  if (const std::string best = nearest(word, names); !best.empty()) return "did you mean '" + best + "'?";
-  if (names.empty()) return {};
-  std::string text = "there " + std::string(names.size() == 1 ? "is" : "are");
-  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 8); ++i) text += (i ? ", '" : " '") + names[i] + "'";
-  return text + (names.size() > 8 ? ", …" : "");
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  if (const auto best = nearest(word, known)) return "did you mean '" + *best + "'?";
+  if (known.empty() || known.size() > 24) return {};
+  std::vector<std::string> sorted = known;
+  std::sort(sorted.begin(), sorted.end());
+  std::string text = "known: ";
+  for (std::size_t i = 0; i < sorted.size(); ++i) text += (i > 0 ? ", " : "") + sorted[i];
+  return text;
 }
 
 }  // namespace stampede

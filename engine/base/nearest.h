@@ -1,15 +1,17 @@
 // "did you mean": the cure in most messages about names.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stampede {
 
-// The name with the smallest edit distance (at most a third of the word), or empty.
-std::string nearest(std::string_view word, const std::vector<std::string>& names);
-// "did you mean 'objects'?", or the first few names there are, or empty.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+// The nearest of `known` in edit distance, when near enough to be meant (ties: first in alphabetical order).
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
+
+// `did you mean 'objects'?`, or `known: a, b, c` when nothing is near and the list is short, or empty.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace stampede
