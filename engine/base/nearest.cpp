@@ -3,9 +3,6 @@
 #include <algorithm>
 
 namespace stampede {
-namespace {
-
-// Counts a swap of neighbours once (Damerau 1964, doi:10.1145/363958.363994, restricted form).
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = static_cast<int>(j);
@@ -20,8 +17,6 @@ int edit_distance(std::string_view a, std::string_view b) {
   }
   return last[b.size()];
 }
-
-}  // namespace
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
   std::optional<std::string> best;

@@ -8,6 +8,9 @@
 
 namespace stampede {
 
+// Edit distance that counts a swap of neighbours once (Damerau 1964, doi:10.1145/363958.363994, restricted form).
+int edit_distance(std::string_view a, std::string_view b);
+
 // The nearest of `known` in edit distance, when near enough to be meant (ties: first in alphabetical order).
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
 

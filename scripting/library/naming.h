@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/nearest.h"  // nearest, did_you_mean
+#include "engine/base/nearest.h"  // edit_distance, nearest, did_you_mean
 
 namespace stampede {
 
