@@ -133,7 +133,7 @@ class StartMaker {
       world.close_window();
       view.close_frame();
     }
-    if (!all_at_rest(view)) return refuse("coming to rest");
+    if (!all_at_rest(view)) return refuse(moving(view));
     return accept(view, start);
   }
 
@@ -158,6 +158,16 @@ class StartMaker {
     if (unplaced.empty()) return true;
     throw Error("task " + task_.name(), "no literal of init places '" + unplaced.front() + "'",
                 "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
+  }
+
+  // What to say of a scene that does not settle: the first literal that this undid, where there is one.
+  std::string moving(const WorldView& view) {
+    FactTracker tracker(symbols_, view);
+    tracker.begin(tracker.read_all(view));
+    for (const Literal& literal : task_.init()) {
+      if (tracker.facts().contains(literal.fact) == literal.negated) return text_of(literal) + " and coming to rest";
+    }
+    return "coming to rest";
   }
 
   bool accept(const WorldView& view, PreparedStart& start) {

@@ -9,9 +9,25 @@
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/program/run_job.h"
+#include "scripting/runtime/episode_scripts.h"
 
 namespace stampede::program {
 namespace {
+
+// What only building shows: URDF and mesh files, sizes of shapes. One draw of the first variation of each task.
+void build_scenes(const std::shared_ptr<const Library>& library, std::vector<Error>& complaints) {
+  std::set<std::string> said;
+  for (const ScriptFile* file : library->files(DefinitionKind::task)) {
+    const Library::TaskInfo& task = task_info(*library, file->name);
+    try {
+      EpisodeScripts(library, task.name, task.variation_texts.empty() ? "" : task.variation_texts.front(), 0)
+          .task()
+          .scene(0);
+    } catch (const Error& error) {
+      if (said.insert(error.what()).second) complaints.push_back(error);
+    }
+  }
+}
 
 // NAMES given: only complaints about files of these names.
 std::vector<Error> wanted_complaints(const std::vector<Error>& all, const std::vector<std::string>& names) {
@@ -72,9 +88,10 @@ QueryResult rates(const RunTally& tally) {
 
 ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& arguments, Console& console) {
   const std::vector<std::string> tasks = tasks_to_run(*library, arguments.list("NAMES"));
-  JobRequest request{tasks, *arguments.integer("--episodes"), *arguments.integer("--seed"), ""};
+  JobRequest request{tasks, in_range(arguments, "--episodes", 1, kMostEpisodes),
+                     in_range(arguments, "--seed", 0, kLargestSeed), ""};
   RunSettings settings;
-  settings.workers = static_cast<int>(*arguments.integer("--workers"));
+  settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
   Progress progress(console);
   std::vector<std::string> failures;
@@ -95,6 +112,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
 ExitCode run(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const auto library = Library::load(roots_of(arguments), all);
+  if (all.empty()) build_scenes(library, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
   check_names(*library, names, all);
   const std::vector<Error> complaints = wanted_complaints(all, names);

@@ -1,5 +1,7 @@
 #include "scripting/commands/commands.h"
 
+#include <fmt/format.h>
+
 #include "scripting/program/roots.h"
 
 namespace stampede::program {
@@ -17,6 +19,13 @@ Roots roots_of(const Arguments& arguments) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& path : arguments.list("--path")) paths.emplace_back(path);
   return make_roots(arguments.text("--root"), paths);
+}
+
+std::int64_t in_range(const Arguments& arguments, const char* option, std::int64_t least, std::int64_t most) {
+  const std::int64_t value = *arguments.integer(option);
+  if (value < least) throw UsageError(fmt::format("{} is at least {}, not {}", option, least, value));
+  if (value > most) throw UsageError(fmt::format("{} is at most {}, not {}", option, most, value));
+  return value;
 }
 
 std::shared_ptr<const Library> load_library(const Arguments& arguments) { return Library::load(roots_of(arguments)); }

@@ -25,4 +25,8 @@ CommandRow doc_command();
 std::shared_ptr<const Library> load_library(const Arguments& arguments);
 Roots roots_of(const Arguments& arguments);
 
+// The number that an option was given. Throws UsageError outside [least, most].
+std::int64_t in_range(const Arguments& arguments, const char* option, std::int64_t least, std::int64_t most);
+constexpr std::int64_t kMostEpisodes = 1'000'000, kMostWorkers = 256, kLargestSeed = 1'000'000'000'000;
+
 }  // namespace stampede::program

@@ -54,7 +54,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const auto library = load_library(arguments);
   const Library::TaskInfo& task = task_info(*library, arguments.text("TASK"));
   const std::vector<std::string> variations = matching_variations(task, arguments.text("--variation"));
-  const EpisodeJob job{task.name, variations.empty() ? "" : variations.front(), *arguments.integer("--seed")};
+  const EpisodeJob job{task.name, variations.empty() ? "" : variations.front(),
+                       in_range(arguments, "--seed", 0, kLargestSeed)};
   RunOptions options;
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);

@@ -1,4 +1,7 @@
+#include <atomic>
+#include <chrono>
 #include <ostream>
+#include <thread>
 
 #include "db/catalogue.h"
 #include "db/table_text.h"
@@ -6,6 +9,28 @@
 
 namespace stampede::program {
 namespace {
+
+// While it lives, Ctrl-C ends the catalogue's running question.
+class StopsQuestion {
+ public:
+  StopsQuestion(const Catalogue& catalogue, const Console& console)
+      : watcher_([this, &catalogue, &console] {
+          while (!done_) {
+            if (console.stopped()) catalogue.interrupt();
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          }
+        }) {}
+  ~StopsQuestion() {
+    done_ = true;
+    watcher_.join();
+  }
+  StopsQuestion(const StopsQuestion&) = delete;
+  StopsQuestion& operator=(const StopsQuestion&) = delete;
+
+ private:
+  std::atomic<bool> done_ = false;
+  std::thread watcher_;  // last: it reads done_
+};
 
 QueryResult names() {
   QueryResult table;
@@ -28,7 +53,14 @@ ExitCode run(const Arguments& arguments, Console& console) {
       throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");
     }
     const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
-    result = catalogue.query(arguments.text("QUESTION"));
+    try {
+      const StopsQuestion stops(catalogue, console);
+      result = catalogue.query(arguments.text("QUESTION"));
+    } catch (const Error&) {
+      if (!console.stopped()) throw;
+      console.err << "interrupted: the question was not answered\n";
+      return kNo;
+    }
   }
   console.out << (format == "json" ? to_json(result) : format == "csv" ? to_csv(result) : to_table(result));
   return kDone;

@@ -12,12 +12,6 @@
 namespace stampede::program {
 namespace {
 
-std::int64_t at_least(const Arguments& arguments, const char* name, std::int64_t least) {
-  const std::int64_t value = *arguments.integer(name);
-  if (value < least) throw UsageError(fmt::format("{} is at least {}, not {}", name, least, value));
-  return value;
-}
-
 RunOptions run_options(const Arguments& arguments) {
   RunOptions options;
   options.split = arguments.text("--split");
@@ -29,8 +23,9 @@ RunOptions run_options(const Arguments& arguments) {
 JobRequest job_request(const Arguments& arguments, const std::string& split) {
   JobRequest request;
   request.tasks = arguments.list("TASK");
-  request.episodes = at_least(arguments, "--episodes", 1);
+  request.episodes = in_range(arguments, "--episodes", 1, kMostEpisodes);
   request.first_seed = arguments.integer("--seed").value_or(split == "test" ? kFirstTestSeed : 0);
+  if (request.first_seed > kLargestSeed) throw UsageError(fmt::format("--seed is at most {}", kLargestSeed));
   request.variation = arguments.text("--variation");
   try {
     check_split(split, request.first_seed, request.first_seed + request.episodes - 1);
@@ -75,7 +70,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   RunSettings settings;
   settings.options = run_options(arguments);
   const JobRequest request = job_request(arguments, settings.options.split);
-  settings.workers = static_cast<int>(at_least(arguments, "--workers", 1));
+  settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
   const auto library = load_library(arguments);
   const std::vector<EpisodeJob> jobs = plan_jobs(*library, request);

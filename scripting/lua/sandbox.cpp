@@ -142,7 +142,7 @@ int trace_of(lua_State* state) {
     if (cut != std::string::npos) trace = readable_trace(whole.c_str() + cut + 2);
   } else if (message.empty()) {
     message = status == LUA_ERRMEM ? "the script uses too much memory (or a string longer than 64 KiB)"
-                                   : "an error value that is not text";
+                                   : "the script threw an error whose value is not text";
   }
   lua_settop(thrower, thrower == state ? lua_gettop(thrower) - 1 : 0);
   throw error_from(std::move(message), std::move(trace));
@@ -291,7 +291,9 @@ bool Sandbox::resume(lua_State* coroutine, int arguments, int& results) {
     lua_pop(state, 1);
   }
   const char* text = status == LUA_ERRMEM ? nullptr : lua_tostring(coroutine, -1);
-  std::string message = text != nullptr ? text : "the script uses too much memory (or a string longer than 64 KiB)";
+  std::string message = text != nullptr        ? text
+                        : status == LUA_ERRMEM ? "the script uses too much memory (or a string longer than 64 KiB)"
+                                               : "the script threw an error whose value is not text";
   if (impl_->spent && message.find(kSpent) == std::string::npos) message = kSpent;
   throw error_from(std::move(message), std::move(trace));
 }

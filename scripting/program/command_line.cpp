@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <ostream>
 
 #include "engine/base/error.h"
@@ -54,11 +55,14 @@ std::vector<OptionRow> all_options(const CommandRow& command) {
 
 void check_value(const OptionRow& option, const std::string& value) {
   if (option.takes == Takes::integer) {
-    std::int64_t number = 0;
-    if (!CLI::detail::lexical_cast(value, number)) {
+    std::int64_t number = 0;  // read by from_chars: CLI11 takes a number that is too large for the largest there is
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error == std::errc::result_out_of_range) throw Usage{option.name + ": " + value + " is too large a number", ""};
+    if (error != std::errc() || end != value.data() + value.size()) {
       throw Usage{option.name + " takes a whole number, not '" + value + "'", ""};
     }
   }
+  if (option.takes == Takes::path && value.empty()) throw Usage{option.name + " needs a path", option.help};
   if (!option.choices.empty() &&
       std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
     std::string all;
@@ -71,14 +75,19 @@ void check_value(const OptionRow& option, const std::string& value) {
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CommandRow& command, const CLI::App& app) {
   const std::vector<std::string> rest = app.remaining();
   std::string hint = "see stampede " + command.name + " --help";
-  if (const auto word = std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.rfind("--", 0) == 0; });
+  if (const auto word = std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.rfind('-', 0) == 0; });
       word != rest.end()) {
     std::vector<std::string> names;
     for (const OptionRow& option : all_options(command)) names.push_back(option.name);
     if (const auto near = nearest(*word, names)) hint = "did you mean " + *near + "?";
     throw Usage{"stampede " + command.name + " has no option " + *word, hint};
   }
-  throw Usage{error.what(), hint};
+  const std::string what = error.what(), name = what.substr(0, what.find(':'));
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && name.rfind("--", 0) == 0) {
+    const bool missing = what.find("missing") != std::string::npos;
+    throw Usage{name + (missing ? " needs a value" : " is given more than once"), hint};
+  }
+  throw Usage{what, hint};
 }
 
 void place_positionals(const CommandRow& command, const std::vector<std::string>& places, Arguments& arguments) {
@@ -109,7 +118,7 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
         app.add_option(row.name, values[row.name])
             ->expected(1)
             ->multi_option_policy(row.repeats ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
-    if (row.repeats) options[row.name]->allow_extra_args(false);
+    options[row.name]->allow_extra_args(false);  // the next word is an argument of the command
   }
   std::vector<std::string> places;  // shared out by hand: CLI11 gives the first positional all it can
   app.add_option("words", places)->expected(0, 1 << 20);
@@ -173,7 +182,10 @@ ExitCode run_program(const std::vector<std::string>& words, Console& console) {
     return complain("stampede: ", usage.message + (usage.hint.empty() ? "" : "\n    " + usage.hint), kUsage, console);
   } catch (const LibraryError& error) {
     for (const Error& one : error.errors()) console.err << one.what() << "\n";
-    return complain("stampede: ", std::to_string(error.errors().size()) + " mistakes in scripts", kBadInput, console);
+    return complain(
+        "stampede: ",
+        std::to_string(error.errors().size()) + (error.errors().size() == 1 ? " mistake" : " mistakes") + " in scripts",
+        kBadInput, console);
   } catch (const CatalogueError& error) {
     return complain("", error.what(), kCatalogue, console);
   } catch (const UsageError& error) {

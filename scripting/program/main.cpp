@@ -22,6 +22,7 @@ void handle_signals() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, not a sudden death
+  signal(SIGXFSZ, SIG_IGN);  // likewise a file at its size limit: it is a full disk
 }
 
 int terminal_width() {

@@ -66,7 +66,11 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
     const PreparedEpisode prepared(library, jobs[i], settings.options);
     wanted[i] = {jobs[i].task, jobs[i].variation, jobs[i].seed, prepared.key()};
   });
-  if (stop && stop->load()) wanted.clear();
+  if (stop && stop->load()) {  // how many are there already is not known
+    tally.tasks.clear();
+    tally.interrupted = true;
+    return tally;
+  }
   if (writer) wanted = writer->expect(std::move(wanted));
   for (const EpisodeIdentity& one : wanted) --tally.tasks[one.task].existing;
   tally.existing = tally.total - static_cast<std::int64_t>(wanted.size());

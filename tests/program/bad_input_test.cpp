@@ -1,0 +1,163 @@
+// What people get wrong, at the program's door: a clear complaint, the right exit code, and nothing lost.
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+const std::string kTask = R"(-- Take the cup.
+return task {
+  world = "tabletop",
+  objects = { cup = { "OBJECT" } },
+  init = { INIT },
+  goal = { GOAL },
+  instructions = { "take it" },
+}
+)";
+
+std::string task_of(std::string text, const std::string& object, const std::string& init, const std::string& goal) {
+  text.replace(text.find("OBJECT"), 6, object);
+  text.replace(text.find("INIT"), 4, init);
+  text.replace(text.find("GOAL"), 4, goal);
+  return text;
+}
+
+void put(const Folder& folder, const std::string& name, const std::string& text) {
+  std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
+  std::ofstream(folder / name) << text;
+}
+
+Said checked(const Folder& mine) { return say({"check", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text()}); }
+
+Said ran(const Folder& mine) {
+  return say({"run", "t", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text(), "--out", mine / "o.db"});
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `run` alike, and nothing is written") {
+  struct Case {
+    std::string init, goal, place, complaint;
+  };
+  const std::vector<Case> cases = {
+      {"is.onn('cup', 'table')", "is.holding('cup')", "tasks/t.lua:5: init", "did you mean 'on'?"},
+      {"is.on('cup')", "is.holding('cup')", "tasks/t.lua:5: init", "on takes 2 arguments, not 1"},
+      {"is.on('cup', 'table')", "is.holding('cupp')", "tasks/t.lua:6: goal", "did you mean 'cup'?"},
+      {"is.hand_empty()", "is.holding('cup')", "tasks/t.lua:5: init", "nothing places the free object 'cup'"},
+      {"is.on('cup', 'table'", "is.holding('cup')", "tasks/t.lua:", "expected"},
+      {"os.execute('true')", "is.holding('cup')", "tasks/t.lua:5", "os"},
+      {"(function() while true do end end)()", "is.holding('cup')", "tasks/t.lua:5", "instruction budget"},
+  };
+  for (const Case& one : cases) {
+    const Folder mine;
+    put(mine, "tasks/t.lua", task_of(kTask, "cube", one.init, one.goal));
+    const Said check = checked(mine), run = ran(mine);
+    INFO(one.init + " " + one.goal + "\n" + check.out + "\n" + run.err);
+    CHECK(check.code == kBadInput);
+    CHECK(run.code == kBadInput);
+    for (const std::string& text : {check.out, run.err}) CHECK((says(text, one.place) && says(text, one.complaint)));
+    CHECK_FALSE(std::filesystem::exists(mine / "o.db"));
+  }
+}
+
+TEST_CASE("`check` builds what tasks use: a missing mesh, a broken mesh and a shape without size are found") {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"mesh { 'none.stl' }", "no such mesh file"}, {"mesh { 'bad.obj' }", "mesh"}, {"box { -1, 1, 1 }", "positive"}};
+  for (const auto& [shape, complaint] : cases) {
+    const Folder mine;
+    put(mine, "worlds/objects/mug.lua",
+        "-- A mug.\nreturn object { type = \"thing\", traits = { \"movable\" }, mass = 0.1, shape = " + shape + " }\n");
+    put(mine, "worlds/objects/bad.obj", "v 0 0 0\nf 1 2 99\n");
+    put(mine, "tasks/t.lua", task_of(kTask, "mug", "is.on('cup', 'table')", "is.holding('cup')"));
+    const Said check = checked(mine);
+    INFO(check.out);
+    CHECK(check.code == kBadInput);
+    CHECK(says(check.out, complaint));
+    CHECK(ran(mine).code == kBadInput);
+  }
+}
+
+TEST_CASE("a malformed URDF is a complaint with its file") {
+  const Folder mine;
+  std::string arm = file_text(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.lua");
+  arm.replace(arm.find("panda.urdf"), 10, "arm.urdf");
+  put(mine, "worlds/robots/arm.lua", arm);
+  put(mine, "worlds/robots/arm.urdf", "<robot name=\"arm\"><link name=\"a\"><inertial>");
+  put(mine, "worlds/w.lua", "-- A bare world.\nreturn world { robot = { \"arm\" }, fixtures = {} }\n");
+  put(mine, "tasks/t.lua",
+      "-- Nothing.\nreturn task { world = \"w\", objects = {}, goal = { is.hand_empty() }, instructions = { \"wait\" } "
+      "}\n");
+  const Said check = checked(mine);
+  INFO(check.out);
+  CHECK(check.code == kBadInput);
+  CHECK(says(check.out, "arm.urdf"));
+}
+
+TEST_CASE("a goal that no skill reaches names the literal and what is missing") {
+  const Folder mine;
+  put(mine, "worlds/predicates/poked.lua",
+      "-- It was poked.\nreturn predicate {\n  params = { \"obj: movable\" },\n  label = \"the {obj} is poked\",\n"
+      "  holds = function(w, obj) return false end,\n}\n");
+  put(mine, "tasks/t.lua", task_of(kTask, "cube", "is.on('cup', 'table')", "is.poked('cup')"));
+  const Said plan = say({"plan", "t", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text()});
+  INFO(plan.err);
+  CHECK(plan.code == kNo);
+  CHECK(says(plan.err, "(poked cup)"));
+  CHECK(says(plan.err, "no action adds"));
+  const Said run = ran(mine);
+  CHECK(run.code == kNo);
+  CHECK(says(run.err, "no_plan"));
+}
+
+TEST_CASE("numbers out of range are usage, whatever the command, and the word after an option's value is free") {
+  const std::vector<std::vector<std::string>> cases = {
+      {"run", "reach_target", "--seed", "99999999999999999999"},
+      {"run", "reach_target", "--split", "test", "--seed", "9223372036854775807"},
+      {"run", "reach_target", "--split", "test", "--episodes", "99999999999"},
+      {"run", "reach_target", "--workers", "100000"},
+      {"run", "reach_target", "--out", ""},
+      {"run", "reach_target", "--out"},
+      {"run", "reach_target", "--seed", "1", "--seed", "2"},
+      {"plan", "reach_target", "--seed", "-5"},
+      {"check", "--physics", "--episodes", "0", "reach_target"},
+      {"check", "--physics", "--workers", "-3", "reach_target"},
+  };
+  for (const std::vector<std::string>& words : cases) {
+    const Said said = say(words);
+    INFO(words[0] + " " + words[2] + " -> " + said.err);
+    CHECK(said.code == kUsage);
+    CHECK_FALSE(says(said.err, "a bug of ours"));
+  }
+  CHECK(say({"list", "--root", STAMPEDE_SOURCE_DIR, "skills"}).code == kDone);
+}
+
+TEST_CASE("a question that would never end is ended by Ctrl-C, and one that would write is refused") {
+  const Folder mine;
+  REQUIRE(say({"run", "reach_target", "--root", STAMPEDE_SOURCE_DIR, "--out", mine / "d.db"}).code == kDone);
+  const std::string before = file_text(mine / "d.db");
+  for (const char* sql : {"DELETE FROM episode", "VACUUM", "PRAGMA user_version = 9", "ATTACH 'x.db' AS x",
+                          "SELECT 1; DROP TABLE episode", "CREATE TEMP TABLE x(a)"}) {
+    CHECK(say({"query", mine / "d.db", sql}).code == kBadInput);
+  }
+  std::atomic<bool> stop = false;
+  std::ostringstream out, err;
+  Console console{out, err, false, false, 100, &stop};
+  std::thread hand([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop = true;
+  });
+  const std::string endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT count(*) FROM c";
+  const ExitCode code = run_program({"query", mine / "d.db", endless}, console);
+  hand.join();
+  CHECK(code == kNo);
+  CHECK(says(err.str(), "interrupted"));
+  CHECK(file_text(mine / "d.db") == before);
+}
+
+}  // namespace stampede::program
