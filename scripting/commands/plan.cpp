@@ -2,7 +2,8 @@
 
 #include <ostream>
 
-#include "engine/episode/world_view.h"
+#include "engine/episode/planning.h"
+#include "engine/episode/start.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/episode_job.h"
@@ -13,24 +14,28 @@ namespace {
 
 struct Answer {
   Start start;
-  Problem problem;
+  PlanningTask asked;
   PlanOutcome outcome;
   bool from_steps = false;  // the task says how
 };
 
 Answer find_plan(EpisodeScripts& scripts, const RunOptions& options) {
   Answer answer;
-  answer.start = make_start(scripts.task(), scripts.symbols(), options);
+  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
+  answer.start = start;
   if (answer.start.reason != Reason::none) return answer;
   World world(answer.start.scene);
   WorldView view(world);
-  answer.problem = problem_of(scripts.task(), scripts.symbols(), view);
+  view.restore(start.history);
+  FactTracker facts(scripts.symbols(), view);
+  facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
+  answer.asked = planning_task(scripts.task(), scripts.symbols().domain(), facts, 0);
   if (const auto steps = scripts.task().steps()) {
     answer.from_steps = true;
     answer.outcome.solved = true;
     answer.outcome.plan = *steps;
   } else {
-    answer.outcome = solve(scripts.symbols().domain(), answer.problem);
+    answer.outcome = solve(answer.asked.domain, answer.asked.problem);
   }
   return answer;
 }
@@ -46,7 +51,7 @@ void print_json(const Answer& answer, const EpisodeJob& job, const Domain& domai
     json.end().end();
   }
   json.end();
-  if (pddl) json.field("domain", to_pddl(domain)).field("problem", to_pddl(answer.problem, domain));
+  if (pddl) json.field("domain", to_pddl(domain)).field("problem", to_pddl(answer.asked.problem, domain));
   out << json.end().text();
 }
 
@@ -65,12 +70,12 @@ ExitCode run(const Arguments& arguments, Console& console) {
                                answer.start.detail);
     return kNo;
   }
-  const Domain& domain = prepared.scripts().symbols().domain();
+  const Domain& domain = answer.asked.domain;
   const bool pddl = arguments.flag("--pddl");
   if (arguments.flag("--json")) {
     print_json(answer, job, domain, pddl, console.out);
   } else {
-    if (pddl) console.out << to_pddl(domain) << "\n" << to_pddl(answer.problem, domain) << "\n";
+    if (pddl) console.out << to_pddl(domain) << "\n" << to_pddl(answer.asked.problem, domain) << "\n";
     console.out << (pddl ? "; plan\n" : "") << to_text(answer.outcome.plan);
   }
   const PlanOutcome& outcome = answer.outcome;

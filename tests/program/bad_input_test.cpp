@@ -115,6 +115,16 @@ TEST_CASE("a goal that no skill reaches names the literal and what is missing") 
   CHECK(says(run.err, "no_plan"));
 }
 
+TEST_CASE("every task that ships has a plan from its start") {
+  for (const char* task :
+       {"reach_target", "pick_and_lift", "stack_blocks", "put_item_in_drawer", "push_buttons", "close_drawer"}) {
+    const Said plan = say({"plan", task, "--root", STAMPEDE_SOURCE_DIR});
+    INFO(task + (": " + plan.err));
+    CHECK(plan.code == kDone);
+    CHECK(plan.out.front() == '(');
+  }
+}
+
 TEST_CASE("numbers out of range are usage, whatever the command, and the word after an option's value is free") {
   const std::vector<std::vector<std::string>> cases = {
       {"run", "reach_target", "--seed", "99999999999999999999"},
