@@ -71,7 +71,7 @@ class EpisodeRunner {
 
 EpisodeRecord EpisodeRunner::run() {
   const auto began = std::chrono::steady_clock::now();  // host time, outside every hash
-  const PreparedStart start = prepare_start(task_, symbols_, options_);
+  const PreparedStart start = prepare_start(task_, symbols_, options_, stop_);
   describe_episode(start);
   if (start.reason != Reason::none) {
     record_.reason = start.reason;

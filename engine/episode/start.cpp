@@ -97,12 +97,16 @@ Scene settled(const WorldView& view) {
 
 class StartMaker {
  public:
-  StartMaker(Task& task, Symbols& symbols, const RunOptions& options)
-      : task_(task), symbols_(symbols), options_(options) {}
+  StartMaker(Task& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
+      : task_(task), symbols_(symbols), options_(options), stop_(stop) {}
 
   PreparedStart make() {
     PreparedStart start;
     for (int draw = 0; draw < options_.draws; ++draw) {
+      if (stop_ && stop_->load()) {
+        start.reason = Reason::interrupted;
+        return start;
+      }
       start.draws = draw + 1;
       if (try_draw(draw, start)) return start;
     }
@@ -187,13 +191,14 @@ class StartMaker {
   Task& task_;
   Symbols& symbols_;
   const RunOptions& options_;
+  const std::atomic<bool>* stop_;
   std::map<std::string, int> failures_;
 };
 
 }  // namespace
 
-PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options) {
-  return StartMaker(task, symbols, options).make();
+PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop) {
+  return StartMaker(task, symbols, options, stop).make();
 }
 
 Start make_start(Task& task, Symbols& symbols, const RunOptions& options) {

@@ -1,6 +1,7 @@
 // A start and what was read in the world it settled in.
 #pragma once
 
+#include <atomic>
 #include <map>
 
 #include "engine/episode/runner.h"
@@ -11,6 +12,8 @@ struct PreparedStart : Start {
   std::map<Fact, Symbols::Value> values;  // facts read after settling, as the episode begins with them
   WorldView::History history;
 };
-PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options);
+// `stop`: looked at before every draw; set, the reason is `interrupted`.
+PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options,
+                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace stampede

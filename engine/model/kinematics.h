@@ -36,8 +36,8 @@ class Arm {
   std::optional<JointVector> solve(const Transform& world_from_tip, const JointVector& start, RandomKey key,
                                    int restarts = 50) const;
   // Distinct solutions (any joint differs by more than 0.1 rad), nearest to `start` first.
-  std::vector<JointVector> solutions(const Transform& world_from_tip, const JointVector& start, RandomKey key,
-                                     int most, int restarts = 50) const;
+  std::vector<JointVector> solutions(const Transform& world_from_tip, const JointVector& start, RandomKey key, int most,
+                                     int restarts = 50) const;
 
  private:
   std::optional<JointVector> descend(const Transform& base_from_tip, JointVector q) const;

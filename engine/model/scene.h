@@ -35,7 +35,7 @@ struct Surface {
   double rolling = 0.001;   // torsional about the tangent
   double spinning = 0.001;  // torsional about the normal
   double restitution = 0;
-  bool anchor = false;      // Bullet's friction anchor: for finger pads
+  bool anchor = false;  // Bullet's friction anchor: for finger pads
 };
 
 enum class JointKind { fixed, hinge, slider };
@@ -44,7 +44,7 @@ enum class JointKind { fixed, hinge, slider };
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
-  Vector3 axis = Vector3::UnitZ();                     // in the joint's frame
+  Vector3 axis = Vector3::UnitZ();                      // in the joint's frame
   Transform parent_from_joint = Transform::Identity();  // the part's frame is the joint's frame, moved by q
   double lower = 0, upper = 0;
   double initial = 0;       // position at the start of an episode
@@ -54,7 +54,7 @@ struct Joint {
   double velocity = 0;      // greatest speed (robots), 0: none
   double spring_force = 0;  // constant return force towards spring_target (buttons); 0: none
   double spring_target = 0;
-  double detent = 0;        // holds the joint at its lower or upper limit until this force is exceeded; 0: none
+  double detent = 0;  // holds the joint at its lower or upper limit until this force is exceeded; 0: none
   // Latch: while locked, this joint is held at `lower`. It unlocks when joint `latch_key` passes `latch_open`
   // and locks again when this joint is back below latch_close and the key is back. Empty key: no latch.
   std::string latch_key;
@@ -67,9 +67,9 @@ struct Part {
   int parent = -1;  // index in Body::parts, smaller than its own; -1: the base part
   Joint joint;      // unused for the base part
   std::vector<Shape> shapes;
-  double mass = 0;                                     // kg; the base part of a fixed body may have 0
-  Vector3 centre_of_mass = Vector3::Zero();            // in the part's frame
-  Matrix3 inertia = Matrix3::Zero();                   // about the centre of mass, in the part's axes, kg m^2
+  double mass = 0;                           // kg; the base part of a fixed body may have 0
+  Vector3 centre_of_mass = Vector3::Zero();  // in the part's frame
+  Matrix3 inertia = Matrix3::Zero();         // about the centre of mass, in the part's axes, kg m^2
   Surface surface;
 };
 
@@ -78,8 +78,8 @@ struct Body {
   std::string name;
   bool free = false;
   std::vector<Part> parts;
-  Transform world_from_body = Transform::Identity();   // of part 0, at the start
-  int part_index(std::string_view part_name) const;    // -1 when there is none
+  Transform world_from_body = Transform::Identity();  // of part 0, at the start
+  int part_index(std::string_view part_name) const;   // -1 when there is none
 };
 
 // A named box without mass or contact, fixed to a part (or to the world: body empty).
@@ -106,24 +106,24 @@ struct Camera {
 // Where a hand may take an object. Frames: tip = the tool centre point, z out of the hand, y along the closing axis.
 struct Grasp {
   Transform object_from_tip = Transform::Identity();
-  double width = 0.04;      // opening at contact, m
-  double approach = 0.08;   // retreat along the tip's -z, m
-  double force = 20;        // N
+  double width = 0.04;     // opening at contact, m
+  double approach = 0.08;  // retreat along the tip's -z, m
+  double force = 20;       // N
 };
 
 // What planners, facts and people call a thing. It names a body, a part of one, a region, or the hand.
 enum class ObjectKind { body, part, region, hand };
 struct Object {
-  std::string name;         // `block1`, `chest.top_drawer`
+  std::string name;  // `block1`, `chest.top_drawer`
   ObjectKind kind = ObjectKind::body;
-  std::string class_name;   // the Lua object file it comes from
-  std::string type;         // PDDL type
+  std::string class_name;  // the Lua object file it comes from
+  std::string type;        // PDDL type
   std::vector<std::string> traits;
   std::map<std::string, std::string> attributes;
-  std::string body;         // of kind body and part; for a region see Region
+  std::string body;  // of kind body and part; for a region see Region
   int part = 0;
-  Vector3 size = Vector3::Zero();  // bounding box in its own frame, m
-  std::vector<Grasp> grasps;       // authored; empty: from geometry
+  Vector3 size = Vector3::Zero();         // bounding box in its own frame, m
+  std::vector<Grasp> grasps;              // authored; empty: from geometry
   std::map<std::string, double> numbers;  // authored numbers: open_at, press_depth …
 };
 
@@ -139,32 +139,32 @@ struct JointLimits {
 struct Robot {
   std::string name;
   Body body;
-  std::vector<int> arm;               // driven parts from base to tip
-  std::vector<JointLimits> limits;    // one per arm part
-  std::vector<double> home;           // rad, one per arm part
-  std::vector<int> fingers;           // two sliders, coupled: both positive when open
-  std::vector<int> pads;              // the parts whose contact counts as touch
+  std::vector<int> arm;             // driven parts from base to tip
+  std::vector<JointLimits> limits;  // one per arm part
+  std::vector<double> home;         // rad, one per arm part
+  std::vector<int> fingers;         // two sliders, coupled: both positive when open
+  std::vector<int> pads;            // the parts whose contact counts as touch
   int tip_part = 0;
   Transform tip_part_from_tip = Transform::Identity();
-  double opening_max = 0.08;          // m, both fingers together
-  double grip_force = 20;             // N
-  double finger_speed = 0.1;          // m/s per finger
-  std::string hand = "hand";          // its object's name is NAME.hand
+  double opening_max = 0.08;                       // m, both fingers together
+  double grip_force = 20;                          // N
+  double finger_speed = 0.1;                       // m/s per finger
+  std::string hand = "hand";                       // its object's name is NAME.hand
   std::vector<std::pair<int, int>> checked_pairs;  // part pairs that self-collision tests; the rest never meet
 };
 
 struct Scene {
   std::string world;
   Robot robot;
-  std::vector<Body> bodies;           // fixtures first, then objects, in name order; never the robot
+  std::vector<Body> bodies;  // fixtures first, then objects, in name order; never the robot
   std::vector<Region> regions;
   std::vector<Camera> cameras;
-  std::vector<Object> objects;        // symbolic, sorted by name
+  std::vector<Object> objects;  // symbolic, sorted by name
   Vector3 gravity{0, 0, -9.81};
   int physics_hz = 240;
   int frame_hz = 20;
 
-  int body_index(std::string_view name) const;      // -1: none; the robot is not among bodies
+  int body_index(std::string_view name) const;  // -1: none; the robot is not among bodies
   int region_index(std::string_view name) const;
   const Object* object(std::string_view name) const;
 };

@@ -10,9 +10,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "engine/sim/anchors.h"
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
-#include "engine/sim/anchors.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/shapes.h"
 #include "engine/sim/world.h"

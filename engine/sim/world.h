@@ -47,8 +47,8 @@ struct Command {
   std::int64_t step = 0;  // applied before this physics step
   Operation operation;
 };
-std::string_view operation_kind(const Operation& operation);       // `boundary`, `follow` …
-std::string operation_to_bytes(const Operation& operation);        // full precision, little-endian
+std::string_view operation_kind(const Operation& operation);                    // `boundary`, `follow` …
+std::string operation_to_bytes(const Operation& operation);                     // full precision, little-endian
 Operation operation_from_bytes(std::string_view kind, std::string_view bytes);  // throws Error
 
 // A body and one of its parts; body -1 is the robot.
@@ -88,9 +88,9 @@ class World {
   std::int64_t step_count() const;
   double dt() const;
 
-  void apply(const Operation& operation);        // also appends to the log
-  void step();                                   // one physics step of 1/physics_hz
-  const std::vector<Command>& log() const;       // since construction, or as restore left it
+  void apply(const Operation& operation);   // also appends to the log
+  void step();                              // one physics step of 1/physics_hz
+  const std::vector<Command>& log() const;  // since construction, or as restore left it
 
   // Poses are of part frames, not centres of mass.
   const Transform& world_from_part(PartRef part) const;  // current after each step
@@ -103,10 +103,10 @@ class World {
 
   JointVector arm_position() const;
   JointVector arm_velocity() const;
-  JointState reference() const;             // the arm's set-point at this step
-  bool following() const;                   // the reference has not reached its trajectory's end
+  JointState reference() const;  // the arm's set-point at this step
+  bool following() const;        // the reference has not reached its trajectory's end
   Transform world_from_tip() const;
-  double opening() const;                   // m
+  double opening() const;  // m
   double commanded_opening() const;
 
   // Contacts of the last closed window; close_window() ends one (called once per frame).
@@ -120,7 +120,7 @@ class World {
   // right after a Boundary operation. Restore also shortens the log to its length at the snapshot.
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
-  std::string state_hash() const;           // of all positions and velocities
+  std::string state_hash() const;  // of all positions and velocities
 
   // The world as it is now, frozen, for motion planning.
   std::unique_ptr<CollisionSpace> collision_space() const;

@@ -46,7 +46,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const auto* kind =
       std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.name == kind_name; });
   if (kind == std::end(kKinds)) {
-    throw UsageError("there is no kind of file '" + kind_name + "'", "it is one of task, skill, predicate, object, world");
+    throw UsageError("there is no kind of file '" + kind_name + "'",
+                     "it is one of task, skill, predicate, object, world");
   }
   check_name(name);
   std::vector<Error> complaints;  // of other files: no reason not to write this one

@@ -19,9 +19,9 @@ struct Answer {
   bool from_steps = false;  // the task says how
 };
 
-Answer find_plan(EpisodeScripts& scripts, const RunOptions& options) {
+Answer find_plan(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop) {
   Answer answer;
-  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
+  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options, stop);
   answer.start = start;
   if (answer.start.reason != Reason::none) return answer;
   World world(answer.start.scene);
@@ -64,7 +64,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   RunOptions options;
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);
-  const Answer answer = find_plan(prepared.scripts(), prepared.options());
+  const Answer answer = find_plan(prepared.scripts(), prepared.options(), console.stop);
   if (answer.start.reason != Reason::none) {
     console.err << fmt::format("{} {}: no start: {}\n    {}\n", job.task, job.variation, to_string(answer.start.reason),
                                answer.start.detail);

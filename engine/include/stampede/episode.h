@@ -9,8 +9,8 @@
 namespace stampede {
 
 struct EpisodeRequest {
-  std::string variation;   // canonical text or some of its axes (`colour=red`: the first that has them); empty: first
-  std::int64_t seed = 0;   // from 1'000'000 up: the test split
+  std::string variation;  // canonical text or some of its axes (`colour=red`: the first that has them); empty: first
+  std::int64_t seed = 0;  // from 1'000'000 up: the test split
   OnFailure on_failure = OnFailure::undo;
   std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
 };
