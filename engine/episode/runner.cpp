@@ -337,10 +337,4 @@ EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, co
   return EpisodeRunner(task, symbols, skills, options, stop).run();
 }
 
-Problem problem_of(Task& task, Symbols& symbols, const WorldView& view) {
-  FactTracker tracker(symbols, view);
-  tracker.begin(tracker.read_all(view));
-  return planning_task(task, symbols.domain(), tracker, 0).problem;
-}
-
 }  // namespace stampede

@@ -40,9 +40,6 @@ struct Start {
 };
 Start make_start(Task& task, Symbols& symbols, const RunOptions& options);
 
-// The task-level problem of a start: what the planner is asked.
-Problem problem_of(Task& task, Symbols& symbols, const WorldView& view);
-
 // Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
 // difference in words (frame, value, stored, now).
 std::string replay_episode(const EpisodeRecord& episode);
