@@ -1,5 +1,6 @@
 // Every mistake is named with file, line, field and cure. Each test changes one line of a sound root.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -56,9 +57,10 @@ Files sound_files() {
 // A folder of these files, gone at the end.
 class Root {
  public:
-  explicit Root(const Files& files)
-      : path_(fs::temp_directory_path() / ("stampede_library_test_" + std::to_string(++count_))) {
-    fs::remove_all(path_);
+  explicit Root(const Files& files) {
+    std::string folder = (fs::temp_directory_path() / "stampede_library_XXXXXX").string();  // tests run side by side
+    if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = folder;
     for (const auto& [name, text] : files) {
       fs::create_directories((path_ / name).parent_path());
       std::ofstream(path_ / name) << text;
@@ -77,7 +79,6 @@ class Root {
   const fs::path& path() const { return path_; }
 
  private:
-  static inline int count_ = 0;
   fs::path path_;
 };
 

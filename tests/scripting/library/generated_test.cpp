@@ -1,5 +1,6 @@
 // What is made from the field tables, and the templates.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -29,8 +30,9 @@ TEST_CASE("each field has a type that something has, and a sentence") {
 }
 
 TEST_CASE("new files pass the check beside ours") {
-  const fs::path root = fs::temp_directory_path() / "stampede_new_file_test";
-  fs::remove_all(root);
+  std::string name = (fs::temp_directory_path() / "stampede_new_file_XXXXXX").string();
+  REQUIRE(mkdtemp(name.data()) != nullptr);
+  const fs::path root = name;
   const std::pair<DefinitionKind, const char*> kinds[] = {{DefinitionKind::task, "tasks"},
                                                           {DefinitionKind::skill, "skills"},
                                                           {DefinitionKind::predicate, "worlds/predicates"},

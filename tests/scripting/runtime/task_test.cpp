@@ -112,7 +112,8 @@ TEST_CASE("an articulation gets its joints, parts, regions and names") {
 
 TEST_CASE("a box of uniform density has the inertia of the textbook") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Part& cube = body(scripts.task().scene(0), "block1").parts[0];
+  const Scene scene = scripts.task().scene(0);
+  const Part& cube = body(scene, "block1").parts[0];
   const double expected = 0.1 / 6 * 0.04 * 0.04;  // m a^2 / 6
   CHECK(cube.mass == 0.1);
   CHECK((cube.inertia - expected * Matrix3::Identity()).norm() < 1e-9 * expected + 1e-15);
