@@ -195,6 +195,7 @@ SkillResult EpisodeRunner::with_undo() {
   const Place start = here();
   SkillResult last;
   int tries = 0;
+  std::map<PlanStep, int> blame;  // failures of each ground action: the next plan does without the worst
   for (int plans = 0; plans < options_.plans; ++plans) {
     std::vector<Place> places = {start};
     std::vector<int> failures(plan_.size() + 1, 0);
@@ -209,12 +210,19 @@ SkillResult EpisodeRunner::with_undo() {
       }
       if (last.reason == Reason::interrupted || ++tries >= options_.tries_per_episode) return last;
       if (i == plan_.size() && i > 0) --i;
-      while (++failures[i] >= options_.tries_per_skill && i > 0) failures[i--] = 0;
-      if (i == 0 && failures[0] >= options_.tries_per_skill) break;
+      if (i < plan_.size()) ++blame[plan_[i]];
+      // Where nothing can be grasped, other draws seldom help: what came before has to change.
+      const int most =
+          last.reason == Reason::no_grasp ? std::min(2, options_.tries_per_skill) : options_.tries_per_skill;
+      while (++failures[i] >= most && i > 0) failures[i--] = 0;
+      if (i == 0 && failures[0] >= most) break;
       back_to(places[i]);
     }
     if (explicit_steps_ || plan_.empty()) return last;
-    forbidden.insert(plan_.front());
+    const auto worst =
+        std::max_element(blame.begin(), blame.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    forbidden.insert(worst == blame.end() ? plan_.front() : worst->first);
+    if (worst != blame.end()) blame.erase(worst);
     const Plan failed = plan_;
     back_to(start);
     if (!make_plan(forbidden).ok()) {
