@@ -16,7 +16,7 @@ namespace stampede {
 struct MotionLimits {
   double speed = 1.0;            // share of the joint velocity limits, (0, 1]
   double acceleration = 0.5;     // share of the joint acceleration limits; jerk limits always hold in full
-  double resolution_rad = 0.01;  // spacing at which every path is certified (greatest joint difference)
+  double resolution_rad = 0.01;  // spacing that is promised; certification samples four times as densely
   int iterations = 4000;         // tree extensions before no_path
   int shortcuts = 60;            // attempts of the shortener
   double padding_m = 0.005;      // obstacles grow by this while planning; certification is without
@@ -48,7 +48,7 @@ JointPath plan_path(CollisionSpace& space, const JointVector& start, const Joint
                     const MotionLimits& limits, RandomKey key);
 
 // Times a joint path: corners are rounded (blends stay within the certified tube or shrink), the path is passed at
-// the highest speed that respects velocity, acceleration and jerk limits. `stops`: waypoint indices at which to halt.
+// the highest speed that respects velocity, acceleration and jerk limits.
 Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
                      int physics_hz);
 
