@@ -14,11 +14,6 @@ constexpr double kEffectWait = 1.0;  // s, at most, for declared effects to beco
 constexpr int kGraspCandidates = 6;
 constexpr int kCallsPerSkill = 200;  // a skill that asks for more is a runaway
 
-template <typename... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-
 bool ends(Reason reason) {
   return reason == Reason::timeout || reason == Reason::interrupted || reason == Reason::out_of_order ||
          reason == Reason::failed_by_task;
