@@ -114,13 +114,18 @@ void EpisodeReader::read_cameras() {
   std::string mount;
   for (const char* field : {"x", "y", "z", "qx", "qy", "qz", "qw"})
     mount += std::string(", mount ->> '$.") + field + "'";
-  each("name, width, height, vertical_fov_rad, near_m, far_m, mount_body, mount_part" + mount, "camera", "ordinal",
-       [&](sql::Statement& row) {
-         Camera& c = record_.cameras.emplace_back();
-         Pose pose;
-         row.read(c.name, c.width, c.height, c.vertical_fov_rad, c.near_m, c.far_m, c.mount_body, c.mount_part, pose);
-         c.mount_from_camera = to_transform(pose);
-       });
+  each(
+      "name, width, height, focal_x, focal_y, centre_x, centre_y, k1, k2, p1, p2, k3, near_m, far_m, mount_body, "
+      "mount_part" +
+          mount,
+      "camera", "ordinal", [&](sql::Statement& row) {
+        Camera& c = record_.cameras.emplace_back();
+        auto& [k1, k2, p1, p2, k3] = c.distortion;
+        Pose pose;
+        row.read(c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3, c.near_m,
+                 c.far_m, c.mount_body, c.mount_part, pose);
+        c.mount_from_camera = to_transform(pose);
+      });
 }
 
 void EpisodeReader::read_channels() {

@@ -185,10 +185,9 @@ void EpisodeWriter::write_names(const EpisodeRecord& episode) {
 void EpisodeWriter::write_cameras(const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const Camera& c : episode.cameras) {
-    const double focal = c.height / 2.0 / std::tan(c.vertical_fov_rad / 2);  // square pixels
-    camera_.run(id_, ordinal++, c.name, c.width, c.height, c.vertical_fov_rad, focal, focal, c.width / 2.0,
-                c.height / 2.0, c.near_m, c.far_m, c.mount_body, c.mount_part,
-                mount_text(to_pose(c.mount_from_camera)));
+    const auto& [k1, k2, p1, p2, k3] = c.distortion;
+    camera_.run(id_, ordinal++, c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2,
+                k3, c.near_m, c.far_m, c.mount_body, c.mount_part, mount_text(to_pose(c.mount_from_camera)));
   }
 }
 

@@ -8,7 +8,7 @@ namespace stampede {
 namespace {
 
 // Quotes inside JSON texts are escaped, so none of these can begin inside one.
-constexpr std::array<std::string_view, 3> kSharedKeys{"\"robot\":", "\"shapes\":", "\"grasps\":"};
+constexpr std::array<std::string_view, 4> kSharedKeys{"\"robot\":", "\"shapes\":", "\"grasps\":", "\"drawn\":"};
 constexpr std::string_view kMark = "{\"$asset\":\"";
 constexpr std::size_t kWorthIt = 200;  // bytes; a reference takes 46
 constexpr std::size_t kHashSize = 32;

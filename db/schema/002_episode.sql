@@ -107,11 +107,15 @@ CREATE TABLE camera (
   name TEXT NOT NULL,
   width INTEGER NOT NULL,
   height INTEGER NOT NULL,
-  vertical_fov_rad REAL NOT NULL,
-  focal_x REAL NOT NULL,  -- pixels
-  focal_y REAL NOT NULL,
-  centre_x REAL NOT NULL,
+  focal_x REAL NOT NULL CHECK (focal_x > 0),  -- pixels
+  focal_y REAL NOT NULL CHECK (focal_y > 0),
+  centre_x REAL NOT NULL,    -- pixels from the upper left corner of the picture
   centre_y REAL NOT NULL,
+  k1 REAL NOT NULL,          -- lens distortion, all 0: none
+  k2 REAL NOT NULL,
+  p1 REAL NOT NULL,
+  p2 REAL NOT NULL,
+  k3 REAL NOT NULL,
   near_m REAL NOT NULL,
   far_m REAL NOT NULL,
   mount_body TEXT NOT NULL,  -- empty: the world

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "engine/base/random.h"
+#include "engine/episode/observation.h"
 #include "engine/episode/record.h"
 #include "engine/episode/world_view.h"
+#include "engine/model/randomise.h"
 #include "engine/motion/candidates.h"
 #include "engine/symbolic/symbols.h"
 #include "engine/symbolic/task_planner.h"
@@ -37,6 +39,8 @@ class Task {
   virtual std::map<std::string, std::string> axes() const = 0;
   // The scene of draw number `draw`, all drawn values in it; literals of init() then place what has no pose.
   virtual Scene scene(int draw) = 0;
+  virtual std::optional<Randomisation> randomisation() const { return std::nullopt; }  // of the world
+  virtual Observation observation() const { return {}; }  // of the world; what a run asks for goes before it
   virtual std::vector<std::string> unplaced() const = 0;  // free objects that a literal of init must place
   virtual std::vector<Literal> init() const = 0;          // in the order in which they are made true
   virtual Formula goal() const = 0;

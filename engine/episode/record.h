@@ -4,17 +4,21 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/reason.h"
 #include "engine/geometry/transform.h"
+#include "engine/model/masks.h"
 #include "engine/sim/world.h"
 #include "engine/symbolic/symbols.h"
 #include "stampede/outcome.h"
 
 namespace stampede {
+
+class ImageStore;  // observation.h
 
 std::string_view to_string(Outcome outcome);
 
@@ -178,6 +182,7 @@ struct EpisodeRecord {
   std::vector<JointName> joints;
   std::vector<std::string> hands;
   std::vector<Camera> cameras;                    // of the scene
+  std::vector<MaskEntry> masks;                   // what the numbers of its masks stand for
   std::map<std::string, std::string> predicates;  // of the domain -> basic derived fixed
   std::vector<ChannelRecord> channels;
   std::vector<FrameRecord> frames;
@@ -191,6 +196,7 @@ struct EpisodeRecord {
   std::vector<LanguageRecord> language;
   std::vector<DocumentRecord> documents;
   std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
+  std::shared_ptr<const ImageStore> images;                    // null: none were made
   std::string state_hash;                                      // World::state_hash at the end
   double draws = 1;                                            // starts drawn until init held
   double wall_s = 0, physics_wall_s = 0;                       // host times: outside every hash

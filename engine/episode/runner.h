@@ -7,6 +7,8 @@
 #include <string>
 
 #include "engine/episode/interfaces.h"
+#include "engine/episode/observation.h"
+#include "engine/model/randomise.h"
 
 namespace stampede {
 
@@ -23,6 +25,9 @@ struct RunOptions {
   int plans = 4;           // different plans tried
   int draws = 100;         // starts drawn until init holds
   std::string controller;  // empty: each skill's own
+  Observation observation;
+  std::optional<Randomisation> randomise;  // instead of the world's own
+  std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
   std::map<std::string, std::string> as_text() const;
 };
 

@@ -70,6 +70,8 @@ MassProperties solid(const Shape& shape) {
       const std::optional<Hull> hull = convex_hull(shape.points);
       return hull ? mass_properties(*hull) : MassProperties{};
     }
+    case ShapeKind::mesh:
+      break;  // drawn only
   }
   return {};
 }
@@ -105,6 +107,8 @@ void grow_by_shape(std::array<Vector3, 2>& bounds, const Shape& shape) {
       const Vector3 reach = pose.linear().cwiseAbs() * (shape.size / 2.0);
       return grow(bounds, centre - reach, centre + reach);
     }
+    case ShapeKind::mesh:
+      return;  // drawn only
   }
 }
 

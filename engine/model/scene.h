@@ -4,10 +4,12 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/geometry/drawn_mesh.h"
 #include "engine/geometry/transform.h"
 
 namespace stampede {
@@ -16,16 +18,19 @@ struct Colour {
   double red = 0.7, green = 0.7, blue = 0.7, alpha = 1.0;  // 0 … 1, sRGB
 };
 
-enum class ShapeKind { box, sphere, cylinder, capsule, cone, hull };
+enum class ShapeKind { box, sphere, cylinder, capsule, cone, hull, mesh };
 
-// Convex. cylinder, capsule and cone stand along z, centred; a capsule's length leaves out its caps.
+// Convex, but for a mesh, which is drawn only: its `collides` is false. cylinder, capsule and cone stand along z,
+// centred; a capsule's length leaves out its caps.
 struct Shape {
   ShapeKind kind = ShapeKind::box;
   Vector3 size = Vector3::Zero();  // box: full edge lengths, m
   double radius = 0, length = 0;   // the round ones, m
   std::vector<Vector3> points;     // hull, in the shape's frame, m
+  std::string mesh;                // mesh: a key of Scene::meshes
   Transform part_from_shape = Transform::Identity();
   Colour colour;
+  std::string texture;  // a key of Scene::textures, its colours multiplied by `colour`; empty: plain
   bool collides = true;
   bool visible = true;
 };
@@ -71,12 +76,14 @@ struct Part {
   Vector3 centre_of_mass = Vector3::Zero();  // in the part's frame
   Matrix3 inertia = Matrix3::Zero();         // about the centre of mass, in the part's axes, kg m^2
   Surface surface;
+  int instance = 0;  // value in instance masks; 0: not numbered yet (see masks.h)
 };
 
 // fixed: part 0 stands still, further parts move on joints (furniture, the robot). free: exactly one part.
 struct Body {
   std::string name;
   bool free = false;
+  bool fixture = false;  // of the world, there in each of its tasks
   std::vector<Part> parts;
   Transform world_from_body = Transform::Identity();  // of part 0, at the start
   int part_index(std::string_view part_name) const;   // -1 when there is none
@@ -91,16 +98,41 @@ struct Region {
   Vector3 size = Vector3::Zero();                      // full edge lengths, m
   bool visible = false;
   Colour colour;
+  int instance = 0;  // value in instance masks, when visible
 };
 
+// A pinhole camera, with the lens distortion of Brown (Photogrammetric Engineering 1966) where a real one was
+// calibrated. Optical frame: x right, y down, z forward. Pixels: u right, v down from the upper left corner of the
+// picture, so the centre of the first pixel is (0.5, 0.5), and u = focal_x * x / z + centre_x.
 struct Camera {
   std::string name;
   std::string mount_body;  // empty: fixed to the world
   int mount_part = 0;
-  Transform mount_from_camera = Transform::Identity();  // optical frame: x right, y down, z forward
-  double vertical_fov_rad = 0.7;
-  int width = 128, height = 128;
-  double near_m = 0.01, far_m = 4.5;
+  Transform mount_from_camera = Transform::Identity();
+  int width = 128, height = 128;              // pixels
+  double focal_x = 175.84, focal_y = 175.84;  // pixels, positive
+  double centre_x = 64, centre_y = 64;        // pixels
+  std::array<double, 5> distortion{};         // k1 k2 p1 p2 k3; all 0: none
+  double near_m = 0.01, far_m = 4.5;          // along z
+};
+
+enum class TextureKind { image, checker, stripes, noise };
+
+// What covers a shape. A mesh with texture coordinates wears an image by them; everything else is covered along the
+// three axes of the shape's frame, one repeat each `size_m`.
+struct Texture {
+  TextureKind kind = TextureKind::image;
+  std::shared_ptr<const Image> image;            // kind image
+  Colour first{1, 1, 1, 1}, second{0, 0, 0, 1};  // the other kinds
+  double size_m = 0.1;
+  int seed = 0;  // noise
+};
+
+// One lamp far away and light from everywhere. Diffuse light falls off with the cosine (Lambert).
+struct Light {
+  Vector3 direction{-0.35, 0.3, -1};  // in which it shines, world, any length
+  Colour colour{1, 1, 1, 1};
+  double ambient = 0.5, diffuse = 0.6, specular = 0.15;  // shares of full brightness
 };
 
 // Where a hand may take an object. Frames: tip = the tool centre point, z out of the hand, y along the closing axis.
@@ -159,7 +191,11 @@ struct Scene {
   std::vector<Body> bodies;  // fixtures first, then objects, in name order; never the robot
   std::vector<Region> regions;
   std::vector<Camera> cameras;
-  std::vector<Object> objects;  // symbolic, sorted by name
+  Light light;
+  std::map<std::string, std::shared_ptr<const DrawnMesh>> meshes;  // by the hash of their content
+  std::map<std::string, Texture> textures;                         // by name
+  std::vector<std::string> classes;  // semantic classes in use: the first is 1 in semantic masks (see masks.h)
+  std::vector<Object> objects;       // symbolic, sorted by name
   Vector3 gravity{0, 0, -9.81};
   int physics_hz = 240;
   int frame_hz = 20;

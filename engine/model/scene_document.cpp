@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/base/base64.h"
 #include "engine/base/error.h"
 #include "engine/model/scene.h"
 
@@ -11,8 +12,9 @@ namespace {
 
 using Json = nlohmann::json;  // keys sorted; doubles written so that they read back to the last bit
 
-constexpr int kFormat = 1;
-constexpr std::array kShapeNames{"box", "sphere", "cylinder", "capsule", "cone", "hull"};
+constexpr int kFormat = 2;
+constexpr std::array kShapeNames{"box", "sphere", "cylinder", "capsule", "cone", "hull", "mesh"};
+constexpr std::array kTextureNames{"image", "checker", "stripes", "noise"};
 constexpr std::array kJointNames{"fixed", "hinge", "slider"};
 constexpr std::array kObjectNames{"body", "part", "region", "hand"};
 
@@ -29,8 +31,8 @@ void fields(Archive& a, Colour& c) {
 template <typename Archive>
 void fields(Archive& a, Shape& s) {
   a.choice("kind", s.kind, kShapeNames), a("size", s.size), a("radius", s.radius), a("length", s.length);
-  a("points", s.points), a("part_from_shape", s.part_from_shape), a("colour", s.colour);
-  a("collides", s.collides), a("visible", s.visible);
+  a("points", s.points), a("mesh", s.mesh), a("part_from_shape", s.part_from_shape), a("colour", s.colour);
+  a("texture", s.texture), a("collides", s.collides), a("visible", s.visible);
 }
 
 template <typename Archive>
@@ -52,24 +54,39 @@ template <typename Archive>
 void fields(Archive& a, Part& p) {
   a("name", p.name), a("parent", p.parent), a("joint", p.joint), a("shapes", p.shapes), a("mass", p.mass);
   a("centre_of_mass", p.centre_of_mass), a("inertia", p.inertia), a("surface", p.surface);
+  a("instance", p.instance);
 }
 
 template <typename Archive>
 void fields(Archive& a, Body& b) {
-  a("name", b.name), a("free", b.free), a("parts", b.parts), a("world_from_body", b.world_from_body);
+  a("name", b.name), a("free", b.free), a("fixture", b.fixture), a("parts", b.parts);
+  a("world_from_body", b.world_from_body);
 }
 
 template <typename Archive>
 void fields(Archive& a, Region& r) {
   a("name", r.name), a("body", r.body), a("part", r.part), a("part_from_region", r.part_from_region);
-  a("size", r.size), a("visible", r.visible), a("colour", r.colour);
+  a("size", r.size), a("visible", r.visible), a("colour", r.colour), a("instance", r.instance);
 }
 
 template <typename Archive>
 void fields(Archive& a, Camera& c) {
   a("name", c.name), a("mount_body", c.mount_body), a("mount_part", c.mount_part);
-  a("mount_from_camera", c.mount_from_camera), a("vertical_fov_rad", c.vertical_fov_rad);
-  a("width", c.width), a("height", c.height), a("near_m", c.near_m), a("far_m", c.far_m);
+  a("mount_from_camera", c.mount_from_camera), a("width", c.width), a("height", c.height);
+  a("focal_x", c.focal_x), a("focal_y", c.focal_y), a("centre_x", c.centre_x), a("centre_y", c.centre_y);
+  a("distortion", c.distortion), a("near_m", c.near_m), a("far_m", c.far_m);
+}
+
+template <typename Archive>
+void fields(Archive& a, Texture& t) {
+  a.choice("kind", t.kind, kTextureNames), a("image", t.image), a("first", t.first), a("second", t.second);
+  a("size_m", t.size_m), a("seed", t.seed);
+}
+
+template <typename Archive>
+void fields(Archive& a, Light& l) {
+  a("direction", l.direction), a("colour", l.colour), a("ambient", l.ambient), a("diffuse", l.diffuse);
+  a("specular", l.specular);
 }
 
 template <typename Archive>
@@ -101,6 +118,7 @@ void fields(Archive& a, Robot& r) {
 template <typename Archive>
 void fields(Archive& a, Scene& s) {
   a("world", s.world), a("robot", s.robot), a("bodies", s.bodies), a("regions", s.regions), a("cameras", s.cameras);
+  a("light", s.light), a("meshes", s.meshes), a("textures", s.textures), a("classes", s.classes);
   a("objects", s.objects), a("gravity", s.gravity), a("physics_hz", s.physics_hz), a("frame_hz", s.frame_hz);
 }
 
@@ -139,6 +157,20 @@ class Writer {
   // Rotations as matrices: a quaternion would round them.
   static Json write(const Transform& value, const std::string& path) {
     return {{"origin", write(Vector3(value.translation()), path)}, {"rotation", write(Matrix3(value.linear()), path)}};
+  }
+  static Json write(std::array<double, 5>& list, const std::string& path) {
+    Json json = Json::array();
+    for (const double value : list) json.push_back(write(value, path));
+    return json;
+  }
+  // Large and shared by many scenes: a catalogue keeps what stands under `drawn` once.
+  static Json write(std::shared_ptr<const DrawnMesh>& mesh, const std::string&) {
+    return {{"drawn", {{"base64", to_base64(to_bytes(*mesh))}}}};
+  }
+  static Json write(std::shared_ptr<const Image>& image, const std::string&) {
+    if (!image) return nullptr;
+    const std::string_view bytes(reinterpret_cast<const char*>(image->rgba.data()), image->rgba.size());
+    return {{"width", image->width}, {"height", image->height}, {"drawn", {{"base64", to_base64(bytes)}}}};
   }
   template <typename Item>
   static Json write(std::vector<Item>& list, const std::string& path) {
@@ -239,6 +271,33 @@ class Reader {
     value.translation() = origin;
     value.linear() = rotation;
   }
+  static void read(const Json& json, std::array<double, 5>& value, const std::string& path) {
+    list(json, 5, path);
+    for (std::size_t i = 0; i < 5; ++i) read(json[i], value[i], path);
+  }
+  static std::string drawn(const Json& json, const std::string& path) {
+    if (!json.is_object() || !json.contains("drawn") || !json["drawn"].is_object() || !json["drawn"].contains("base64"))
+      fail(path, "{ drawn = { base64 } } is expected");
+    std::string text;
+    read(json["drawn"]["base64"], text, path);
+    return from_base64(text);
+  }
+  static void read(const Json& json, std::shared_ptr<const DrawnMesh>& value, const std::string& path) {
+    value = std::make_shared<const DrawnMesh>(mesh_from_bytes(drawn(json, path)));
+  }
+  static void read(const Json& json, std::shared_ptr<const Image>& value, const std::string& path) {
+    value.reset();
+    if (json.is_null()) return;
+    const std::string bytes = drawn(json, path);
+    Image image;
+    if (json.size() != 3 || !json.contains("width") || !json.contains("height")) fail(path, "an image is expected");
+    read(json["width"], image.width, path), read(json["height"], image.height, path);
+    image.rgba.assign(bytes.begin(), bytes.end());
+    if (image.width < 1 || image.height < 1 ||
+        static_cast<std::int64_t>(image.rgba.size()) != std::int64_t{4} * image.width * image.height)
+      fail(path, "the size of an image does not agree with its pixels");
+    value = std::make_shared<const Image>(std::move(image));
+  }
   template <typename Item>
   static void read(const Json& json, std::vector<Item>& value, const std::string& path) {
     if (!json.is_array()) fail(path, "a list is expected");
@@ -268,8 +327,17 @@ void check_index(int index, std::size_t size, const std::string& path) {
   if (index < 0 || static_cast<std::size_t>(index) >= size) fail(path, "it names a part that is not there");
 }
 
-void check_body(const Body& body, const std::string& path) {
+void check_shape(const Scene& scene, const Shape& shape, const std::string& path) {
+  if (shape.kind == ShapeKind::mesh && (shape.collides || !scene.meshes.contains(shape.mesh)))
+    fail(path, "a mesh is drawn only and must be among the scene's meshes");
+  if (!shape.texture.empty() && !scene.textures.contains(shape.texture))
+    fail(path, "there is no texture '" + shape.texture + "'");
+}
+
+void check_body(const Scene& scene, const Body& body, const std::string& path) {
   if (body.parts.empty()) fail(path, "a body needs a part");
+  for (const Part& part : body.parts)
+    for (const Shape& shape : part.shapes) check_shape(scene, shape, path);
   for (std::size_t i = 0; i < body.parts.size(); ++i)
     if (body.parts[i].parent < (i == 0 ? -1 : 0) || body.parts[i].parent >= static_cast<int>(i))
       fail(path, "a part's parent must come before it");
@@ -277,11 +345,16 @@ void check_body(const Body& body, const std::string& path) {
 
 // What users of a scene index without asking.
 void check(const Scene& scene) {
-  for (const Body& body : scene.bodies) check_body(body, "body " + body.name);
+  for (const Body& body : scene.bodies) check_body(scene, body, "body " + body.name);
+  for (const auto& [name, texture] : scene.textures)
+    if (texture.kind == TextureKind::image && !texture.image) fail("texture " + name, "it has no image");
+  for (const Camera& camera : scene.cameras)
+    if (camera.width < 1 || camera.height < 1 || !(camera.focal_x > 0) || !(camera.focal_y > 0))
+      fail("camera " + camera.name, "size and focal lengths must be above 0");
   const Robot& robot = scene.robot;
   const std::size_t parts = robot.body.parts.size();
   if (parts == 0 && robot.arm.empty()) return;  // a scene without a robot
-  check_body(robot.body, "the robot");
+  check_body(scene, robot.body, "the robot");
   for (const std::vector<int>* list : {&robot.arm, &robot.fingers, &robot.pads})
     for (const int part : *list) check_index(part, parts, "the robot");
   for (const auto& [a, b] : robot.checked_pairs)

@@ -165,6 +165,7 @@ double reach(const Shape& shape, const Vector3& direction) {
     case ShapeKind::cone:
       return std::max(0.5 * shape.length * direction.z(), -0.5 * shape.length * direction.z() + shape.radius * side);
     case ShapeKind::hull:
+    case ShapeKind::mesh:
       break;
   }
   double most = shape.points.empty() ? 0.0 : -1e9;
@@ -199,6 +200,8 @@ std::vector<ShapeGrasp> shape_grasps(const Shape& shape, double opening_m, doubl
       break;
     case ShapeKind::hull:
       hull_grasps(shape, random, out);
+      break;
+    case ShapeKind::mesh:  // drawn only
       break;
   }
   return out.take();

@@ -128,7 +128,10 @@ Convex::Convex(const Shape& shape) : kind(shape.kind) {
       }
       box_centre = (lower + upper) / 2;
       box_half = (upper - lower) / 2;
+      break;
     }
+    case ShapeKind::mesh:
+      break;  // drawn only
   }
 }
 
@@ -152,6 +155,7 @@ Vector3 Convex::support(const Vector3& d) const {
       return {scale * d.x(), scale * d.y(), -half_length};
     }
     case ShapeKind::hull:
+    case ShapeKind::mesh:
       break;
   }
   std::size_t best = 0;

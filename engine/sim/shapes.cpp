@@ -69,6 +69,7 @@ btCollisionShape* make_shape(const Shape& shape, ShapeStore& store, Transform& l
     case ShapeKind::cone:
       return make_cone(shape, store, link_from_shape);
     case ShapeKind::hull:
+    case ShapeKind::mesh:
       break;
   }
   if (shape.points.size() < 4) throw Error("shape", "a hull needs at least 4 points", "give the corners of a solid");

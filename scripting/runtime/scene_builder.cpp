@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
+
+#include "engine/model/camera.h"
 
 namespace stampede {
 namespace {
 
-// Optical frame: x right, y down, z forward. Looking straight down, `up` is the world's y.
-Transform looking(const Vector3& from, const Vector3& to, const Value& place) {
-  const Vector3 up = place.vector_or("up", Vector3::UnitZ());
-  const Vector3 forward = to - from;
-  if (forward.norm() < 1e-9) throw Error(place.place, "a camera cannot look at the point where it stands");
-  const Vector3 z = forward.normalized();
-  Vector3 right = z.cross(up);
-  if (right.norm() < 1e-6) right = z.cross(Vector3::UnitY());
-  right.normalize();
-  Transform world_from_camera = translation(from);
-  world_from_camera.linear().col(0) = right;
-  world_from_camera.linear().col(1) = z.cross(right);
-  world_from_camera.linear().col(2) = z;
-  return world_from_camera;
-}
+constexpr double kFieldOfView = 40 * std::numbers::pi / 180;  // vertical
 
 template <typename Named>
 void sort_by_name(std::vector<Named>& list) {
@@ -101,19 +90,25 @@ void SceneBuilder::add_camera(const std::string& name, const Value& fields) {
     camera.mount_part = object->part;
     camera.mount_from_camera = transform_from(fields);
   } else if (fields["look_at"].present()) {
-    camera.mount_from_camera = looking(fields["at"].as_vector(), point_of(fields["look_at"]), fields);
+    try {
+      camera.mount_from_camera =
+          looking_at(fields["at"].as_vector(), point_of(fields["look_at"]), fields.vector_or("up", Vector3::UnitZ()));
+    } catch (const Error& error) {
+      throw Error(fields.place, error.message(), "let `look_at` differ from `at`");
+    }
   } else {
     camera.mount_from_camera = transform_from(fields);
   }
-  camera.vertical_fov_rad = fields.number_or("fov", camera.vertical_fov_rad);
   camera.near_m = fields.number_or("near", camera.near_m);
   camera.far_m = fields.number_or("far", camera.far_m);
+  int width = 128, height = 128;
   if (fields["size"].present()) {
     const std::vector<double> size = fields["size"].as_numbers();
     if (size.size() != 2 || size[0] < 1 || size[1] < 1) fields["size"].expected("{ width, height } in pixels");
-    camera.width = static_cast<int>(size[0]);
-    camera.height = static_cast<int>(size[1]);
+    width = static_cast<int>(size[0]);
+    height = static_cast<int>(size[1]);
   }
+  set_field_of_view(camera, fields.number_or("fov", kFieldOfView), width, height);
   scene_.cameras.push_back(camera);
 }
 
@@ -130,6 +125,7 @@ void SceneBuilder::set_rates(int physics_hz, int frame_hz, const Vector3& gravit
 Scene SceneBuilder::build() {
   sort_by_name(fixtures_);
   sort_by_name(bodies_);
+  for (Body& body : fixtures_) body.fixture = true;
   scene_.bodies = std::move(fixtures_);
   std::move(bodies_.begin(), bodies_.end(), std::back_inserter(scene_.bodies));
   sort_by_name(scene_.regions);

@@ -40,14 +40,16 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"engine/base", {}},
     {"engine/geometry", {"engine/base"}},
     {"engine/model", {"engine/base", "engine/geometry"}},
+    {"engine/render", {"engine/base", "engine/geometry", "engine/model"}},
     {"engine/sim", {"engine/base", "engine/geometry", "engine/model"}},
     {"engine/motion", {"engine/base", "engine/geometry", "engine/model", "engine/sim"}},
     {"engine/symbolic", {"engine/base"}},
     {"engine/episode",
-     {"engine/base", "engine/geometry", "engine/model", "engine/sim", "engine/motion", "engine/symbolic"}},
+     {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/sim", "engine/motion",
+      "engine/symbolic"}},
     {"db",
-     {"engine/base", "engine/geometry", "engine/model", "engine/sim", "engine/motion", "engine/symbolic",
-      "engine/episode"}},
+     {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/sim", "engine/motion",
+      "engine/symbolic", "engine/episode"}},
 };
 
 std::string room_of(const std::string& include) {

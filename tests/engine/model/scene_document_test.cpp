@@ -40,7 +40,8 @@ Scene rich_scene() {
   drawer.surface = {0.1, 0.2, 0.3, 0.4, true};
   scene.bodies[0].parts.push_back(drawer);
   scene.regions.push_back({"inside", "table", 1, translation(0, 0, 0.1), {1, 2, 3}, true, {0.1, 0.2, 0.3, 0.4}});
-  scene.cameras.push_back({"front", "table", 1, translation(1, 0, 1), 0.9, 64, 48, 0.02, 3.2});
+  scene.cameras.push_back(
+      {"front", "table", 1, translation(1, 0, 1), 64, 48, 70, 71, 31.5, 24.5, {0.1, 0.2, 0.3, 0.4, 0.5}, 0.02, 3.2});
   scene.objects[0].attributes = {{"colour", "röd"}, {"size", "small"}};
   scene.objects[0].numbers = {{"open_at", 0.1}};
   scene.objects[0].grasps.push_back({translation(0, 0, 0.1), 0.03, 0.07, 15});

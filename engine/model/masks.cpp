@@ -1,0 +1,123 @@
+#include "engine/model/masks.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/base/error.h"
+
+namespace stampede {
+namespace {
+
+constexpr const char* kHandClass = "hand";
+
+bool hangs_on(const Body& body, int part, int ancestor) {
+  while (part > ancestor) part = body.parts[static_cast<std::size_t>(part)].parent;
+  return part == ancestor;
+}
+
+// The object that is the part itself; else the one that is the whole body; null: no object has that body.
+const Object* object_of(const Scene& scene, const std::string& body, int part) {
+  const Object* whole = nullptr;
+  for (const Object& object : scene.objects) {
+    if (object.body != body || object.kind == ObjectKind::region || object.kind == ObjectKind::hand) continue;
+    if (object.kind == ObjectKind::part && object.part == part) return &object;
+    if (object.kind == ObjectKind::body) whole = &object;
+  }
+  return whole;
+}
+
+bool is_hand(const Scene& scene, int part) { return hangs_on(scene.robot.body, part, scene.robot.tip_part); }
+
+std::string class_of_region(const Scene& scene, const Region& region) {
+  const Object* object = scene.object(region.name);
+  return object == nullptr || object->class_name.empty() ? "region" : object->class_name;
+}
+
+void collect_classes(Scene& scene) {
+  std::set<std::string> classes;
+  for (std::size_t part = 0; part < scene.robot.body.parts.size(); ++part)
+    classes.insert(class_of_part(scene, -1, static_cast<int>(part)));
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    for (std::size_t part = 0; part < scene.bodies[body].parts.size(); ++part)
+      classes.insert(class_of_part(scene, static_cast<int>(body), static_cast<int>(part)));
+  for (const Region& region : scene.regions)
+    if (region.visible) classes.insert(class_of_region(scene, region));
+  scene.classes.assign(classes.begin(), classes.end());
+}
+
+int semantic_of(const Scene& scene, const std::string& class_name) {
+  const auto found = std::find(scene.classes.begin(), scene.classes.end(), class_name);
+  if (found == scene.classes.end())
+    throw Error("scene", "its classes leave out '" + class_name + "'", "leave Scene::classes empty, or name them all");
+  return static_cast<int>(found - scene.classes.begin()) + 1;
+}
+
+MaskEntry entry_of(const Scene& scene, int body, std::size_t part) {
+  const Body& owner = body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(body)];
+  const std::string& body_name = body < 0 ? scene.robot.name : owner.name;
+  MaskEntry entry;
+  entry.instance = owner.parts[part].instance;
+  const Object* object = body < 0 ? nullptr : object_of(scene, body_name, static_cast<int>(part));
+  if (body < 0 && is_hand(scene, static_cast<int>(part)))
+    entry.object = scene.robot.name + "." + scene.robot.hand;
+  else
+    entry.object = object == nullptr ? body_name : object->name;
+  entry.name = part == 0 && body >= 0 ? body_name : body_name + "." + owner.parts[part].name;
+  entry.class_name = class_of_part(scene, body, static_cast<int>(part));
+  entry.semantic = semantic_of(scene, entry.class_name);
+  return entry;
+}
+
+}  // namespace
+
+std::string class_of_part(const Scene& scene, int body, int part) {
+  if (body < 0) return is_hand(scene, part) ? kHandClass : scene.robot.name;
+  const Object* object = object_of(scene, scene.bodies[static_cast<std::size_t>(body)].name, part);
+  if (object == nullptr) return scene.bodies[static_cast<std::size_t>(body)].name;
+  return object->kind == ObjectKind::part || object->class_name.empty() ? object->type : object->class_name;
+}
+
+void number_masks(Scene& scene, RandomKey key) {
+  int next = 1;
+  for (Part& part : scene.robot.body.parts) part.instance = next++;
+  std::vector<int*> others;
+  for (Body& body : scene.bodies)
+    for (Part& part : body.parts) {
+      if (body.fixture)
+        part.instance = next++;
+      else
+        others.push_back(&part.instance);
+    }
+  for (Region& region : scene.regions) {
+    region.instance = 0;
+    if (region.visible) others.push_back(&region.instance);
+  }
+  std::vector<int> numbers(others.size());
+  for (int& number : numbers) number = next++;
+  Random random(key);
+  for (std::size_t i = numbers.size(); i > 1; --i)  // Fisher-Yates
+    std::swap(numbers[i - 1], numbers[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
+  for (std::size_t i = 0; i < others.size(); ++i) *others[i] = numbers[i];
+  if (next > 65536) throw Error("scene", "it has more parts than 16-bit masks can tell apart", "use fewer objects");
+  if (scene.classes.empty()) collect_classes(scene);
+}
+
+std::vector<MaskEntry> mask_key(const Scene& scene) {
+  std::vector<MaskEntry> entries;
+  for (std::size_t part = 0; part < scene.robot.body.parts.size(); ++part) entries.push_back(entry_of(scene, -1, part));
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    for (std::size_t part = 0; part < scene.bodies[body].parts.size(); ++part)
+      entries.push_back(entry_of(scene, static_cast<int>(body), part));
+  for (const Region& region : scene.regions) {
+    if (!region.visible) continue;
+    const std::string name = class_of_region(scene, region);
+    entries.push_back({region.instance, region.name, region.name, name, semantic_of(scene, name)});
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const MaskEntry& a, const MaskEntry& b) { return a.instance < b.instance; });
+  if (!entries.empty() && entries.front().instance == 0)
+    throw Error("scene", "its parts have no mask numbers", "call number_masks first");
+  return entries;
+}
+
+}  // namespace stampede

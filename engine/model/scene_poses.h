@@ -1,0 +1,31 @@
+// Where every part of a scene is at one moment, by kinematics alone.
+#pragma once
+
+#include <vector>
+
+#include "engine/model/scene.h"
+
+namespace stampede {
+
+// What must be known of a moment: the pose of each body's base and the position of each part's joint.
+struct SceneState {
+  std::vector<Transform> world_from_body;           // per Scene::bodies
+  std::vector<std::vector<double>> joint_position;  // per Scene::bodies and part; 0 for parts without a joint
+  std::vector<double> robot_position;               // per part of the robot
+  std::vector<Transform> world_from_region;         // per Scene::regions; used for those of the world (body empty)
+};
+
+SceneState initial_state(const Scene& scene);
+
+struct ScenePoses {
+  std::vector<std::vector<Transform>> world_from_part;  // per Scene::bodies and part
+  std::vector<Transform> world_from_robot_part;
+  std::vector<Transform> world_from_region;  // centre of the box
+};
+
+// Repeatable: the same doubles, the same poses, whoever simulated them.
+ScenePoses scene_poses(const Scene& scene, const SceneState& state);
+
+Transform world_from_camera(const Scene& scene, const ScenePoses& poses, const Camera& camera);
+
+}  // namespace stampede
