@@ -40,9 +40,9 @@ class Task {
   // The scene of draw number `draw`, all drawn values in it; literals of init() then place what has no pose.
   virtual Scene scene(int draw) = 0;
   virtual std::optional<Randomisation> randomisation() const { return std::nullopt; }  // of the world
-  virtual Observation observation() const { return {}; }  // of the world; what a run asks for goes before it
-  virtual std::vector<std::string> unplaced() const = 0;  // free objects that a literal of init must place
-  virtual std::vector<Literal> init() const = 0;          // in the order in which they are made true
+  virtual ObservationChoice observation() const { return {}; }  // what the run asks for goes before it
+  virtual std::vector<std::string> unplaced() const = 0;        // free objects that a literal of init must place
+  virtual std::vector<Literal> init() const = 0;                // in the order in which they are made true
   virtual Formula goal() const = 0;
   virtual std::vector<Formula> stages() const { return {}; }  // in_order { … }; goal() is their conjunction
   virtual std::optional<std::vector<PlanStep>> steps() const { return std::nullopt; }  // action or skill, arguments

@@ -1,9 +1,10 @@
 // Which pictures and further channels of an episode are wanted, and how they are made from its recorded frames.
 #pragma once
 
-#include <functional>
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,19 @@ enum class WhichFrames { none, keyframes, all };
 std::string_view to_string(WhichFrames value);
 std::optional<WhichFrames> which_frames_from(std::string_view text);
 
+// What somebody asks for; the rest is left to others: the command line goes before the task, the task before the world.
+struct ObservationChoice {
+  std::optional<WhichFrames> images;
+  std::optional<std::vector<std::string>> cameras;
+  std::optional<std::array<int, 2>> size;  // width, height
+  std::optional<PictureKinds> kinds;
+  std::optional<bool> points, shadows;
+  std::optional<double> rgb_noise, depth_noise, torque_noise;
+  std::optional<std::vector<std::string>> channels;
+  std::map<std::string, std::string> as_text() const;  // what was chosen, `observe_size` -> `64x48` …
+};
+ObservationChoice before(const ObservationChoice& first, const ObservationChoice& otherwise);
+
 // What is off is not computed.
 struct Observation {
   WhichFrames images = WhichFrames::none;
@@ -26,10 +40,13 @@ struct Observation {
   bool points = false;  // point clouds too (kind `points`: binary PLY)
   bool shadows = false;
   CameraNoise noise;
-  double torque_noise = 0;                             // N m, standard deviation added to channel `joint_torque`
-  std::vector<std::string> channels;                   // sensors of the world, by name; {"*"}: all
-  std::map<std::string, std::string> as_text() const;  // what alters data, for keys and catalogues; empty when default
+  double torque_noise = 0;                    // N m, standard deviation added to channel `joint_torque`
+  std::vector<std::string> channels = {"*"};  // sensors of the world, by name; {"*"}: all
 };
+Observation chosen(const ObservationChoice& choice);
+
+// Of a finished episode, as its options hold it: what `render` does without further words. Throws Error.
+ObservationChoice observation_of(const EpisodeRecord& episode);
 
 // Pictures that were made, in the order (frame, camera, kind). Beyond a few MB they lie in a temporary file without a
 // name, so a long episode with images takes bounded memory. Lifetime: shared; append from one thread.
@@ -65,6 +82,7 @@ class EpisodePainter {
  public:
   EpisodePainter(Renderer& renderer, const EpisodeRecord& episode, std::shared_ptr<const Scene> scene,
                  const Observation& observation);
+  ~EpisodePainter();
   const std::vector<int>& cameras() const;  // wanted ones, indices into the scene's cameras
   std::vector<View> views(std::int64_t frame) const;
   // One picture a wanted camera, noise included.
@@ -72,13 +90,18 @@ class EpisodePainter {
 
  private:
   struct Impl;
-  std::shared_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
-// The frames that `which` means: none, the episode's keyframes (all methods, first and last frame included), or all.
+// The frames that `which` means: none, all, or keyframes: the first and the last, those of each keyframe method, and
+// the first of each skill segment.
 std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrames which);
 
-// Pictures of all wanted frames, encoded, into episode.images.
-void paint_episode(Renderer& renderer, EpisodeRecord& episode, const Observation& observation);
+// Pictures of these frames, encoded. The image's camera is an index into the scene's cameras.
+void paint_frames(EpisodePainter& painter, const Observation& observation, const std::vector<std::int64_t>& frames,
+                  ImageStore& images);
+
+// All that the episode's own options want, into episode.images; nothing when they want none or no start was made.
+void paint_episode(Renderer& renderer, EpisodeRecord& episode);
 
 }  // namespace stampede

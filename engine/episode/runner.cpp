@@ -46,6 +46,7 @@ class EpisodeRunner {
   void back_to(const Place& place);
   void place_attempts();
   void close(const SkillResult& result);
+  void paint();
   std::int64_t frames(double seconds) const;
 
   Task& task_;
@@ -88,6 +89,7 @@ EpisodeRecord EpisodeRunner::run() {
   record_.documents.push_back({"plan", to_text(plan_)});
   if (result.ok()) result = behave();
   close(result);
+  paint();
   record_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return std::move(record_);
 }
@@ -99,6 +101,7 @@ void EpisodeRunner::describe_episode(const PreparedStart& start) {
   record_.seed = options_.seed;
   record_.split = options_.split;
   record_.options = options_.as_text();
+  record_.options.merge(before(options_.observation, task_.observation()).as_text());
   record_.draws = start.draws;
   for (const std::string& sentence : task_.instructions()) record_.language.push_back({"task", sentence, -1});
   for (const Predicate& predicate : symbols_.domain().predicates)
@@ -113,6 +116,7 @@ void EpisodeRunner::describe_episode(const PreparedStart& start) {
   record_.scene_document = scene_to_document(scene);
   record_.objects = scene.objects;
   record_.cameras = scene.cameras;
+  record_.masks = mask_key(scene);
   record_.hands = {scene.robot.name + "." + scene.robot.hand};
 }
 
@@ -308,37 +312,14 @@ void EpisodeRunner::close(const SkillResult& result) {
     if (document.kind == "plan") document.text = to_text(plan_);
 }
 
+// From what was recorded, as anybody could later.
+void EpisodeRunner::paint() {
+  if (chosen(observation_of(record_)).images == WhichFrames::none) return;
+  const std::unique_ptr<Renderer> own = options_.renderer == nullptr ? make_osmesa_renderer() : nullptr;
+  paint_episode(own ? *own : *options_.renderer, record_);
+}
+
 }  // namespace
-
-std::string_view to_string(OnFailure value) {
-  switch (value) {
-    case OnFailure::undo:
-      return "undo";
-    case OnFailure::stop:
-      return "stop";
-    case OnFailure::recover:
-      return "recover";
-  }
-  return "undo";
-}
-
-std::optional<OnFailure> on_failure_from(std::string_view text) {
-  for (const OnFailure value : {OnFailure::undo, OnFailure::stop, OnFailure::recover})
-    if (to_string(value) == text) return value;
-  return std::nullopt;
-}
-
-std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
-
-std::map<std::string, std::string> RunOptions::as_text() const {
-  std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},
-                                             {"tries_per_skill", std::to_string(tries_per_skill)},
-                                             {"tries_per_episode", std::to_string(tries_per_episode)},
-                                             {"plans", std::to_string(plans)},
-                                             {"draws", std::to_string(draws)}};
-  if (!controller.empty()) text["controller"] = controller;
-  return text;
-}
 
 EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
                           const std::atomic<bool>* stop) {

@@ -25,9 +25,10 @@ struct RunOptions {
   int plans = 4;           // different plans tried
   int draws = 100;         // starts drawn until init holds
   std::string controller;  // empty: each skill's own
-  Observation observation;
-  std::optional<Randomisation> randomise;  // instead of the world's own
+  ObservationChoice observation;
+  std::optional<Randomisation> randomise;  // where the world has none of its own
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
+  Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
   std::map<std::string, std::string> as_text() const;
 };
 

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/episode/fact_tracker.h"
+#include "engine/model/camera.h"
 
 namespace stampede {
 namespace {
@@ -124,6 +125,7 @@ class StartMaker {
 
   bool try_draw(int draw, PreparedStart& start) {
     Scene scene = task_.scene(draw);
+    dress(scene, draw);
     park(scene, task_.unplaced());
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
@@ -139,6 +141,15 @@ class StartMaker {
     }
     if (!all_at_rest(view)) return refuse(moving(view));
     return accept(view, start);
+  }
+
+  // What a run adds to a task's scene.
+  void dress(Scene& scene, int draw) {
+    put_cameras(scene, options_.cameras);
+    const RandomKey key = RandomKey("dress").with(task_.name()).with(task_.variation()).with(options_.seed);
+    const std::optional<Randomisation> own = task_.randomisation();
+    if (const auto& ranges = own ? own : options_.randomise) randomise(scene, *ranges, key.with("looks").with(draw));
+    number_masks(scene, key.with("masks"));
   }
 
   bool place_all(Draft& draft, int draw) {

@@ -1,0 +1,150 @@
+// Pictures of recorded frames.
+#include <algorithm>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/episode/observation.h"
+#include "engine/model/camera.h"
+#include "engine/render/png.h"
+#include "engine/render/point_cloud.h"
+
+namespace stampede {
+namespace {
+
+int camera_index(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].name == name) return static_cast<int>(i);
+    names.push_back(scene.cameras[i].name);
+  }
+  throw Error("camera '" + name + "'", "the scene has no such camera", did_you_mean(name, names));
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+}  // namespace
+
+SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64_t frame) {
+  const FrameRecord& recorded = episode.frames.at(static_cast<std::size_t>(frame));
+  SceneState state = initial_state(scene);
+  for (std::size_t i = 0; i < episode.joints.size(); ++i) {
+    const PartRef ref = episode.joints[i].part;
+    auto& positions = ref.body < 0 ? state.robot_position : state.joint_position.at(static_cast<std::size_t>(ref.body));
+    positions.at(static_cast<std::size_t>(ref.part)) = recorded.joint_position.at(i);
+  }
+  for (std::size_t i = 0; i < episode.posed.size(); ++i) {
+    const Object* object = scene.object(episode.posed[i]);
+    if (object == nullptr) continue;
+    if (object->kind == ObjectKind::body) {
+      const int body = scene.body_index(object->body);
+      if (body >= 0 && scene.bodies[static_cast<std::size_t>(body)].free)
+        state.world_from_body[static_cast<std::size_t>(body)] = to_transform(recorded.object_pose.at(i));
+    } else if (object->kind == ObjectKind::region) {
+      const int region = scene.region_index(object->name);
+      if (region >= 0)
+        state.world_from_region[static_cast<std::size_t>(region)] = to_transform(recorded.object_pose.at(i));
+    }
+  }
+  return state;
+}
+
+struct EpisodePainter::Impl {
+  Renderer& renderer;
+  const EpisodeRecord& episode;
+  std::shared_ptr<const Scene> scene;
+  Observation observation;
+  DrawOptions options;
+  std::vector<int> cameras;
+
+  std::vector<View> views_of(const ScenePoses& poses) const {
+    std::vector<View> views;
+    for (const int index : cameras) {
+      const Camera& camera = scene->cameras[static_cast<std::size_t>(index)];
+      View& view = views.emplace_back();
+      view.camera = observation.width > 0 ? resized(camera, observation.width, observation.height) : camera;
+      view.world_from_camera = world_from_camera(*scene, poses, camera);
+    }
+    return views;
+  }
+};
+
+EpisodePainter::EpisodePainter(Renderer& renderer, const EpisodeRecord& episode, std::shared_ptr<const Scene> scene,
+                               const Observation& observation)
+    : impl_(new Impl{renderer, episode, std::move(scene), observation, {}, {}}) {
+  impl_->options.kinds = observation.kinds;
+  if (observation.points) impl_->options.kinds.depth = true;
+  impl_->options.shadows = observation.shadows;
+  if (observation.cameras.empty())
+    for (std::size_t i = 0; i < impl_->scene->cameras.size(); ++i) impl_->cameras.push_back(static_cast<int>(i));
+  std::set<int> named;
+  for (const std::string& name : observation.cameras) named.insert(camera_index(*impl_->scene, name));
+  impl_->cameras.insert(impl_->cameras.end(), named.begin(), named.end());
+  renderer.load(impl_->scene);
+}
+
+EpisodePainter::~EpisodePainter() = default;
+
+const std::vector<int>& EpisodePainter::cameras() const { return impl_->cameras; }
+
+std::vector<View> EpisodePainter::views(std::int64_t frame) const {
+  return impl_->views_of(scene_poses(*impl_->scene, state_at(*impl_->scene, impl_->episode, frame)));
+}
+
+void EpisodePainter::paint(std::int64_t frame, std::vector<Picture>& pictures) {
+  const Impl& own = *impl_;
+  const ScenePoses poses = scene_poses(*own.scene, state_at(*own.scene, own.episode, frame));
+  const std::vector<View> views = own.views_of(poses);
+  own.renderer.draw(poses, views, own.options, pictures);
+  if (!own.observation.noise.any()) return;
+  const RandomKey key =
+      RandomKey("camera noise").with(own.episode.task).with(own.episode.variation).with(own.episode.seed);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    add_noise(pictures[i], views[i].camera, own.observation.noise, key.with(views[i].camera.name).with(frame));
+}
+
+std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrames which) {
+  const auto count = static_cast<std::int64_t>(episode.frames.size());
+  std::set<std::int64_t> frames;
+  if (which == WhichFrames::all)
+    for (std::int64_t frame = 0; frame < count; ++frame) frames.insert(frames.end(), frame);
+  if (which == WhichFrames::keyframes && count > 0) {
+    frames = {0, count - 1};
+    for (const auto& [method, list] : episode.keyframes) frames.insert(list.begin(), list.end());
+    for (const SegmentRecord& segment : episode.segments)
+      if (segment.kind == "skill" && segment.span.first_frame < count) frames.insert(segment.span.first_frame);
+  }
+  return {frames.begin(), frames.end()};
+}
+
+void paint_frames(EpisodePainter& painter, const Observation& observation, const std::vector<std::int64_t>& frames,
+                  ImageStore& images) {
+  std::vector<Picture> pictures;
+  for (const std::int64_t frame : frames) {
+    painter.paint(frame, pictures);
+    const std::vector<View> views = observation.points ? painter.views(frame) : std::vector<View>{};
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      ImageRecord image{frame, painter.cameras()[i], {}, pictures[i].width, pictures[i].height};
+      for (const PictureKind kind : kPictureKinds) {
+        if (!observation.kinds.has(kind)) continue;
+        image.kind = to_string(kind);
+        images.append(image, to_png(pictures[i], kind));
+      }
+      if (!observation.points) continue;
+      image.kind = "points";
+      images.append(image, bytes_of(to_ply(point_cloud(pictures[i], views[i]))));
+    }
+  }
+}
+
+void paint_episode(Renderer& renderer, EpisodeRecord& episode) {
+  const Observation observation = chosen(observation_of(episode));
+  if (observation.images == WhichFrames::none || episode.frames.empty()) return;
+  EpisodePainter painter(renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene_document)),
+                         observation);
+  const auto images = std::make_shared<ImageStore>();
+  paint_frames(painter, observation, wanted_frames(episode, observation.images), *images);
+  episode.images = images;
+}
+
+}  // namespace stampede

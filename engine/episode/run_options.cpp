@@ -1,0 +1,76 @@
+// Options of a run as text: what keys and catalogues hold.
+#include <sstream>
+
+#include "engine/base/hash.h"
+#include "engine/episode/runner.h"
+
+namespace stampede {
+namespace {
+
+std::string text_of(const Randomisation& ranges) {
+  std::ostringstream text;
+  text.precision(17);
+  const auto list = [&](const char* name, const std::vector<std::string>& words) {
+    text << name << '=';
+    for (const std::string& word : words) text << word << ',';
+    text << ' ';
+  };
+  const auto range = [&](const char* name, const Range& value) {
+    text << name << '=' << value[0] << ".." << value[1] << ' ';
+  };
+  list("looks", ranges.looks);
+  text << "colours=";
+  for (const Colour& c : ranges.colours) text << c.red << '/' << c.green << '/' << c.blue << '/' << c.alpha << ',';
+  text << ' ';
+  list("textures", ranges.textures);
+  range("ambient", ranges.ambient);
+  range("diffuse", ranges.diffuse);
+  text << "light_direction=" << ranges.light_direction_rad << " camera_position=" << ranges.camera_position_m
+       << " camera_rotation=" << ranges.camera_rotation_rad << ' ';
+  list("dynamics", ranges.dynamics);
+  range("mass", ranges.mass);
+  range("friction", ranges.friction);
+  range("damping", ranges.damping);
+  return text.str();
+}
+
+}  // namespace
+
+std::string_view to_string(OnFailure value) {
+  switch (value) {
+    case OnFailure::undo:
+      return "undo";
+    case OnFailure::stop:
+      return "stop";
+    case OnFailure::recover:
+      return "recover";
+  }
+  return "undo";
+}
+
+std::optional<OnFailure> on_failure_from(std::string_view text) {
+  for (const OnFailure value : {OnFailure::undo, OnFailure::stop, OnFailure::recover})
+    if (to_string(value) == text) return value;
+  return std::nullopt;
+}
+
+std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
+
+std::map<std::string, std::string> RunOptions::as_text() const {
+  std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},
+                                             {"tries_per_skill", std::to_string(tries_per_skill)},
+                                             {"tries_per_episode", std::to_string(tries_per_episode)},
+                                             {"plans", std::to_string(plans)},
+                                             {"draws", std::to_string(draws)}};
+  if (!controller.empty()) text["controller"] = controller;
+  text.merge(observation.as_text());
+  if (randomise) text["randomise"] = text_of(*randomise);
+  if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit
+    Scene scene;
+    scene.cameras = cameras;
+    text["cameras"] = content_hash(scene_to_document(scene));
+  }
+  return text;
+}
+
+}  // namespace stampede
