@@ -1,0 +1,35 @@
+// Films: pictures one after another in a file that players show.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace stampede::program {
+
+// .mp4: H.264, 4:2:0, constant quality; a side that is odd is encoded one pixel longer, its last pixels repeated.
+// .gif: one palette of 256 colours for the whole film; above 50 pictures a second only every k-th is kept, because
+// the format counts in 1/100 s and players slow faster ones down.
+// What is written lies beside the file, under its name with `.part`, until finish() gives it the name.
+// Lifetime: one thread. Repeatable: the same pictures, the same bytes.
+// Throws Error with the cure for another ending, a missing codec, a folder that is not there and a full disk.
+class VideoWriter {
+ public:
+  VideoWriter(const std::filesystem::path& file, int width, int height, int rate_hz);
+  ~VideoWriter();  // without finish() nothing stays
+  VideoWriter(const VideoWriter&) = delete;
+  VideoWriter& operator=(const VideoWriter&) = delete;
+
+  void add(std::span<const std::uint8_t> rgb);  // height x width x 3, rows from the top
+  void finish();
+
+  // Throws Error when the ending is none that can be written: before anything is drawn.
+  static void check_name(const std::filesystem::path& file);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stampede::program
