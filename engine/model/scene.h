@@ -185,12 +185,22 @@ struct Robot {
   std::vector<std::pair<int, int>> checked_pairs;  // part pairs that self-collision tests; the rest never meet
 };
 
+// What is measured beside the frames. kind `force_torque`: what contacts do to robot part `part` and all parts beyond
+// it (see World::contact_wrench), in that part's frame: force_x force_y force_z N, torque_x torque_y torque_z N m, the
+// mean over each period. kind `joint_torque`: the effort of each joint of the arm at the end of each period, N m (or N).
+struct Sensor {
+  std::string name, kind;
+  int part = 0;       // of the robot; force_torque
+  int rate_hz = 120;  // divides physics_hz
+};
+
 struct Scene {
   std::string world;
   Robot robot;
   std::vector<Body> bodies;  // fixtures first, then objects, in name order; never the robot
   std::vector<Region> regions;
   std::vector<Camera> cameras;
+  std::vector<Sensor> sensors;  // in name order
   Light light;
   std::map<std::string, std::shared_ptr<const DrawnMesh>> meshes;  // by the hash of their content
   std::map<std::string, Texture> textures;                         // by name

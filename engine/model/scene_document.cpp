@@ -116,9 +116,14 @@ void fields(Archive& a, Robot& r) {
 }
 
 template <typename Archive>
+void fields(Archive& a, Sensor& s) {
+  a("name", s.name), a("kind", s.kind), a("part", s.part), a("rate_hz", s.rate_hz);
+}
+
+template <typename Archive>
 void fields(Archive& a, Scene& s) {
   a("world", s.world), a("robot", s.robot), a("bodies", s.bodies), a("regions", s.regions), a("cameras", s.cameras);
-  a("light", s.light), a("meshes", s.meshes), a("textures", s.textures), a("classes", s.classes);
+  a("sensors", s.sensors), a("light", s.light), a("meshes", s.meshes), a("textures", s.textures), a("classes", s.classes);
   a("objects", s.objects), a("gravity", s.gravity), a("physics_hz", s.physics_hz), a("frame_hz", s.frame_hz);
 }
 
@@ -360,6 +365,7 @@ void check(const Scene& scene) {
   for (const auto& [a, b] : robot.checked_pairs)
     check_index(a, parts, "checked_pairs"), check_index(b, parts, "checked_pairs");
   check_index(robot.tip_part, parts, "the robot's tip");
+  for (const Sensor& sensor : scene.sensors) check_index(sensor.part, parts, "sensor " + sensor.name);
   if (robot.limits.size() != robot.arm.size() || robot.home.size() != robot.arm.size())
     fail("the robot", "limits and home need one entry for each arm part");
 }

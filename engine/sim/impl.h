@@ -15,6 +15,7 @@
 #include "engine/sim/bullet_convert.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/shapes.h"
+#include "engine/sim/torsion_solver.h"
 #include "engine/sim/world.h"
 
 namespace stampede {
@@ -120,7 +121,7 @@ struct World::Impl {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
+  TorsionSolver solver;
   btMultiBodyDynamicsWorld world;
   std::vector<std::unique_ptr<btCollisionObject>> objects;  // in creation order: Bullet sorts pairs by it
   std::vector<std::unique_ptr<btMultiBody>> multibodies;

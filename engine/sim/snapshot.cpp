@@ -104,6 +104,7 @@ void World::Impl::rebuild_broadphase() {
                                                        object, group, mask, &dispatcher));
   }
   solver.reset();
+  solver.forget_torsions();
 }
 
 void World::Impl::canonicalise() {

@@ -140,6 +140,7 @@ void World::step() {
   w.control();
   w.move_mechanisms();
   w.anchors.before_step(w.world);
+  w.solver.forget_torsions();
   w.world.stepSimulation(w.dt, 0);
   w.anchors.after_step(w.dispatcher);
   w.contacts.add_step(w.dispatcher, w.dt);

@@ -67,6 +67,11 @@ struct Contact {
   Vector3 force = Vector3::Zero();        // mean contact force on a, friction included, world, N
 };
 
+// What acts on a part: force N, and torque N m about its origin, both in its own axes.
+struct Wrench {
+  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+};
+
 // All that tells one moment of a world from another. Opaque, copyable, comparable by hash.
 class Snapshot {
  public:
@@ -115,6 +120,12 @@ class World {
   // The body held by friction in the last window: both pads touch it, at least 0.5 N mean each, normals opposed
   // within 45 degrees. Nothing: std::nullopt.
   std::optional<PartRef> grasped() const;
+
+  // What contacts did in the last step to `robot_part` and all parts beyond it, from the outside: the hand, the fingers
+  // and, through the pads, what they hold. As a wrist sensor reads that was tared with an empty hand: weight and inertia
+  // of the robot's own parts are left out, and so is what these parts do to each other. Zero until a step was made after
+  // construction, restore or Boundary.
+  Wrench contact_wrench(int robot_part) const;
 
   // Restoring gives the same future, bit for bit, also in another World of an equal scene. Snapshots are taken
   // right after a Boundary operation. Restore also shortens the log to its length at the snapshot.
