@@ -12,6 +12,8 @@
 namespace stampede {
 namespace {
 
+constexpr int kMostPixels = 4096;
+
 int camera_index(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -24,6 +26,15 @@ int camera_index(const Scene& scene, const std::string& name) {
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 }  // namespace
+
+void check_observation(const Scene& scene, const Observation& observation) {
+  for (const std::string& name : observation.cameras) camera_index(scene, name);
+  const bool own = observation.width == 0 && observation.height == 0;
+  for (const int pixels : {observation.width, observation.height})
+    if (!own && (pixels < 1 || pixels > kMostPixels))
+      throw Error("images", "a picture of " + std::to_string(pixels) + " pixels a side cannot be made",
+                  "choose 1 to " + std::to_string(kMostPixels));
+}
 
 SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64_t frame) {
   const FrameRecord& recorded = episode.frames.at(static_cast<std::size_t>(frame));

@@ -74,6 +74,7 @@ EpisodeRecord EpisodeRunner::run() {
   const auto began = std::chrono::steady_clock::now();  // host time, outside every hash
   const PreparedStart start = prepare_start(task_, symbols_, options_, stop_);
   describe_episode(start);
+  if (start.scene) check_observation(*start.scene, chosen(observation_of(record_)));  // now, not after the run
   if (start.reason != Reason::none) {
     record_.reason = start.reason;
     record_.detail = start.detail;
