@@ -1,17 +1,13 @@
 #include "engine/geometry/mesh.h"
 
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
-#include <assimp/Importer.hpp>
 
 #include "engine/base/error.h"
 #include "engine/geometry/hull.h"
+#include "engine/geometry/import.h"
 
 namespace stampede {
 namespace {
-
-const char* const kFormats = "write it again as OBJ, STL, DAE, PLY or GLB with triangles, in metres";
 
 void append(const aiMesh& source, const aiMatrix4x4& root_from_node, const Vector3& scale, Mesh& mesh) {
   const int first = static_cast<int>(mesh.vertices.size());
@@ -19,7 +15,7 @@ void append(const aiMesh& source, const aiMatrix4x4& root_from_node, const Vecto
     const aiVector3D v = root_from_node * source.mVertices[i];
     mesh.vertices.push_back(Vector3(v.x, v.y, v.z).cwiseProduct(scale));
   }
-  const bool mirrored = scale.prod() < 0;  // keep triangles facing outwards
+  const bool mirrored = scale.prod() * double{root_from_node.Determinant()} < 0;  // keep triangles facing outwards
   for (unsigned i = 0; i < source.mNumFaces; ++i) {
     const aiFace& face = source.mFaces[i];
     if (face.mNumIndices != 3) continue;  // points and lines have no place in a solid
@@ -42,31 +38,21 @@ void walk(const aiScene& scene, const aiNode& node, const aiMatrix4x4& root_from
 void check_finite(const std::filesystem::path& file, const Mesh& mesh) {
   for (const Vector3& vertex : mesh.vertices)
     if (!vertex.allFinite())
-      throw Error(file.string(), "node '" + mesh.node + "' has a coordinate that is not a finite number", kFormats);
+      throw Error(file.string(), "node '" + mesh.node + "' has a coordinate that is not a finite number", kMeshCure);
 }
 
 }  // namespace
 
 std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw Error(file.string(), "there is no such mesh file",
-                "check the name; it is looked for beside the file that uses it");
-  if (!scale.allFinite() || (scale.array() == 0).any())
-    throw Error(file.string(), "its scale must be three finite numbers other than 0", "write 0.001 for millimetres");
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                                          aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                                          aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS);
   // Normals and texture coordinates go first: they would keep equal corners apart.
-  const aiScene* const scene = importer.ReadFile(
-      file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-  if (scene == nullptr || scene->mRootNode == nullptr)
-    throw Error(file.string(), std::string("not a readable mesh: ") + importer.GetErrorString(), kFormats);
+  const aiScene& scene = import_scene(importer, file, scale,
+                                      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS,
+                                      aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   std::vector<Mesh> meshes;
-  walk(*scene, *scene->mRootNode, aiMatrix4x4(), scale, meshes);
-  if (meshes.empty()) throw Error(file.string(), "the mesh has no triangles", kFormats);
+  walk(scene, *scene.mRootNode, aiMatrix4x4(), scale, meshes);
+  if (meshes.empty()) throw Error(file.string(), "the mesh has no triangles", kMeshCure);
   for (const Mesh& mesh : meshes) check_finite(file, mesh);
   return meshes;
 }
