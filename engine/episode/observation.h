@@ -45,7 +45,8 @@ struct Observation {
 };
 Observation chosen(const ObservationChoice& choice);
 
-// Throws Error for cameras that the scene does not have (with the nearest name as cure) and sizes out of 1 … 4096.
+// Throws Error for cameras and sensors that the scene does not have (with the nearest name as cure) and sizes out of 1
+// … 4096.
 void check_observation(const Scene& scene, const Observation& observation);
 
 // Of a finished episode, as its options hold it: what `render` does without further words. Throws Error.

@@ -29,6 +29,11 @@ std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin
 
 void check_observation(const Scene& scene, const Observation& observation) {
   for (const std::string& name : observation.cameras) camera_index(scene, name);
+  std::vector<std::string> sensors;
+  for (const Sensor& sensor : scene.sensors) sensors.push_back(sensor.name);
+  for (const std::string& name : observation.channels)
+    if (name != "*" && std::find(sensors.begin(), sensors.end(), name) == sensors.end())
+      throw Error("channel '" + name + "'", "the world has no such sensor", did_you_mean(name, sensors));
   const bool own = observation.width == 0 && observation.height == 0;
   for (const int pixels : {observation.width, observation.height})
     if (!own && (pixels < 1 || pixels > kMostPixels))

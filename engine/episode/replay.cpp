@@ -1,9 +1,11 @@
 // Re-simulates a stored episode from its scene and its commands: no script, no planner.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "engine/episode/recorder.h"
 #include "engine/episode/runner.h"
+#include "engine/episode/sensors.h"
 
 namespace stampede {
 namespace {
@@ -74,6 +76,21 @@ std::string compare_action(std::int64_t index, const EpisodeRecord& episode, con
   return comparison.difference;
 }
 
+// Channels of other sources, which an embedder added, cannot be read again.
+std::string compare_channels(const EpisodeRecord& episode, const std::vector<ChannelRecord>& now) {
+  for (const ChannelRecord& again : now) {
+    const auto stored = std::find_if(episode.channels.begin(), episode.channels.end(),
+                                     [&](const ChannelRecord& channel) { return channel.name == again.name; });
+    if (stored == episode.channels.end()) return "channel " + again.name + " is not stored";
+    if (stored->steps != again.steps) return "channel " + again.name + ": it was read at other steps";
+    for (std::size_t i = 0; i < again.values.size(); ++i)
+      if (!same(stored->values.at(i), again.values[i]))
+        return "channel " + again.name + ", value " + std::to_string(i) + ": stored " + number(stored->values[i]) +
+               ", now " + number(again.values[i]);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string replay_episode(const EpisodeRecord& episode) {
@@ -81,6 +98,8 @@ std::string replay_episode(const EpisodeRecord& episode) {
   World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
   WorldView view(world);
   const FrameReader reader(view);
+  SensorReader sensors(world.scene(), chosen(observation_of(episode)),
+                       sensor_key(episode.task, episode.variation, episode.seed));
   const std::int64_t per_frame = episode.physics_hz / episode.frame_hz;
   std::size_t next = 0;
   for (std::int64_t index = 0; index < static_cast<std::int64_t>(episode.frames.size()); ++index) {
@@ -88,6 +107,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
       while (next < episode.commands.size() && episode.commands[next].step == world.step_count())
         world.apply(episode.commands[next++].operation);
       world.step();
+      sensors.step(world);
     }
     if (index > 0) {
       world.close_window();
@@ -95,6 +115,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
     }
     if (std::string found = compare(index, episode, reader.read(view)); !found.empty()) return found;
   }
+  if (std::string found = compare_channels(episode, sensors.channels()); !found.empty()) return found;
   if (world.state_hash() != episode.state_hash) return "the state at the end differs from the stored hash";
   return {};
 }

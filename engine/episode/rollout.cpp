@@ -5,7 +5,8 @@
 
 namespace stampede {
 
-Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, const std::atomic<bool>* stop)
+Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, SensorReader sensors,
+                 const std::atomic<bool>* stop)
     : task_(task),
       symbols_(symbols),
       stop_(stop),
@@ -13,6 +14,7 @@ Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, const
       view_(world_),
       facts_(symbols, view_),
       recorder_(view_),
+      sensors_(std::move(sensors)),
       steps_per_frame_(start.scene->physics_hz / start.scene->frame_hz),
       horizon_steps_(std::llround(task.horizon_s() * start.scene->physics_hz)),
       stages_(task.stages()),
@@ -26,6 +28,7 @@ Reason Rollout::advance() {
   const auto before = std::chrono::steady_clock::now();  // a host time: reported, never decided upon
   world_.step();
   physics_wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  sensors_.step(world_);
   facts_.step(view_);
   if (at_frame())
     if (const Reason reason = close_frame(); reason != Reason::none) return reason;
@@ -68,7 +71,7 @@ std::string Rollout::unmet_goal() const {
 
 Rollout::Checkpoint Rollout::checkpoint() {
   world_.apply(operation::Boundary{});
-  return {world_.snapshot(), view_.history(), facts_.save(), recorder_.mark(), keep, stage_};
+  return {world_.snapshot(), view_.history(), facts_.save(), recorder_.mark(), sensors_.mark(), keep, stage_};
 }
 
 void Rollout::restore(const Checkpoint& checkpoint) {
@@ -76,6 +79,7 @@ void Rollout::restore(const Checkpoint& checkpoint) {
   view_.restore(checkpoint.history);
   facts_.restore(checkpoint.facts);
   recorder_.cut(checkpoint.record);
+  sensors_.cut(checkpoint.sensors);
   keep = checkpoint.keep;
   stage_ = checkpoint.stage;
 }

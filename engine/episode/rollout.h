@@ -5,18 +5,21 @@
 
 #include "engine/episode/fact_tracker.h"
 #include "engine/episode/recorder.h"
+#include "engine/episode/sensors.h"
 #include "engine/episode/start.h"
 
 namespace stampede {
 
 class Rollout {
  public:
-  Rollout(Task& task, Symbols& symbols, const PreparedStart& start, const std::atomic<bool>* stop);
+  Rollout(Task& task, Symbols& symbols, const PreparedStart& start, SensorReader sensors,
+          const std::atomic<bool>* stop);
 
   World& world() { return world_; }
   const WorldView& view() const { return view_; }
   FactTracker& facts() { return facts_; }
   Recorder& recorder() { return recorder_; }
+  const SensorReader& sensors() const { return sensors_; }
   const Domain& domain() const { return symbols_.domain(); }
   std::int64_t step() const { return world_.step_count(); }
   int steps_per_frame() const { return steps_per_frame_; }
@@ -39,6 +42,7 @@ class Rollout {
     WorldView::History history;
     FactTracker::State facts;
     Recorder::Mark record;
+    SensorReader::Mark sensors;
     std::optional<PartRef> keep;
     int stage = 0;
   };
@@ -56,6 +60,7 @@ class Rollout {
   WorldView view_;
   FactTracker facts_;
   Recorder recorder_;
+  SensorReader sensors_;
   int steps_per_frame_;
   std::int64_t horizon_steps_;
   std::vector<Formula> stages_;

@@ -80,7 +80,9 @@ EpisodeRecord EpisodeRunner::run() {
     record_.detail = start.detail;
     return std::move(record_);
   }
-  rollout_.emplace(task_, symbols_, start, stop_);
+  SensorReader sensors(*start.scene, chosen(observation_of(record_)),
+                       sensor_key(task_.name(), task_.variation(), options_.seed));
+  rollout_.emplace(task_, symbols_, start, std::move(sensors), stop_);
   driver_.emplace(*rollout_, symbols_, skills_, options_,
                   RandomKey("skill").with(task_.name()).with(task_.variation()).with(options_.seed));
   for (const std::string& sentence : describe_world(rollout_->facts().facts(), symbols_.domain(), *start.scene))
@@ -301,6 +303,7 @@ void EpisodeRunner::close(const SkillResult& result) {
   record_.steps = rollout_->step();
   record_.commands = rollout_->world().log();
   record_.facts = rollout_->facts().intervals(record_.steps, rollout_->steps_per_frame());
+  record_.channels = rollout_->sensors().channels();
   record_.state_hash = rollout_->world().state_hash();
   record_.physics_wall_s = rollout_->physics_wall_s();
   place_attempts();
