@@ -92,7 +92,7 @@ class Reader {
  public:
   Reader(const std::filesystem::path& file, const urdf::ModelInterface& model) : file_(file), model_(model) {}
 
-  Body read() {
+  UrdfBody read() {
     body_.name = model_.getName();
     add(*model_.getRoot(), -1);
     if (body_.parts.size() != model_.links_.size())
@@ -100,7 +100,7 @@ class Reader {
         if (!seen_.contains(name))
           fail("link '" + name + "'", "does not hang on the root link '" + model_.getRoot()->name + "'",
                "connect it by a joint, without a cycle");
-    return std::move(body_);
+    return {std::move(body_), std::move(drawn_)};
   }
 
  private:
@@ -194,27 +194,54 @@ class Reader {
       fail(element, "its mass must be above 0 and its inertia positive definite", "correct its <inertial>");
   }
 
-  void add_shapes(const urdf::Link& link, const std::string& element, Part& part) const {
+  void add_shapes(const urdf::Link& link, const std::string& element, Part& part) {
     const bool has_visuals = !link.visual_array.empty();
     for (const auto& collision : link.collision_array) {
       Shape shape;
       shape.visible = !has_visuals;
       shape.part_from_shape = from(collision->origin);
-      add_geometry(collision->geometry.get(), element, shape, part);
+      add_geometry(collision->geometry.get(), element, shape, {}, part);
     }
     for (const auto& visual : link.visual_array) {
       Shape shape;
       shape.collides = false;
       shape.part_from_shape = from(visual->origin);
-      if (visual->material) {
-        const urdf::Color& c = visual->material->color;
-        shape.colour = {c.r, c.g, c.b, c.a};
+      const std::optional<Looks> looks = looks_of(visual->material.get(), element);
+      if (looks) {
+        shape.colour = looks->colour;
+        shape.texture = looks->texture;
       }
-      add_geometry(visual->geometry.get(), element, shape, part);
+      add_geometry(visual->geometry.get(), element, shape, looks, part);
     }
   }
 
-  void add_geometry(const urdf::Geometry* geometry, const std::string& element, Shape shape, Part& part) const {
+  std::optional<Looks> looks_of(const urdf::Material* material, const std::string& element) {
+    if (material == nullptr) return std::nullopt;
+    const urdf::Color& c = material->color;
+    Looks looks{{c.r, c.g, c.b, c.a}, {}};
+    const std::string& name = material->texture_filename;
+    if (name.empty()) return looks;
+    if (c.r == 0 && c.g == 0 && c.b == 0) looks.colour = {1, 1, 1, 1};  // what urdfdom says for no colour at all
+    guarded(element, "texture", [&] {
+      Texture texture;
+      texture.image = std::make_shared<const Image>(load_image(resolve(name)));
+      looks.texture = drawn_.add(std::filesystem::path(name).filename().string(), texture);
+    });
+    return looks;
+  }
+
+  // An error of a file that the URDF names says so.
+  template <typename Work>
+  void guarded(const std::string& element, const std::string& what, const Work& work) const {
+    try {
+      work();
+    } catch (const Error& error) {
+      fail(element, what + " " + error.where() + ": " + error.message(), error.hint());
+    }
+  }
+
+  void add_geometry(const urdf::Geometry* geometry, const std::string& element, Shape shape,
+                    const std::optional<Looks>& looks, Part& part) {
     if (const auto* box = dynamic_cast<const urdf::Box*>(geometry)) {
       shape.kind = ShapeKind::box;
       shape.size = {box->dim.x, box->dim.y, box->dim.z};
@@ -230,23 +257,32 @@ class Reader {
       if (!(shape.radius > 0 && shape.length > 0))
         fail(element, "a cylinder needs a radius and a length above 0", "correct its <cylinder>");
     } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(geometry)) {
-      return add_mesh(*mesh, element, shape, part);
+      return add_mesh(*mesh, element, shape, looks, part);
     } else {
       fail(element, "a shape without geometry", "use <box>, <sphere>, <cylinder> or <mesh>");
     }
     part.shapes.push_back(std::move(shape));
   }
 
-  void add_mesh(const urdf::Mesh& mesh, const std::string& element, Shape shape, Part& part) const {
-    shape.kind = ShapeKind::hull;
-    try {
-      for (auto& points : load_hulls(resolve(mesh.filename), {mesh.scale.x, mesh.scale.y, mesh.scale.z})) {
-        shape.points = std::move(points);
-        part.shapes.push_back(shape);
+  // Hulls to collide with, and the mesh itself to be seen.
+  void add_mesh(const urdf::Mesh& mesh, const std::string& element, Shape shape, const std::optional<Looks>& looks,
+                Part& part) {
+    const Vector3 scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
+    const bool seen = shape.visible;
+    guarded(element, "mesh", [&] {
+      const std::filesystem::path file = resolve(mesh.filename);
+      if (shape.collides) {
+        shape.kind = ShapeKind::hull;
+        shape.visible = false;
+        for (auto& points : load_hulls(file, scale)) {
+          shape.points = std::move(points);
+          part.shapes.push_back(shape);
+        }
       }
-    } catch (const Error& error) {
-      fail(element, "mesh " + error.where() + ": " + error.message(), error.hint());
-    }
+      if (!seen) return;
+      const auto pieces = add_drawn(drawn_, file.filename().string(), load_drawn(file, scale));
+      for (Shape& drawn : drawn_shapes(pieces, shape, looks)) part.shapes.push_back(std::move(drawn));
+    });
   }
 
   // package://NAME/PATH and file://PATH as ROS writes them; a package is looked for beside the URDF.
@@ -262,14 +298,24 @@ class Reader {
   const std::filesystem::path& file_;
   const urdf::ModelInterface& model_;
   Body body_;
+  DrawnAssets drawn_;
   std::set<std::string> seen_;
 };
 
 }  // namespace
 
-Body body_from_urdf(const std::filesystem::path& file) {
+UrdfBody read_urdf(const std::filesystem::path& file) {
   const urdf::ModelInterfaceSharedPtr model = parse(file);
   return Reader(file, *model).read();
+}
+
+Body body_from_urdf(const std::filesystem::path& file) {
+  Body body = read_urdf(file).body;
+  for (Part& part : body.parts) {
+    std::erase_if(part.shapes, [](const Shape& shape) { return shape.kind == ShapeKind::mesh; });
+    for (Shape& shape : part.shapes) shape.texture.clear();
+  }
+  return body;
 }
 
 }  // namespace stampede

@@ -3,14 +3,23 @@
 
 #include <filesystem>
 
-#include "engine/model/scene.h"
+#include "engine/model/drawn_assets.h"
 
 namespace stampede {
 
+struct UrdfBody {
+  Body body;
+  DrawnAssets drawn;  // what its shapes of kind mesh and their textures are
+};
+
 // Reads a URDF into a body whose parts are its links in depth-first order, base first; fixed joints stay parts.
 // Collision shapes collide, visual shapes are seen; a link without visuals shows its collision shapes.
-// Mesh file names resolve beside the URDF; each mesh becomes one hull per node. Mimic joints are kept by name.
+// Mesh and texture file names resolve beside the URDF; each mesh collides as one hull per node, and is drawn as it is,
+// in the colour and texture of the visual's material or else of its file. Mimic joints are kept by name.
 // Throws Error with the file, the element and the cure.
+UrdfBody read_urdf(const std::filesystem::path& file);
+
+// The body for physics: as read_urdf, without drawn meshes and textures.
 Body body_from_urdf(const std::filesystem::path& file);
 
 }  // namespace stampede
