@@ -1,0 +1,72 @@
+#include "engine/render/gl_context.h"
+
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdlib>
+#include <mutex>
+
+#include "engine/base/error.h"
+
+namespace stampede {
+namespace {
+
+constexpr int kDummy = 16;  // pixels: OSMesa wants a picture of its own, though only framebuffer objects are drawn
+
+// llvmpipe reads this when the first context of the process is made. 0: it draws in the thread that calls.
+void settle_environment() {
+  static std::once_flag once;
+  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", 1); });
+}
+
+}  // namespace
+
+GlFunctions load_gl_functions() {
+  GlFunctions gl;
+#define STAMPEDE_GL_LOAD(type, name)                                  \
+  gl.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
+  if (gl.name == nullptr) throw Error("renderer", "OSMesa has no gl" #name, "install libosmesa6 22 or later");
+  STAMPEDE_GL_FUNCTIONS(STAMPEDE_GL_LOAD)
+#undef STAMPEDE_GL_LOAD
+  return gl;
+}
+
+struct GlContext::Inside {
+  OSMesaContext context = nullptr;
+  std::array<unsigned char, 4 * kDummy * kDummy> dummy{};
+};
+
+GlContext::GlContext() : inside_(std::make_unique<Inside>()) {
+  settle_environment();
+  const std::array<int, 13> attributes{OSMESA_FORMAT,
+                                       OSMESA_RGBA,
+                                       OSMESA_DEPTH_BITS,
+                                       0,
+                                       OSMESA_PROFILE,
+                                       OSMESA_CORE_PROFILE,
+                                       OSMESA_CONTEXT_MAJOR_VERSION,
+                                       4,
+                                       OSMESA_CONTEXT_MINOR_VERSION,
+                                       5,
+                                       0,
+                                       0,
+                                       0};
+  inside_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  if (inside_->context == nullptr)
+    throw Error("renderer", "OSMesa gives no OpenGL 4.5 core context", "install libosmesa6 22 or later");
+  make_current();
+  gl_ = load_gl_functions();
+}
+
+GlContext::~GlContext() {
+  if (OSMesaGetCurrentContext() == inside_->context) OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+  OSMesaDestroyContext(inside_->context);
+}
+
+void GlContext::make_current() {
+  if (OSMesaGetCurrentContext() == inside_->context) return;
+  if (OSMesaMakeCurrent(inside_->context, inside_->dummy.data(), GL_UNSIGNED_BYTE, kDummy, kDummy) != GL_TRUE)
+    throw Error("renderer", "the OpenGL context cannot be made current", "use a renderer in the thread that made it");
+}
+
+}  // namespace stampede
