@@ -93,6 +93,8 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   RunSettings settings;
   settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
+  if (arguments.flag("--randomise")) settings.options.randomise = default_randomisation();
+  settings.options.observation.images = WhichFrames::none;  // nobody would see them
   Progress progress(console);
   std::vector<std::string> failures;
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
@@ -128,18 +130,20 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow check_command() {
-  return {"check",
-          "Check scripts, and with --physics that tasks can be done",
-          "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
-          "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
-          "runs, and prints the success rate of each variation that was met.",
-          {{"NAMES", "names of files; default: all", false, true}},
-          {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
-           {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
-           {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
-           {"--workers", "W", "threads", Takes::integer, "1", {}, false}},
-          {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
-          run};
+  return {
+      "check",
+      "Check scripts, and with --physics that tasks can be done",
+      "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
+      "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
+      "runs, and prints the success rate of each variation that was met.",
+      {{"NAMES", "names of files; default: all", false, true}},
+      {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
+       {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
+       {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
+       {"--randomise", "", "with drawn looks, light and dynamics, as `run --randomise`", Takes::flag, "", {}, false},
+       {"--workers", "W", "threads", Takes::integer, "1", {}, false}},
+      {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
+      run};
 }
 
 }  // namespace stampede::program

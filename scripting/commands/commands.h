@@ -18,6 +18,7 @@ CommandRow show_command();
 CommandRow plan_command();
 CommandRow query_command();
 CommandRow replay_command();
+CommandRow render_command();
 CommandRow new_command();
 CommandRow doc_command();
 

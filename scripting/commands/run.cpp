@@ -3,7 +3,9 @@
 #include <ostream>
 
 #include "db/catalogue_writer.h"
+#include "engine/model/camera.h"
 #include "scripting/commands/commands.h"
+#include "scripting/commands/picture_options.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
@@ -17,6 +19,8 @@ RunOptions run_options(const Arguments& arguments) {
   options.split = arguments.text("--split");
   options.on_failure = *on_failure_from(arguments.text("--on-failure"));
   options.controller = arguments.text("--controller");
+  options.observation = picture_choice(arguments, PictureUse::run);
+  if (arguments.flag("--randomise")) options.randomise = default_randomisation();
   return options;
 }
 
@@ -33,6 +37,24 @@ JobRequest job_request(const Arguments& arguments, const std::string& split) {
     throw UsageError(error.where() + ": " + error.message(), error.hint());
   }
   return request;
+}
+
+// A camera may be mounted on what is in the scene, so each task's is asked, and before anything runs.
+std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr<const Library>& library,
+                                                           const std::vector<EpisodeJob>& jobs,
+                                                           const Arguments& arguments) {
+  std::map<std::string, std::vector<Camera>> cameras;
+  if (!arguments.has("--camera") && !arguments.has("--camera-file") && !arguments.has("--add-camera")) return cameras;
+  const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
+  for (const EpisodeJob& job : jobs) {
+    const auto [entry, fresh] = cameras.try_emplace(job.task);
+    if (!fresh) continue;
+    Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task().scene(0);
+    entry->second = further_cameras(arguments, scene);
+    put_cameras(scene, entry->second);
+    check_cameras(choice, scene);
+  }
+  return cameras;
 }
 
 std::string episode_line(const EpisodeRecord& episode) {
@@ -74,6 +96,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   settings.stop = console.stop;
   const auto library = load_library(arguments);
   const std::vector<EpisodeJob> jobs = plan_jobs(*library, request);
+  settings.cameras = cameras_by_task(library, jobs, arguments);
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
   writing.engine = {STAMPEDE_VERSION, numerics_probe()};
@@ -97,13 +120,14 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow run_command() {
-  return {
+  CommandRow row{
       "run",
       "Run tasks and store every episode in a catalogue",
       "Episode i of a task has seed S+i and goes through the task's variations in a fixed shuffled order. Episodes "
       "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
       "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
-      "succeeded or the run was interrupted.",
+      "succeeded or the run was interrupted. What is said about pictures goes before what a task or world says in "
+      "`observe`; `stampede render` makes the same pictures later.",
       {{"TASK", "names of tasks", true, true}},
       {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
        {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
@@ -124,10 +148,20 @@ CommandRow run_command() {
         Takes::text,
         "",
         {"joint_position", "joint_impedance", "cartesian_impedance"},
+        false},
+       {"--randomise",
+        "",
+        "draw looks, light, cameras and dynamics of worlds without ranges of their own",
+        Takes::flag,
+        "",
+        {},
         false}},
       {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
-       "stampede run stack_blocks --variation colour=red --seed 7"},
+       "stampede run stack_blocks --variation colour=red --seed 7",
+       "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},
       run};
+  for (OptionRow& option : picture_options(PictureUse::run)) row.options.push_back(std::move(option));
+  return row;
 }
 
 }  // namespace stampede::program

@@ -5,10 +5,29 @@
 #include <mutex>
 #include <thread>
 
+#include "engine/render/renderer.h"
+
 namespace stampede {
 namespace {
 
-// Calls work(i) for 0 … count-1 from `workers` threads until all are done, one throws, or `stop`.
+// Made when something is to be drawn: a run without pictures needs none, one with pictures one a thread.
+class LazyRenderer : public Renderer {
+ public:
+  void load(std::shared_ptr<const Scene> scene) override {
+    if (!renderer_) renderer_ = make_osmesa_renderer();
+    renderer_->load(std::move(scene));
+  }
+  void draw(const ScenePoses& poses, std::span<const View> views, const DrawOptions& options,
+            std::vector<Picture>& pictures) override {
+    renderer_->draw(poses, views, options, pictures);
+  }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+};
+
+// Calls work(i, renderer) for 0 … count-1 from `workers` threads, each with a renderer of its own, until all are done,
+// one throws, or `stop`.
 template <typename Work>
 void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, Work&& work) {
   std::atomic<std::size_t> next = 0;
@@ -16,11 +35,12 @@ void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, 
   std::exception_ptr first;
   std::mutex mutex;
   const auto loop = [&] {
+    LazyRenderer renderer;
     while (!failed && !(stop && stop->load())) {
       const std::size_t i = next++;
       if (i >= count) return;
       try {
-        work(i);
+        work(i, renderer);
       } catch (const std::exception&) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();
@@ -62,8 +82,15 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
   for (const EpisodeJob& job : jobs) ++tally.tasks[job.task].existing;
   const std::atomic<bool>* stop = settings.stop;
   std::vector<EpisodeIdentity> wanted(jobs.size());
-  in_parallel(jobs.size(), settings.workers, stop, [&](std::size_t i) {
-    const PreparedEpisode prepared(library, jobs[i], settings.options);
+  const auto options_for = [&](const std::string& task, Renderer& renderer) {
+    RunOptions options = settings.options;
+    options.renderer = &renderer;
+    if (const auto found = settings.cameras.find(task); found != settings.cameras.end())
+      options.cameras = found->second;
+    return options;
+  };
+  in_parallel(jobs.size(), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
+    const PreparedEpisode prepared(library, jobs[i], options_for(jobs[i].task, renderer));
     wanted[i] = {jobs[i].task, jobs[i].variation, jobs[i].seed, prepared.key()};
   });
   if (stop && stop->load()) {  // how many are there already is not known
@@ -75,10 +102,11 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
   for (const EpisodeIdentity& one : wanted) --tally.tasks[one.task].existing;
   tally.existing = tally.total - static_cast<std::int64_t>(wanted.size());
   std::mutex mutex;
-  in_parallel(wanted.size(), settings.workers, stop, [&](std::size_t i) {
+  in_parallel(wanted.size(), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
     const EpisodeIdentity& one = wanted[i];
     try {
-      EpisodeRecord episode = PreparedEpisode(library, {one.task, one.variation, one.seed}, settings.options).run(stop);
+      EpisodeRecord episode =
+          PreparedEpisode(library, {one.task, one.variation, one.seed}, options_for(one.task, renderer)).run(stop);
       if (episode.reason == Reason::interrupted) {
         if (writer) writer->abandon(one.key);
         return;

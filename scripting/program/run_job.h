@@ -33,6 +33,7 @@ struct RunTally {
 
 struct RunSettings {
   RunOptions options;
+  std::map<std::string, std::vector<Camera>> cameras;  // by task: RunOptions::cameras, which its scene decides
   int workers = 1;
   std::function<void(const EpisodeRecord&, const RunTally&)> progress;  // one at a time, from worker threads
   const std::atomic<bool>* stop = nullptr;

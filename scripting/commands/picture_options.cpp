@@ -1,0 +1,161 @@
+#include "scripting/commands/picture_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+
+namespace stampede::program {
+namespace {
+
+constexpr double kKinect = 0.00145;   // 1/m, see CameraNoise
+constexpr double kMostTorque = 1000;  // N m
+
+OptionRow text_option(const char* name, const char* value, const char* help, bool repeats = false) {
+  return {name, value, help, Takes::text, "", {}, repeats};
+}
+
+void read_kinds(const std::string& text, ObservationChoice& choice) {
+  choice.kinds = PictureKinds{false, false, false, false};
+  choice.points = false;
+  for (const std::string& name : split_text(text, ',')) {
+    const auto kind = picture_kind_from(name);
+    if (!kind && name != "points") {
+      std::vector<std::string> all = {"points"};
+      for (const PictureKind one : kPictureKinds) all.emplace_back(to_string(one));
+      const auto near = nearest(name, all);
+      throw UsageError("--kinds: there is no kind of picture '" + name + "'",
+                       (near ? "did you mean '" + *near + "'? " : std::string()) +
+                           "the kinds are rgb, depth, instance, semantic, points");
+    }
+    choice.kinds->rgb |= kind == PictureKind::rgb;
+    choice.kinds->depth |= kind == PictureKind::depth;
+    choice.kinds->instance |= kind == PictureKind::instance;
+    choice.kinds->semantic |= kind == PictureKind::semantic;
+    if (!kind) choice.points = true;
+  }
+}
+
+void read_noise(const std::string& text, PictureUse use, ObservationChoice& choice) {
+  const std::string cure = use == PictureUse::run ? "rgb=0.02,depth=kinect,torque=0.1" : "rgb=0.02,depth=kinect";
+  for (const std::string& one : split_text(text, ',')) {
+    const std::size_t equals = one.find('=');
+    const std::string name = one.substr(0, equals);
+    if (equals == std::string::npos) throw UsageError("--noise takes NAME=NUMBER, not '" + one + "'", cure);
+    const std::string value = one.substr(equals + 1);
+    if (name == "rgb") {
+      choice.rgb_noise = number_in("--noise rgb", value, 0, 1);
+    } else if (name == "depth") {
+      choice.depth_noise = value == "kinect" ? kKinect : number_in("--noise depth", value, 0, 1);
+    } else if (name == "torque" && use == PictureUse::run) {
+      choice.torque_noise = number_in("--noise torque", value, 0, kMostTorque);
+    } else {
+      throw UsageError("--noise: there is no noise of '" + name + "' here", cure);
+    }
+  }
+}
+
+std::vector<std::string> channels_from(const std::string& text) {
+  if (text == "all") return {"*"};
+  if (text == "none") return {};
+  return split_text(text, ',');
+}
+
+}  // namespace
+
+std::vector<std::string> split_text(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(at, start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+double number_in(const std::string& option, const std::string& text, double least, double most) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw UsageError(option + " takes a number, not '" + text + "'");
+  if (value < least || value > most)
+    throw UsageError(fmt::format("{} lies within {} and {}, not at {}", option, least, most, text));
+  return value;
+}
+
+std::array<int, 2> size_from(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split_text(text, 'x');
+  std::array<int, 2> size{};
+  if (parts.size() != 2) throw UsageError(option + " takes WIDTHxHEIGHT, not '" + text + "'", option + " 128x128");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string& part = parts[i];
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), size[i]);
+    const bool read = error == std::errc() && end == part.data() + part.size();
+    if (!read && error != std::errc::result_out_of_range)
+      throw UsageError(option + " takes WIDTHxHEIGHT, not '" + text + "'", option + " 128x128");
+    if (!read || size[i] < 1 || size[i] > kLargestSide)
+      throw UsageError(option + ": a picture has 1 to " + std::to_string(kLargestSide) + " pixels a side, not " + part);
+  }
+  return size;
+}
+
+std::vector<OptionRow> picture_options(PictureUse use) {
+  const bool run = use == PictureUse::run;
+  std::vector<OptionRow> rows;
+  if (run)
+    rows.push_back({"--images",
+                    "WHICH",
+                    "frames whose pictures are stored",
+                    Takes::text,
+                    "",
+                    {"none", "keyframes", "all"},
+                    false});
+  rows.push_back(text_option("--camera", "NAME", "only this camera; default: all of the world", true));
+  rows.push_back(text_option("--size", "WxH", "pixels; default: each camera's own"));
+  rows.push_back(text_option("--kinds", "LIST", "of rgb, depth, instance, semantic, points; default: all but points"));
+  rows.push_back(text_option("--noise", "LIST",
+                             run ? "such as rgb=0.02,depth=kinect,torque=0.1: deviations of 0 … 1, 1/m, N m"
+                                 : "such as rgb=0.02,depth=kinect: deviations of 0 … 1 and 1/m"));
+  rows.push_back({"--shadows", "", "the light casts shadows", Takes::flag, "", {}, false});
+  rows.push_back({"--camera-file",
+                  "FILE",
+                  "cameras as they were calibrated (JSON); they go before the world's",
+                  Takes::path,
+                  "",
+                  {},
+                  true});
+  rows.push_back(text_option("--add-camera", "CAMERA",
+                             "NAME=at:1,0,1.5;look:0.2,0,0.75, then as wanted ;fov:40;size:128x128;near:0.01;far:4.5;"
+                             "up:0,0,1;mount:panda.hand (m and degrees, in the frame of the mount)",
+                             true));
+  if (run) rows.push_back(text_option("--channels", "LIST", "sensors of the world to record, all or none"));
+  return rows;
+}
+
+ObservationChoice picture_choice(const Arguments& arguments, PictureUse use) {
+  ObservationChoice choice;
+  if (use == PictureUse::run && arguments.has("--images"))
+    choice.images = which_frames_from(arguments.text("--images"));
+  if (arguments.has("--camera")) choice.cameras = arguments.list("--camera");
+  if (arguments.has("--size")) choice.size = size_from("--size", arguments.text("--size"));
+  if (arguments.has("--kinds")) read_kinds(arguments.text("--kinds"), choice);
+  if (arguments.has("--noise")) read_noise(arguments.text("--noise"), use, choice);
+  if (arguments.flag("--shadows")) choice.shadows = true;
+  if (use == PictureUse::run && arguments.has("--channels"))
+    choice.channels = channels_from(arguments.text("--channels"));
+  return choice;
+}
+
+void check_cameras(const ObservationChoice& choice, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  if (!choice.cameras) return;
+  for (const std::string& name : *choice.cameras)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("--camera: there is no camera '" + name + "'", did_you_mean(name, names));
+}
+
+}  // namespace stampede::program

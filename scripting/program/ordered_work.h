@@ -1,0 +1,61 @@
+// Results made by several threads and handed on one at a time, in order.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace stampede {
+
+// For i = 0 … count-1: take(i, make(worker, i)), take in this order and one at a time, make in `workers` threads, each
+// with a worker of its own that start() made there. Who is ahead waits, so at most one result a thread is kept.
+// Ends early when `stop` is set: what was being made is taken no more. Throws what was thrown first.
+template <typename Start, typename Make, typename Take>
+void in_order(std::size_t count, int workers, const std::atomic<bool>* stop, const Start& start, const Make& make,
+              const Take& take) {
+  std::mutex mutex;
+  std::condition_variable moved;
+  std::size_t next = 0, turn = 0;
+  std::exception_ptr first;
+  const auto over = [&] { return first || (stop && stop->load()); };
+  const auto work = [&] {
+    auto worker = start();
+    while (true) {
+      std::size_t i = 0;
+      {
+        const std::lock_guard lock(mutex);
+        if (over() || next >= count) return;
+        i = next++;
+      }
+      auto result = make(worker, i);
+      std::unique_lock lock(mutex);
+      moved.wait(lock, [&] { return turn == i || over(); });
+      if (over()) return;
+      take(i, std::move(result));
+      ++turn;
+      moved.notify_all();
+    }
+  };
+  const auto loop = [&] {
+    try {
+      work();
+    } catch (const std::exception&) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+    }
+    moved.notify_all();  // who waits for this thread's turn sees that it is over
+  };
+  std::vector<std::thread> threads;
+  const auto wanted = std::min(count, static_cast<std::size_t>(std::max(1, workers)));
+  for (std::size_t t = 1; t < wanted; ++t) threads.emplace_back(loop);
+  loop();
+  for (std::thread& thread : threads) thread.join();
+  if (first) std::rethrow_exception(first);
+}
+
+}  // namespace stampede

@@ -1,0 +1,86 @@
+#include "scripting/program/stored_episode.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "engine/model/camera.h"
+
+namespace stampede {
+namespace {
+
+// The file that counts: later roots win. Empty when there is none.
+std::filesystem::path file_in(const Roots& roots, const std::string& shown_path) {
+  std::filesystem::path found;
+  for (const std::filesystem::path& folder : roots.folders) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(folder / shown_path, error)) found = folder / shown_path;
+  }
+  return found;
+}
+
+}  // namespace
+
+StoredEpisode read_stored(const Catalogue& catalogue, std::int64_t id) {
+  StoredEpisode stored{id, catalogue.read_episode(id), nullptr, {}};
+  if (stored.episode.scene_document.empty()) {
+    stored.why_not = "it has no scene: it is a real one, or no start was found";
+  } else if (stored.episode.frames.empty()) {
+    stored.why_not = "it has no frames: no start was found";
+  } else {
+    stored.scene = std::make_shared<const Scene>(scene_from_document(stored.episode.scene_document));
+  }
+  return stored;
+}
+
+std::shared_ptr<const Scene> with_cameras(const StoredEpisode& stored, const std::vector<Camera>& further,
+                                          const std::vector<std::string>& named) {
+  Scene scene = *stored.scene;
+  std::vector<Camera> cameras;
+  for (const Camera& camera : stored.episode.cameras) {
+    const bool wanted = std::find(named.begin(), named.end(), camera.name) != named.end();
+    const bool known = std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                                   [&](const Camera& other) { return other.name == camera.name; });
+    if (wanted && !known) cameras.push_back(camera);
+  }
+  cameras.insert(cameras.end(), further.begin(), further.end());
+  if (cameras.empty()) return stored.scene;
+  put_cameras(scene, cameras);
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+RenderedEpisode render_stored(Renderer& renderer, const StoredEpisode& stored, std::shared_ptr<const Scene> scene,
+                              const Observation& observation, const std::vector<std::int64_t>& frames,
+                              const std::atomic<bool>* stop) {
+  EpisodePainter painter(renderer, stored.episode, scene, observation);
+  RenderedEpisode rendered{std::make_shared<ImageStore>(), {}, {}};
+  for (const std::int64_t frame : frames) {
+    if (stop && stop->load()) return {};
+    paint_frames(painter, observation, {frame}, *rendered.images);
+    rendered.frames.push_back(frame);
+  }
+  for (const Camera& camera : scene->cameras) rendered.cameras.push_back({camera, {}});
+  for (std::size_t frame = 0; frame < stored.episode.frames.size(); ++frame) {
+    const std::vector<View> views = painter.views(static_cast<std::int64_t>(frame));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      CameraTrack& track = rendered.cameras[static_cast<std::size_t>(painter.cameras()[i])];
+      track.camera = views[i].camera;
+      track.world_from_camera.push_back(to_pose(views[i].world_from_camera));
+    }
+  }
+  return rendered;
+}
+
+std::vector<std::string> changed_scripts(const EpisodeRecord& episode, const Roots& roots) {
+  std::vector<std::string> changed;
+  for (const DefinitionRecord& definition : episode.definitions) {
+    const std::filesystem::path path = file_in(roots, definition.path);
+    if (path.empty()) continue;
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (text != definition.source) changed.push_back(definition.path);
+  }
+  return changed;
+}
+
+}  // namespace stampede
