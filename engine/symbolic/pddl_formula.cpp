@@ -13,6 +13,41 @@ bool is_trait(const std::string& name, const Domain* domain) {
   return domain != nullptr && std::find(domain->traits.begin(), domain->traits.end(), name) != domain->traits.end();
 }
 
+const TypedObject* find_object(const std::string& name, const Vocabulary& vocabulary) {
+  if (vocabulary.objects == nullptr) return nullptr;
+  const auto found = std::lower_bound(vocabulary.objects->begin(), vocabulary.objects->end(), name,
+                                      [](const TypedObject& one, const std::string& text) { return one.name < text; });
+  return found != vocabulary.objects->end() && found->name == name ? &*found : nullptr;
+}
+
+Formula read_quantified(const Node& node, std::vector<Parameter> scope, const Vocabulary& vocabulary) {
+  if (node.items.size() != 3 || !node.items[1].is_list) {
+    fail(node, "expected (" + node.head() + " (?x - type …) formula)");
+  }
+  Formula result;
+  result.kind = node.head() == "exists" ? Kind::exists : Kind::forall;
+  result.variables = read_typed(node.items[1], 0, true, vocabulary.domain);
+  const bool is_exists = result.kind == Kind::exists;
+  scope.insert(scope.begin(), result.variables.begin(), result.variables.end());
+  const Node& body = node.items[2];
+  if (result.kind == Kind::forall && body.head() == "imply" && body.items.size() == 3) {
+    Formula guard = read_formula(body.items[1], scope, vocabulary);
+    std::vector<Parameter> variables = result.variables;
+    take_traits(guard, variables, vocabulary.domain);
+    if (guard.kind == Kind::always) {
+      result.variables = std::move(variables);
+      result.parts.push_back(read_formula(body.items[2], scope, vocabulary));
+      return result;
+    }
+  }
+  result.parts.push_back(read_formula(body, scope, vocabulary));
+  if (is_constant(result, result.kind)) return is_exists ? disjunction({}) : Formula{};
+  if (is_exists) take_traits(result.parts.front(), result.variables, vocabulary.domain);
+  return result;
+}
+
+}  // namespace
+
 Term read_term(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary) {
   if (node.is_list) fail(node, "expected a variable or an object, not a list");
   std::vector<std::string> known;
@@ -26,11 +61,8 @@ Term read_term(const Node& node, const std::vector<Parameter>& scope, const Voca
     fail(node, "unknown variable `" + node.word + "`", did_you_mean(node.word, known));
   }
   const std::string name = name_from_pddl(node.word);
-  if (vocabulary.objects == nullptr) return {false, name};
-  for (const TypedObject& one : *vocabulary.objects) {
-    if (one.name == name) return {false, name};
-    known.push_back(one.name);
-  }
+  if (vocabulary.objects == nullptr || find_object(name, vocabulary) != nullptr) return {false, name};
+  for (const TypedObject& one : *vocabulary.objects) known.push_back(one.name);
   fail(node, "unknown object `" + node.word + "`", did_you_mean(name, known));
 }
 
@@ -49,34 +81,27 @@ Formula read_atom(const Node& node, const std::vector<Parameter>& scope, const V
   if (terms.size() != arity) {
     fail(node, "`" + name + "` takes " + std::to_string(arity) + " arguments, got " + std::to_string(terms.size()));
   }
+  for (std::size_t i = 0; predicate != nullptr && i < arity; ++i) {
+    check_type(node.items[i + 1], terms[i], predicate->parameters[i], name, scope, vocabulary);
+  }
   return atom(name, std::move(terms));
 }
 
-Formula read_quantified(const Node& node, std::vector<Parameter> scope, const Vocabulary& vocabulary) {
-  if (node.items.size() != 3 || !node.items[1].is_list) {
-    fail(node, "expected (" + node.head() + " (?x - type …) formula)");
+void check_type(const Node& node, const Term& term, const Parameter& parameter, const std::string& of,
+                const std::vector<Parameter>& scope, const Vocabulary& vocabulary) {
+  if (parameter.type.empty() || vocabulary.domain == nullptr) return;
+  const std::string wanted = ", but ?" + parameter.name + " of `" + of + "` must be a " + parameter.type;
+  if (!term.variable) {
+    const TypedObject* object = find_object(term.name, vocabulary);
+    if (object == nullptr || vocabulary.domain->is_a(object->type, parameter.type)) return;
+    fail(node, term.name + " is a " + object->type + wanted);
   }
-  Formula result;
-  result.kind = node.head() == "exists" ? Kind::exists : Kind::forall;
-  result.variables = read_typed(node.items[1], 0, true, vocabulary.domain);
-  scope.insert(scope.begin(), result.variables.begin(), result.variables.end());
-  const Node& body = node.items[2];
-  if (result.kind == Kind::forall && body.head() == "imply" && body.items.size() == 3) {
-    Formula guard = read_formula(body.items[1], scope, vocabulary);
-    std::vector<Parameter> variables = result.variables;
-    take_traits(guard, variables, vocabulary.domain);
-    if (guard.kind == Kind::always) {
-      result.variables = std::move(variables);
-      result.parts.push_back(read_formula(body.items[2], scope, vocabulary));
-      return result;
-    }
+  for (const Parameter& one : scope) {
+    if (one.name != term.name) continue;
+    if (could_be_equal(one, parameter, *vocabulary.domain)) return;
+    fail(node, "?" + one.name + " is a " + one.type + wanted);
   }
-  result.parts.push_back(read_formula(body, scope, vocabulary));
-  if (result.kind == Kind::exists) take_traits(result.parts.front(), result.variables, vocabulary.domain);
-  return result;
 }
-
-}  // namespace
 
 void fail(const Node& node, const std::string& what, const std::string& hint) { throw Error(node.place, what, hint); }
 
@@ -108,11 +133,16 @@ std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool varia
                              : "expected a name without `?`, got `" + item.word + "`");
       }
       result.push_back({name_from_pddl(variables ? item.word.substr(1) : item.word), "", {}});
+      const auto is_same = [&](const Parameter& one) { return one.name == result.back().name; };
+      if (variables && std::any_of(result.begin(), result.end() - 1, is_same)) {
+        fail(item, "`" + item.word + "` is declared twice", "PDDL does not tell capital letters from small ones");
+      }
       continue;
     }
     if (++i >= list.items.size()) fail(item, "`-` without a type after it", "write `- object` where any type will do");
     const Node& type = list.items[i];
     if (type.is_list) {
+      if (type.head() != "either") fail(type, "expected the name of a type");
       fail(type, "`either` types are not supported", "give the types a common parent, or use a static predicate");
     }
     const std::string name = name_from_pddl(type.word);
@@ -145,7 +175,7 @@ Formula read_formula(const Node& node, const std::vector<Parameter>& scope, cons
   };
   if (head == "and") return conjunction(parts());
   if (head == "or") return disjunction(parts());
-  if (head == "not") return expect(1), negation(parts().front());
+  if (head == "not") return expect(1), negation(std::move(parts().front()));
   if (head == "imply") {
     expect(2);
     std::vector<Formula> both = parts();
@@ -164,49 +194,8 @@ Formula read_formula(const Node& node, const std::vector<Parameter>& scope, cons
   for (const char* numeric : {"<", ">", "<=", ">="}) {
     if (head == numeric) fail(node, "numeric conditions are not supported", "count with objects and predicates");
   }
+  if (head == "when") fail(node, "`when` belongs into effects");
   return read_atom(node, scope, vocabulary);
-}
-
-void read_effects(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary, Effect outer,
-                  std::vector<Effect>& effects, int& cost) {
-  const std::string& head = node.head();
-  if (!node.is_list) fail(node, "expected an effect in parentheses, got `" + node.word + "`");
-  if (node.items.empty()) return;
-  if (head == "and") {
-    for (std::size_t i = 1; i < node.items.size(); ++i) {
-      read_effects(node.items[i], scope, vocabulary, outer, effects, cost);
-    }
-  } else if (head == "forall") {
-    if (node.items.size() != 3) fail(node, "expected (forall (?x - type …) effect)");
-    std::vector<Parameter> variables = read_typed(node.items[1], 0, true, vocabulary.domain);
-    std::vector<Parameter> inner = scope;
-    inner.insert(inner.begin(), variables.begin(), variables.end());
-    outer.forall.insert(outer.forall.end(), variables.begin(), variables.end());
-    read_effects(node.items[2], inner, vocabulary, outer, effects, cost);
-  } else if (head == "when") {
-    if (node.items.size() != 3) fail(node, "expected (when condition effect)");
-    Formula when = read_formula(node.items[1], scope, vocabulary);
-    take_traits(when, outer.forall, vocabulary.domain);
-    outer.when = outer.when.kind == Kind::always ? when : conjunction({outer.when, when});
-    read_effects(node.items[2], scope, vocabulary, outer, effects, cost);
-  } else if (head == "increase") {
-    if (node.items.size() != 3 || node.items[1].head() != "total-cost" || node.items[2].is_list ||
-        node.items[2].word.find_first_not_of("0123456789") != std::string::npos || node.items[2].word.size() > 9) {
-      fail(node, "only (increase (total-cost) N) with a whole number N is supported");
-    }
-    cost = std::stoi(node.items[2].word);
-  } else if (head == "or" || head == "exists" || head == "imply") {
-    fail(node, "`" + head + "` cannot be an effect", "effects are literals, `and`, `when` and `forall`");
-  } else {
-    outer.negated = head == "not";
-    if (outer.negated && node.items.size() != 2) fail(node, "`not` takes 1 part");
-    const Node& literal = outer.negated ? node.items[1] : node;
-    if (literal.head().empty()) fail(literal, "expected a predicate and its arguments");
-    Formula read = read_atom(literal, scope, vocabulary);
-    outer.predicate = std::move(read.predicate);
-    outer.terms = std::move(read.terms);
-    effects.push_back(std::move(outer));
-  }
 }
 
 }  // namespace stampede::symbolic

@@ -15,12 +15,16 @@ struct Vocabulary {
   const std::vector<TypedObject>* objects = nullptr;
 };
 
-// `a b - type c`: from item `from` on. Variables are without their `?`.
+// `a b - type c`: from item `from` on. Variables are without their `?`, and each may be declared once.
 std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool variables, const Domain* domain);
+Formula read_atom(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
 Formula read_formula(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
-// One effect or `(and …)` of them, flattened to single literals; costs go to `cost`.
-void read_effects(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary, Effect outer,
-                  std::vector<Effect>& effects, int& cost);
+Term read_term(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
+// Throws Error where the term can never be of the parameter's type; `of` names whose parameter it is.
+void check_type(const Node& node, const Term& term, const Parameter& parameter, const std::string& of,
+                const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
+// Effects are flattened to single literals, each with its own `forall` and `when`; a cost goes to the action.
+void read_effects(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary, Action& action);
 // Moves leading atoms `(trait ?v)` of these variables from a conjunction into the variables' traits.
 void take_traits(Formula& formula, std::vector<Parameter>& variables, const Domain* domain);
 [[noreturn]] void fail(const Node& node, const std::string& what, const std::string& hint = {});

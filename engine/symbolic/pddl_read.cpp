@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "engine/symbolic/pddl.h"
@@ -51,8 +53,8 @@ Note read_note(const std::string& text) {
 }
 
 Note note_after(const Node& list, std::size_t items_before) {
-  for (std::size_t i = 0; i < list.notes.size(); ++i) {
-    if (list.note_at[i] == items_before) return read_note(list.notes[i]);
+  for (const NodeNote& note : list.notes) {
+    if (note.at == items_before) return read_note(note.text);
   }
   return {};
 }
@@ -95,6 +97,8 @@ class DomainReader {
     domain_.name = name_from_pddl(top_.items[1].items[1].word);
     for (const char* wanted : {":types", ":predicates", ":constants"}) each(wanted, [&](const Node& n) { declare(n); });
     each(":functions", [&](const Node& node) { functions(node); });
+    std::sort(domain_.functions.begin(), domain_.functions.end(),
+              [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
     vocabulary_ = {&domain_, &domain_.constants};
     each(":derived", [&](const Node& node) { derived(node); });
     each(":action", [&](const Node& node) { action(node); });
@@ -118,21 +122,17 @@ class DomainReader {
     if (std::find(known.begin(), known.end(), node.head()) == known.end()) {
       fail(node, "unknown section `" + node.head() + "`", did_you_mean(node.head(), known));
     }
-    if (node.head() != ":requirements") return;
-    for (std::size_t i = 1; i < node.items.size(); ++i) {
-      for (const char* unsupported : {":durative-actions", ":fluents", ":numeric-fluents", ":preferences",
-                                      ":constraints", ":timed-initial-literals", ":object-fluents"}) {
-        if (node.items[i].word == unsupported) {
-          fail(node.items[i], "`" + node.items[i].word + "` is not supported", "leave time and numbers to the skills");
-        }
-      }
-    }
+    if (node.head() == ":requirements") check_requirements(node);
   }
 
   void declare(const Node& node) {
     if (node.head() == ":types") {
       for (const Parameter& one : read_typed(node, 1, false, nullptr)) {
-        domain_.types[one.name] = one.type.empty() ? "object" : one.type;
+        const std::string parent = one.type.empty() ? "object" : one.type;
+        const auto [known, is_new] = domain_.types.try_emplace(one.name, parent);
+        if (is_new || known->second == parent || one.name == "object") continue;
+        fail(node, "type `" + one.name + "` has two parents, `" + known->second + "` and `" + parent + "`",
+             "give it one; what crosses the tree is a static predicate");
       }
       for (std::size_t i = 1; i < node.items.size(); ++i) {
         const std::string name = name_from_pddl(node.items[i].word);
@@ -142,6 +142,10 @@ class DomainReader {
       check_types(node);
     } else if (node.head() == ":constants") {
       for (const Parameter& one : read_typed(node, 1, false, &domain_)) {
+        for (const TypedObject& other : domain_.constants) {
+          if (other.name == one.name)
+            fail(node, "constant `" + one.name + "` is declared twice", "remove one of the two");
+        }
         domain_.constants.push_back({one.name, one.type.empty() ? "object" : one.type});
       }
       std::sort(domain_.constants.begin(), domain_.constants.end());
@@ -184,11 +188,23 @@ class DomainReader {
 
   void functions(const Node& node) {
     for (std::size_t i = 1; i < node.items.size(); ++i) {
-      if (!node.items[i].is_list) continue;  // - number
-      if (node.items[i].head() != "total-cost") {
-        fail(node.items[i], "only the function (total-cost) is supported", "give each action a constant cost");
+      const Node& item = node.items[i];
+      if (!item.is_list) {  // - number
+        if (item.word == "-" || item.word == "number") continue;
+        fail(item, "a function is a number, got `" + item.word + "`", "use a predicate for a function to objects");
       }
-      has_costs_ = true;
+      if (item.head().empty()) fail(item, "expected (NAME ?x - type …)");
+      if (item.head() == "total-cost" && item.items.size() == 1) {
+        has_costs_ = true;
+        continue;
+      }
+      Predicate function;
+      function.name = name_from_pddl(item.head());
+      function.parameters = read_typed(item, 1, true, &domain_);
+      for (const Predicate& one : domain_.functions) {
+        if (one.name == function.name) fail(item, "function `" + one.name + "` is declared twice");
+      }
+      domain_.functions.push_back(std::move(function));
     }
   }
 
@@ -225,17 +241,21 @@ class DomainReader {
     result.distinct = note.distinct;
     result.may_equal = note.may_equal;
     result.cost = has_costs_ ? 0 : 1;
+    std::set<std::string> seen;
     for (std::size_t i = 2; i < node.items.size(); i += 2) {
       const std::string& key = node.items[i].word;
+      if (node.items[i].is_list) fail(node.items[i], "expected :parameters, :precondition or :effect");
+      if (!seen.insert(key).second) fail(node.items[i], "a second `" + key + "` in one action", "join the two");
       if (i + 1 >= node.items.size()) fail(node.items[i], "`" + key + "` has no value after it");
       const Node& value = node.items[i + 1];
       if (key == ":parameters") {
         if (!value.is_list) fail(value, "expected (?x - type …)");
+        if (i > 2) fail(node.items[i], "`:parameters` comes after what uses them", "put it behind the action's name");
         result.parameters = read_typed(value, 0, true, &domain_);
       } else if (key == ":precondition") {
         result.precondition = without_guards(read_formula(value, result.parameters, vocabulary_), note.guards);
       } else if (key == ":effect") {
-        read_effects(value, result.parameters, vocabulary_, {}, result.effects, result.cost);
+        read_effects(value, result.parameters, vocabulary_, result);
       } else {
         fail(node.items[i], "unknown field `" + key + "`",
              did_you_mean(key, {":parameters", ":precondition", ":effect"}));
@@ -245,95 +265,46 @@ class DomainReader {
     domain_.actions.push_back(std::move(result));
   }
 
+  // Fast Downward and VAL do not check these against what is used, and neither does this: only what cannot be
+  // understood here is refused.
+  void check_requirements(const Node& node) const {
+    static const std::vector<std::string> kKnown = {":action-costs",
+                                                    ":adl",
+                                                    ":conditional-effects",
+                                                    ":derived-predicates",
+                                                    ":disjunctive-preconditions",
+                                                    ":equality",
+                                                    ":existential-preconditions",
+                                                    ":negation",
+                                                    ":negative-preconditions",
+                                                    ":quantified-preconditions",
+                                                    ":strips",
+                                                    ":typing",
+                                                    ":universal-preconditions"};
+    for (std::size_t i = 1; i < node.items.size(); ++i) {
+      const Node& key = node.items[i];
+      for (const char* unsupported :
+           {":durative-actions", ":duration-inequalities", ":continuous-effects", ":fluents", ":numeric-fluents",
+            ":object-fluents", ":preferences", ":constraints", ":timed-initial-literals", ":time"}) {
+        if (key.word != unsupported) continue;
+        fail(key, "`" + key.word + "` is not supported", "leave time and numbers to the skills");
+      }
+      if (key.is_list || std::find(kKnown.begin(), kKnown.end(), key.word) == kKnown.end()) {
+        fail(key, "unknown requirement `" + key.word + "`", did_you_mean(key.word, kKnown));
+      }
+    }
+  }
+
   const Node& top_;
   Domain domain_;
   Vocabulary vocabulary_;
   bool has_costs_ = false;
 };
 
-void read_init(const Node& node, const Vocabulary& vocabulary, Facts& init) {
-  for (std::size_t i = 1; i < node.items.size(); ++i) {
-    const Node& item = node.items[i];
-    if (item.head() == "=") continue;    // (= (total-cost) 0)
-    if (item.head() == "not") continue;  // closed world: what is not said is false
-    const Formula read = read_formula(item, {}, vocabulary);
-    if (read.kind != Formula::Kind::atom) fail(item, "init holds facts only", "write (NAME object …)");
-    Fact fact{read.predicate, {}};
-    for (const Term& term : read.terms) fact.arguments.push_back(term.name);
-    init.insert(std::move(fact));
-  }
-}
-
 }  // namespace
 
 Domain domain_from_pddl(std::string_view text, const std::string& file) {
   return DomainReader(parse_list(text, file)).run();
-}
-
-Problem problem_from_pddl(std::string_view text, const std::string& file, const Domain& domain) {
-  const Node top = parse_list(text, file);
-  if (top.head() != "define" || top.items.size() < 2 || top.items[1].head() != "problem" ||
-      top.items[1].items.size() != 2) {
-    fail(top, "expected (define (problem NAME) …)");
-  }
-  Problem problem;
-  problem.name = name_from_pddl(top.items[1].items[1].word);
-  problem.objects = domain.constants;
-  const std::vector<std::string> known = {":domain", ":goal", ":init", ":metric", ":objects", ":requirements"};
-  for (std::size_t i = 2; i < top.items.size(); ++i) {
-    const Node& node = top.items[i];
-    if (std::find(known.begin(), known.end(), node.head()) == known.end()) {
-      fail(node, "unknown section `" + node.head() + "`", did_you_mean(node.head(), known));
-    }
-    if (node.head() == ":domain" && (node.items.size() != 2 || name_from_pddl(node.items[1].word) != domain.name)) {
-      fail(node, "the problem is for another domain", "the domain at hand is `" + domain.name + "`");
-    }
-    if (node.head() != ":objects") continue;
-    for (const Parameter& one : read_typed(node, 1, false, &domain)) {
-      const bool twice = std::any_of(problem.objects.begin(), problem.objects.end(),
-                                     [&](const TypedObject& other) { return other.name == one.name; });
-      if (twice) fail(node, "object `" + one.name + "` is declared twice", "remove one of the two");
-      problem.objects.push_back({one.name, one.type.empty() ? "object" : one.type});
-    }
-  }
-  std::sort(problem.objects.begin(), problem.objects.end());
-  const Vocabulary vocabulary{&domain, &problem.objects};
-  for (const Node& node : top.items) {
-    if (node.head() == ":init") read_init(node, vocabulary, problem.init);
-    if (node.head() != ":goal") continue;
-    if (node.items.size() != 2) fail(node, "expected (:goal formula)");
-    problem.goal = read_formula(node.items[1], {}, vocabulary);
-  }
-  return problem;
-}
-
-Formula formula_from_pddl(std::string_view text, const std::string& place) {
-  return read_formula(parse_list(text, place), {}, {});
-}
-
-Plan plan_from_text(std::string_view text, const std::string& file) {
-  Plan plan;
-  std::istringstream lines{std::string(text)};
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line = line.substr(0, line.find(';'));
-    const std::size_t begin = line.find('('), end = line.rfind(')');
-    if (begin == std::string::npos && line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string place = file + ":" + std::to_string(number);
-    if (begin == std::string::npos || end == std::string::npos || end < begin) {
-      throw Error(place + ":1", "expected one (action argument …)", "one step a line, in parentheses");
-    }
-    const Node node = parse_list(line.substr(begin, end - begin + 1), place);
-    PlanStep step;
-    for (const Node& item : node.items) {
-      if (item.is_list) throw Error(item.place, "a step holds names only");
-      (step.action.empty() ? step.action : step.arguments.emplace_back()) = name_from_pddl(item.word);
-    }
-    if (step.action.empty()) throw Error(place + ":1", "a step needs an action");
-    plan.push_back(std::move(step));
-  }
-  return plan;
 }
 
 }  // namespace stampede

@@ -49,6 +49,21 @@ std::string atom_text(const std::string& predicate, const std::vector<Term>& ter
   return text + ")";
 }
 
+// Inside another formula VAL takes no `(and)` or `(or)` without parts and Fast Downward no `()`; these both take.
+const char* const kAlways = "(forall (?any) (= ?any ?any))";
+const char* const kNever = "(exists (?any) (not (= ?any ?any)))";
+
+bool is_constant(const Formula& formula, Formula::Kind quantifier) {
+  using Kind = Formula::Kind;
+  if (formula.kind != quantifier || formula.variables != std::vector<Parameter>{{"any", "", {}}}) return false;
+  const Formula* body = &formula.parts.at(0);
+  if (quantifier == Kind::exists) {
+    if (body->kind != Kind::negation) return false;
+    body = &body->parts.at(0);
+  }
+  return body->kind == Kind::equal && body->terms == std::vector<Term>{{true, "any"}, {true, "any"}};
+}
+
 std::string formula_text(const Formula& formula, Names names) {
   using Kind = Formula::Kind;
   const auto list = [&](const char* word) {
@@ -69,9 +84,9 @@ std::string formula_text(const Formula& formula, Names names) {
   };
   switch (formula.kind) {
     case Kind::always:
-      return "(and)";
+      return names == Names::pddl ? kAlways : "(and)";
     case Kind::never:
-      return "(or)";
+      return names == Names::pddl ? kNever : "(or)";
     case Kind::atom:
       return atom_text(formula.predicate, formula.terms, names);
     case Kind::equal:
@@ -122,39 +137,6 @@ std::vector<Formula> inequalities(const Action& action, const Domain& domain) {
     }
   }
   return result;
-}
-
-namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
-
-}  // namespace
-
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t best_distance = name.size() / 2 + 1;
-  for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best_distance) best = candidate, best_distance = distance;
-  }
-  if (!best.empty()) return "did you mean `" + best + "`?";
-  if (known.empty()) return "none is declared";
-  std::string list = "known:";
-  for (std::size_t i = 0; i < known.size() && i < 12; ++i) list += " " + known[i];
-  return known.size() > 12 ? list + " …" : list;
 }
 
 }  // namespace stampede::symbolic

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/nearest.h"
 #include "engine/symbolic/symbols.h"
 
 namespace stampede::symbolic {
@@ -17,6 +18,8 @@ std::string name_from_pddl(std::string_view name);
 std::string variables_text(const std::vector<Parameter>& variables, Names names);  // ?a - block ?b
 std::string atom_text(const std::string& predicate, const std::vector<Term>& terms, Names names);
 std::string formula_text(const Formula& formula, Names names);
+// Whether this is how `always` (a forall) or `never` (an exists) is written inside another formula.
+bool is_constant(const Formula& formula, Formula::Kind quantifier);
 
 // One conjunct for each trait of each parameter, in order: what a quantifier or an action says before its own formula.
 std::vector<Formula> trait_guards(const std::vector<Parameter>& parameters);
@@ -24,7 +27,10 @@ std::vector<Formula> trait_guards(const std::vector<Parameter>& parameters);
 std::vector<Formula> inequalities(const Action& action, const Domain& domain);
 bool could_be_equal(const Parameter& a, const Parameter& b, const Domain& domain);
 
-// `did you mean NAME?` for the nearest of the known names, or a list of them.
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
+// Throws Error for names that PDDL does not have or keeps for itself, and for two that differ only in case.
+void check_names(const Domain& domain);
+void check_names(const Problem& problem);
+
+using stampede::did_you_mean;
 
 }  // namespace stampede::symbolic

@@ -7,7 +7,8 @@ namespace {
 
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  Scanner(std::string_view text, const std::string& file)
+      : text_(text), file_(std::make_shared<const std::string>(file)) {}
 
   Node run() {
     Node top;
@@ -23,7 +24,7 @@ class Scanner {
   }
 
  private:
-  std::string place() const { return file_ + ":" + std::to_string(line_) + ":" + std::to_string(column_); }
+  Place place() const { return {file_, line_, column_}; }
 
   void step() {
     if (text_[at_++] == '\n') {
@@ -42,8 +43,7 @@ class Scanner {
         while (at_ < text_.size() && text_[at_] != '\n') step();
         const std::string_view comment = text_.substr(begin, at_ - begin);
         if (comment.starts_with(";@ ")) {
-          around.notes.emplace_back(comment.substr(3));
-          around.note_at.push_back(around.items.size());
+          around.notes.push_back({around.items.size(), std::string(comment.substr(3))});
         }
       } else if (std::isspace(static_cast<unsigned char>(text_[at_])) != 0) {
         step();
@@ -57,12 +57,17 @@ class Scanner {
     Node result;
     result.is_list = true;
     result.place = place();
+    if (++depth_ > kDeepestNesting) {
+      throw Error(result.place, "lists are nested deeper than " + std::to_string(kDeepestNesting),
+                  "name the inner parts with derived predicates");
+    }
     step();
     while (true) {
       skip(result);
       if (at_ >= text_.size()) throw Error(result.place, "this `(` is never closed", "add the missing `)`");
       if (text_[at_] == ')') {
         step();
+        --depth_;
         return result;
       }
       result.items.push_back(text_[at_] == '(' ? list() : word());
@@ -81,9 +86,9 @@ class Scanner {
   }
 
   std::string_view text_;
-  const std::string& file_;
+  std::shared_ptr<const std::string> file_;
   std::size_t at_ = 0;
-  int line_ = 1, column_ = 1;
+  int line_ = 1, column_ = 1, depth_ = 0;
 };
 
 }  // namespace

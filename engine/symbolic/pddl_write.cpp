@@ -19,7 +19,9 @@ void collect_requirements(const Formula& formula, std::set<std::string>& used) {
   using Kind = Formula::Kind;
   const bool has_guards = !symbolic::trait_guards(formula.variables).empty();
   if (formula.kind == Kind::equal) used.insert(":equality");
-  if (formula.kind == Kind::disjunction || formula.kind == Kind::never) used.insert(":disjunctive-preconditions");
+  if (formula.kind == Kind::always) used.insert({":equality", ":universal-preconditions"});
+  if (formula.kind == Kind::never) used.insert({":equality", ":existential-preconditions"});
+  if (formula.kind == Kind::disjunction) used.insert(":disjunctive-preconditions");
   if (formula.kind == Kind::exists) used.insert(":existential-preconditions");
   if (formula.kind == Kind::forall) used.insert(":universal-preconditions");
   if (formula.kind == Kind::forall && has_guards) used.insert(":disjunctive-preconditions");
@@ -31,8 +33,15 @@ void collect_requirements(const Formula& formula, std::set<std::string>& used) {
   for (const Formula& part : formula.parts) collect_requirements(part, used);
 }
 
+// Of a precondition or goal: `(and)` by itself needs nothing.
+void collect_whole(const Formula& formula, std::set<std::string>& used) {
+  if (formula.kind != Formula::Kind::always) collect_requirements(formula, used);
+}
+
 bool has_costs(const Domain& domain) {
-  return std::any_of(domain.actions.begin(), domain.actions.end(), [](const Action& a) { return a.cost != 1; });
+  return !domain.functions.empty() || std::any_of(domain.actions.begin(), domain.actions.end(), [](const Action& a) {
+    return a.cost != 1 || !a.cost_function.empty();
+  });
 }
 
 std::set<std::string> requirements(const Domain& domain) {
@@ -44,11 +53,11 @@ std::set<std::string> requirements(const Domain& domain) {
     collect_requirements(predicate.derived, used);
   }
   for (const Action& action : domain.actions) {
-    collect_requirements(action.precondition, used);
+    collect_whole(action.precondition, used);
     if (!symbolic::inequalities(action, domain).empty()) used.insert(":equality");
     for (const Effect& effect : action.effects) {
       if (!effect.forall.empty() || effect.when.kind != Formula::Kind::always) used.insert(":conditional-effects");
-      collect_requirements(effect.when, used);
+      if (effect.when.kind != Formula::Kind::always) collect_requirements(effect.when, used);
     }
   }
   if (has_costs(domain)) used.insert(":action-costs");
@@ -94,6 +103,7 @@ std::string traits_note(const std::vector<Parameter>& parameters) {
 }
 
 std::string predicates_text(const Domain& domain) {
+  if (domain.traits.empty() && domain.predicates.empty()) return {};
   std::string text = "  (:predicates";
   for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x) ;@ trait";
   for (const Predicate& predicate : domain.predicates) {
@@ -110,7 +120,7 @@ std::string predicates_text(const Domain& domain) {
 
 std::string derived_text(const Predicate& predicate) {
   const std::string variables = symbolic::variables_text(predicate.parameters, Names::pddl);
-  std::string body = to_pddl(predicate.derived);
+  std::string body = symbolic::formula_text(predicate.derived, Names::pddl);
   const std::vector<Formula> guards = symbolic::trait_guards(predicate.parameters);
   if (!guards.empty()) {
     std::string guarded = "(and";
@@ -127,10 +137,10 @@ std::string effect_text(const Effect& effect) {
   if (!guards.empty()) {
     std::string condition = "(and";
     for (const Formula& guard : guards) condition += " " + to_pddl(guard);
-    if (effect.when.kind != Formula::Kind::always) condition += " " + to_pddl(effect.when);
+    if (effect.when.kind != Formula::Kind::always) condition += " " + symbolic::formula_text(effect.when, Names::pddl);
     text = "(when " + condition + ") " + text + ")";
   } else if (effect.when.kind != Formula::Kind::always) {
-    text = "(when " + to_pddl(effect.when) + " " + text + ")";
+    text = "(when " + symbolic::formula_text(effect.when, Names::pddl) + " " + text + ")";
   }
   if (effect.forall.empty()) return text;
   return "(forall (" + symbolic::variables_text(effect.forall, Names::pddl) + ") " + text + ")";
@@ -160,33 +170,56 @@ std::string action_text(const Action& action, const Domain& domain, bool costs) 
   }
   std::string text = "  (:action " + pddl(action.name) + action_note(action, guards) + "\n    :parameters (" +
                      symbolic::variables_text(action.parameters, Names::pddl) + ")\n    :precondition (and";
-  for (const Formula& one : conjuncts) text += "\n      " + to_pddl(one);
+  for (const Formula& one : conjuncts) text += "\n      " + symbolic::formula_text(one, Names::pddl);
   text += ")\n    :effect (and";
   for (const Effect& effect : action.effects) text += "\n      " + effect_text(effect);
-  if (costs) text += "\n      (increase (total-cost) " + std::to_string(action.cost) + ")";
+  const std::string cost = action.cost_function.empty()
+                               ? std::to_string(action.cost)
+                               : symbolic::atom_text(action.cost_function, action.cost_terms, Names::pddl);
+  if (costs) text += "\n      (increase (total-cost) " + cost + ")";
   return text + "))\n";
+}
+
+std::string functions_text(const Domain& domain) {
+  if (!has_costs(domain)) return {};
+  std::string text = "  (:functions (total-cost) - number";
+  for (const Predicate& function : domain.functions) {
+    const std::string variables = symbolic::variables_text(function.parameters, Names::pddl);
+    text += " (" + pddl(function.name) + (variables.empty() ? "" : " " + variables) + ") - number";
+  }
+  return text + ")\n";
+}
+
+std::string values_text(const Problem& problem) {
+  std::string text;
+  for (const auto& [of, value] : problem.values) {
+    text += "\n    (= " + pddl(to_text(of)) + " " + std::to_string(value) + ")";
+  }
+  return text;
 }
 
 }  // namespace
 
-std::string to_pddl(const Formula& formula) { return symbolic::formula_text(formula, Names::pddl); }
+std::string to_pddl(const Formula& formula) {
+  return formula.kind == Formula::Kind::always ? "(and)" : symbolic::formula_text(formula, Names::pddl);
+}
 
 std::string to_pddl(const Domain& domain) {
-  const bool costs = has_costs(domain);
+  symbolic::check_names(domain);
   std::string text = "(define (domain " + pddl(domain.name) + ")\n";
   text += "  " + requirements_text(requirements(domain)) + "\n" + types_text(domain);
-  text += objects_text("constants", domain.constants, domain) + predicates_text(domain);
-  if (costs) text += "  (:functions (total-cost) - number)\n";
+  text += objects_text("constants", domain.constants, domain) + predicates_text(domain) + functions_text(domain);
   for (const Predicate& predicate : domain.predicates) {
     if (predicate.kind == PredicateKind::derived) text += derived_text(predicate);
   }
-  for (const Action& action : domain.actions) text += action_text(action, domain, costs);
+  for (const Action& action : domain.actions) text += action_text(action, domain, has_costs(domain));
   return text + ")\n";
 }
 
-std::string to_pddl(const Problem& problem, const Domain& domain) {
+std::string to_pddl(const Problem& problem, const Domain& domain, const std::string& not_complete) {
+  symbolic::check_names(problem);
   std::set<std::string> used;
-  collect_requirements(problem.goal, used);
+  collect_whole(problem.goal, used);
   const std::set<std::string> known = requirements(domain);
   const bool more = !std::includes(known.begin(), known.end(), used.begin(), used.end());
   std::vector<TypedObject> objects;
@@ -201,13 +234,15 @@ std::string to_pddl(const Problem& problem, const Domain& domain) {
     text += "  " + requirements_text(used) + "\n";
   }
   text += objects_text("objects", objects, domain) + "  (:init";
-  if (has_costs(domain)) text += "\n    (= (total-cost) 0)";
-  for (const Fact& fact : problem.init) {
-    std::vector<Term> terms;
-    for (const std::string& argument : fact.arguments) terms.push_back({false, argument});
-    text += "\n    " + symbolic::atom_text(fact.predicate, terms, Names::pddl);
+  if (has_costs(domain)) text += "\n    (= (total-cost) 0)" + values_text(problem);
+  for (const Fact& fact : problem.init) text += "\n    " + pddl(to_text(fact));
+  text += ")\n";
+  if (!not_complete.empty()) {
+    std::string line = not_complete;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    text += "  ; not complete: " + line + "\n";
   }
-  text += ")\n  (:goal " + to_pddl(problem.goal) + ")\n";
+  text += "  (:goal " + to_pddl(problem.goal) + ")\n";
   if (has_costs(domain)) text += "  (:metric minimize (total-cost))\n";
   return text + ")\n";
 }

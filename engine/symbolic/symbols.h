@@ -67,6 +67,8 @@ struct Action {
   int cost = 1;
   bool distinct = true;                                        // parameters bind to distinct objects
   std::vector<std::pair<std::string, std::string>> may_equal;  // pairs exempt from `distinct`
+  std::string cost_function = {};                              // not empty: its value at cost_terms instead of `cost`
+  std::vector<Term> cost_terms = {};
   friend bool operator==(const Action&, const Action&) = default;
 };
 
@@ -93,6 +95,7 @@ struct Domain {
   std::vector<Predicate> predicates;         // sorted by name
   std::vector<Action> actions;               // sorted by name
   std::vector<TypedObject> constants;        // objects that actions name; sorted by name, every problem has them
+  std::vector<Predicate> functions = {};     // whole numbers that a problem gives and costs are made of; sorted by name
   bool is_a(const std::string& type, const std::string& ancestor) const;  // reflexive; every type is an `object`
   const Predicate* predicate(const std::string& predicate_name) const;
   const Action* action(const std::string& action_name) const;
@@ -104,6 +107,7 @@ struct Problem {
   std::vector<TypedObject> objects;  // sorted by name, the domain's constants among them
   Facts init;                        // closed world; traits, attributes and static facts included, derived ones not
   Formula goal;
+  std::map<Fact, int> values = {};  // of the domain's functions
   friend bool operator==(const Problem&, const Problem&) = default;
 };
 

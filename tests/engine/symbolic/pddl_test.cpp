@@ -134,13 +134,13 @@ TEST_CASE("malformed PDDL: place, complaint and cure") {
   CHECK(complaint("(define (domain d)\n  (:predicates (p))") ==
         "d.pddl:1:1: this `(` is never closed\n    add the missing `)`");
   CHECK(complaint("(define (domain d)\n  (:predicates (on ?x - blok))\n  (:types block))") ==
-        "d.pddl:2:25: unknown type `blok`\n    did you mean `block`?");
+        "d.pddl:2:25: unknown type `blok`\n    did you mean 'block'?");
   CHECK(
       complaint("(define (domain d) (:predicates (open ?x))\n (:action a :parameters (?x) :precondition (opne ?x)))") ==
-      "d.pddl:2:45: unknown predicate `opne`\n    did you mean `open`?");
+      "d.pddl:2:45: unknown predicate `opne`\n    did you mean 'open'?");
   CHECK(
       complaint("(define (domain d) (:predicates (open ?x))\n (:action a :parameters (?x) :precondition (open ?y)))") ==
-      "d.pddl:2:50: unknown variable `?y`\n    did you mean `?x`?");
+      "d.pddl:2:50: unknown variable `?y`\n    did you mean '?x'?");
   CHECK(complaint("(define (domain d) (:predicates (open ?x))\n (:action a :parameters (?x) :precondition (open)))") ==
         "d.pddl:2:44: `open` takes 1 arguments, got 0");
   CHECK(complaint("(define (domain d) (:types a - b b - a))") ==

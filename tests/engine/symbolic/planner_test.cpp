@@ -143,7 +143,7 @@ TEST_CASE("validate names the first step and precondition that fail, or the goal
   bad = verdict("(open chest--drawer)");
   CHECK(bad.failed_step == -1);
   CHECK(bad.explanation == "the plan ends without (inside cup1 chest.drawer)");
-  CHECK(verdict("(pik cup1 cup2)").explanation == "step 1 (pik cup1 cup2): unknown action; did you mean `pick`?");
+  CHECK(verdict("(pik cup1 cup2)").explanation == "step 1 (pik cup1 cup2): unknown action; did you mean 'pick'?");
   CHECK(verdict("(open cup1)").explanation == "step 1 (open cup1): cup1 is a cup, but ?d must be a drawer");
   CHECK(verdict("(pick table cup1)").explanation == "step 1 (pick table cup1): table is not movable, which ?o must be");
 }
