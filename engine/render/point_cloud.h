@@ -21,7 +21,8 @@ struct PointCloud {
 // Throws Error when the picture has no depth. Lens distortion is undone.
 PointCloud point_cloud(const Picture& picture, const View& view);
 
-void append(PointCloud& cloud, const PointCloud& more);  // clouds of several cameras as one
+// Clouds of several cameras as one. Throws Error when only one of them has colours, or ids of a kind.
+void append(PointCloud& cloud, const PointCloud& more);
 
 // Binary PLY: x y z (float), red green blue (uchar), instance semantic (ushort).
 std::string to_ply(const PointCloud& cloud);
