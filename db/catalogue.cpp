@@ -8,6 +8,12 @@
 #include "db/episode_writer.h"
 
 namespace stampede {
+
+void roll_back(const sql::Database& database) {
+  if (!sqlite3_get_autocommit(database.handle()))
+    sqlite3_exec(database.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,11 +69,6 @@ std::string temporary_views_script() {
     script += "CREATE TEMP VIEW " + file.text.substr(head.size());
   }
   return script + "COMMIT;\n";
-}
-
-void roll_back(const sql::Database& database) {
-  if (!sqlite3_get_autocommit(database.handle()))
-    sqlite3_exec(database.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
 // Runs a script that is one transaction; a failure leaves nothing of it.
@@ -129,7 +130,7 @@ sql::Database open_to_read(const fs::path& path) {
 }  // namespace
 
 int schema_version() {
-  return std::stoi(embedded_schema().back().name);  // 004_labels
+  return std::stoi(embedded_schema().back().name);  // 005_images
 }
 
 Catalogue::Impl::Impl() = default;

@@ -34,6 +34,25 @@ struct EpisodeSummary {
   double duration_s = 0;
 };
 
+// A stored picture or point cloud.
+struct ImageEntry {
+  std::int64_t frame = 0;
+  std::string camera, kind;   // rgb depth instance semantic points
+  int width = 0, height = 0;  // pixels
+  std::int64_t bytes = 0;
+  friend bool operator==(const ImageEntry&, const ImageEntry&) = default;
+};
+
+// A camera and where it was at each frame of an episode.
+struct CameraTrack {
+  Camera camera;
+  std::vector<Pose> world_from_camera;  // may be empty for one that the episode has
+};
+
+struct AddedImages {
+  std::int64_t added = 0, skipped = 0;  // skipped: the same bytes were there
+};
+
 // Lifetime: one thread at a time, but for interrupt().
 // Throws: CatalogueError with the cure when the file cannot serve: another application's, another schema version,
 // not a database, not there, read-only, a full disk. A file that was not ours is never changed.
@@ -48,13 +67,23 @@ class Catalogue {
   std::vector<EpisodeSummary> episodes() const;  // by id
   std::optional<std::int64_t> find(std::string_view key) const;
 
-  // Everything but wall times, object grasps and numbers (they are in the scene document). Negative zero comes back
-  // as zero: SQLite knows one zero. Definitions are sorted by kind, name and hash. Throws Error for an unknown id.
+  // Everything but object grasps (they are in the scene document) and images (they may be large: see read_image).
+  // Negative zero comes back as zero: SQLite knows one zero. Definitions are sorted by kind, name and hash. Throws
+  // Error for an unknown id.
   EpisodeRecord read_episode(std::int64_t id) const;
 
   // One transaction; all or nothing. Result: its id, one above the greatest. Throws CatalogueError when the key is
   // there already, and Error when the record contradicts itself.
   std::int64_t add(const EpisodeRecord& episode, const EngineInfo& engine);
+
+  // Pictures made later, in one transaction; all or nothing. ImageRecord::camera counts in `cameras`. A camera that the
+  // episode does not have is added to it; one of a known name must be the known one, at any size. Throws Error for
+  // another camera of that name, a frame that is not there, and where other bytes are stored already.
+  AddedImages add_images(std::int64_t id, const ImageStore& images, const std::vector<CameraTrack>& cameras);
+  std::vector<ImageEntry> images(std::int64_t id) const;  // by frame, camera (in the episode's order), kind
+  // The bytes of a PNG file; of a PLY file for kind `points`. Throws Error when there is none.
+  std::vector<std::uint8_t> read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
+                                       std::string_view kind) const;
 
   // Of all data, whatever the ids: two catalogues of the same episodes agree. Host and wall times are left out.
   std::string content_hash() const;

@@ -19,9 +19,18 @@ struct Catalogue::Impl {
   std::unique_ptr<EpisodeWriter> writer;  // made at the first add(); its statements must go before the database
 };
 
+void roll_back(const sql::Database& database);  // what has begun, if anything has
+[[noreturn]] void throw_no_episode(const sql::Database& database, std::int64_t id);
+
 // Lists of texts as JSON in a column.
 std::string to_json_list(const std::vector<std::string>& texts);
 std::vector<std::string> from_json_list(const sql::Database& database, const std::string& json);
+
+// A row of camera; the ordinal is not read.
+inline constexpr const char* kCameraColumns =
+    "name, width, height, focal_x, focal_y, centre_x, centre_y, k1, k2, p1, p2, k3, near_m, far_m, mount_body, "
+    "mount_part, x, y, z, qx, qy, qz, qw";
+void read_camera(sql::Statement& row, Camera& camera);
 
 // Scene documents: what many share (shapes, grasps, the robot) is cut out and kept once, by hash.
 struct PackedScene {

@@ -3,6 +3,11 @@
 
 namespace stampede {
 
+void throw_no_episode(const sql::Database& database, std::int64_t id) {
+  throw Error(database.path(), "there is no episode " + std::to_string(id),
+              "`stampede query \"SELECT episode, task, outcome FROM episodes\"` lists them");
+}
+
 std::string to_json_list(const std::vector<std::string>& texts) {
   std::string json = "[";
   for (const std::string& text : texts) json += (json.size() > 1 ? "," : "") + json_text(text);
@@ -17,6 +22,14 @@ std::vector<std::string> from_json_list(const sql::Database& database, const std
   return texts;
 }
 
+void read_camera(sql::Statement& row, Camera& c) {
+  auto& [k1, k2, p1, p2, k3] = c.distortion;
+  Pose pose;
+  row.read(c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3, c.near_m,
+           c.far_m, c.mount_body, c.mount_part, pose);
+  c.mount_from_camera = to_transform(pose);
+}
+
 void EpisodeReader::read_episode() {
   sql::Statement row(
       database_,
@@ -25,9 +38,7 @@ void EpisodeReader::read_episode() {
       "e.engine_run, coalesce(s.document, ''), coalesce(t.wall_s, 0), coalesce(t.physics_wall_s, 0), "
       "e.frames FROM episode e LEFT JOIN scene s ON s.hash = e.scene "
       "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
-  if (!row.start(id_).step())
-    throw Error(database_.path(), "there is no episode " + std::to_string(id_),
-                "`stampede query \"SELECT episode, task, outcome FROM episodes\"` lists them");
+  if (!row.start(id_).step()) throw_no_episode(database_, id_);
   EpisodeRecord& e = record_;
   std::string outcome, reason, scene;
   std::int64_t frames = 0;
@@ -110,22 +121,16 @@ void EpisodeReader::read_names() {
   });
 }
 
+void EpisodeReader::read_masks() {
+  each("instance, name, object, class, semantic", "mask", "instance", [&](sql::Statement& row) {
+    MaskEntry& m = record_.masks.emplace_back();
+    row.read(m.instance, m.name, m.object, m.class_name, m.semantic);
+  });
+}
+
 void EpisodeReader::read_cameras() {
-  std::string mount;
-  for (const char* field : {"x", "y", "z", "qx", "qy", "qz", "qw"})
-    mount += std::string(", mount ->> '$.") + field + "'";
-  each(
-      "name, width, height, focal_x, focal_y, centre_x, centre_y, k1, k2, p1, p2, k3, near_m, far_m, mount_body, "
-      "mount_part" +
-          mount,
-      "camera", "ordinal", [&](sql::Statement& row) {
-        Camera& c = record_.cameras.emplace_back();
-        auto& [k1, k2, p1, p2, k3] = c.distortion;
-        Pose pose;
-        row.read(c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3, c.near_m,
-                 c.far_m, c.mount_body, c.mount_part, pose);
-        c.mount_from_camera = to_transform(pose);
-      });
+  each(kCameraColumns, "camera", "ordinal",
+       [&](sql::Statement& row) { read_camera(row, record_.cameras.emplace_back()); });
 }
 
 void EpisodeReader::read_channels() {

@@ -9,9 +9,12 @@
 #include <thread>
 
 #include "db/episode_writer.h"
+#include "engine/episode/observation.h"
 
 namespace stampede {
 namespace {
+
+constexpr std::size_t kImagesInMemory = 8'000'000;  // the rest of an ImageStore lies in a file
 
 std::int64_t bytes_of(const EpisodeRecord& episode) {
   std::size_t frame = sizeof(FrameRecord) + sizeof(ActionRecord);
@@ -26,6 +29,7 @@ std::int64_t bytes_of(const EpisodeRecord& episode) {
   for (const DefinitionRecord& definition : episode.definitions) bytes += definition.source.size();
   for (const DocumentRecord& document : episode.documents) bytes += document.text.size();
   for (const ChannelRecord& channel : episode.channels) bytes += channel.values.size() * sizeof(double);
+  if (episode.images) bytes += std::min(static_cast<std::size_t>(episode.images->bytes()), kImagesInMemory);
   return static_cast<std::int64_t>(bytes) + 400 * static_cast<std::int64_t>(episode.facts.size());
 }
 

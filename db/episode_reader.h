@@ -20,6 +20,7 @@ class EpisodeReader {
     read_run();
     read_objects();
     read_names();
+    read_masks();
     read_cameras();
     read_channels();
     read_frames();
@@ -52,6 +53,7 @@ class EpisodeReader {
   void read_run();
   void read_objects();
   void read_names();
+  void read_masks();
   void read_cameras();
   void read_channels();
   void read_frames();

@@ -5,6 +5,7 @@
 #include "db/catalogue_impl.h"
 #include "db/table_text.h"
 #include "engine/base/hash.h"
+#include "engine/model/camera.h"
 
 namespace stampede {
 namespace {
@@ -33,16 +34,12 @@ std::string_view name_of(ObjectKind kind) {
   return "body";
 }
 
-std::string mount_text(const Pose& pose) {
-  QueryResult row;
-  row.columns = {"x", "y", "z", "qx", "qy", "qz", "qw"};
-  auto& values = row.rows.emplace_back();
-  for (const double number : pose.position) values.emplace_back(number);
-  for (const double number : pose.quaternion) values.emplace_back(number);
-  const std::string list = to_json(row);  // a list of one object
-  const std::size_t first = list.find('{'), last = list.rfind('}');
-  return list.substr(first, last + 1 - first);
-}
+// Of (episode, body, part). An object's parts have objects, by which they are named; those of the robot, which is no
+// object, have the first mask numbers, in order.
+constexpr const char* kMountLink =
+    "SELECT name FROM object WHERE episode = ?1 AND body = ?2 AND part = ?3 AND kind IN ('body', 'part') UNION ALL "
+    "SELECT name FROM mask WHERE episode = ?1 AND instance = ?3 + 1 AND substr(name, 1, length(?2) + 1) = ?2 || '.' "
+    "AND NOT EXISTS (SELECT 1 FROM object WHERE episode = ?1 AND body = ?2 AND kind = 'body')";
 
 void require(bool condition, const EpisodeRecord& episode, const std::string& complaint) {
   if (!condition)
@@ -70,6 +67,13 @@ void check_record(const EpisodeRecord& episode) {
   for (const ChannelRecord& channel : episode.channels)
     require(channel.values.size() == channel.steps.size() * channel.components.size(), episode,
             "channel " + channel.name + " has another number of values than its steps and components say");
+  std::set<int> instances;
+  for (const MaskEntry& mask : episode.masks)
+    require(mask.instance > 0 && mask.semantic > 0 && instances.insert(mask.instance).second, episode,
+            "the mask of " + mask.name + " has a number that is not its own");
+  if (episode.images)
+    check_images(*episode.images, static_cast<std::int64_t>(episode.frames.size()), episode.cameras.size(),
+                 "episode of " + episode.task + ", seed " + std::to_string(episode.seed));
 }
 
 sql::Statement EpisodeWriter::insert(const std::string& table, const std::string& ending) const {
@@ -95,17 +99,22 @@ EpisodeWriter::EpisodeWriter(const sql::Database& database) : database_(database
   segment_ = insert("segment"), attempt_ = insert("attempt"), parameter_ = insert("segment_parameter");
   effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"), contact_ = insert("contact");
   grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document");
-  keyframe_ = insert("keyframe");
+  keyframe_ = insert("keyframe"), mask_ = insert("mask"), image_ = insert("image");
+  stored_image_ = {database_, "SELECT data FROM image WHERE episode = ?1 AND frame = ?2 AND camera = ?3 AND kind = ?4",
+                   true};
+  mount_link_ = {database_, kMountLink, true};
 }
 
 void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine) {
   id_ = id;
   write_variation(episode);
   write_episode(episode, engine);
+  write_masks(episode);
   write_objects(episode);
   write_names(episode);
-  write_cameras(episode);
+  write_cameras(episode);  // their mounts are named by masks and objects
   write_frames(episode);
+  write_images(episode);
   write_labels(episode);
 }
 
@@ -160,10 +169,13 @@ void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engi
 }
 
 void EpisodeWriter::write_objects(const EpisodeRecord& episode) {
+  std::map<std::string, int> masks;
+  for (const MaskEntry& mask : episode.masks) masks.emplace(mask.name, mask.instance);
   int ordinal = 0;
   for (const Object& o : episode.objects) {
+    const auto mask = masks.find(o.name);
     object_.run(id_, ordinal, o.name, name_of(o.kind), o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(),
-                o.size.z(), ordinal + 1);
+                o.size.z(), mask == masks.end() ? 0 : mask->second);
     int place = 0;
     for (const std::string& trait : o.traits) object_trait_.run(id_, ordinal, place++, trait);
     for (const auto& [name, value] : o.attributes) object_attribute_.run(id_, ordinal, name, value);
@@ -184,11 +196,15 @@ void EpisodeWriter::write_names(const EpisodeRecord& episode) {
 
 void EpisodeWriter::write_cameras(const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const Camera& c : episode.cameras) {
-    const auto& [k1, k2, p1, p2, k3] = c.distortion;
-    camera_.run(id_, ordinal++, c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2,
-                k3, c.near_m, c.far_m, c.mount_body, c.mount_part, mount_text(to_pose(c.mount_from_camera)));
-  }
+  for (const Camera& camera : episode.cameras) write_camera(ordinal++, camera);
+}
+
+void EpisodeWriter::write_camera(int ordinal, const Camera& c) {
+  const auto& [k1, k2, p1, p2, k3] = c.distortion;
+  const std::string link = mount_link(c);
+  camera_.run(id_, ordinal, c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3,
+              c.near_m, c.far_m, c.mount_body, c.mount_part, link, vertical_field_of_view(c),
+              to_pose(c.mount_from_camera));
 }
 
 }  // namespace stampede

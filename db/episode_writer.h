@@ -1,19 +1,24 @@
 // Writes one episode's rows inside a transaction that the caller holds.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "db/catalogue.h"
 #include "db/sqlite.h"
 
 namespace stampede {
 
+struct ImageRecord;  // engine/episode/observation.h
+
 // All statements are prepared once and kept: an episode has thousands of rows.
 class EpisodeWriter {
  public:
   explicit EpisodeWriter(const sql::Database& database);
   void write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine);
+  AddedImages add_images(std::int64_t id, const ImageStore& images, const std::vector<CameraTrack>& cameras);
 
  private:
   // episode_writer.cpp: what took part, and what is in the scene
@@ -25,13 +30,22 @@ class EpisodeWriter {
   void write_objects(const EpisodeRecord& episode);
   void write_names(const EpisodeRecord& episode);
   void write_cameras(const EpisodeRecord& episode);
+  void write_camera(int ordinal, const Camera& camera);
 
   // write_frames.cpp: what was observed and commanded
   void write_frames(const EpisodeRecord& episode);
   void write_poses(const EpisodeRecord& episode);
+  void write_camera_poses(int camera, std::size_t frames, const std::function<const Pose*(std::size_t)>& pose_at);
   void write_actions(const EpisodeRecord& episode);
   void write_commands(const EpisodeRecord& episode);
   void write_channels(const EpisodeRecord& episode);
+
+  // write_images.cpp: what cameras saw
+  void write_masks(const EpisodeRecord& episode);
+  void write_images(const EpisodeRecord& episode);
+  std::string mount_link(const Camera& camera);
+  int place_camera(const CameraTrack& track, std::int64_t frames);
+  bool is_stored(const ImageRecord& image, int camera, const std::string& name, std::string_view bytes);
 
   // write_labels.cpp: what happened, in words
   void write_labels(const EpisodeRecord& episode);
@@ -51,9 +65,13 @@ class EpisodeWriter {
   sql::Statement episode_, timing_, object_, object_trait_, object_attribute_, posed_, joint_, hand_, camera_;
   sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_, command_,
       channel_, sample_;
+  sql::Statement mask_, image_, stored_image_, mount_link_;
   sql::Statement segment_, attempt_, parameter_, effect_, via_, fact_, contact_, grasp_, language_, document_,
       keyframe_;
 };
+
+// Throws Error for pictures of frames and cameras that are not there, of unknown kinds, or without size.
+void check_images(const ImageStore& images, std::int64_t frames, std::size_t cameras, const std::string& where);
 
 // Throws Error where the record contradicts itself.
 void check_record(const EpisodeRecord& episode);

@@ -59,15 +59,21 @@ void EpisodeWriter::write_poses(const EpisodeRecord& episode) {
       last = &pose;
     }
   }
-  for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera) {
-    const Pose* last = nullptr;
-    for (std::size_t i = 0; i < episode.frames.size(); ++i) {
-      if (episode.frames[i].camera_pose.empty()) continue;
-      const Pose& pose = episode.frames[i].camera_pose[camera];
-      if (last && *last == pose) continue;
-      camera_pose_.run(id_, camera, i, pose);
-      last = &pose;
-    }
+  for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera)
+    write_camera_poses(static_cast<int>(camera), episode.frames.size(), [&](std::size_t frame) {
+      const std::vector<Pose>& poses = episode.frames[frame].camera_pose;
+      return poses.empty() ? nullptr : &poses[camera];
+    });
+}
+
+void EpisodeWriter::write_camera_poses(int camera, std::size_t frames,
+                                       const std::function<const Pose*(std::size_t)>& pose_at) {
+  const Pose* last = nullptr;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const Pose* pose = pose_at(i);
+    if (pose == nullptr || (last != nullptr && *last == *pose)) continue;
+    camera_pose_.run(id_, camera, i, *pose);
+    last = pose;
   }
 }
 

@@ -51,7 +51,7 @@ CREATE TABLE object (
   size_x REAL NOT NULL,
   size_y REAL NOT NULL,
   size_z REAL NOT NULL,
-  mask_id INTEGER NOT NULL,  -- in instance masks; 0 is the background
+  mask_id INTEGER NOT NULL,  -- of the mask of its name; 0: no mask has it
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 
@@ -120,6 +120,8 @@ CREATE TABLE camera (
   far_m REAL NOT NULL,
   mount_body TEXT NOT NULL,  -- empty: the world
   mount_part INTEGER NOT NULL,
-  mount TEXT NOT NULL,       -- JSON: mount_from_camera, position xyz and quaternion xyzw
+  mount_link TEXT NOT NULL,  -- `panda.hand`; `world`
+  vertical_fov_rad REAL NOT NULL,
+  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 
+#include "db/catalogue_writer.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -123,6 +124,40 @@ TEST_CASE("a catalogue in a read-only folder can be questioned and not written")
     }));
   }
   ::chmod(folder.path().c_str(), 0755);
+}
+
+TEST_CASE("a read-only file loses nothing: what would write says so and how to go on") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  make(path);
+  const std::string before = bytes_of(path);
+  const EpisodeRecord e = sample_episode("lift", "colour=red", 1);
+  const auto images = sample_images(e, {0});
+  const std::vector<CameraTrack> tracks{{e.cameras[0], {}}, {e.cameras[1], {}}};
+  const auto refused = [](const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const CatalogueError& error) {
+      return std::string(error.what()).find("read-only") != std::string::npos && !error.hint().empty();
+    }
+    return false;
+  };
+  {
+    Catalogue reader = Catalogue::open(path);
+    CHECK(refused([&] { reader.add_images(1, *images, tracks); }));
+    CHECK(refused([&] { reader.add(sample_episode("lift", "colour=red", 2), kEngine); }));
+  }
+  ::chmod(path.c_str(), 0444);
+  ::chmod(folder.path().c_str(), 0777);  // the file alone is read-only
+  CHECK(in_child([&] {
+    become_nobody();
+    return refused([&] {
+             CatalogueWriter(path, {kEngine, 1000, {}});
+           }) &&
+           refused([&] { Catalogue::write(path).add_images(1, *images, tracks); });
+  }));
+  CHECK(bytes_of(path) == before);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);  // no log was left either
 }
 
 TEST_CASE("a disk that takes no more is an error, and what was finished stays") {

@@ -128,8 +128,20 @@ TEST_CASE("names, labels and documents come back too") {
   REQUIRE(b.channels.size() == 1);
   CHECK(b.channels[0].steps == a.channels[0].steps);
   CHECK(b.channels[0].values == a.channels[0].values);
-  REQUIRE(b.cameras.size() == 1);
+  REQUIRE(b.cameras.size() == 2);
   CHECK(b.cameras[0].mount_from_camera.matrix() == a.cameras[0].mount_from_camera.matrix());
+  const Camera &c = a.cameras[1], &d = b.cameras[1];
+  CHECK(std::tie(c.name, c.mount_body, c.mount_part, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y,
+                 c.distortion, c.near_m, c.far_m) == std::tie(d.name, d.mount_body, d.mount_part, d.width, d.height,
+                                                              d.focal_x, d.focal_y, d.centre_x, d.centre_y,
+                                                              d.distortion, d.near_m, d.far_m));
+  CHECK(c.mount_from_camera.isApprox(d.mount_from_camera, 1e-12));
+  REQUIRE(b.masks.size() == a.masks.size());
+  for (std::size_t i = 0; i < a.masks.size(); ++i) {
+    const MaskEntry &m = a.masks[i], &n = b.masks[i];
+    CHECK(std::tie(m.instance, m.name, m.object, m.class_name, m.semantic) ==
+          std::tie(n.instance, n.name, n.object, n.class_name, n.semantic));
+  }
 }
 
 TEST_CASE("what many scenes share is stored once") {

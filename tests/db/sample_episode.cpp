@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "engine/base/hash.h"
+#include "engine/base/random.h"
+#include "engine/model/camera.h"
 
 namespace stampede::test {
 namespace {
@@ -37,7 +39,16 @@ void add_scene(EpisodeRecord& e, const SampleSize& size) {
   Camera camera;
   camera.name = "front";
   camera.mount_from_camera = to_transform({{1, 2, 3}, {0, 0, 0, 1}});
-  e.cameras = {camera};
+  Camera wrist = camera;
+  wrist.name = "wrist", wrist.mount_body = "panda", wrist.mount_part = 1;
+  wrist.mount_from_camera = to_transform({{0.05, 0, 0.1}, {0, 0, std::sin(0.3), std::cos(0.3)}});
+  set_field_of_view(wrist, 1.2, 160, 120);
+  wrist.distortion = {0.1, -0.2, 0.001, 0.002, 0.05};
+  e.cameras = {camera, wrist};
+  e.masks = {{1, "panda.link0", "panda", "panda", 3}, {2, "panda.link1", "panda.hand", "hand", 2}};
+  for (int i = 0; i < size.objects; ++i)  // not in the order of names, as numbers are shuffled
+    e.masks.push_back(
+        {3 + i, e.objects[e.objects.size() - 1 - i].name, e.objects[e.objects.size() - 1 - i].name, "cube", 1});
   e.channels = {{"wrench", "N", {"force_x", "force_y"}, 120, {0, 2}, {0.1, 0.2, 0.3, 0.4}}};
 }
 
@@ -54,7 +65,7 @@ void add_frames(EpisodeRecord& e, const SampleSize& size) {
     }
     for (std::size_t j = 0; j < e.posed.size(); ++j) f.object_pose.push_back(pose_of(j == 0 ? i * 0.1 : 0.5));
     f.hands = {{pose_of(i), {1, 2, 3, 4, 5, 6.5}, 0.08 - i * 1e-3, {0.5, 0.25}}};
-    f.camera_pose = {pose_of(i < 5 ? 0 : 1)};
+    f.camera_pose = {pose_of(i < 5 ? 0 : 1), pose_of(0.2 * i)};
     if (i + 1 < size.frames) f.action = ActionRecord{{0.5 + i, -0.5}, pose_of(-i), 0.02};
     e.frames.push_back(f);
   }
@@ -144,6 +155,23 @@ EpisodeRecord sample_episode(const std::string& task, const std::string& variati
   add_commands(e);
   add_labels(e);
   return e;
+}
+
+std::shared_ptr<ImageStore> sample_images(const EpisodeRecord& episode, const std::vector<std::int64_t>& frames,
+                                          const std::vector<std::string>& kinds, std::size_t bytes) {
+  auto store = std::make_shared<ImageStore>();
+  for (const std::int64_t frame : frames)
+    for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera)
+      for (const std::string& kind : kinds) {
+        const ImageRecord image{frame, static_cast<int>(camera), kind, episode.cameras[camera].width,
+                                episode.cameras[camera].height};
+        Random random(
+            RandomKey("sample").with(episode.seed).with(frame).with(static_cast<std::int64_t>(camera)).with(kind));
+        std::vector<std::uint8_t> data(bytes);
+        for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random.below(256));
+        store->append(image, data);
+      }
+  return store;
 }
 
 Folder::Folder() {

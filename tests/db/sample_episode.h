@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "db/catalogue.h"
+#include "engine/episode/observation.h"
 
 namespace stampede::test {
 
@@ -13,6 +16,11 @@ struct SampleSize {
 };
 EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
                              const SampleSize& size = {});
+
+// Made-up pictures: `kinds` of each camera at each frame listed. The bytes differ by frame, camera, kind and seed.
+std::shared_ptr<ImageStore> sample_images(const EpisodeRecord& episode, const std::vector<std::int64_t>& frames,
+                                          const std::vector<std::string>& kinds = {"rgb", "depth", "instance"},
+                                          std::size_t bytes = 600);
 
 inline const EngineInfo kEngine{"0.1.0", "probe"};
 

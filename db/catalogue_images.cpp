@@ -1,0 +1,52 @@
+// Pictures that are asked for, or that come later than their episode.
+#include "db/catalogue_impl.h"
+#include "db/episode_writer.h"
+
+namespace stampede {
+
+AddedImages Catalogue::add_images(std::int64_t id, const ImageStore& images, const std::vector<CameraTrack>& cameras) {
+  const sql::Database& database = impl_->database;
+  if (!impl_->writable) database.fail(SQLITE_READONLY);
+  if (!impl_->writer) impl_->writer = std::make_unique<EpisodeWriter>(database);
+  try {
+    database.run("BEGIN IMMEDIATE");
+    const AddedImages added = impl_->writer->add_images(id, images, cameras);
+    database.run("COMMIT");
+    return added;
+  } catch (...) {
+    roll_back(database);
+    throw;
+  }
+}
+
+std::vector<ImageEntry> Catalogue::images(std::int64_t id) const {
+  if (!sql::Statement(impl_->database, "SELECT 1 FROM episode WHERE id = ?1").start(id).step())
+    throw_no_episode(impl_->database, id);
+  sql::Statement rows(impl_->database,
+                      "SELECT i.frame, c.name, i.kind, i.width, i.height, length(i.data) FROM image i "
+                      "JOIN camera c ON c.episode = i.episode AND c.ordinal = i.camera "
+                      "WHERE i.episode = ?1 ORDER BY i.frame, i.camera, i.kind");
+  std::vector<ImageEntry> list;
+  for (rows.start(id); rows.step();) {
+    ImageEntry& e = list.emplace_back();
+    rows.read(e.frame, e.camera, e.kind, e.width, e.height, e.bytes);
+  }
+  return list;
+}
+
+std::vector<std::uint8_t> Catalogue::read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
+                                                std::string_view kind) const {
+  sql::Statement row(impl_->database,
+                     "SELECT i.data FROM image i JOIN camera c ON c.episode = i.episode AND c.ordinal = i.camera "
+                     "WHERE i.episode = ?1 AND i.frame = ?2 AND c.name = ?3 AND i.kind = ?4");
+  if (!row.start(id, frame, camera, kind).step())
+    throw Error(impl_->database.path(),
+                "episode " + std::to_string(id) + " has no picture of frame " + std::to_string(frame) + ", camera '" +
+                    std::string(camera) + "', kind '" + std::string(kind) + "'",
+                "`stampede query images_by_episode` lists what there is; `stampede render --into` adds more");
+  std::string bytes;
+  row.read(bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace stampede

@@ -1,0 +1,23 @@
+-- What cameras saw, and what the numbers in instance and semantic masks stand for.
+CREATE TABLE mask (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  instance INTEGER NOT NULL CHECK (instance > 0),  -- 0 is the background
+  name TEXT NOT NULL,
+  object TEXT NOT NULL,
+  class TEXT NOT NULL,
+  semantic INTEGER NOT NULL CHECK (semantic > 0),
+  PRIMARY KEY (episode, instance)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE image (  -- with rowids: rows are too long for a key's tree
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  frame INTEGER NOT NULL,
+  camera INTEGER NOT NULL,
+  kind TEXT NOT NULL CHECK (kind IN ('rgb', 'depth', 'instance', 'semantic', 'points')),
+  width INTEGER NOT NULL CHECK (width > 0),
+  height INTEGER NOT NULL CHECK (height > 0),
+  data BLOB NOT NULL,  -- PNG; points: binary PLY
+  PRIMARY KEY (episode, frame, camera, kind),
+  FOREIGN KEY (episode, frame) REFERENCES frame (episode, frame),
+  FOREIGN KEY (episode, camera) REFERENCES camera (episode, ordinal)
+) STRICT;

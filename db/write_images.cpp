@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "db/catalogue_impl.h"
+#include "db/episode_writer.h"
+#include "engine/episode/observation.h"
+#include "engine/model/camera.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::array<std::string_view, 5> kImageKinds{"rgb", "depth", "instance", "semantic", "points"};
+
+std::string_view as_text(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(a)); }
+
+bool near(const Pose& a, const Pose& b) {
+  const auto close = [](double x, double y) { return near(x, y); };
+  return std::equal(a.position.begin(), a.position.end(), b.position.begin(), close) &&
+         std::equal(a.quaternion.begin(), a.quaternion.end(), b.quaternion.begin(), close);
+}
+
+// Which of two readings of the same camera differ beyond rounding; empty: none. Sizes may.
+std::string difference(const Camera& known, const Camera& camera) {
+  const Camera same = resized(known, camera.width, camera.height);
+  if (same.mount_body != camera.mount_body || same.mount_part != camera.mount_part) return "its mount";
+  if (!near(to_pose(same.mount_from_camera), to_pose(camera.mount_from_camera))) return "where it is mounted";
+  if (!near(same.focal_x, camera.focal_x) || !near(same.focal_y, camera.focal_y)) return "its focal length";
+  if (!near(same.centre_x, camera.centre_x) || !near(same.centre_y, camera.centre_y)) return "its principal point";
+  if (same.distortion != camera.distortion) return "its lens";
+  if (same.near_m != camera.near_m || same.far_m != camera.far_m) return "its near or far plane";
+  return {};
+}
+
+}  // namespace
+
+void check_images(const ImageStore& images, std::int64_t frames, std::size_t cameras, const std::string& where) {
+  const std::string hint = "the pictures were put together wrongly";
+  for (std::size_t i = 0; i < images.count(); ++i) {
+    const ImageRecord& image = images.record(i);
+    if (image.frame < 0 || image.frame >= frames)
+      throw Error(
+          where,
+          "a picture is of frame " + std::to_string(image.frame) + ", and it has " + std::to_string(frames) + " frames",
+          hint);
+    if (image.camera < 0 || image.camera >= static_cast<int>(cameras))
+      throw Error(where, "a picture is of camera number " + std::to_string(image.camera) + ", which is not there",
+                  hint);
+    if (std::find(kImageKinds.begin(), kImageKinds.end(), image.kind) == kImageKinds.end())
+      throw Error(where, "a picture is of the unknown kind '" + image.kind + "'",
+                  "the kinds are rgb, depth, instance, semantic and points");
+    if (image.width <= 0 || image.height <= 0) throw Error(where, "a picture has no size", hint);
+  }
+}
+
+void EpisodeWriter::write_masks(const EpisodeRecord& episode) {
+  for (const MaskEntry& m : episode.masks) mask_.run(id_, m.instance, m.name, m.object, m.class_name, m.semantic);
+}
+
+// One picture in memory at a time.
+void EpisodeWriter::write_images(const EpisodeRecord& episode) {
+  if (!episode.images) return;
+  for (std::size_t i = 0; i < episode.images->count(); ++i) {
+    const ImageRecord& image = episode.images->record(i);
+    const std::vector<std::uint8_t> bytes = episode.images->read(i);
+    image_.run(id_, image.frame, image.camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+  }
+}
+
+// The body's name where its part has none.
+std::string EpisodeWriter::mount_link(const Camera& camera) {
+  if (camera.mount_body.empty()) return "world";
+  std::string link = camera.mount_body;
+  if (mount_link_.start(id_, camera.mount_body, camera.mount_part).step()) mount_link_.read(link);
+  sqlite3_reset(mount_link_.handle());
+  return link;
+}
+
+int EpisodeWriter::place_camera(const CameraTrack& track, std::int64_t frames) {
+  const std::string where = "episode " + std::to_string(id_) + ", camera " + track.camera.name;
+  sql::Statement find(database_, std::string("SELECT ") + kCameraColumns +
+                                     ", ordinal FROM camera "
+                                     "WHERE episode = ?1 AND name = ?2");
+  if (find.start(id_, track.camera.name).step()) {
+    Camera known;
+    read_camera(find, known);
+    const std::string other = difference(known, track.camera);
+    if (!other.empty())
+      throw Error(where, "the episode has another camera of this name: " + other + " differs",
+                  "give the new camera a name of its own, or render into a folder");
+    return sqlite3_column_int(find.handle(), sqlite3_column_count(find.handle()) - 1);
+  }
+  if (static_cast<std::int64_t>(track.world_from_camera.size()) != frames)
+    throw Error(where, "a new camera needs its pose at each of the " + std::to_string(frames) + " frames, not " +
+                           std::to_string(track.world_from_camera.size()));
+  sql::Statement last(database_, "SELECT coalesce(max(ordinal), -1) + 1 FROM camera WHERE episode = ?1");
+  int ordinal = 0;
+  if (last.start(id_).step()) last.read(ordinal);
+  write_camera(ordinal, track.camera);
+  write_camera_poses(ordinal, track.world_from_camera.size(),
+                     [&](std::size_t frame) { return &track.world_from_camera[frame]; });
+  return ordinal;
+}
+
+// Throws Error when other bytes are stored there.
+bool EpisodeWriter::is_stored(const ImageRecord& image, int camera, const std::string& name, std::string_view bytes) {
+  if (!stored_image_.start(id_, image.frame, camera, image.kind).step()) return false;
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(stored_image_.handle(), 0));
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(stored_image_.handle(), 0));
+  const bool same = std::string_view(data ? data : "", size) == bytes;
+  sqlite3_reset(stored_image_.handle());
+  if (same) return true;
+  throw Error("episode " + std::to_string(id_) + ", frame " + std::to_string(image.frame) + ", camera " + name +
+                  ", kind " + image.kind,
+              "another picture is stored there: it was made with another size, noise, light or version",
+              "remove the stored ones, or render into a folder (--out)");
+}
+
+AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
+                                      const std::vector<CameraTrack>& cameras) {
+  id_ = id;
+  sql::Statement episode(database_, "SELECT frames FROM episode WHERE id = ?1");
+  std::int64_t frames = 0;
+  if (!episode.start(id).step()) throw_no_episode(database_, id);
+  episode.read(frames);
+  check_images(images, frames, cameras.size(), "episode " + std::to_string(id));
+  std::vector<std::optional<int>> ordinals(cameras.size());  // of the cameras that pictures are of
+  for (std::size_t i = 0; i < images.count(); ++i) {
+    const auto camera = static_cast<std::size_t>(images.record(i).camera);
+    if (!ordinals[camera]) ordinals[camera] = place_camera(cameras[camera], frames);
+  }
+  AddedImages result;
+  for (std::size_t i = 0; i < images.count(); ++i) {
+    const ImageRecord& image = images.record(i);
+    const auto camera = static_cast<std::size_t>(image.camera);
+    const std::vector<std::uint8_t> bytes = images.read(i);
+    if (is_stored(image, *ordinals[camera], cameras[camera].camera.name, as_text(bytes))) {
+      ++result.skipped;
+      continue;
+    }
+    image_.run(id_, image.frame, *ordinals[camera], image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+    ++result.added;
+  }
+  return result;
+}
+
+}  // namespace stampede
