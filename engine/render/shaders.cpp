@@ -105,7 +105,7 @@ void main() {
   vec3 n = normalize(gl_FrontFacing ? f_normal : -f_normal);
   float lambert = max(dot(n, towards_light), 0.0);
   // From everywhere, but more from above; a little askew, so that the sides of a box differ.
-  float around = 0.9 + dot(n, vec3(0.06, -0.09, 0.2));
+  float around = 0.82 + dot(n, vec3(0.06, -0.09, 0.18));
   vec3 halfway = normalize(normalize(eye - f_position) + towards_light);
   float shine = max(dot(n, halfway), 0.0);
   shine *= shine; shine *= shine; shine *= shine; shine *= shine; shine *= shine;
