@@ -17,12 +17,14 @@ struct Randomisation {
   // Things whose looks are drawn: names of bodies, groups of them by class (`work_table`), `robot`, or `*` (all but
   // what has the attribute colour, because instructions speak of it).
   std::vector<std::string> looks;
-  std::vector<Colour> colours;        // drawn from these; empty: any
-  std::vector<std::string> textures;  // checker stripes noise plain, or names of Scene::textures; empty: plain
-  Range ambient{0.5, 0.5}, diffuse{0.6, 0.6};
-  double light_direction_rad = 0;                         // greatest tilt
+  std::vector<Colour> colours;                 // drawn from these; empty: any
+  std::vector<std::string> textures;           // checker stripes noise plain, or names of Scene::textures; empty: plain
+  Range ambient{0.5, 0.5}, diffuse{0.6, 0.6};  // of Light; these leave it as the scene has it
+  double light_direction_rad = 0;              // greatest tilt
   double camera_position_m = 0, camera_rotation_rad = 0;  // greatest jitter, each camera on its own
-  std::vector<std::string> dynamics;  // things whose dynamics are drawn, named as in looks (`*`: all free bodies)
+  // Things whose dynamics are drawn, named as in looks; `*`: mass and friction of all free bodies, and the damping of
+  // all joints but the robot's.
+  std::vector<std::string> dynamics;
   Range mass{1, 1}, friction{1, 1}, damping{1, 1};  // factors
 };
 
