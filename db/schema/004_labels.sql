@@ -176,7 +176,8 @@ CREATE TABLE language (
 CREATE TABLE document (
   episode INTEGER NOT NULL REFERENCES episode (id),
   ordinal INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('pddl_domain', 'pddl_problem', 'plan', 'bddl_behavior', 'bddl_libero')),
+  kind TEXT NOT NULL CHECK (kind IN ('pddl_domain', 'pddl_problem', 'plan', 'failed_plan', 'bddl_behavior',
+                                     'bddl_libero')),
   text TEXT NOT NULL REFERENCES text_store (hash),
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;

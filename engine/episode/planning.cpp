@@ -46,6 +46,50 @@ std::vector<Formula> matching(const Effect& effect, const Literal& literal) {
   return conditions;
 }
 
+void add_constants(const std::set<std::string>& names, const std::vector<TypedObject>& objects, Domain& domain) {
+  for (const TypedObject& object : objects)
+    if (names.contains(object.name) &&
+        std::find(domain.constants.begin(), domain.constants.end(), object) == domain.constants.end())
+      domain.constants.push_back(object);
+  std::sort(domain.constants.begin(), domain.constants.end(),
+            [](const TypedObject& a, const TypedObject& b) { return a.name < b.name; });
+}
+
+void sort_predicates(Domain& domain) {
+  std::sort(domain.predicates.begin(), domain.predicates.end(),
+            [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
+}
+
+// The action may not be used with these arguments while the fluent `name` holds; what ends one of the facts ends it.
+void obstruct(PlanningTask& planning, const Obstruction& obstruction, const std::string& name,
+              const std::vector<TypedObject>& objects) {
+  std::set<std::string> named(obstruction.action.arguments.begin(), obstruction.action.arguments.end());
+  for (Action& action : planning.domain.actions) {
+    if (action.name == obstruction.action.action) {
+      std::vector<Formula> ways = {negation(atom(name, {}))};
+      for (std::size_t i = 0; i < action.parameters.size(); ++i) {
+        Formula same;
+        same.kind = Formula::Kind::equal;
+        same.terms = {{true, action.parameters[i].name}, {false, obstruction.action.arguments[i]}};
+        ways.push_back(negation(std::move(same)));
+      }
+      action.precondition = conjunction({action.precondition, disjunction(std::move(ways))});
+    }
+    std::vector<Effect> added;
+    for (const Effect& effect : action.effects)
+      for (const Fact& fact : obstruction.facts) {
+        if (!effect.negated || effect.predicate != fact.predicate) continue;
+        named.insert(fact.arguments.begin(), fact.arguments.end());
+        added.push_back({effect.forall, conjunction(matching(effect, {fact, true})), name, {}, true});
+      }
+    action.effects.insert(action.effects.end(), added.begin(), added.end());
+  }
+  add_constants(named, objects, planning.domain);
+  planning.domain.predicates.push_back({name, {}, {}, {}, {}});
+  sort_predicates(planning.domain);
+  planning.problem.init.insert({name, {}});
+}
+
 void advance_stages(Action& action, const std::vector<std::vector<Literal>>& stages) {
   std::vector<Effect> added;
   for (const Effect& effect : action.effects)
@@ -68,12 +112,15 @@ void advance_stages(Action& action, const std::vector<std::vector<Literal>>& sta
 
 }  // namespace
 
-PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached) {
+PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
+                           const std::vector<Obstruction>& obstructions) {
   PlanningTask planning{domain, {}};
   planning.problem.name = task.name();
   planning.problem.objects = facts.objects();
   planning.problem.init = facts.basic();
   planning.problem.goal = task.goal();
+  for (std::size_t i = 0; i < obstructions.size(); ++i)
+    obstruct(planning, obstructions[i], "obstructed_" + std::to_string(i + 1), facts.objects());
   const std::vector<Formula> stages = task.stages();
   if (stages.empty()) return planning;
 
@@ -83,14 +130,12 @@ PlanningTask planning_task(const Task& task, const Domain& domain, const FactTra
   std::set<std::string> named;  // the effects speak of these objects, so the domain must know them
   for (const auto& stage : literals)
     for (const Literal& literal : stage) named.insert(literal.fact.arguments.begin(), literal.fact.arguments.end());
-  for (const TypedObject& object : facts.objects())
-    if (named.contains(object.name)) planning.domain.constants.push_back(object);
+  add_constants(named, facts.objects(), planning.domain);
   std::vector<Formula> goal = {task.goal(), atom(stage_name(stages.size()), {}), negation(atom("out_of_order", {}))};
   for (std::size_t i = 1; i <= stages.size(); ++i)
     planning.domain.predicates.push_back({stage_name(i), {}, {}, {}, {}});
   planning.domain.predicates.push_back({"out_of_order", {}, {}, {}, {}});
-  std::sort(planning.domain.predicates.begin(), planning.domain.predicates.end(),
-            [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
+  sort_predicates(planning.domain);
   for (int i = 1; i <= reached; ++i) planning.problem.init.insert({stage_name(static_cast<std::size_t>(i)), {}});
   planning.problem.goal = conjunction(std::move(goal));
   return planning;
@@ -143,6 +188,22 @@ PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTrac
               fitting.empty() ? "no binding of '" + step.action + "' meets its precondition"
                               : "'" + step.action + "' is ambiguous: " + candidates,
               "name the missing parameters");
+}
+
+std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key) {
+  if (domain.actions.empty()) return std::nullopt;
+  Random random(key);
+  const Action& action =
+      domain.actions[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(domain.actions.size())))];
+  std::vector<std::vector<std::string>> bindings;
+  std::vector<std::string> arguments(action.parameters.size());
+  complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
+    if (!applicable || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
+      bindings.push_back(names);
+  });
+  if (bindings.empty()) return std::nullopt;
+  return PlanStep{action.name,
+                  bindings[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(bindings.size())))]};
 }
 
 }  // namespace stampede

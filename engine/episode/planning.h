@@ -11,9 +11,25 @@ struct PlanningTask {
   Problem problem;
 };
 
+// Found while a ground action was tried: this thing was in its way. `facts` say where it is; an action that ends one of
+// them moves it out of the way.
+struct Obstruction {
+  PlanStep action;
+  std::string blocker;
+  std::vector<Fact> facts;
+};
+
 // `reached` parts of an ordered goal are done already. An ordered goal becomes fluents `stage_1 …` that conditional
 // effects advance, and `out_of_order`, which must stay false; each part must be a conjunction of ground literals.
-PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached);
+// Obstructions become fluents `obstructed_1 …` that must end before their action; without any the problem is the plain
+// one that catalogues keep.
+PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
+                           const std::vector<Obstruction>& obstructions = {});
+
+// A ground action drawn at random: each action with equal chance, then each binding of its parameters to objects of
+// their types and traits; with `applicable` only those whose precondition holds. Result: nothing when the action that
+// was drawn has none.
+std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key);
 
 // The plan that a task's explicit `steps` mean at this moment: missing trailing arguments (empty names) are bound by
 // the precondition. Throws Error when nothing or more than one binding fits, with the candidates.

@@ -37,6 +37,9 @@ class Rollout {
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
 
+  // Bodies that planning takes to be elsewhere: to find out what is in the way.
+  std::vector<int> imagined_away;
+
   struct Checkpoint {
     Snapshot world;
     WorldView::History history;

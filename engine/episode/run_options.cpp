@@ -1,8 +1,10 @@
 // Options of a run as text: what keys and catalogues hold.
+#include <array>
 #include <sstream>
 
 #include "engine/base/hash.h"
 #include "engine/episode/runner.h"
+#include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
@@ -54,6 +56,17 @@ std::optional<OnFailure> on_failure_from(std::string_view text) {
   return std::nullopt;
 }
 
+std::string_view to_string(Behaviour value) {
+  constexpr std::array<std::string_view, 3> kNames{"plan", "random_skills", "random_applicable"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
+std::optional<Behaviour> behaviour_from(std::string_view text) {
+  for (const Behaviour value : {Behaviour::plan, Behaviour::random_skills, Behaviour::random_applicable})
+    if (to_string(value) == text) return value;
+  return std::nullopt;
+}
+
 std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
 
 std::map<std::string, std::string> RunOptions::as_text() const {
@@ -63,6 +76,12 @@ std::map<std::string, std::string> RunOptions::as_text() const {
                                              {"plans", std::to_string(plans)},
                                              {"draws", std::to_string(draws)}};
   if (!controller.empty()) text["controller"] = controller;
+  if (where) text["where"] = to_pddl(*where);
+  if (goal) text["goal"] = to_pddl(*goal);
+  if (behaviour != Behaviour::plan) {
+    text["behaviour"] = to_string(behaviour);
+    text["skills"] = std::to_string(skills);
+  }
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);
   if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit

@@ -4,71 +4,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/episode/altered_task.h"
+#include "engine/episode/episode_runner.h"
 #include "engine/episode/keyframes.h"
 #include "engine/episode/language.h"
-#include "engine/episode/planning.h"
-#include "engine/episode/skill_driver.h"
-#include "engine/symbolic/pddl.h"
 
 namespace stampede {
-namespace {
-
-constexpr double kGoalPatience = 1.0;  // s for the goal's facts to become steady after the last skill
-
-class EpisodeRunner {
- public:
-  EpisodeRunner(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
-                const std::atomic<bool>* stop)
-      : task_(task), symbols_(symbols), skills_(skills), options_(options), stop_(stop), subgoals_(task.subgoals()) {}
-
-  EpisodeRecord run();
-
- private:
-  // A skill boundary to which the episode can go back.
-  struct Place {
-    Rollout::Checkpoint checkpoint;
-    std::size_t subgoal = 0;
-    int subgoal_segment = 0;
-  };
-
-  void describe_episode(const PreparedStart& start);
-  SkillResult make_plan(const std::set<PlanStep>& forbidden);
-  SkillResult behave();
-  SkillResult with_undo();
-  SkillResult straight();
-  SkillResult with_recovery();
-  SkillResult one_step(std::size_t index, std::size_t position);
-  SkillResult finish_goal(std::size_t position);
-  void remember(int segment, std::size_t position);
-  void open_subgoal();
-  void after_skill();
-  Place here();
-  void back_to(const Place& place);
-  void place_attempts();
-  void close(const SkillResult& result);
-  void paint();
-  std::int64_t frames(double seconds) const;
-
-  Task& task_;
-  Symbols& symbols_;
-  SkillLibrary& skills_;
-  const RunOptions& options_;
-  const std::atomic<bool>* stop_;
-  EpisodeRecord record_;
-  std::optional<Rollout> rollout_;
-  std::optional<SkillDriver> driver_;
-  std::vector<std::pair<std::string, Formula>> subgoals_;
-  std::size_t subgoal_ = 0;
-  int subgoal_segment_ = 0;
-  Plan plan_;
-  struct Slot {
-    std::size_t position = 0;
-    int try_number = 0;
-  };
-  std::map<int, Slot> slots_;         // of skill segments, by ordinal
-  std::map<std::size_t, int> tries_;  // runs so far at a place in the plan: never undone, so draws never repeat
-  bool explicit_steps_ = false;
-};
 
 EpisodeRecord EpisodeRunner::run() {
   const auto began = std::chrono::steady_clock::now();  // host time, outside every hash
@@ -88,7 +29,7 @@ EpisodeRecord EpisodeRunner::run() {
   for (const std::string& sentence : describe_world(rollout_->facts().facts(), symbols_.domain(), *start.scene))
     record_.language.push_back({"world", sentence, -1});
   open_subgoal();
-  SkillResult result = make_plan({});
+  SkillResult result = make_plan();
   record_.documents.push_back({"plan", to_text(plan_)});
   if (result.ok()) result = behave();
   close(result);
@@ -125,120 +66,6 @@ void EpisodeRunner::describe_episode(const PreparedStart& start) {
 
 std::int64_t EpisodeRunner::frames(double seconds) const {
   return std::llround(std::ceil(seconds * record_.frame_hz - 1e-9));
-}
-
-SkillResult EpisodeRunner::make_plan(const std::set<PlanStep>& forbidden) {
-  const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
-  if (record_.documents.empty()) {
-    record_.documents.push_back({"pddl_domain", to_pddl(planning.domain)});
-    record_.documents.push_back({"pddl_problem", to_pddl(planning.problem, planning.domain)});
-  }
-  if (const auto steps = task_.steps()) {
-    explicit_steps_ = true;
-    plan_ = *steps;
-    return {};
-  }
-  const PlanOutcome outcome = solve(planning.domain, planning.problem, {}, forbidden);
-  if (!outcome.solved) return {Reason::no_plan, outcome.explanation};
-  plan_ = outcome.plan;
-  return {};
-}
-
-SkillResult EpisodeRunner::behave() {
-  switch (options_.on_failure) {
-    case OnFailure::undo:
-      return with_undo();
-    case OnFailure::stop:
-      return straight();
-    case OnFailure::recover:
-      return with_recovery();
-  }
-  return {};
-}
-
-SkillResult EpisodeRunner::one_step(std::size_t index, std::size_t position) {
-  const PlanStep step =
-      explicit_steps_ ? resolve_step(plan_[index], symbols_.domain(), rollout_->facts()) : plan_[index];
-  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), tries_[position]);
-  remember(result.segment, position);
-  if (result.ok()) after_skill();
-  return result;
-}
-
-SkillResult EpisodeRunner::finish_goal(std::size_t position) {
-  SkillResult result = driver_->wait_for_goal(frames(kGoalPatience), frames(task_.hold_s()), subgoal_segment_);
-  remember(result.segment, position);
-  return result;
-}
-
-void EpisodeRunner::remember(int segment, std::size_t position) { slots_[segment] = {position, ++tries_[position]}; }
-
-SkillResult EpisodeRunner::straight() {
-  for (std::size_t i = 0; i < plan_.size(); ++i) {
-    here();  // contact caches are dropped at every boundary, whether or not anything will be undone
-    if (SkillResult result = one_step(i, i); !result.ok()) return result;
-  }
-  here();
-  return finish_goal(plan_.size());
-}
-
-SkillResult EpisodeRunner::with_recovery() {
-  std::size_t position = 0;
-  for (int tries = 0;; ++position) {
-    SkillResult result;
-    for (std::size_t i = 0; result.ok() && i < plan_.size(); ++i, ++position) {
-      here();
-      result = one_step(i, position);
-    }
-    here();
-    if (result.ok()) result = finish_goal(position);
-    if (result.ok() || result.ends_episode || explicit_steps_ || ++tries >= options_.tries_per_episode) return result;
-    if (const SkillResult planned = make_plan({}); !planned.ok()) return planned;
-  }
-}
-
-SkillResult EpisodeRunner::with_undo() {
-  std::set<PlanStep> forbidden;
-  const Place start = here();
-  SkillResult last;
-  int tries = 0;
-  std::map<PlanStep, int> blame;  // failures of each ground action: the next plan does without the worst
-  for (int plans = 0; plans < options_.plans; ++plans) {
-    std::vector<Place> places = {start};
-    std::vector<int> failures(plan_.size() + 1, 0);
-    std::size_t i = 0;
-    while (true) {
-      last = i == plan_.size() ? finish_goal(i) : one_step(i, i);
-      if (last.ok() && i == plan_.size()) return last;
-      if (last.ok()) {
-        places.resize(++i);
-        places.push_back(here());
-        continue;
-      }
-      if (last.reason == Reason::interrupted || ++tries >= options_.tries_per_episode) return last;
-      if (i == plan_.size() && i > 0) --i;
-      if (i < plan_.size()) ++blame[plan_[i]];
-      // Where nothing can be grasped, other draws seldom help: what came before has to change.
-      const int most =
-          last.reason == Reason::no_grasp ? std::min(2, options_.tries_per_skill) : options_.tries_per_skill;
-      while (++failures[i] >= most && i > 0) failures[i--] = 0;
-      if (i == 0 && failures[0] >= most) break;
-      back_to(places[i]);
-    }
-    if (explicit_steps_ || plan_.empty()) return last;
-    const auto worst =
-        std::max_element(blame.begin(), blame.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    forbidden.insert(worst == blame.end() ? plan_.front() : worst->first);
-    if (worst != blame.end()) blame.erase(worst);
-    const Plan failed = plan_;
-    back_to(start);
-    if (!make_plan(forbidden).ok()) {
-      plan_ = failed;  // no other way: what failed stays the episode's result
-      SkillResult again = straight();
-      return again.ok() ? again : last;
-    }
-  }
-  return last;
 }
 
 void EpisodeRunner::open_subgoal() {
@@ -323,11 +150,10 @@ void EpisodeRunner::paint() {
   paint_episode(own ? *own : *options_.renderer, record_);
 }
 
-}  // namespace
-
 EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
                           const std::atomic<bool>* stop) {
-  return EpisodeRunner(task, symbols, skills, options, stop).run();
+  AlteredTask altered(task, symbols, options);
+  return EpisodeRunner(altered, symbols, skills, options, stop).run();
 }
 
 }  // namespace stampede

@@ -15,6 +15,12 @@ namespace stampede {
 std::string_view to_string(OnFailure value);
 std::optional<OnFailure> on_failure_from(std::string_view text);
 
+// What decides on the next skill: a plan for the goal, or seeded draws: of any skill and arguments of the right types
+// and traits, or of those whose precondition holds. Draws include continuous parameters; failures stay in the episode.
+enum class Behaviour { plan, random_skills, random_applicable };
+std::string_view to_string(Behaviour value);
+std::optional<Behaviour> behaviour_from(std::string_view text);
+
 // Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
 struct RunOptions {
   std::int64_t seed = 0;
@@ -22,9 +28,13 @@ struct RunOptions {
   OnFailure on_failure = OnFailure::undo;
   int tries_per_skill = 6;  // runs of one skill before the one before it is undone too
   int tries_per_episode = 60;
-  int plans = 4;           // different plans tried
-  int draws = 100;         // starts drawn until init holds
-  std::string controller;  // empty: each skill's own
+  int plans = 4;                 // different plans tried
+  int draws = 100;               // starts drawn until init holds
+  std::string controller;        // empty: each skill's own
+  std::optional<Formula> where;  // must hold at the start, beside the task's init
+  std::optional<Formula> goal;   // instead of the task's
+  Behaviour behaviour = Behaviour::plan;
+  int skills = 20;  // of a random behaviour: how many it draws
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name

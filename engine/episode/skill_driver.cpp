@@ -1,6 +1,7 @@
 #include "engine/episode/skill_driver.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.h"
 #include "engine/episode/call_motion.h"
@@ -40,14 +41,30 @@ std::vector<double> seven(const Transform& transform) {
   return values;
 }
 
+// Uniform where both bounds are finite; else it stays at its default.
+void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& record) {
+  if (info.source != ContinuousInfo::Source::value) return;
+  Random random(key);
+  for (std::size_t i = 0; i < record.values.size(); ++i) {
+    if (!std::isfinite(info.lower[i]) || !std::isfinite(info.upper[i])) continue;
+    record.values[i] = random.between(info.lower[i], info.upper[i]);
+    record.chosen_by = "agent";
+  }
+}
+
 }  // namespace
 
-SkillResult SkillDriver::run(const PlanStep& step, int parent_segment, int position, int attempt) {
+SkillResult SkillDriver::run(const PlanStep& step, int parent_segment, int position, int attempt,
+                             const CallMode& mode) {
   const Action* action = rollout_.domain().action(step.action);
   const SkillInfo* info = action == nullptr ? nullptr : skills_.skill(action->skill);
   if (info == nullptr) throw Error("plan", "there is no skill for the action '" + step.action + "'");
-  Context context{*action, *info, step.arguments, key_.with(position).with(attempt), attempt, -1};
-  return run_call(context, nullptr, parent_segment);
+  Context context{*action, *info, step.arguments, key_.with(position).with(attempt), attempt, -1, mode};
+  if (mode.random_parameters)  // which of the candidates
+    context.attempt = static_cast<int>(Random(context.key.with("candidate")).below(kGraspCandidates));
+  SkillResult result = run_call(context, nullptr, parent_segment);
+  result.step = step;
+  return result;
 }
 
 SkillResult SkillDriver::run_call(Context& context, const SkillCall* preset, int parent) {
@@ -63,18 +80,28 @@ SkillResult SkillDriver::run_call(Context& context, const SkillCall* preset, int
   const auto unmet_literals = unmet(context.action.precondition, before, rollout_.domain(), rollout_.facts().objects(),
                                     binding_of(context.action, context.arguments));
   segment.precondition_held = unmet_literals.empty();
-  if (!unmet_literals.empty()) return finish({Reason::precondition_false, unmet_literals.front() + " does not hold"});
+  if (!unmet_literals.empty() && context.mode.refuse)
+    return finish({Reason::precondition_false, unmet_literals.front() + " does not hold"});
 
   SkillCall call{context.info.name,       context.action.case_name, context.arguments, {},
                  context.info.controller, context.info.stiffness};
   if (preset != nullptr) call.continuous = preset->continuous;
   if (const auto chosen = controller_from(options_.controller)) call.controller = *chosen;
   std::string detail;
+  const SkillCall undrawn = call;
   const Reason drawn = draw(context, call, detail);
   SegmentRecord& named = rollout_.recorder().segment(context.segment);
   named.controller = std::string(to_string(call.controller));
   for (const ContinuousValue& value : call.continuous) named.parameters.push_back(value.record);
-  if (drawn != Reason::none) return finish({drawn, detail});
+  if (drawn != Reason::none) {
+    SkillResult failed{drawn, detail};
+    name_blockers(context, failed, [&] {
+      SkillCall again = undrawn;
+      std::string ignored;
+      return draw(context, again, ignored) == Reason::none;
+    });
+    return finish(std::move(failed));
+  }
 
   std::vector<Literal> effects;
   for (const EffectRecord& effect : named.declared_effects) effects.push_back({effect.fact, effect.negated});
@@ -107,6 +134,7 @@ Reason SkillDriver::draw(const Context& context, SkillCall& call, std::string& d
     if (given != call.continuous.end()) continue;
     ContinuousValue value;
     value.record = {info.name, info.initial, {}, info.unit, info.frame, "default"};
+    if (context.mode.random_parameters) draw_within(info, context.key.with(info.name), value.record);
     Reason reason = Reason::none;
     if (info.source == ContinuousInfo::Source::grasps) reason = draw_grasp(context, info, value, detail);
     if (info.source == ContinuousInfo::Source::sample) reason = draw_sample(context, info, value, detail);
@@ -168,6 +196,45 @@ Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& in
   return Reason::none;
 }
 
+// The nearest free body without which `works` says yes; else all near ones together, when that helps.
+void SkillDriver::name_blockers(const Context& context, SkillResult& result, const std::function<bool()>& works) {
+  constexpr double kNear = 0.35;  // m
+  constexpr std::size_t kMost = 5;
+  if (context.attempt > 0 || context.arguments.empty()) return;
+  const WorldView& view = rollout_.view();
+  const Scene& scene = view.scene();
+  std::vector<std::tuple<double, std::string, int>> near;
+  for (const Object& thing : scene.objects) {
+    const int body = thing.kind == ObjectKind::body ? scene.body_index(thing.body) : -1;
+    if (body < 0 || !scene.bodies[static_cast<std::size_t>(body)].free) continue;
+    if (rollout_.keep && rollout_.keep->body == body) continue;
+    double distance = kNear;
+    for (const std::string& name : context.arguments) {
+      if (name == thing.name) distance = 1e9;  // what it is about is not in its way
+      const Object* other = scene.object(name);
+      if (other == nullptr || other->kind == ObjectKind::hand || distance > kNear) continue;
+      distance =
+          std::min(distance, (view.world_from(name).translation() - view.world_from(thing.name).translation()).norm());
+    }
+    if (distance < kNear) near.emplace_back(distance, thing.name, body);
+  }
+  std::sort(near.begin(), near.end());
+  if (near.size() > kMost) near.resize(kMost);
+  for (const auto& [distance, name, body] : near) {
+    rollout_.imagined_away = {body};
+    if (result.blockers.empty() && works()) result.blockers = {name};
+  }
+  if (result.blockers.empty() && near.size() > 1) {
+    rollout_.imagined_away.clear();
+    for (const auto& [distance, name, body] : near) rollout_.imagined_away.push_back(body);
+    if (works())
+      for (const auto& [distance, name, body] : near) result.blockers.push_back(name);
+  }
+  rollout_.imagined_away.clear();
+  for (std::size_t i = 0; i < result.blockers.size(); ++i)
+    result.detail += (i == 0 ? "; in the way: " : ", ") + result.blockers[i];
+}
+
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<PartRef> SkillDriver::touchable(const Context& context) const {
   std::vector<std::string> names;
@@ -215,7 +282,12 @@ SkillResult SkillDriver::run_child(const Context& context, const SkillCall& call
 
 SkillResult SkillDriver::run_motion(const Context& context, const RobotCall& call, RandomKey key) {
   PlannedCall planned = plan_call(rollout_, call, touchable(context), key);
-  if (!planned.motion) return {planned.reason, planned.detail};
+  if (!planned.motion) {
+    SkillResult failed{planned.reason, planned.detail};
+    name_blockers(context, failed,
+                  [&] { return plan_call(rollout_, call, touchable(context), key).motion != nullptr; });
+    return failed;
+  }
   SegmentRecord segment;
   segment.kind = "motion";
   segment.parent = context.segment;

@@ -1,6 +1,8 @@
 // Runs one skill: draws its continuous parameters, plans and executes its motions, tests its effects.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +13,17 @@ namespace stampede {
 struct SkillResult {
   Reason reason = Reason::none;
   std::string detail;
-  bool ends_episode = false;  // interrupted, timeout, out_of_order, failed_by_task
-  int segment = -1;           // ordinal of the skill's segment
+  bool ends_episode = false;               // interrupted, timeout, out_of_order, failed_by_task
+  int segment = -1;                        // ordinal of the skill's segment
+  std::vector<std::string> blockers = {};  // free bodies without which the reason would not be
+  std::optional<PlanStep> step = {};       // what was tried
   bool ok() const { return reason == Reason::none; }
+};
+
+// How a skill is called by who draws skills instead of planning them.
+struct CallMode {
+  bool refuse = true;              // a false precondition ends the call; else it is noted and the skill runs
+  bool random_parameters = false;  // continuous parameters within their bounds, any of the grasps and placements
 };
 
 class SkillDriver {
@@ -22,7 +32,7 @@ class SkillDriver {
       : rollout_(rollout), symbols_(symbols), skills_(skills), options_(options), key_(key) {}
 
   // `position`: index in the plan, `attempt`: how often it was tried before; both only choose the draws.
-  SkillResult run(const PlanStep& step, int parent_segment, int position, int attempt);
+  SkillResult run(const PlanStep& step, int parent_segment, int position, int attempt, const CallMode& mode = {});
   // The built-in skill `wait`: stands still until the goal holds (`patience` frames at most, else goal_false) and then
   // for `hold` frames more, through which it must stay true (else goal_unstable).
   SkillResult wait_for_goal(std::int64_t patience, std::int64_t hold, int parent_segment);
@@ -35,6 +45,7 @@ class SkillDriver {
     RandomKey key;
     int attempt = 0;
     int segment = -1;
+    CallMode mode = {};
   };
   SkillResult run_call(Context& context, const SkillCall* preset, int parent);
   void open_segment(Context& context, int parent, const Facts& before);
@@ -48,6 +59,7 @@ class SkillDriver {
   void after_hand(const robot_call::Hand& hand, int segment, bool ok);
   SkillResult settle_effects(const Context& context, const std::vector<Literal>& effects);
   std::vector<std::string> missing(const std::vector<Literal>& effects, bool& pending) const;
+  void name_blockers(const Context& context, SkillResult& result, const std::function<bool()>& works);
   std::vector<PartRef> touchable(const Context& context) const;
   SkillResult watch_goal(std::int64_t patience, std::int64_t hold);
 

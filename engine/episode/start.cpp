@@ -5,8 +5,11 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/episode/altered_task.h"
+#include "engine/episode/constraints.h"
 #include "engine/episode/fact_tracker.h"
 #include "engine/model/camera.h"
+#include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
@@ -152,15 +155,60 @@ class StartMaker {
     number_masks(scene, key.with("masks"));
   }
 
+  // Init, and then what `where` was drawn to mean; a literal of init gives way where `where` places the same thing.
+  bool choose_literals(const Draft& draft, RandomKey key) {
+    literals_ = task_.init();
+    replaced_.clear();
+    if (!options_.where) return true;
+    FactTracker tracker(symbols_, draft.view());
+    tracker.begin({});
+    where_ = checked_formula(*options_.where, symbols_.domain(), tracker.objects(), "--where");
+    const auto drawn = draw_literals(*where_, symbols_.domain(), tracker.objects(), tracker.facts(), key);
+    if (!drawn) return refuse(contradiction(tracker));
+    const std::vector<std::string> waiting = task_.unplaced();
+    for (const Literal& literal : *drawn) {
+      if (literal.negated || literal.fact.arguments.empty() || !is_free(draft.view(), subject(literal))) continue;
+      std::erase_if(literals_, [&](const Literal& own) { return !own.negated && subject(own) == subject(literal); });
+      if (std::find(waiting.begin(), waiting.end(), subject(literal)) == waiting.end())
+        replaced_.push_back(subject(literal));
+    }
+    literals_.insert(literals_.end(), drawn->begin(), drawn->end());
+    return true;
+  }
+
+  // The first part of `where` that cannot be met by itself.
+  std::string contradiction(const FactTracker& tracker) const {
+    const std::vector<Formula> parts =
+        where_->kind == Formula::Kind::conjunction ? where_->parts : std::vector<Formula>{*where_};
+    for (const Formula& part : parts)
+      if (!draw_literals(part, symbols_.domain(), tracker.objects(), tracker.facts(), RandomKey("where")))
+        return to_pddl(part);
+    return to_pddl(*where_);
+  }
+
+  static const std::string& subject(const Literal& literal) {
+    return literal.fact.arguments.empty() ? literal.fact.predicate : literal.fact.arguments[0];
+  }
+  static bool is_free(const WorldView& view, const std::string& name) {
+    const Object* thing = view.scene().object(name);
+    const int body = thing == nullptr || thing->kind != ObjectKind::body ? -1 : view.scene().body_index(thing->body);
+    return body >= 0 && view.scene().bodies[static_cast<std::size_t>(body)].free;
+  }
+
   bool place_all(Draft& draft, int draw) {
     const RandomKey key = RandomKey("init").with(task_.name()).with(task_.variation()).with(options_.seed).with(draw);
+    if (!choose_literals(draft, key.with("where"))) return false;
     std::vector<std::string> unplaced = task_.unplaced();
+    unplaced.insert(unplaced.end(), replaced_.begin(), replaced_.end());
     int number = 0;
-    for (const Literal& literal : task_.init()) {
+    std::vector<Literal> waiting_literals = literals_;
+    while (!waiting_literals.empty()) {
+      const auto next = next_to_place(waiting_literals, unplaced);
+      const Literal literal = *next;
+      waiting_literals.erase(next);
       if (literal.negated) continue;
       const auto ways = symbols_.sample(literal.fact, draft.view(), draft.space(), key.with(number++), kSamples);
-      const std::string& subject = literal.fact.arguments.empty() ? literal.fact.predicate : literal.fact.arguments[0];
-      const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject);
+      const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
       if (ways.empty()) {
         if (waiting != unplaced.end()) return refuse(text_of(literal));
         continue;  // nothing to place: the literal is only tested
@@ -171,15 +219,32 @@ class StartMaker {
       if (waiting != unplaced.end()) unplaced.erase(waiting);
     }
     if (unplaced.empty()) return true;
+    std::erase_if(unplaced, [&](const std::string& name) {  // `where` spoke of them, but without a sample
+      return std::find(replaced_.begin(), replaced_.end(), name) != replaced_.end();
+    });
+    if (unplaced.empty()) return true;
     throw Error("task " + task_.name(), "no literal of init places '" + unplaced.front() + "'",
                 "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
+  }
+
+  // The first literal whose other arguments have their places; the first of all where each waits for another.
+  static std::vector<Literal>::iterator next_to_place(std::vector<Literal>& literals,
+                                                      const std::vector<std::string>& unplaced) {
+    const auto ready = [&](const Literal& literal) {
+      return std::none_of(unplaced.begin(), unplaced.end(), [&](const std::string& name) {
+        const auto& arguments = literal.fact.arguments;
+        return name != subject(literal) && std::find(arguments.begin(), arguments.end(), name) != arguments.end();
+      });
+    };
+    const auto found = std::find_if(literals.begin(), literals.end(), ready);
+    return found == literals.end() ? literals.begin() : found;
   }
 
   // What to say of a scene that does not settle: the first literal that this undid, where there is one.
   std::string moving(const WorldView& view) {
     FactTracker tracker(symbols_, view);
     tracker.begin(tracker.read_all(view));
-    for (const Literal& literal : task_.init()) {
+    for (const Literal& literal : literals_) {
       if (tracker.facts().contains(literal.fact) == literal.negated) return text_of(literal) + " and coming to rest";
     }
     return "coming to rest";
@@ -189,8 +254,10 @@ class StartMaker {
     FactTracker tracker(symbols_, view);
     auto values = tracker.read_all(view);
     tracker.begin(values);
-    for (const Literal& literal : task_.init())
+    for (const Literal& literal : literals_)
       if (tracker.facts().contains(literal.fact) == literal.negated) return refuse(text_of(literal));
+    if (where_ && !holds(*where_, tracker.facts(), symbols_.domain(), tracker.objects()))
+      return refuse(failing_parts(*where_, tracker.facts(), symbols_.domain(), tracker.objects()).front());
     if (holds(task_.goal(), tracker.facts(), symbols_.domain(), tracker.objects()) && task_.also(view))
       return refuse("the goal not holding at the start");
     start.scene = std::make_shared<const Scene>(settled(view));
@@ -203,6 +270,9 @@ class StartMaker {
   Symbols& symbols_;
   const RunOptions& options_;
   const std::atomic<bool>* stop_;
+  std::vector<Literal> literals_;      // of this draw: what is to be made true, and tested
+  std::vector<std::string> replaced_;  // things with a place of their own, which `where` gives another
+  std::optional<Formula> where_;
   std::map<std::string, int> failures_;
 };
 
@@ -213,7 +283,8 @@ PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& opti
 }
 
 Start make_start(Task& task, Symbols& symbols, const RunOptions& options) {
-  return prepare_start(task, symbols, options);
+  AlteredTask altered(task, symbols, options);
+  return prepare_start(altered, symbols, options);
 }
 
 }  // namespace stampede

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "engine/base/error.h"
 #include "engine/model/camera.h"
 #include "engine/render/png.h"
 #include "tests/engine/episode/plain_task.h"

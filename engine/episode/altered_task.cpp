@@ -1,0 +1,61 @@
+#include "engine/episode/altered_task.h"
+
+#include <set>
+
+#include "engine/episode/constraints.h"
+#include "engine/episode/language.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+// The scene's objects, and the values of attributes that predicates speak of.
+std::vector<TypedObject> objects_of(const Scene& scene, const Domain& domain) {
+  std::vector<TypedObject> objects;
+  std::set<std::string> values;
+  for (const Object& thing : scene.objects) {
+    objects.push_back({thing.name, thing.type});
+    for (const auto& [key, value] : thing.attributes) {
+      const Predicate* predicate = domain.predicate(key);
+      if (predicate == nullptr || predicate->parameters.size() != 2 || !values.insert(value).second) continue;
+      objects.push_back({value, predicate->parameters[1].type});
+    }
+  }
+  return objects;
+}
+
+// `the red block is on the table and the hand is empty`; nothing for what templates cannot say.
+std::string sentence(const Formula& formula, const Domain& domain, const Scene& scene) {
+  if (formula.kind == Formula::Kind::conjunction) {
+    std::string text;
+    for (const Formula& part : formula.parts) {
+      const std::string one = sentence(part, domain, scene);
+      if (one.empty()) return {};
+      text += (text.empty() ? "" : " and ") + one;
+    }
+    return text;
+  }
+  const bool negated = formula.kind == Formula::Kind::negation;
+  const Formula& inner = negated ? formula.parts[0] : formula;
+  const Predicate* predicate = inner.kind == Formula::Kind::atom ? domain.predicate(inner.predicate) : nullptr;
+  if (predicate == nullptr || predicate->label.empty()) return {};
+  std::vector<std::string> names;
+  for (const Term& term : inner.terms) {
+    if (term.variable) return {};
+    names.push_back(term.name);
+  }
+  const std::string text = fill(predicate->label, predicate->parameters, names, scene);
+  return negated ? "it is not so that " + text : text;
+}
+
+}  // namespace
+
+AlteredTask::AlteredTask(Task& task, const Symbols& symbols, const RunOptions& options) : task_(task) {
+  if (!options.goal) return;
+  const Scene scene = task.scene(0);
+  goal_ = checked_formula(*options.goal, symbols.domain(), objects_of(scene, symbols.domain()), "--goal");
+  const std::string text = sentence(*goal_, symbols.domain(), scene);
+  instructions_ = {text.empty() ? "make this true: " + to_pddl(*goal_) : "make sure that " + text};
+}
+
+}  // namespace stampede

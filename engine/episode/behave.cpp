@@ -1,0 +1,234 @@
+// What an episode does next: a plan with undo, without, with recovery, or seeded draws.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/episode/episode_runner.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kGoalPatience = 1.0;  // s for the goal's facts to become steady after the last skill
+constexpr int kFailuresPerAction = 3;  // with recovery: then plans do without it
+constexpr int kRandomDraws = 50;       // of a skill that has arguments here
+
+bool geometric(Reason reason) {
+  return reason == Reason::no_grasp || reason == Reason::no_placement || reason == Reason::no_path ||
+         reason == Reason::unreachable;
+}
+
+}  // namespace
+
+SkillResult EpisodeRunner::plan_rest(std::size_t done) {
+  const PlanningTask planning =
+      planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage(), obstructions_);
+  const PlanOutcome outcome = solve(planning.domain, planning.problem, {}, forbidden_);
+  if (!outcome.solved) return {Reason::no_plan, outcome.explanation};
+  plan_.resize(std::min(done, plan_.size()));
+  plan_.insert(plan_.end(), outcome.plan.begin(), outcome.plan.end());
+  return {};
+}
+
+SkillResult EpisodeRunner::make_plan() {
+  if (record_.documents.empty()) {
+    const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
+    record_.documents.push_back({"pddl_domain", to_pddl(planning.domain)});
+    record_.documents.push_back({"pddl_problem", to_pddl(planning.problem, planning.domain)});
+  }
+  if (options_.behaviour != Behaviour::plan) return {};
+  if (const auto steps = task_.steps()) {
+    explicit_steps_ = true;
+    plan_ = *steps;
+    return {};
+  }
+  return plan_rest(0);
+}
+
+SkillResult EpisodeRunner::behave() {
+  if (options_.behaviour != Behaviour::plan) return at_random();
+  switch (options_.on_failure) {
+    case OnFailure::undo:
+      return with_undo();
+    case OnFailure::stop:
+      return straight();
+    case OnFailure::recover:
+      return with_recovery();
+  }
+  return {};
+}
+
+SkillResult EpisodeRunner::one_step(std::size_t index, std::size_t position) {
+  const PlanStep step =
+      explicit_steps_ ? resolve_step(plan_[index], symbols_.domain(), rollout_->facts()) : plan_[index];
+  const Action* action = symbols_.domain().action(step.action);
+  if (action != nullptr)
+    expected_ =
+        apply(*action, step.arguments, rollout_->facts().basic(), symbols_.domain(), rollout_->facts().objects());
+  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), tries_[position]);
+  remember(result.segment, position);
+  if (result.ok()) after_skill();
+  return result;
+}
+
+// After `done` steps of the plan: when something else happened than they declare and the rest no longer works, the
+// rest is planned again from here.
+SkillResult EpisodeRunner::watch(std::size_t done) {
+  if (explicit_steps_ || done >= plan_.size() || !expected_ || *expected_ == rollout_->facts().basic()) return {};
+  const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
+  const Plan rest(plan_.begin() + static_cast<std::ptrdiff_t>(done), plan_.end());
+  if (validate(planning.domain, planning.problem, rest).valid) return {};
+  return plan_rest(done);
+}
+
+SkillResult EpisodeRunner::finish_goal(std::size_t position) {
+  SkillResult result = driver_->wait_for_goal(frames(kGoalPatience), frames(task_.hold_s()), subgoal_segment_);
+  remember(result.segment, position);
+  return result;
+}
+
+void EpisodeRunner::remember(int segment, std::size_t position) { slots_[segment] = {position, ++tries_[position]}; }
+
+SkillResult EpisodeRunner::straight() {
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    here();  // contact caches are dropped at every boundary, whether or not anything will be undone
+    SkillResult result = one_step(i, i);
+    if (result.ok()) result = watch(i + 1);
+    if (!result.ok()) return result;
+  }
+  here();
+  return finish_goal(plan_.size());
+}
+
+SkillResult EpisodeRunner::with_recovery() {
+  std::size_t position = 0;
+  std::map<PlanStep, int> failures;
+  for (int tries = 0;; ++position) {
+    SkillResult result;
+    std::optional<PlanStep> failed;
+    for (std::size_t i = 0; result.ok() && i < plan_.size(); ++i, ++position) {
+      here();
+      result = one_step(i, position);
+      if (!result.ok()) failed = plan_[i];
+      if (result.ok()) result = watch(i + 1);
+    }
+    here();
+    if (result.ok()) result = finish_goal(position);
+    if (result.ok() || result.ends_episode || explicit_steps_ || ++tries >= options_.tries_per_episode) return result;
+    if (failed && avoid_obstacles(result, 0)) continue;
+    if (failed && ++failures[*failed] == kFailuresPerAction) forbidden_.insert(*failed);
+    if (const SkillResult planned = plan_rest(0); !planned.ok()) {
+      if (forbidden_.empty()) return planned;
+      forbidden_.clear();  // nothing works without what failed: try it again after all
+      failures.clear();
+      if (const SkillResult again = plan_rest(0); !again.ok()) return again;
+    }
+  }
+}
+
+// Plans the rest from here so that what was found in the way is moved first. False: it is known already, or cannot be.
+bool EpisodeRunner::avoid_obstacles(const SkillResult& failed, std::size_t index) {
+  if (explicit_steps_ || failed.blockers.empty() || !geometric(failed.reason)) return false;
+  const PlanStep step = plan_[std::min(index, plan_.size() - 1)];
+  const std::size_t known = obstructions_.size();
+  for (const std::string& blocker : failed.blockers) {
+    Obstruction found{failed.step.value_or(step), blocker, {}};
+    for (const Fact& fact : rollout_->facts().basic())
+      if (!fact.arguments.empty() && fact.arguments[0] == blocker) found.facts.push_back(fact);
+    const bool old = std::any_of(obstructions_.begin(), obstructions_.end(), [&](const Obstruction& one) {
+      return one.action == found.action && one.blocker == blocker;
+    });
+    if (!old) obstructions_.push_back(std::move(found));
+  }
+  if (obstructions_.size() == known) return false;
+  if (plan_rest(index).ok()) return true;
+  obstructions_.resize(known);
+  return false;
+}
+
+// The next plan does without the action that failed most.
+bool EpisodeRunner::other_plan(const Place& start, std::map<PlanStep, int>& blame) {
+  if (explicit_steps_ || plan_.empty()) return false;
+  const auto worst =
+      std::max_element(blame.begin(), blame.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  forbidden_.insert(worst == blame.end() ? plan_.front() : worst->first);
+  if (worst != blame.end()) blame.erase(worst);
+  obstructions_.clear();
+  back_to(start);
+  return plan_rest(0).ok();
+}
+
+SkillResult EpisodeRunner::with_undo() {
+  const Place start = here();
+  SkillResult last;
+  int tries = 0;
+  std::map<PlanStep, int> blame;  // failures of each ground action
+  for (int plans = 0; plans < options_.plans; ++plans) {
+    std::vector<Place> places = {start};
+    std::vector<int> failures(plan_.size() + 1, 0);
+    std::size_t i = 0;
+    while (true) {
+      last = i == plan_.size() ? finish_goal(i) : one_step(i, i);
+      if (last.ok() && i == plan_.size()) return last;
+      if (last.ok()) last = watch(i + 1);
+      if (last.ok()) {
+        places.resize(++i);
+        places.push_back(here());
+        failures.resize(plan_.size() + 1, 0);
+        continue;
+      }
+      if (last.reason == Reason::interrupted || ++tries >= options_.tries_per_episode) return last;
+      if (i == plan_.size() && i > 0) --i;
+      if (i < plan_.size()) ++blame[plan_[i]];
+      if (i < plan_.size() && !last.blockers.empty()) {
+        back_to(places[i]);
+        if (avoid_obstacles(last, i)) {
+          failures.assign(plan_.size() + 1, 0);
+          continue;
+        }
+      }
+      // Where nothing can be grasped, other draws seldom help: what came before has to change.
+      const int most =
+          last.reason == Reason::no_grasp ? std::min(2, options_.tries_per_skill) : options_.tries_per_skill;
+      while (++failures[i] >= most && i > 0) failures[i--] = 0;
+      if (i == 0 && failures[0] >= most) break;
+      back_to(places[i]);
+    }
+    const Plan failed = plan_;
+    record_.documents.push_back(
+        {"failed_plan", to_text(failed) + "; " + std::string(to_string(last.reason)) + ": " + last.detail + "\n"});
+    if (explicit_steps_ || plan_.empty()) return last;
+    if (!other_plan(start, blame)) {
+      plan_ = failed;  // no other way: what failed stays the episode's result
+      SkillResult again = straight();
+      return again.ok() ? again : last;
+    }
+  }
+  return last;
+}
+
+// Draws skills and arguments, and does not mind failing; the episode is as long as was asked for.
+SkillResult EpisodeRunner::at_random() {
+  const RandomKey key = RandomKey("behaviour").with(task_.name()).with(task_.variation()).with(options_.seed);
+  const bool applicable = options_.behaviour == Behaviour::random_applicable;
+  SkillResult result;
+  for (int i = 0; i < options_.skills; ++i) {
+    here();
+    const RandomKey own = key.with(i);
+    std::optional<PlanStep> step;
+    for (int draw = 0; draw < kRandomDraws && !step; ++draw)
+      step = random_step(symbols_.domain(), rollout_->facts(), applicable, own.with(draw));
+    if (!step) return {Reason::no_plan, "no skill applies to anything here"};
+    CallMode mode;
+    mode.refuse = applicable;
+    mode.random_parameters = true;
+    plan_.push_back(*step);
+    result = driver_->run(*step, subgoal_segment_, i, 0, mode);
+    remember(result.segment, static_cast<std::size_t>(i));
+    if (result.ok()) after_skill();
+    if (result.ends_episode) return result;
+  }
+  here();
+  return finish_goal(static_cast<std::size_t>(options_.skills));
+}
+
+}  // namespace stampede

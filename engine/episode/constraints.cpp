@@ -1,0 +1,208 @@
+#include "engine/episode/constraints.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr int kMostSteps = 100'000;  // of the search; a formula that needs more counts as contradictory
+
+std::vector<std::size_t> shuffled(std::size_t count, RandomKey key) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Random random(key);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
+  return order;
+}
+
+// Depth first over alternatives; `then` is what remains to be made true.
+class Drawing {
+ public:
+  Drawing(const Domain& domain, const std::vector<TypedObject>& objects, const Facts& known, RandomKey key)
+      : view_{known, domain, objects}, key_(key) {
+    for (const Fact& fact : known) decided_.insert(fact.predicate);
+    decided_.insert(domain.traits.begin(), domain.traits.end());
+  }
+
+  bool make(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
+    if (++steps_ > kMostSteps) return false;
+    switch (formula.kind) {
+      case Formula::Kind::always:
+        return then();
+      case Formula::Kind::never:
+        return false;
+      case Formula::Kind::atom:
+        return literal(formula, binding, false, then);
+      case Formula::Kind::equal:
+        return same(formula, binding) && then();
+      case Formula::Kind::negation:
+        if (formula.parts[0].kind == Formula::Kind::equal) return !same(formula.parts[0], binding) && then();
+        return literal(formula.parts[0], binding, true, then);
+      case Formula::Kind::conjunction:
+        return all(formula, binding, 0, then);
+      case Formula::Kind::disjunction:
+        for (const std::size_t i : shuffled(formula.parts.size(), key_.with(steps_)))
+          if (make(formula.parts[i], binding, then)) return true;
+        return false;
+      case Formula::Kind::exists:
+        return some(formula, binding, then);
+      case Formula::Kind::forall:
+        return every(formula, binding, then);
+    }
+    return false;
+  }
+
+  std::vector<Literal> take() { return std::move(literals_); }
+
+ private:
+  static bool same(const Formula& formula, const Binding& binding) {
+    return symbolic::value_of(formula.terms[0], binding) == symbolic::value_of(formula.terms[1], binding);
+  }
+
+  bool literal(const Formula& formula, const Binding& binding, bool negated, const std::function<bool()>& then) {
+    const Fact fact = symbolic::ground_atom(formula.predicate, formula.terms, binding);
+    if (decided_.contains(fact.predicate)) return view_.facts.contains(fact) != negated && then();
+    for (const Literal& known : literals_)
+      if (known.fact == fact) return known.negated == negated && then();
+    literals_.push_back({fact, negated});
+    if (then()) return true;
+    literals_.pop_back();
+    return false;
+  }
+
+  bool all(const Formula& formula, const Binding& binding, std::size_t from, const std::function<bool()>& then) {
+    if (from == formula.parts.size()) return then();
+    return make(formula.parts[from], binding, [&] { return all(formula, binding, from + 1, then); });
+  }
+
+  std::vector<Binding> bindings(const Formula& formula, const Binding& binding) const {
+    std::vector<Binding> list;
+    Binding own = binding;
+    symbolic::for_each_binding(formula.variables, view_, own, [&] {
+      list.push_back(own);
+      return true;
+    });
+    return list;
+  }
+
+  bool some(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
+    const std::vector<Binding> list = bindings(formula, binding);
+    for (const std::size_t i : shuffled(list.size(), key_.with(steps_)))
+      if (make(formula.parts[0], list[i], then)) return true;
+    return false;
+  }
+
+  bool every(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
+    const std::vector<Binding> list = bindings(formula, binding);
+    const std::function<bool(std::size_t)> from = [&](std::size_t i) {
+      return i == list.size() ? then() : make(formula.parts[0], list[i], [&] { return from(i + 1); });
+    };
+    return from(0);
+  }
+
+  symbolic::View view_;
+  RandomKey key_;
+  std::set<std::string> decided_;
+  std::vector<Literal> literals_;
+  int steps_ = 0;
+};
+
+class Checker {
+ public:
+  Checker(const Domain& domain, const std::vector<TypedObject>& objects, std::string place)
+      : domain_(domain), place_(std::move(place)) {
+    for (const TypedObject& object : objects) {
+      objects_.push_back(object.name);
+      if (domain.is_a(object.type, "hand")) hands_.push_back(object.name);
+    }
+    for (const Predicate& predicate : domain.predicates) predicates_.push_back(predicate.name);
+    predicates_.insert(predicates_.end(), domain.traits.begin(), domain.traits.end());
+  }
+
+  Formula check(Formula formula, std::set<std::string> bound) const {
+    for (const Parameter& variable : formula.variables) {
+      bound.insert(variable.name);
+      if (!variable.type.empty() && variable.type != "object" && !domain_.types.contains(variable.type))
+        unknown("type", variable.type, types());
+    }
+    if (formula.kind == Formula::Kind::atom) check_atom(formula);
+    for (const Term& term : formula.terms) {
+      if (term.variable && !bound.contains(term.name))
+        throw Error(place_, "nothing binds the variable ?" + term.name, "write (exists (?" + term.name + " - …) …)");
+      if (!term.variable && std::find(objects_.begin(), objects_.end(), term.name) == objects_.end())
+        unknown("object", term.name, objects_);
+    }
+    for (Formula& part : formula.parts) part = check(std::move(part), bound);
+    return formula;
+  }
+
+ private:
+  [[noreturn]] void unknown(const std::string& kind, const std::string& name,
+                            const std::vector<std::string>& known) const {
+    throw Error(place_, "there is no " + kind + " '" + name + "'", did_you_mean(name, known));
+  }
+  std::vector<std::string> types() const {
+    std::vector<std::string> names;
+    for (const auto& [name, parent] : domain_.types) names.push_back(name);
+    return names;
+  }
+  void check_atom(Formula& formula) const {
+    if (std::find(predicates_.begin(), predicates_.end(), formula.predicate) == predicates_.end())
+      unknown("predicate", formula.predicate, predicates_);
+    const Predicate* predicate = domain_.predicate(formula.predicate);
+    const std::size_t wanted = predicate == nullptr ? 1 : predicate->parameters.size();
+    for (std::size_t i = 0; i < wanted && formula.terms.size() + 1 == wanted && hands_.size() == 1; ++i)
+      if (predicate != nullptr && predicate->parameters[i].type == "hand")
+        formula.terms.insert(formula.terms.begin() + static_cast<std::ptrdiff_t>(i), Term{false, hands_.front()});
+    if (formula.terms.size() == wanted) return;
+    std::string example = "(" + formula.predicate;
+    if (predicate == nullptr) example += " X";
+    if (predicate != nullptr)
+      for (const Parameter& parameter : predicate->parameters) example += " " + parameter.name;
+    throw Error(place_,
+                "'" + formula.predicate + "' takes " + std::to_string(wanted) + " arguments, not " +
+                    std::to_string(formula.terms.size()),
+                "write " + example + ")");
+  }
+  const Domain& domain_;
+  std::string place_;
+  std::vector<std::string> objects_, predicates_, hands_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Domain& domain,
+                                                  const std::vector<TypedObject>& objects, const Facts& known,
+                                                  RandomKey key) {
+  Drawing drawing(domain, objects, known, key);
+  if (!drawing.make(symbolic::negation_normal(formula), {}, [] { return true; })) return std::nullopt;
+  return drawing.take();
+}
+
+Formula checked_formula(const Formula& formula, const Domain& domain, const std::vector<TypedObject>& objects,
+                        const std::string& place) {
+  return Checker(domain, objects, place).check(formula, {});
+}
+
+std::vector<std::string> failing_parts(const Formula& formula, const Facts& facts, const Domain& domain,
+                                       const std::vector<TypedObject>& objects) {
+  std::vector<std::string> texts;
+  if (formula.kind == Formula::Kind::conjunction) {
+    for (const Formula& part : formula.parts)
+      for (std::string& text : failing_parts(part, facts, domain, objects)) texts.push_back(std::move(text));
+  } else if (!holds(formula, facts, domain, objects)) {
+    texts.push_back(to_pddl(formula));
+  }
+  return texts;
+}
+
+}  // namespace stampede

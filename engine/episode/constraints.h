@@ -1,0 +1,30 @@
+// Constraints on a start: which literals make a formula true.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/episode/interfaces.h"
+
+namespace stampede {
+
+// Draws bindings and alternatives until what is known does not contradict: quantifiers over objects of the types and
+// traits, disjunctions by one of their parts. `known` holds all traits and attributes; a literal of these is decided
+// at once and not in the result. Result: what else has to be true, each once, in the formula's order; nothing when
+// the formula contradicts itself or what is known. Repeatable: a pure function of its arguments.
+std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Domain& domain,
+                                                  const std::vector<TypedObject>& objects, const Facts& known,
+                                                  RandomKey key);
+
+// The formula with the hand filled in where an atom leaves it out and there is one hand. Throws Error for unknown
+// predicates, types and objects (with the nearest as cure), wrong numbers of arguments and variables that nothing
+// binds. `place` starts the message: `--where`, `--goal`.
+Formula checked_formula(const Formula& formula, const Domain& domain, const std::vector<TypedObject>& objects,
+                        const std::string& place);
+
+// Which parts of a conjunction do not hold; of another formula, itself.
+std::vector<std::string> failing_parts(const Formula& formula, const Facts& facts, const Domain& domain,
+                                       const std::vector<TypedObject>& objects);
+
+}  // namespace stampede
