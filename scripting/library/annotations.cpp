@@ -14,6 +14,7 @@ std::string one_type(std::string_view type) {
   if (type.ends_with("[]")) return one_type(type.substr(0, type.size() - 2)) + "[]";
   if (type == "vector" || type == "range" || type == "size" || type == "numbers") return "number[]";
   if (type == "colour") return "string|number[]";
+  if (type == "cover") return "string|" + class_name("texture");
   if (type == "function") return "fun(...): any";
   if (type == "literal" || type == "formula" || type == "effect" || type == "call") return class_name(type);
   return record(type) != nullptr ? class_name(type) : std::string(type);
@@ -112,6 +113,9 @@ std::string luals_annotations() {
   }
   for (const char* shape : {"box", "sphere", "cylinder", "capsule", "cone", "hull", "lathe", "mesh"}) {
     text += "\n---@return " + class_name("shape") + "\nfunction " + shape + "(fields) end\n";
+  }
+  for (const char* texture : {"texture", "checker", "stripes", "noise"}) {
+    text += "\n---@return " + class_name("texture") + "\nfunction " + texture + "(fields) end\n";
   }
   return text;
 }

@@ -83,12 +83,23 @@ class LibraryBuilder {
 
   // check_objects.cpp
   void check_objects();
-  void check_worlds();
   void check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what);
   void add_object(SceneObjects& objects, const std::string& name, const Node& entry) const;
   SceneObjects world_objects(const std::string& world) const;
   void check_body(const Definition& definition, const Node& body, const std::string& path);
   std::string hand_of(const std::string& world) const;
+
+  // check_worlds.cpp
+  void check_worlds();
+  void check_rates(const Definition& definition);
+  void check_sensors(const Definition& definition);
+  void check_camera(const Definition& definition, const Node& camera, const std::string& path,
+                    const SceneObjects& objects);
+  void check_light(const Definition& definition);
+  void check_randomise(const Definition& definition, const SceneObjects& objects);
+  void check_observe(const Definition& definition, const Node& world);
+  void check_one_of(const Definition& definition, const std::string& path, const Node& text, const char* what,
+                    const std::vector<std::string>& known);
 
   // check_tasks.cpp, variations.cpp
   void read_tasks();

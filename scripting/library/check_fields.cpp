@@ -43,7 +43,8 @@ bool has_plain_type(const Node& node, std::string_view type) {
   if (type == "numbers") return numbers(node, 0, 1000);
   if (type == "colour") return node.is_text() || numbers(node, 3, 4);
   if (type == "formula" || type == "effect" || type == "call" || type == "literal") return is_formula(node);
-  if (type == "shape") return node.tag() == "shape";
+  if (type == "shape" || type == "texture") return node.tag() == type;
+  if (type == "cover") return node.is_text() || node.tag() == "texture";
   return node.is_table();  // table, or a record, whose own fields are checked after this
 }
 
@@ -87,6 +88,8 @@ std::string in_words(std::string_view type) {
                              : one == "size"    ? "{ width, height }"
                              : one == "numbers" ? "list of numbers"
                              : one == "colour"  ? "colour (a name or { r, g, b })"
+                             : one == "texture" ? "texture such as checker { \"white\", \"black\" }"
+                             : one == "cover"   ? "texture (a kind, or texture { … })"
                                                 : std::string(one);
     text += list ? "a list of " + word : word;
   }
@@ -107,6 +110,7 @@ void check_inner(const Field& field, const Node& node, const std::string& path, 
     if (list) name.remove_suffix(2);
     const Record* inner = record(name);
     if (inner == nullptr || name == "entry" || !node.is_table()) continue;  // entries: checked with their class
+    if (!has_one_type(node, type)) continue;                                // another alternative is meant
     if (map) {
       for (const auto& [key, entry] : node.fields) {
         const std::string inner_path = path + "." + key;

@@ -125,40 +125,6 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
 }
 
-void LibraryBuilder::check_worlds() {
-  for (const auto& [name, definition] : of(DefinitionKind::world)) {
-    const Node& node = definition.node;
-    if (node["robot"].is_table()) check_entry(definition, node["robot"], "robot", "robot");
-    for (const auto& [fixture, entry] : node["fixtures"].fields) {
-      check_entry(definition, entry, "fixtures." + fixture, "object");
-      if (const auto fault = name_fault(fixture)) {
-        complain(definition, "fixtures." + fixture, "the name '" + fixture + "' " + *fault,
-                 "such as '" + proposed_name(fixture) + "'");
-      }
-    }
-    const int physics = node["physics_hz"].is_number() ? static_cast<int>(node["physics_hz"].number) : 240;
-    const int frames = node["frame_hz"].is_number() ? static_cast<int>(node["frame_hz"].number) : 20;
-    if (physics <= 0 || frames <= 0 || physics % frames != 0) {
-      std::string divisors;
-      for (int rate = 1; rate <= physics; ++rate) {
-        if (physics % rate == 0) divisors += (divisors.empty() ? "" : " ") + std::to_string(rate);
-      }
-      complain(definition, "frame_hz",
-               std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz",
-               "these do: " + divisors);
-    }
-    const SceneObjects objects = world_objects(name);
-    for (const auto& [camera, entry] : node["cameras"].fields) {
-      const std::string& target = entry["look_at"].text;
-      if (!entry["look_at"].is_text() || objects.contains(target)) continue;
-      std::vector<std::string> known;
-      for (const auto& [object, unused] : objects) known.push_back(object);
-      complain(definition, "cameras." + camera + ".look_at", "there is no object '" + target + "'",
-               did_you_mean(target, known));
-    }
-  }
-}
-
 // The object with its parts (name.part) and regions (name.region, name.part.region).
 void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, const Node& entry) const {
   SceneObject object;

@@ -39,6 +39,7 @@ void LibraryBuilder::read_task(const Definition& definition) {
     for (const auto& [name, unused] : worlds) known.push_back(name);
     complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
   }
+  if (const auto world = worlds.find(info.world); world != worlds.end()) check_observe(definition, world->second.node);
   info.hand = hand_of(info.world);
   const std::vector<Node> variations = variations_of(definition, state);
   for (const Node& variation : variations) {

@@ -23,6 +23,7 @@ const Record kTask{
      {"subgoals", "table", false, "{}", "", "formulas by name, or a list of { \"name\", formula } in order",
       "{ open_it = is.open(\"chest.top_drawer\") }", true},
      {"horizon", "number", false, "120", "s", "the longest an episode may take", "60", true},
+     {"observe", "observe", false, "{}", "", "pictures and sensors to record; goes before the world's, field by field"},
      {"hold", "number", false, "1.0", "s", "for how long the goal must stay true at the end", "0.2", true},
      {"instructions", "string[]|string", true, "", "", "sentences; {axis} is the variation's value",
       "{ \"stack {height} blocks\" }", true}}};
@@ -91,12 +92,16 @@ const std::vector<Field> kBodyFields = {
     {"traits", "string[]", false, "{}", "", "what can be done with it", "{ \"movable\", \"graspable\" }"},
     {"shape", "shape", false, "", "", "its one shape", "box { 0.04, 0.04, 0.04 }"},
     {"shapes", "shape[]", false, "{}", "", "its shapes, convex each", "{ box { 0.1, 0.1, 0.02 } }"},
+    {"visual", "shape|shape[]", false, "", "", "what is drawn instead of shapes, which then only collide",
+     "mesh { \"cup.glb\" }"},
     {"mass", "number", false, "0", "kg", "of the whole body or part"},
     {"friction", "number", false, "0.5", "", "Coulomb coefficient; a pair's is the product of both"},
     {"rolling", "number", false, "0.001", "m", "rolling friction"},
     {"spinning", "number", false, "0.001", "m", "friction about the contact normal"},
     {"restitution", "number", false, "0", "", "bounce, 0 … 1"},
     {"colour", "colour", false, "", "", "of every shape that has none; a name is an attribute too", "\"red\""},
+    {"texture", "texture", false, "", "", "of every shape that has neither colour nor texture; colour tints it",
+     "checker { \"white\", \"black\", size = 0.1 }"},
     {"attributes", "table", false, "{}", "", "static facts: texts by name", "{ material = \"wood\" }"},
     {"numbers", "table", false, "{}", "", "numbers by name for predicates: w:number(obj, \"open_at\")",
      "{ open_at = 0.15 }"},
@@ -179,11 +184,23 @@ const Record kShape{"shape",
                      {"yaw", "number", false, "0", "rad", "instead of rpy"},
                      {"quaternion", "numbers", false, "", "", "instead of rpy"},
                      {"colour", "colour", false, "", "", "of this shape"},
+                     {"texture", "texture", false, "", "", "of this shape; its colour tints it"},
                      {"collides", "boolean", false, "true", "", "touches others"},
                      {"visible", "boolean", false, "true", "", "is drawn"},
                      {"scale", "number|vector", false, "1", "", "of a mesh file"},
-                     {"segments", "integer", false, "16", "", "wedges of a lathe"}},
+                     {"segments", "integer", false, "16", "", "wedges of a lathe"},
+                     {"wall", "number", false, "", "m", "of a hollow lathe, which collides as wedges"}},
                     "any"};
+
+const Record kTexture{"texture",
+                      "texture { \"file.png\" }  checker { colour, colour }  stripes { colour, colour }  "
+                      "noise { colour, colour }",
+                      {{"tag", "string", true, "", "", "set by the words"},
+                       {"texture", "string", true, "", "", "set by the words"},
+                       {"line", "integer", false, "", "", "set by the words"},
+                       {"size", "number", false, "0.1", "m", "of one repeat, along the axes of the shape"},
+                       {"seed", "integer", false, "0", "", "of noise"}},
+                      "any"};
 
 const Record kWorld{
     "world",
@@ -191,31 +208,89 @@ const Record kWorld{
     {{"robot", "entry", true, "", "", "the robot file and where it stands", "{ \"panda\", at = { -0.3, 0, 0.75 } }"},
      {"fixtures", "{entry}", false, "{}", "", "objects that every task has", "{ table = { \"work_table\" } }"},
      {"cameras", "{camera}", false, "{}", "", "by name"},
-     {"sensors", "{sensor}", false, "{}", "", "by name"},
-     {"light", "table", false, "{}", "", "direction, ambient, diffuse"},
+     {"calibration", "string", false, "", "",
+      "a file beside this one with cameras as they were measured; they replace "
+      "those of the same names",
+      "\"lab_cameras.json\""},
+     {"sensors", "{sensor}", false, "{}", "", "by name",
+      "{ wrench = { \"force_torque\", on = \"robot.hand\", rate = 120 } }"},
+     {"light", "light", false, "{}", "", "one lamp far away and light from everywhere"},
+     {"randomise", "randomise", false, "", "", "what --randomise draws for each episode"},
+     {"observe", "observe", false, "{}", "", "pictures and sensors that its episodes record"},
      {"regions", "{region}", false, "{}", "", "fixed to the world"},
      {"gravity", "vector", false, "{ 0, 0, -9.81 }", "m/s^2", ""},
      {"physics_hz", "integer", false, "240", "Hz", "physics and control"},
      {"frame_hz", "integer", false, "20", "Hz", "recorded frames; divides physics_hz"}}};
 
-const Record kCamera{"camera",
-                     "Where pictures are taken from",
-                     {{"at", "vector", true, "", "m", "position, in the world or on its mount"},
-                      {"look_at", "string|vector", false, "", "", "an object of the world or a point"},
-                      {"rpy", "vector", false, "", "rad", "instead of look_at"},
-                      {"quaternion", "numbers", false, "", "", "instead of look_at"},
-                      {"up", "vector", false, "{ 0, 0, 1 }", "", "which way is up in the picture"},
-                      {"mount", "string", false, "", "", "what it moves with", "\"robot.hand\""},
-                      {"fov", "number", false, "deg(40)", "rad", "vertical field of view"},
-                      {"size", "size", false, "{ 128, 128 }", "pixels", "width and height"},
-                      {"near", "number", false, "0.01", "m", ""},
-                      {"far", "number", false, "4.5", "m", ""}}};
+const Record kCamera{
+    "camera",
+    "Where pictures are taken from. Its own frame: x right, y down, z forward",
+    {{"at", "vector", true, "", "m", "position, in the world or on its mount"},
+     {"look_at", "string|vector", false, "", "", "an object of the world, or a point of the frame that `at` is in"},
+     {"rpy", "vector", false, "", "rad", "of its frame, instead of look_at"},
+     {"quaternion", "numbers", false, "", "", "of its frame, x y z w, instead of look_at"},
+     {"up", "vector", false, "{ 0, 0, 1 }", "", "which way is up in the picture"},
+     {"mount", "string", false, "", "", "what it moves with: an object, or a link of the robot", "\"robot.hand\""},
+     {"fov", "number", false, "deg(40)", "rad", "vertical field of view"},
+     {"focal", "numbers", false, "", "pixels", "focal lengths { fx, fy }, instead of fov", "{ 600, 600 }"},
+     {"centre", "numbers", false, "half the size", "pixels", "where the optical axis meets the picture, { cx, cy }"},
+     {"distortion", "numbers", false, "{ 0, 0, 0, 0, 0 }", "", "of the lens (Brown): { k1, k2, p1, p2, k3 }"},
+     {"size", "size", false, "{ 128, 128 }", "pixels", "width and height, 1 to 4096"},
+     {"near", "number", false, "0.01", "m", "nothing nearer is seen"},
+     {"far", "number", false, "4.5", "m", "nothing farther is seen; pictures of depth end at 6.55"}}};
 
 const Record kSensor{"sensor",
-                     "Something measured beside the frames",
-                     {{"on", "string", false, "", "", "where it sits", "\"robot.wrist\""},
-                      {"rate", "number", false, "", "Hz", "divides the physics rate"}},
+                     "Something measured beside the frames: \"force_torque\" or \"joint_torque\"",
+                     {{"on", "string", false, "\"robot.hand\"", "",
+                       "force_torque: the link of the robot that it sits on", "\"robot.hand\""},
+                      {"rate", "integer", false, "120", "Hz", "divides the physics rate"}},
                      "string"};
+
+const Record kLight{"light",
+                    "One lamp far away (Lambert) and light from everywhere",
+                    {{"direction", "vector", false, "{ -0.35, 0.3, -1 }", "", "in which the lamp shines"},
+                     {"colour", "colour", false, "{ 1, 1, 1 }", "", "of both"},
+                     {"ambient", "number", false, "0.5", "", "share of full brightness from everywhere"},
+                     {"diffuse", "number", false, "0.6", "", "share of full brightness where the lamp shines straight"},
+                     {"specular", "number", false, "0.15", "", "share of full brightness in highlights"}}};
+
+const Record kRandomise{
+    "randomise",
+    "Domain randomisation: drawn for each episode from its seed, and stored with it",
+    {{"looks", "string[]", false, "{}", "",
+      "whose looks: objects, their files, \"robot\", or \"*\" (all without a named "
+      "colour)",
+      "{ \"work_table\" }"},
+     {"colours", "colour[]", false, "any", "", "that are drawn from", "colours.names"},
+     {"textures", "cover[]", false, "plain", "", "that are drawn from: checker stripes noise plain, or texture { … }",
+      "{ \"plain\", \"noise\", texture { \"wood.png\" } }"},
+     {"ambient", "range", false, "{ 0.5, 0.5 }", "", "of the light"},
+     {"diffuse", "range", false, "{ 0.6, 0.6 }", "", "of the light"},
+     {"light_direction", "number", false, "0", "rad", "greatest tilt of the light"},
+     {"camera_position", "number", false, "0", "m", "greatest shift of each camera"},
+     {"camera_rotation", "number", false, "0", "rad", "greatest turn of each camera"},
+     {"dynamics", "string[]", false, "{}", "", "whose dynamics, named as in looks; \"*\": all free bodies"},
+     {"mass", "range", false, "{ 1, 1 }", "", "factors", "{ 0.8, 1.2 }"},
+     {"friction", "range", false, "{ 1, 1 }", "", "factors"},
+     {"damping", "range", false, "{ 1, 1 }", "", "factors"}}};
+
+const Record kObserve{
+    "observe",
+    "What episodes record beside the low-dimensional frames; what is left out is not computed",
+    {{"images", "string", false, "\"none\"", "", "of which frames: none, keyframes or all", "\"keyframes\""},
+     {"cameras", "string[]", false, "all", "", "by name", "{ \"front\", \"wrist\" }"},
+     {"size", "size", false, "each camera's own", "pixels", "of all pictures, 1 to 4096"},
+     {"kinds", "string[]", false, "all", "", "rgb depth instance semantic", "{ \"rgb\", \"depth\" }"},
+     {"points", "boolean", false, "false", "", "point clouds too"},
+     {"shadows", "boolean", false, "false", "", "of the lamp"},
+     {"noise", "observe_noise", false, "{}", "", "of cameras and joint torques"},
+     {"channels", "string[]", false, "{ \"*\" }", "", "sensors of the world by name; { \"*\" }: all", "{ \"wrench\" }"}}};
+
+const Record kObserveNoise{"observe_noise",
+                           "What real sensors add (standard deviations)",
+                           {{"rgb", "number", false, "0", "", "of each channel, of 0 … 1", "0.02"},
+                            {"depth", "number", false, "0", "1/m", "times z squared; a Kinect's is 0.00145"},
+                            {"torque", "number", false, "0", "N m", "of joint_torque"}}};
 
 const Record kRobot{
     "robot",
@@ -247,8 +322,9 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {kTask, kSkill, kPredicate, kObject, kWorld, kRobot, kEntry,  kCase,
-                                               kPart, kJoint, kLatch,     kRegion, kGrasp, kShape, kCamera, kSensor};
+  static const std::vector<Record> kRecords = {
+      kTask,   kSkill, kPredicate, kObject,  kWorld,  kRobot,  kEntry, kCase,      kPart,    kJoint,       kLatch,
+      kRegion, kGrasp, kShape,     kTexture, kCamera, kSensor, kLight, kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

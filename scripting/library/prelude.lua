@@ -12,6 +12,7 @@
 --   draw        { tag = "one_of", values }, { tag = "sample_of", values, n }, { tag = "between", low, high }
 --   stream      { tag = "stream", source = "grasps", object = "obj" } or { …, source = "sample", literal }
 --   shape       { tag = "shape", shape = "box", 1, 2, 3, at, rpy, yaw, colour, … }
+--   texture     { tag = "texture", texture = "image", "file.png", size } or { …, texture = "checker", colour, colour }
 local api = ...
 local setmetatable, here, fail = api.setmetatable, api.here, api.fail
 local type, ipairs, pairs, tostring, select, math = type, ipairs, pairs, tostring, select, math
@@ -187,6 +188,15 @@ for _, shape in ipairs { "box", "sphere", "cylinder", "capsule", "cone", "hull",
   words[shape] = function(fields, ...)
     if type(fields) ~= "table" then fields = { fields, ... } end -- box(0.1, 0.1, 0.1) is box { 0.1, 0.1, 0.1 }
     fields.tag, fields.shape, fields.line = "shape", shape, here()
+    return fields
+  end
+end
+
+-- Textures ----------------------------------------------------------------------------------------------------------------
+for word, kind in pairs { texture = "image", checker = "checker", stripes = "stripes", noise = "noise" } do
+  words[word] = function(fields, ...)
+    if type(fields) ~= "table" then fields = { fields, ... } end
+    fields.tag, fields.texture, fields.line = "texture", kind, here()
     return fields
   end
 end

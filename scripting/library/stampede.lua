@@ -69,6 +69,7 @@ colours = {}
 ---@field reward? fun(...): any  function(w): a shaped reward, added to 1 at success
 ---@field subgoals? table|fun(v: table): any  formulas by name, or a list of { "name", formula } in order (default {})
 ---@field horizon? number|fun(v: table): any  the longest an episode may take [s] (default 120)
+---@field observe? stampede.observe  pictures and sensors to record; goes before the world's, field by field (default {})
 ---@field hold? number|fun(v: table): any  for how long the goal must stay true at the end [s] (default 1.0)
 ---@field instructions string[]|string|fun(v: table): any  sentences; {axis} is the variation's value
 
@@ -110,12 +111,14 @@ colours = {}
 ---@field traits? string[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})
+---@field visual? stampede.shape|stampede.shape[]  what is drawn instead of shapes, which then only collide
 ---@field mass? number  of the whole body or part [kg] (default 0)
 ---@field friction? number  Coulomb coefficient; a pair's is the product of both (default 0.5)
 ---@field rolling? number  rolling friction [m] (default 0.001)
 ---@field spinning? number  friction about the contact normal [m] (default 0.001)
 ---@field restitution? number  bounce, 0 … 1 (default 0)
 ---@field colour? string|number[]  of every shape that has none; a name is an attribute too
+---@field texture? stampede.texture  of every shape that has neither colour nor texture; colour tints it
 ---@field attributes? table  static facts: texts by name (default {})
 ---@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
 ---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
@@ -132,8 +135,11 @@ colours = {}
 ---@field robot stampede.entry  the robot file and where it stands
 ---@field fixtures? table<string, stampede.entry>  objects that every task has (default {})
 ---@field cameras? table<string, stampede.camera>  by name (default {})
+---@field calibration? string  a file beside this one with cameras as they were measured; they replace those of the same names
 ---@field sensors? table<string, stampede.sensor>  by name (default {})
----@field light? table  direction, ambient, diffuse (default {})
+---@field light? stampede.light  one lamp far away and light from everywhere (default {})
+---@field randomise? stampede.randomise  what --randomise draws for each episode
+---@field observe? stampede.observe  pictures and sensors that its episodes record (default {})
 ---@field regions? table<string, stampede.region>  fixed to the world (default {})
 ---@field gravity? number[]   [m/s^2] (default { 0, 0, -9.81 })
 ---@field physics_hz? integer  physics and control [Hz] (default 240)
@@ -186,12 +192,14 @@ colours = {}
 ---@field traits? string[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})
+---@field visual? stampede.shape|stampede.shape[]  what is drawn instead of shapes, which then only collide
 ---@field mass? number  of the whole body or part [kg] (default 0)
 ---@field friction? number  Coulomb coefficient; a pair's is the product of both (default 0.5)
 ---@field rolling? number  rolling friction [m] (default 0.001)
 ---@field spinning? number  friction about the contact normal [m] (default 0.001)
 ---@field restitution? number  bounce, 0 … 1 (default 0)
 ---@field colour? string|number[]  of every shape that has none; a name is an attribute too
+---@field texture? stampede.texture  of every shape that has neither colour nor texture; colour tints it
 ---@field attributes? table  static facts: texts by name (default {})
 ---@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
 ---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
@@ -258,29 +266,83 @@ colours = {}
 ---@field yaw? number  instead of rpy [rad] (default 0)
 ---@field quaternion? number[]  instead of rpy
 ---@field colour? string|number[]  of this shape
+---@field texture? stampede.texture  of this shape; its colour tints it
 ---@field collides? boolean  touches others (default true)
 ---@field visible? boolean  is drawn (default true)
 ---@field scale? number|number[]  of a mesh file (default 1)
 ---@field segments? integer  wedges of a lathe (default 16)
+---@field wall? number  of a hollow lathe, which collides as wedges [m]
 
--- Where pictures are taken from
+-- texture { "file.png" }  checker { colour, colour }  stripes { colour, colour }  noise { colour, colour }
+---@class stampede.texture
+---@field [integer] any
+---@field tag string  set by the words
+---@field texture string  set by the words
+---@field line? integer  set by the words
+---@field size? number  of one repeat, along the axes of the shape [m] (default 0.1)
+---@field seed? integer  of noise (default 0)
+
+-- Where pictures are taken from. Its own frame: x right, y down, z forward
 ---@class stampede.camera
 ---@field at number[]  position, in the world or on its mount [m]
----@field look_at? string|number[]  an object of the world or a point
----@field rpy? number[]  instead of look_at [rad]
----@field quaternion? number[]  instead of look_at
+---@field look_at? string|number[]  an object of the world, or a point of the frame that `at` is in
+---@field rpy? number[]  of its frame, instead of look_at [rad]
+---@field quaternion? number[]  of its frame, x y z w, instead of look_at
 ---@field up? number[]  which way is up in the picture (default { 0, 0, 1 })
----@field mount? string  what it moves with
+---@field mount? string  what it moves with: an object, or a link of the robot
 ---@field fov? number  vertical field of view [rad] (default deg(40))
----@field size? number[]  width and height [pixels] (default { 128, 128 })
----@field near? number   [m] (default 0.01)
----@field far? number   [m] (default 4.5)
+---@field focal? number[]  focal lengths { fx, fy }, instead of fov [pixels]
+---@field centre? number[]  where the optical axis meets the picture, { cx, cy } [pixels] (default half the size)
+---@field distortion? number[]  of the lens (Brown): { k1, k2, p1, p2, k3 } (default { 0, 0, 0, 0, 0 })
+---@field size? number[]  width and height, 1 to 4096 [pixels] (default { 128, 128 })
+---@field near? number  nothing nearer is seen [m] (default 0.01)
+---@field far? number  nothing farther is seen; pictures of depth end at 6.55 [m] (default 4.5)
 
--- Something measured beside the frames
+-- Something measured beside the frames: "force_torque" or "joint_torque"
 ---@class stampede.sensor
 ---@field [integer] string
----@field on? string  where it sits
----@field rate? number  divides the physics rate [Hz]
+---@field on? string  force_torque: the link of the robot that it sits on (default "robot.hand")
+---@field rate? integer  divides the physics rate [Hz] (default 120)
+
+-- One lamp far away (Lambert) and light from everywhere
+---@class stampede.light
+---@field direction? number[]  in which the lamp shines (default { -0.35, 0.3, -1 })
+---@field colour? string|number[]  of both (default { 1, 1, 1 })
+---@field ambient? number  share of full brightness from everywhere (default 0.5)
+---@field diffuse? number  share of full brightness where the lamp shines straight (default 0.6)
+---@field specular? number  share of full brightness in highlights (default 0.15)
+
+-- Domain randomisation: drawn for each episode from its seed, and stored with it
+---@class stampede.randomise
+---@field looks? string[]  whose looks: objects, their files, "robot", or "*" (all without a named colour) (default {})
+---@field colours? string|number[][]  that are drawn from (default any)
+---@field textures? string|stampede.texture[]  that are drawn from: checker stripes noise plain, or texture { … } (default plain)
+---@field ambient? number[]  of the light (default { 0.5, 0.5 })
+---@field diffuse? number[]  of the light (default { 0.6, 0.6 })
+---@field light_direction? number  greatest tilt of the light [rad] (default 0)
+---@field camera_position? number  greatest shift of each camera [m] (default 0)
+---@field camera_rotation? number  greatest turn of each camera [rad] (default 0)
+---@field dynamics? string[]  whose dynamics, named as in looks; "*": all free bodies (default {})
+---@field mass? number[]  factors (default { 1, 1 })
+---@field friction? number[]  factors (default { 1, 1 })
+---@field damping? number[]  factors (default { 1, 1 })
+
+-- What episodes record beside the low-dimensional frames; what is left out is not computed
+---@class stampede.observe
+---@field images? string  of which frames: none, keyframes or all (default "none")
+---@field cameras? string[]  by name (default all)
+---@field size? number[]  of all pictures, 1 to 4096 [pixels] (default each camera's own)
+---@field kinds? string[]  rgb depth instance semantic (default all)
+---@field points? boolean  point clouds too (default false)
+---@field shadows? boolean  of the lamp (default false)
+---@field noise? stampede.observe_noise  of cameras and joint torques (default {})
+---@field channels? string[]  sensors of the world by name; { "*" }: all (default { "*" })
+
+-- What real sensors add (standard deviations)
+---@class stampede.observe_noise
+---@field rgb? number  of each channel, of 0 … 1 (default 0)
+---@field depth? number  times z squared; a Kinect's is 0.00145 [1/m] (default 0)
+---@field torque? number  of joint_torque [N m] (default 0)
 
 ---@param fields stampede.task
 ---@return stampede.task
@@ -329,3 +391,15 @@ function lathe(fields) end
 
 ---@return stampede.shape
 function mesh(fields) end
+
+---@return stampede.texture
+function texture(fields) end
+
+---@return stampede.texture
+function checker(fields) end
+
+---@return stampede.texture
+function stripes(fields) end
+
+---@return stampede.texture
+function noise(fields) end

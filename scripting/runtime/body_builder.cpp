@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/model/urdf.h"
-
 namespace stampede {
 namespace {
 
@@ -68,7 +66,11 @@ Grasp grasp_from(const Value& value) {
 
 class Builder {
  public:
-  Builder(const ObjectSource& source, const Colours& colours) : source_(source), colours_(colours) {}
+  Builder(const ObjectSource& source, const Colours& colours)
+      : source_(source),
+        colours_(colours),
+        assets_(source.assets != nullptr ? *source.assets : own_assets_),
+        context_{colours, source.folder, assets_, result_.drawn} {}
 
   BuiltObject build() {
     const Value& fields = source_.fields;
@@ -78,9 +80,11 @@ class Builder {
     body.name = source_.name;
     body.world_from_body = transform_from(fields);
     if (fields["urdf"].present()) {
-      body.parts = body_from_urdf(source_.folder / fields["urdf"].as_text()).parts;
+      const UrdfBody& urdf = assets_.urdf(source_.folder / fields["urdf"].as_text());
+      body.parts = urdf.body.parts;
+      result_.drawn.join(urdf.drawn);
     } else {
-      body.parts.push_back(part_from(fields, "base", own_colour(fields, Colour{})));
+      body.parts.push_back(part_from(fields, "base", std::nullopt));
     }
     add_parts(fields, body);
     set_joints(fields["joints"], body);
@@ -111,17 +115,14 @@ class Builder {
     region.size = value["size"].as_vector();
     if (region.size.minCoeff() < 0) value["size"].expected("edge lengths that are not negative");
     region.visible = looks.boolean_or("visible", value.boolean_or("visible", false));
-    region.colour = own_colour(looks, Colour{0.7, 0.7, 0.7, 0.4});
+    const Value& colour = looks["colour"];
+    region.colour = colour.present() ? colour_from(colour, colours_) : Colour{0.7, 0.7, 0.7, 0.4};
   }
 
-  Colour own_colour(const Value& fields, const Colour& otherwise) const {
-    return fields["colour"].present() ? colour_from(fields["colour"], colours_) : otherwise;
-  }
-
-  Part part_from(const Value& fields, const std::string& name, const Colour& colour) const {
+  Part part_from(const Value& fields, const std::string& name, const std::optional<Looks>& outer) const {
     Part part;
     part.name = name;
-    part.shapes = shapes_from(fields, colours_, own_colour(fields, colour), source_.folder);
+    part.shapes = shapes_from(fields, looks_from(fields, outer, context_), context_);
     part.surface = surface_from(fields, Surface{});
     const double mass = fields.number_or("mass", 0);
     if (mass < 0) fields["mass"].expected("a mass that is not negative");
@@ -139,7 +140,7 @@ class Builder {
 
   void add_parts(const Value& fields, Body& body) {
     auto waiting = parts_in_order(fields);
-    const Colour colour = own_colour(fields, Colour{});
+    const std::optional<Looks> looks = looks_from(fields, std::nullopt, context_);
     while (!waiting.empty()) {
       const auto ready = std::find_if(waiting.begin(), waiting.end(), [&body](const auto& entry) {
         const std::string parent = entry.second->text_or("parent", "");
@@ -149,18 +150,18 @@ class Builder {
         const Value& parent = (*waiting.front().second)["parent"];
         throw Error(parent.place, "there is no part '" + parent.as_text() + "' above '" + waiting.front().first + "'");
       }
-      add_part(ready->first, *ready->second, colour, body);
+      add_part(ready->first, *ready->second, looks, body);
       waiting.erase(ready);
     }
   }
 
-  void add_part(const std::string& name, const Value& fields, const Colour& colour, Body& body) {
+  void add_part(const std::string& name, const Value& fields, const std::optional<Looks>& looks, Body& body) {
     if (const int known = body.part_index(name); known >= 0 && source_.fields["urdf"].present()) {
       body.parts[static_cast<std::size_t>(known)].surface =
           surface_from(fields, body.parts[static_cast<std::size_t>(known)].surface);
       return;  // a link of the URDF: parts add names, traits and regions to it
     }
-    Part part = part_from(fields, name, colour);
+    Part part = part_from(fields, name, looks);
     const std::string parent = fields.text_or("parent", "");
     part.parent = parent.empty() ? 0 : body.part_index(parent);
     part.joint = joint_from(fields, name);
@@ -254,6 +255,9 @@ class Builder {
   const ObjectSource& source_;
   const Colours& colours_;
   BuiltObject result_;
+  Assets own_assets_;
+  Assets& assets_;
+  ShapeContext context_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/model/scene.h"
+#include "scripting/runtime/assets.h"
 #include "scripting/runtime/value.h"
 
 namespace stampede {
@@ -19,13 +20,15 @@ struct ObjectSource {
   std::string name;              // `block1`
   std::string class_name;        // the object file
   Value fields;                  // of the file, with those of the task's or world's entry on top
-  std::filesystem::path folder;  // where its meshes and URDF are
+  std::filesystem::path folder;  // where its meshes, textures and URDF are
+  Assets* assets = nullptr;      // files already read, if there are any
 };
 
 struct BuiltObject {
   std::optional<Body> body;  // nothing: the whole object is a region
   std::vector<Region> regions;
   std::vector<Object> objects;  // itself, its named parts and regions
+  DrawnAssets drawn;            // meshes and textures that its shapes name
   bool placed = false;          // `at` fixes its pose
   bool stands_still = false;    // a fixed body: nothing but `at` can place it
 };
@@ -33,8 +36,20 @@ struct BuiltObject {
 BuiltObject build_object(const ObjectSource& source, const Colours& colours);
 
 Colour colour_from(const Value& value, const Colours& colours);
-std::vector<Shape> shapes_from(const Value& fields, const Colours& colours, const Colour& own,
-                               const std::filesystem::path& folder);
+
+// What reading shapes and looks needs, and where meshes and textures go.
+struct ShapeContext {
+  const Colours& colours;
+  std::filesystem::path folder;  // of their files
+  Assets& assets;
+  DrawnAssets& drawn;
+};
+// A texture's key among context.drawn.
+std::string texture_from(const Value& value, const ShapeContext& context);
+// Colour and texture where `fields` has either, else `outer`.
+std::optional<Looks> looks_from(const Value& fields, const std::optional<Looks>& outer, const ShapeContext& context);
+// `shape` and `shapes`, which collide and, unless there is a `visual`, are drawn. `own`: looks of those that have none.
+std::vector<Shape> shapes_from(const Value& fields, const std::optional<Looks>& own, const ShapeContext& context);
 Surface surface_from(const Value& fields, const Surface& otherwise);
 
 }  // namespace stampede

@@ -44,7 +44,7 @@ LuaTask::Drawn LuaTask::make(int draw) {
   ScriptState scripts(tests_.library(), "");
   const RandomKey key = RandomKey("draw").with(name_).with(variation_).with(seed_).with(draw);
   Drawn drawn;
-  scripts.protect([&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, urdfs_).read(state); });
+  scripts.protect([&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, assets_).read(state); });
   return drawn;
 }
 

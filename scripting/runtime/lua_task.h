@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "scripting/runtime/assets.h"
 #include "scripting/runtime/script_state.h"
 #include "scripting/runtime/value.h"
 
 namespace stampede {
-
-// Files already read: reading a robot's takes longer than all else in a draw.
-using UrdfBodies = std::map<std::filesystem::path, Body>;
 
 class LuaTask : public Task {
  public:
@@ -23,6 +21,8 @@ class LuaTask : public Task {
   std::string variation() const override { return variation_; }
   std::map<std::string, std::string> axes() const override { return axes_; }
   Scene scene(int draw) override;
+  std::optional<Randomisation> randomisation() const override { return drawn_.randomisation; }
+  ObservationChoice observation() const override { return drawn_.observation; }
   std::vector<std::string> unplaced() const override { return drawn_.unplaced; }
   std::vector<Literal> init() const override { return drawn_.init; }
   Formula goal() const override { return drawn_.goal; }
@@ -41,6 +41,8 @@ class LuaTask : public Task {
   // All that depends on the draw.
   struct Drawn {
     Scene scene;
+    std::optional<Randomisation> randomisation;
+    ObservationChoice observation;
     std::string hand;
     std::map<std::string, std::vector<std::string>> groups;  // `block` -> block1 …
     std::vector<std::string> unplaced;
@@ -64,7 +66,7 @@ class LuaTask : public Task {
   std::int64_t seed_;
   std::map<std::string, std::string> axes_;
   int draw_ = 0;
-  UrdfBodies urdfs_;
+  Assets assets_;
   Drawn drawn_;
   int keep_variation();
 

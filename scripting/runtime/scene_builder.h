@@ -19,8 +19,12 @@ class SceneBuilder {
   void add_fixture(const ObjectSource& source);  // stands where `at` says, by default at the origin
   void add_object(const ObjectSource& source);
   void add_region(const std::string& name, const Value& fields);  // of the world
-  void add_camera(const std::string& name, const Value& fields);  // after all bodies: it may look at one
+  void add_camera(const std::string& name, const Value& fields);  // after all bodies: it may look at one, or ride on it
   void set_rates(int physics_hz, int frame_hz, const Vector3& gravity);
+  void add_sensor(const std::string& name, const Value& fields);  // after the robot and the rates
+  void set_light(const Value& fields);
+  void add_drawn(const DrawnAssets& drawn) { drawn_.join(drawn); }
+  void set_classes(std::vector<std::string> classes);  // Scene::classes, in any order
   std::string hand() const { return scene_.robot.name + "." + scene_.robot.hand; }
 
   std::vector<std::string> unplaced() const { return unplaced_; }
@@ -29,11 +33,16 @@ class SceneBuilder {
  private:
   void add(BuiltObject built, std::vector<Body>& bodies);
   Vector3 point_of(const Value& value) const;  // { x, y, z }, or where a named thing is
+  int robot_part(const Value& name) const;     // `robot.LINK`; throws Error with the nearest name
+  bool on_robot(const std::string& name) const;
+  Transform mount(const Value& name, Camera& camera) const;  // sets what it is mounted on; mount_from_frame
+  void set_pose(const Value& fields, Camera& camera) const;
 
   const Colours& colours_;
   Scene scene_;
   std::vector<Body> fixtures_, bodies_;
   std::vector<std::string> unplaced_;
+  DrawnAssets drawn_;
 };
 
 // `body`: as its URDF has it. `fields`: of its Lua file.

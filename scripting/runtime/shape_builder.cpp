@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/geometry/mesh.h"
 #include "scripting/runtime/body_builder.h"
 
 namespace stampede {
 namespace {
+
+constexpr int kDrawnSides = 48;  // of a lathe: round at any distance a camera has
 
 constexpr std::array<std::string_view, 8> kShapeWords = {"box",  "sphere", "cylinder", "capsule",
                                                          "cone", "hull",   "lathe",    "mesh"};
@@ -63,6 +64,17 @@ std::vector<Ring> rings_from(const Value& list) {
   return rings;
 }
 
+// The outline of the same, for drawing: outwards up and, where it is hollow, inwards down again.
+std::vector<std::array<double, 2>> lathe_profile(const Value& list) {
+  const std::vector<Ring> rings = rings_from(list);
+  std::vector<std::array<double, 2>> profile;
+  for (const Ring& ring : rings) profile.push_back({ring.outer, ring.z});
+  if (!(list.number_or("wall", 0) > 0)) return profile;
+  for (auto ring = rings.rbegin(); ring != rings.rend(); ++ring) profile.push_back({ring->inner, ring->z});
+  profile.push_back(profile.front());
+  return profile;
+}
+
 // A profile turned about z. Solid: one convex band between two rings; with a wall: wedges, for a ring is not convex.
 std::vector<std::vector<Vector3>> lathe_hulls(const Value& list) {
   const std::vector<Ring> rings = rings_from(list);
@@ -92,8 +104,9 @@ std::vector<std::vector<Vector3>> lathe_hulls(const Value& list) {
   return hulls;
 }
 
-std::vector<std::vector<Vector3>> mesh_hulls(const Value& numbers, const Value& whole,
-                                             const std::filesystem::path& folder) {
+// The file and the scale of mesh { "file", scale = … }.
+std::pair<std::filesystem::path, Vector3> mesh_file(const Value& numbers, const Value& whole,
+                                                    const std::filesystem::path& folder) {
   const Value& named = numbers.kind == Value::Kind::text ? numbers
                        : !numbers.items.empty()          ? numbers.items[0]
                                                          : numbers["file"];
@@ -101,7 +114,7 @@ std::vector<std::vector<Vector3>> mesh_hulls(const Value& numbers, const Value& 
   const Vector3 factor = !scale.present()                    ? Vector3(Vector3::Ones())
                          : scale.kind == Value::Kind::number ? Vector3(Vector3::Constant(scale.number))
                                                              : scale.as_vector();
-  return load_hulls(folder / named.as_text(), factor);
+  return {folder / named.as_text(), factor};
 }
 
 }  // namespace
@@ -140,54 +153,152 @@ Value with_size(Value shape, const Value& fields) {
   return shape;
 }
 
-void append_shape(const Value& value, const Shape& common, const std::filesystem::path& folder,
-                  std::vector<Shape>& shapes) {
-  const auto [word, numbers] = shape_word(value);
-  Shape shape = common;
-  std::vector<std::vector<Vector3>> hulls;
-  if (word == "box") {
-    const Value& edges = (*numbers)["size"].present() ? (*numbers)["size"] : *numbers;
-    for (int i = 0; i < 3; ++i) shape.size[i] = dimension(edges, value, static_cast<std::size_t>(i), "size");
-  } else if (word == "hull") {
-    hulls.push_back(points_from(*numbers));
-  } else if (word == "lathe") {
-    hulls = lathe_hulls(*numbers);
-  } else if (word == "mesh") {
-    hulls = mesh_hulls(*numbers, value, folder);
-  } else {
-    shape.kind = word == "sphere"     ? ShapeKind::sphere
-                 : word == "cylinder" ? ShapeKind::cylinder
-                 : word == "capsule"  ? ShapeKind::capsule
-                                      : ShapeKind::cone;
-    shape.radius = dimension(*numbers, value, 0, "radius");
-    if (word != "sphere") shape.length = dimension(*numbers, value, 1, "length");
+// A shape as it is written: what collides and what is drawn of it.
+class ShapeReader {
+ public:
+  ShapeReader(const Value& value, const std::optional<Looks>& looks, const ShapeContext& context, bool drawn_only)
+      : value_(value), looks_(looks), context_(context), drawn_only_(drawn_only) {
+    common_.part_from_shape = transform_from(value);
+    const Looks seen = looks.value_or(Looks{});
+    common_.colour = seen.colour;
+    common_.texture = seen.texture;
+    common_.collides = !drawn_only && value.boolean_or("collides", true);
+    common_.visible = value.boolean_or("visible", true);
   }
-  if (hulls.empty()) shapes.push_back(shape);
-  for (std::vector<Vector3>& points : hulls) {
+
+  void append(std::vector<Shape>& shapes, bool hidden) {
+    if (hidden) common_.visible = false;
+    const auto [word, numbers] = shape_word(value_);
+    if (word == "lathe" || word == "mesh") {
+      if (!drawn_only_) append_hulls(word, *numbers, shapes);
+      if (common_.visible) append_drawn(word, *numbers, shapes);
+      return;
+    }
+    Shape shape = common_;
+    if (word == "box") {
+      const Value& edges = (*numbers)["size"].present() ? (*numbers)["size"] : *numbers;
+      for (int i = 0; i < 3; ++i) shape.size[i] = dimension(edges, value_, static_cast<std::size_t>(i), "size");
+    } else if (word == "hull") {
+      shape.kind = ShapeKind::hull;
+      shape.points = points_from(*numbers);
+    } else {
+      shape.kind = word == "sphere"     ? ShapeKind::sphere
+                   : word == "cylinder" ? ShapeKind::cylinder
+                   : word == "capsule"  ? ShapeKind::capsule
+                                        : ShapeKind::cone;
+      shape.radius = dimension(*numbers, value_, 0, "radius");
+      if (word != "sphere") shape.length = dimension(*numbers, value_, 1, "length");
+    }
+    shapes.push_back(std::move(shape));
+  }
+
+ private:
+  // Collide for what is drawn; never seen.
+  void append_hulls(const std::string& word, const Value& numbers, std::vector<Shape>& shapes) {
+    Shape shape = common_;
     shape.kind = ShapeKind::hull;
-    shape.points = std::move(points);
-    shapes.push_back(shape);
+    shape.visible = false;
+    shape.texture.clear();
+    const auto [file, scale] =
+        word == "mesh" ? mesh_file(numbers, value_, context_.folder) : std::pair<std::filesystem::path, Vector3>{};
+    for (std::vector<Vector3> points :
+         word == "mesh" ? context_.assets.hulls(file, scale, value_) : lathe_hulls(numbers)) {
+      shape.points = std::move(points);
+      shapes.push_back(shape);
+    }
   }
+
+  void append_drawn(const std::string& word, const Value& numbers, std::vector<Shape>& shapes) {
+    std::vector<DrawnPiece> pieces;
+    if (word == "mesh") {
+      const auto [file, scale] = mesh_file(numbers, value_, context_.folder);
+      const Assets::Drawn& drawn = context_.assets.drawn(file, scale, value_);
+      context_.drawn.join(drawn.assets);
+      pieces = drawn.pieces;
+    } else {
+      try {
+        const DrawnMesh mesh = lathe_mesh(lathe_profile(numbers), kDrawnSides);
+        pieces.push_back({context_.drawn.add(std::make_shared<const DrawnMesh>(mesh)), {}, {}});
+      } catch (const Error& error) {
+        throw Error(value_.place, error.message(), error.hint());
+      }
+    }
+    for (Shape& shape : drawn_shapes(pieces, common_, looks_)) shapes.push_back(std::move(shape));
+  }
+
+  const Value& value_;
+  const std::optional<Looks>& looks_;
+  const ShapeContext& context_;
+  bool drawn_only_;
+  Shape common_;
+};
+
+// One shape, or a list of them.
+std::vector<const Value*> written_shapes(const Value& value) {
+  std::vector<const Value*> written;
+  if (!value.present()) return written;
+  if (value.fields.empty()) {
+    for (const Value& item : value.items) written.push_back(&item);
+  } else {
+    written.push_back(&value);
+  }
+  return written;
+}
+
+double size_of(const Value& texture) {
+  const double size = texture.number_or("size", Texture{}.size_m);
+  if (!(size > 0)) texture["size"].expected("a size above 0");
+  return size;
 }
 
 }  // namespace
 
-std::vector<Shape> shapes_from(const Value& fields, const Colours& colours, const Colour& own,
-                               const std::filesystem::path& folder) {
+std::string texture_from(const Value& value, const ShapeContext& context) {
+  if (value.tag() != "texture") value.expected("a texture such as checker { \"white\", \"black\", size = 0.1 }");
+  const std::string word = value["texture"].as_text();
+  Texture texture;
+  texture.size_m = size_of(value);
+  texture.seed = static_cast<int>(value.number_or("seed", 0));
+  if (word == "image") {
+    if (value.items.size() != 1) value.expected("a file: texture { \"wood.png\", size = 0.2 }");
+    const std::filesystem::path file = context.folder / value.items[0].as_text();
+    texture.image = context.assets.image(file, value);
+    return context.drawn.add(file.filename().string(), texture);
+  }
+  texture.kind = word == "checker"   ? TextureKind::checker
+                 : word == "stripes" ? TextureKind::stripes
+                                     : TextureKind::noise;
+  if (value.items.size() > 2) value.expected("at most two colours");
+  if (!value.items.empty()) texture.first = colour_from(value.items[0], context.colours);
+  if (value.items.size() > 1) texture.second = colour_from(value.items[1], context.colours);
+  return context.drawn.add(word, texture);
+}
+
+std::optional<Looks> looks_from(const Value& fields, const std::optional<Looks>& outer, const ShapeContext& context) {
+  const Value &colour = fields["colour"], &texture = fields["texture"];
+  if (!colour.present() && !texture.present()) return outer;
+  Looks looks;
+  if (texture.present()) {
+    looks.texture = texture_from(texture, context);
+    looks.colour = {1, 1, 1, 1};
+  }
+  if (colour.present()) looks.colour = colour_from(colour, context.colours);
+  return looks;
+}
+
+std::vector<Shape> shapes_from(const Value& fields, const std::optional<Looks>& own, const ShapeContext& context) {
   std::vector<const Value*> written;
   if (fields["shape"].present()) written.push_back(&fields["shape"]);
   for (const Value& item : fields["shapes"].items) written.push_back(&item);
+  const std::vector<const Value*> visual = written_shapes(fields["visual"]);
   std::vector<Shape> shapes;
-  for (const Value* shape : written) {
+  const auto append = [&](const Value* shape, bool drawn_only) {
     const Value sized = with_size(*shape, fields);
-    const Value* const value = &sized;
-    Shape common;
-    common.part_from_shape = transform_from(*value);
-    common.colour = (*value)["colour"].present() ? colour_from((*value)["colour"], colours) : own;
-    common.collides = value->boolean_or("collides", true);
-    common.visible = value->boolean_or("visible", true);
-    append_shape(*value, common, folder, shapes);
-  }
+    const std::optional<Looks> looks = looks_from(sized, own, context);
+    ShapeReader(sized, looks, context, drawn_only).append(shapes, !drawn_only && !visual.empty());
+  };
+  for (const Value* shape : written) append(shape, false);
+  for (const Value* shape : visual) append(shape, true);
   return shapes;
 }
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <lua.hpp>
 
-#include "engine/model/urdf.h"
+#include "engine/model/camera.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/variation.h"
+#include "scripting/runtime/world_reader.h"
 
 namespace stampede {
 namespace {
@@ -44,8 +45,8 @@ Value overlaid(Value file, const Value& entry) {
 }  // namespace
 
 TaskReader::TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-                       RandomKey key, UrdfBodies& urdfs)
-    : scripts_(scripts), file_(file), axes_(axes), key_(key), urdfs_(urdfs) {}
+                       RandomKey key, Assets& assets)
+    : scripts_(scripts), file_(file), axes_(axes), key_(key), assets_(assets) {}
 
 LuaTask::Drawn TaskReader::read(lua_State* state) {
   state_ = state;
@@ -57,10 +58,17 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   variation_ = lua_gettop(state);
   drawn_.hold_s = field("hold").present() ? field("hold").as_number() : drawn_.hold_s;
   drawn_.horizon_s = field("horizon").present() ? field("horizon").as_number() : drawn_.horizon_s;
-  read_world();
+  const Value name = field("world");
+  const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
+  const std::filesystem::path folder = used(DefinitionKind::world, name.text, name).path.parent_path();
+  read_world(world);
   read_objects();
+  read_looks(world, folder);
+  drawn_.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
   drawn_.unplaced = builder_->unplaced();
   drawn_.scene = builder_->build();
+  if (world["calibration"].present()) read_calibration(world["calibration"], folder);
+  forget_absent_classes();
   read_init();
   read_goal();
   read_subgoals();
@@ -108,7 +116,7 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
   const Value& class_value = spec.kind == Value::Kind::text ? spec
                              : spec.items.empty()           ? spec["object"]
                                                             : spec.items[0];
-  ObjectSource source{name, class_value.as_text(), {}, {}};
+  ObjectSource source{name, class_value.as_text(), {}, {}, &assets_};
   source.fields = overlaid(definition(DefinitionKind::object, source.class_name, path, class_value), spec);
   source.folder = used(DefinitionKind::object, source.class_name, class_value).path.parent_path();
   return source;
@@ -131,21 +139,10 @@ void TaskReader::read_colours() {
   lua_pop(state_, 2);
 }
 
-void TaskReader::read_world() {
-  const Value name = field("world");
-  const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
+void TaskReader::read_world(const Value& world) {
   read_colours();
-  builder_ = std::make_unique<SceneBuilder>(name.text, colours_);
-  const Value& robot = world["robot"];
-  const std::string robot_name =
-      robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
-  const ScriptFile& robot_file = used(DefinitionKind::robot, robot_name, robot);
-  const Value robot_fields = definition(DefinitionKind::robot, robot_name, "", robot);
-  const auto urdf = robot_file.path.parent_path() / robot_fields.text_or("urdf", robot_name + ".urdf");
-  auto body = urdfs_.find(urdf);
-  if (body == urdfs_.end()) body = urdfs_.emplace(urdf, body_from_urdf(urdf)).first;
-  builder_->set_robot(build_robot(robot_name, robot_fields, body->second, transform_from(robot), colours_));
-  drawn_.hand = builder_->hand();
+  builder_ = std::make_unique<SceneBuilder>(field("world").text, colours_);
+  read_robot(world["robot"]);
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));
   for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
@@ -153,6 +150,54 @@ void TaskReader::read_world() {
   builder_->set_rates(static_cast<int>(world.number_or("physics_hz", 240)),
                       static_cast<int>(world.number_or("frame_hz", 20)),
                       world.vector_or("gravity", Vector3(0, 0, -9.81)));
+  for (const auto& [key, sensor] : world["sensors"].fields) builder_->add_sensor(key, sensor);
+}
+
+void TaskReader::read_robot(const Value& robot) {
+  const std::string name =
+      robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
+  const ScriptFile& file = used(DefinitionKind::robot, name, robot);
+  const Value fields = definition(DefinitionKind::robot, name, "", robot);
+  const UrdfBody& urdf = assets_.urdf(file.path.parent_path() / fields.text_or("urdf", name + ".urdf"));
+  builder_->add_drawn(urdf.drawn);
+  builder_->set_robot(build_robot(name, fields, urdf.body, transform_from(robot), colours_));
+  drawn_.hand = builder_->hand();
+}
+
+void TaskReader::read_looks(const Value& world, const std::filesystem::path& folder) {
+  builder_->set_light(world["light"]);
+  if (world["randomise"].present()) {
+    DrawnAssets drawn;
+    drawn_.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn});
+    builder_->add_drawn(drawn);
+  }
+  // All that a scene of this library could have, so that a class has one number in all of its tasks.
+  const Library& library = scripts_.library();
+  std::vector<std::string> classes = {"hand", "region", "part"};
+  for (const DefinitionKind kind : {DefinitionKind::object, DefinitionKind::robot})
+    for (const ScriptFile* file : library.files(kind)) classes.push_back(file->name);
+  for (const auto& [type, parent] : library.domain().types) classes.push_back(type);
+  builder_->set_classes(std::move(classes));
+}
+
+void TaskReader::read_calibration(const Value& file, const std::filesystem::path& folder) {
+  try {
+    put_cameras(drawn_.scene, load_calibration(folder / file.as_text(), drawn_.scene));
+  } catch (const Error& error) {
+    throw Error(file.place, (error.where().empty() ? "" : error.where() + ": ") + error.message(), error.hint());
+  }
+}
+
+// A world may randomise things that only some of its tasks have.
+void TaskReader::forget_absent_classes() {
+  if (!drawn_.randomisation) return;
+  const auto absent = [&](const std::string& name) {
+    return scripts_.library().file(DefinitionKind::object, name) != nullptr && drawn_.scene.object(name) == nullptr &&
+           std::none_of(drawn_.scene.objects.begin(), drawn_.scene.objects.end(),
+                        [&](const Object& object) { return object.class_name == name; });
+  };
+  std::erase_if(drawn_.randomisation->looks, absent);
+  std::erase_if(drawn_.randomisation->dynamics, absent);
 }
 
 void TaskReader::read_objects() {

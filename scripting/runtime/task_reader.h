@@ -10,14 +10,18 @@ namespace stampede {
 class TaskReader {
  public:
   TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-             RandomKey key, UrdfBodies& urdfs);
+             RandomKey key, Assets& assets);
   LuaTask::Drawn read(lua_State* state);
 
  private:
   Value field(const char* name);      // of the task, drawn
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
   void read_colours();
-  void read_world();
+  void read_world(const Value& world);
+  void read_robot(const Value& robot);
+  void read_looks(const Value& world, const std::filesystem::path& folder);  // light, randomisation, classes
+  void read_calibration(const Value& file, const std::filesystem::path& folder);
+  void forget_absent_classes();
   void read_objects();
   void add_group(const std::string& name, int index);
   void read_init();
@@ -36,7 +40,7 @@ class TaskReader {
   const ScriptFile& file_;
   const std::map<std::string, std::string>& axes_;
   RandomKey key_;
-  UrdfBodies& urdfs_;
+  Assets& assets_;
   lua_State* state_ = nullptr;
   int task_ = 0, variation_ = 0;  // stack indices
   Colours colours_;

@@ -1,0 +1,51 @@
+#include "scripting/runtime/assets.h"
+
+#include <cstdio>
+
+#include "engine/geometry/mesh.h"
+
+namespace stampede {
+namespace {
+
+std::string key_of(const std::filesystem::path& file, const Vector3& scale) {
+  char text[96];
+  std::snprintf(text, sizeof text, "\n%a %a %a", scale.x(), scale.y(), scale.z());
+  return file.string() + text;
+}
+
+// What `read` gives, kept under `key`; an error of the file is one of the author's place too.
+template <typename Key, typename Kept, typename Read>
+const Kept& kept(std::map<Key, Kept>& map, const Key& key, const Value& where, const Read& read) {
+  auto found = map.find(key);
+  if (found != map.end()) return found->second;
+  try {
+    return map.emplace(key, read()).first->second;
+  } catch (const Error& error) {
+    throw Error(where.place, (error.where().empty() ? "" : error.where() + ": ") + error.message(), error.hint());
+  }
+}
+
+}  // namespace
+
+const Assets::Drawn& Assets::drawn(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
+  return kept(drawn_, key_of(file, scale), where, [&] {
+    Drawn drawn;
+    drawn.pieces = add_drawn(drawn.assets, file.filename().string(), load_drawn(file, scale));
+    return drawn;
+  });
+}
+
+const Assets::Hulls& Assets::hulls(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
+  return kept(hulls_, key_of(file, scale), where, [&] { return load_hulls(file, scale); });
+}
+
+std::shared_ptr<const Image> Assets::image(const std::filesystem::path& file, const Value& where) {
+  return kept(images_, file, where, [&] { return std::make_shared<const Image>(load_image(file)); });
+}
+
+const UrdfBody& Assets::urdf(const std::filesystem::path& file) {
+  const auto found = urdfs_.find(file);
+  return found != urdfs_.end() ? found->second : urdfs_.emplace(file, read_urdf(file)).first->second;
+}
+
+}  // namespace stampede

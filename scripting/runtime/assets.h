@@ -1,0 +1,36 @@
+// Files beside the Lua files: meshes, pictures, URDFs. Each is read once.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/model/urdf.h"
+#include "scripting/runtime/value.h"
+
+namespace stampede {
+
+// Lifetime: one thread. All throw Error that names the author's place, the file and the cure.
+class Assets {
+ public:
+  struct Drawn {
+    std::vector<DrawnPiece> pieces;
+    DrawnAssets assets;  // that the pieces name
+  };
+  using Hulls = std::vector<std::vector<Vector3>>;
+
+  const Drawn& drawn(const std::filesystem::path& file, const Vector3& scale, const Value& where);
+  const Hulls& hulls(const std::filesystem::path& file, const Vector3& scale, const Value& where);
+  std::shared_ptr<const Image> image(const std::filesystem::path& file, const Value& where);
+  const UrdfBody& urdf(const std::filesystem::path& file);  // its own errors name place enough
+
+ private:
+  std::map<std::string, Drawn> drawn_;  // by file and scale
+  std::map<std::string, Hulls> hulls_;
+  std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+  std::map<std::filesystem::path, UrdfBody> urdfs_;  // a robot's takes longer than all else in a draw
+};
+
+}  // namespace stampede

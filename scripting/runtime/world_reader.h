@@ -1,0 +1,22 @@
+// Light, randomisation and observation as a world (or task) file says them.
+#pragma once
+
+#include "engine/episode/observation.h"
+#include "engine/model/randomise.h"
+#include "scripting/runtime/body_builder.h"
+
+namespace stampede {
+
+// All throw Error.
+Light light_from(const Value& fields, const Colours& colours);
+
+// Textures that it names go to context.drawn.
+Randomisation randomisation_from(const Value& fields, const ShapeContext& context);
+
+// What is not said is left open.
+ObservationChoice observation_from(const Value& fields);
+
+// { width, height } of pictures: whole numbers, 1 … 4096.
+std::array<int, 2> picture_size_from(const Value& value);
+
+}  // namespace stampede
