@@ -29,8 +29,12 @@ std::vector<std::string> from_json_list(const sql::Database& database, const std
 // A row of camera; the ordinal is not read.
 inline constexpr const char* kCameraColumns =
     "name, width, height, focal_x, focal_y, centre_x, centre_y, k1, k2, p1, p2, k3, near_m, far_m, mount_body, "
-    "mount_part, x, y, z, qx, qy, qz, qw";
+    "mount_part, mount_matrix";
 void read_camera(sql::Statement& row, Camera& camera);
+
+// The upper three rows, in as many digits as bring every bit back: pictures drawn again are the same bytes.
+std::string matrix_text(const Transform& transform);
+Transform matrix_from(const std::string& text);
 
 // Scene documents: what many share (shapes, grasps, the robot) is cut out and kept once, by hash.
 struct PackedScene {

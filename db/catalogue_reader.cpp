@@ -1,3 +1,6 @@
+#include <array>
+#include <charconv>
+
 #include "db/episode_reader.h"
 #include "db/table_text.h"
 
@@ -22,12 +25,35 @@ std::vector<std::string> from_json_list(const sql::Database& database, const std
   return texts;
 }
 
+std::string matrix_text(const Transform& transform) {
+  std::string text;
+  std::array<char, 32> digits{};
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), transform.matrix()(row, column)).ptr;
+      text.append(text.empty() ? "" : " ").append(digits.data(), end);
+    }
+  return text;
+}
+
+Transform matrix_from(const std::string& text) {
+  Transform transform = Transform::Identity();
+  const char* next = text.data();
+  const char* const end = next + text.size();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      next = std::from_chars(next, end, transform.matrix()(row, column)).ptr;
+      if (next < end) ++next;  // the space
+    }
+  return transform;
+}
+
 void read_camera(sql::Statement& row, Camera& c) {
   auto& [k1, k2, p1, p2, k3] = c.distortion;
-  Pose pose;
+  std::string matrix;
   row.read(c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3, c.near_m,
-           c.far_m, c.mount_body, c.mount_part, pose);
-  c.mount_from_camera = to_transform(pose);
+           c.far_m, c.mount_body, c.mount_part, matrix);
+  c.mount_from_camera = matrix_from(matrix);
 }
 
 void EpisodeReader::read_episode() {

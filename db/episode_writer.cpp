@@ -201,9 +201,9 @@ void EpisodeWriter::write_cameras(const EpisodeRecord& episode) {
 
 void EpisodeWriter::write_camera(int ordinal, const Camera& c) {
   const auto& [k1, k2, p1, p2, k3] = c.distortion;
-  const std::string link = mount_link(c);
+  const std::string link = mount_link(c), matrix = matrix_text(c.mount_from_camera);
   camera_.run(id_, ordinal, c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3,
-              c.near_m, c.far_m, c.mount_body, c.mount_part, link, vertical_field_of_view(c),
+              c.near_m, c.far_m, c.mount_body, c.mount_part, link, vertical_field_of_view(c), matrix,
               to_pose(c.mount_from_camera));
 }
 

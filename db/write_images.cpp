@@ -18,17 +18,11 @@ std::string_view as_text(const std::vector<std::uint8_t>& bytes) {
 
 bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(a)); }
 
-bool near(const Pose& a, const Pose& b) {
-  const auto close = [](double x, double y) { return near(x, y); };
-  return std::equal(a.position.begin(), a.position.end(), b.position.begin(), close) &&
-         std::equal(a.quaternion.begin(), a.quaternion.end(), b.quaternion.begin(), close);
-}
-
 // Which of two readings of the same camera differ beyond rounding; empty: none. Sizes may.
 std::string difference(const Camera& known, const Camera& camera) {
   const Camera same = resized(known, camera.width, camera.height);
   if (same.mount_body != camera.mount_body || same.mount_part != camera.mount_part) return "its mount";
-  if (!near(to_pose(same.mount_from_camera), to_pose(camera.mount_from_camera))) return "where it is mounted";
+  if (!same.mount_from_camera.isApprox(camera.mount_from_camera, 1e-9)) return "where it is mounted";
   if (!near(same.focal_x, camera.focal_x) || !near(same.focal_y, camera.focal_y)) return "its focal length";
   if (!near(same.centre_x, camera.centre_x) || !near(same.centre_y, camera.centre_y)) return "its principal point";
   if (same.distortion != camera.distortion) return "its lens";

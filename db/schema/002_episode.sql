@@ -122,6 +122,7 @@ CREATE TABLE camera (
   mount_part INTEGER NOT NULL,
   mount_link TEXT NOT NULL,  -- `panda.hand`; `world`
   vertical_fov_rad REAL NOT NULL,
+  mount_matrix TEXT NOT NULL,  -- what the pose below is rounded from: 3 rows of 4, each number in full
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;

@@ -41,7 +41,7 @@ void add_scene(EpisodeRecord& e, const SampleSize& size) {
   camera.mount_from_camera = to_transform({{1, 2, 3}, {0, 0, 0, 1}});
   Camera wrist = camera;
   wrist.name = "wrist", wrist.mount_body = "panda", wrist.mount_part = 1;
-  wrist.mount_from_camera = to_transform({{0.05, 0, 0.1}, {0, 0, std::sin(0.3), std::cos(0.3)}});
+  wrist.mount_from_camera = looking_at({0.05, -0.0, 0.1}, {0.3, 0.7, -1e-9});
   set_field_of_view(wrist, 1.2, 160, 120);
   wrist.distortion = {0.1, -0.2, 0.001, 0.002, 0.05};
   e.cameras = {camera, wrist};
