@@ -1,0 +1,67 @@
+// Which of our words stand for which of theirs, and how far they mean the same.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/symbolic/bddl.h"
+
+namespace stampede {
+
+// Of ours relative to theirs. stronger: whenever ours holds, theirs does; weaker: the other way round.
+enum class BddlMeaning { equal, stronger, weaker, incomparable };
+std::string_view to_string(BddlMeaning meaning);
+BddlMeaning opposite(BddlMeaning meaning);  // that of the negations
+
+struct BddlPredicateRule {
+  std::string theirs, ours;
+  bool negated = false;    // `ours` stands for `not theirs`; `meaning` is then of ours relative to that
+  std::vector<int> order;  // their argument i is our argument order[i]; empty: the same order
+  BddlMeaning meaning = BddlMeaning::equal;
+  std::string why;  // a sentence on the difference
+};
+
+struct BddlPair {
+  std::string theirs, ours;
+};
+
+struct BddlMapping {
+  BddlDialect dialect = BddlDialect::libero;
+  std::string domain = "robosuite";
+  std::string problem_name;  // LIBERO: the Python class of the arena; BEHAVIOR: empty, the task's name serves
+  // Their category or synset, and our class or type of objects. The first that fits is taken, in either direction.
+  std::vector<BddlPair> categories;
+  // LIBERO: sites of fixtures by the end of their name (`top_region`), and our parts (`top_drawer`); ours empty: the
+  // fixture itself (`top_side`).
+  std::vector<BddlPair> sites;
+  std::vector<BddlPredicateRule> predicates;  // the first that fits is taken
+  std::string support = "on";                 // ours; with a LIBERO region of a surface it becomes `within` as well
+  std::string within = "inside";
+  std::string room = "kitchen";              // BEHAVIOR: where scene objects stand, unless `rooms` says otherwise
+  std::map<std::string, std::string> rooms;  // our class or type -> room
+
+  // The first rule for a literal of theirs (ours) whose counterpart is not negated, else the first rule; or null.
+  const BddlPredicateRule* from_theirs(const std::string& predicate, bool negated) const;
+  const BddlPredicateRule* from_ours(const std::string& predicate, bool negated) const;
+  const std::string* category(const std::string& class_name, const std::string& type) const;  // theirs, or null
+  const std::string* class_of(const std::string& category) const;                             // ours, or null
+};
+
+BddlMapping default_libero_mapping();
+BddlMapping default_behavior_mapping();
+
+// Throws Error for predicates that the dialect does not have and orders that are no permutation of its arguments.
+// `where`: the file it comes from.
+void check_mapping(const BddlMapping& mapping, const std::string& where);
+
+// How one predicate of a problem was translated.
+struct BddlNote {
+  std::string theirs, ours;  // with a leading `not ` where the counterpart is negated
+  BddlMeaning meaning = BddlMeaning::equal;
+  std::string why;
+  friend auto operator<=>(const BddlNote&, const BddlNote&) = default;
+};
+std::string to_text(const BddlNote& note);  // on -> ontop: stronger than theirs: …
+
+}  // namespace stampede
