@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/model/camera.h"
 
@@ -9,9 +10,8 @@ namespace stampede {
 namespace {
 
 constexpr double kWidest = 6;       // tangent: 80 degrees off the axis
-constexpr double kFiner = 1.5;      // pixels of the wide picture per pixel of the distorted one
+constexpr double kFiner = 3;        // pixels of the wide picture per pixel of the distorted one
 constexpr int kLargestSide = 4096;  // pixels
-constexpr float kEven = 2e-3F;      // of 1/z, by which four neighbours on a plane may differ from a plane
 
 std::array<double, 9> intrinsics(const Camera& camera) {
   return {camera.focal_x,       camera.focal_y,       camera.centre_x,      camera.centre_y,     camera.distortion[0],
@@ -90,18 +90,30 @@ Lens::Lens(const Camera& camera) : camera_(camera), wide_(camera) {
   }
 }
 
+// The inverse of depth is linear in a picture of a plane: from the nearest pixel it is followed to the place itself.
+// Of the slopes to either side the gentler is that of the surface; the other may lead over its edge.
 float Lens::depth_at(const Picture& wide, const Source& source) const {
-  const Neighbours at = around(wide_, source.x, source.y);
-  const float nearest = wide.depth[at.nearest()];
-  float inverse[4];
-  for (int k = 0; k < 4; ++k) {
-    if (wide.depth[at.corner[k]] <= 0) return nearest;
-    inverse[k] = 1 / wide.depth[at.corner[k]];
-  }
-  const float bend = std::abs(inverse[0] + inverse[3] - inverse[1] - inverse[2]);
-  const float slope = std::max(std::abs(inverse[1] - inverse[0]), std::abs(inverse[2] - inverse[0]));
-  if (bend * nearest > kEven || slope * nearest > 20 * kEven) return nearest;
-  return 1 / between(inverse[0], inverse[1], inverse[2], inverse[3], at);
+  const int i = std::clamp(static_cast<int>(source.x), 0, wide_.width - 1);
+  const int j = std::clamp(static_cast<int>(source.y), 0, wide_.height - 1);
+  const auto depth = [&](int x, int y) {
+    return wide
+        .depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide_.width) + static_cast<std::size_t>(x)];
+  };
+  const float here = depth(i, j);
+  if (here <= 0) return 0;
+  const auto slope = [&](int x, int y) {  // in the direction (x, y)
+    float gentlest = std::numeric_limits<float>::infinity();
+    for (const int side : {-1, 1}) {
+      const int u = i + side * x, v = j + side * y;
+      if (u < 0 || v < 0 || u >= wide_.width || v >= wide_.height || depth(u, v) <= 0) continue;
+      const float change = static_cast<float>(side) * (1 / depth(u, v) - 1 / here);
+      if (std::abs(change) < std::abs(gentlest)) gentlest = change;
+    }
+    return std::isfinite(gentlest) ? gentlest : 0.0F;
+  };
+  const float right = source.x - 0.5F - static_cast<float>(i), down = source.y - 0.5F - static_cast<float>(j);
+  const float inverse = 1 / here + right * slope(1, 0) + down * slope(0, 1);
+  return inverse > 0 ? 1 / inverse : here;
 }
 
 void Lens::apply(const Picture& wide, Picture& picture) const {

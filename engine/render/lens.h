@@ -18,8 +18,8 @@ class Lens {
   const Camera& wide() const { return wide_; }  // the pinhole camera to draw with
   bool fits(const Camera& camera) const;        // whether it is the lens of that camera
 
-  // Colours between pixels are mixed; ids are the nearest pixel's; depth is mixed where the surface is even (its
-  // inverse is linear in a picture of a plane), else the nearest pixel's. Pixels that no direction reaches stay empty.
+  // Colours between pixels are mixed; ids are the nearest pixel's; depth is the nearest pixel's, carried along its
+  // surface to the place itself. Pixels that no direction reaches stay empty.
   void apply(const Picture& wide, Picture& picture) const;
 
  private:

@@ -91,10 +91,11 @@ in vec3 f_shadow;
 uniform sampler2DShadow shadow_map;
 float lit() {
   vec2 step = 0.75 / vec2(textureSize(shadow_map, 0));
-  return 0.25 * (texture(shadow_map, f_shadow + vec3(-step.x, -step.y, 0.0)) +
-                 texture(shadow_map, f_shadow + vec3(step.x, -step.y, 0.0)) +
-                 texture(shadow_map, f_shadow + vec3(-step.x, step.y, 0.0)) +
-                 texture(shadow_map, f_shadow + vec3(step.x, step.y, 0.0)));
+  vec3 at = vec3(f_shadow.xy, max(f_shadow.z, 0.0));  // behind all that the map holds: shadowed where it holds anything
+  return 0.25 * (texture(shadow_map, at + vec3(-step.x, -step.y, 0.0)) +
+                 texture(shadow_map, at + vec3(step.x, -step.y, 0.0)) +
+                 texture(shadow_map, at + vec3(-step.x, step.y, 0.0)) +
+                 texture(shadow_map, at + vec3(step.x, step.y, 0.0)));
 }
 #endif
 void main() {

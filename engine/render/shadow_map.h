@@ -11,8 +11,9 @@ namespace stampede {
 inline constexpr int kShadowSide = 768;  // pixels
 
 // The lamp as an eye, fitted around everything that throws shadows: a function of the scene and its poses alone, so
-// that shadows do not depend on who looks. Things wider than 2 m (floors, walls) only receive them, unless there is
-// nothing else. `texel_m` is one pixel's width.
+// that shadows do not depend on who looks. It is fitted around things up to 2 m wide; of wider ones
+// (floors, walls), unless there is nothing else, only what lies inside the fit throws any. `texel_m` is one pixel's
+// width.
 struct ShadowView {
   Eye eye;
   Eigen::Matrix4d shadow_from_world = Eigen::Matrix4d::Identity();  // x, y: 0 … 1 in the map; z: as in the map
