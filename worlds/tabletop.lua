@@ -10,9 +10,9 @@ return world {
     left_shoulder = { at = { -0.175, 0.200, 1.980 }, look_at = { 0.22, 0.02, 0.80 }, fov = deg(40), near = 0.01, far = 3.2 },
     right_shoulder = { at = { -0.175, -0.200, 1.980 }, look_at = { 0.22, -0.02, 0.80 }, fov = deg(40), near = 0.01, far = 3.2 },
     overhead = { at = { -0.175, 0, 2.430 }, look_at = { 0.15, 0, 0.75 }, fov = deg(40), near = 0.01, far = 3.3 },
-    front = { at = { 1.350, 0, 1.580 }, look_at = { 0.05, 0, 0.93 }, fov = deg(40), near = 0.01, far = 4.5 },
+    front = { at = { 1.350, 0, 1.580 }, look_at = { 0.05, 0, 0.98 }, fov = deg(40), near = 0.01, far = 4.5 },
     wrist = { -- above the fingers, which it sees at the lower edge
-      mount = "robot.hand", at = { 0.07, 0, 0.03 }, look_at = { 0.0, 0, 0.25 }, up = { 1, 0, 0 },
+      mount = "robot.hand", at = { 0.07, 0, 0 }, look_at = { 0.03, 0, 0.25 }, up = { 1, 0, 0 },
       fov = deg(60), near = 0.01, far = 3.5,
     },
   },
