@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <ostream>
+#include <set>
 
 #include "db/catalogue.h"
 #include "scripting/commands/commands.h"
@@ -21,6 +22,19 @@ std::int64_t episode_number(const std::string& text) {
 
 namespace {
 
+// `, 208 pictures of 2 cameras, 494 kB`; nothing when there are none.
+std::string pictures_text(const std::vector<ImageEntry>& images) {
+  if (images.empty()) return {};
+  std::set<std::string> cameras;
+  std::int64_t bytes = 0;
+  for (const ImageEntry& image : images) {
+    cameras.insert(image.camera);
+    bytes += image.bytes;
+  }
+  return fmt::format(", {} pictures of {} camera{}, {:.0f} kB", images.size(), cameras.size(),
+                     cameras.size() == 1 ? "" : "s", static_cast<double>(bytes) / 1000);
+}
+
 ExitCode run(const Arguments& arguments, Console& console) {
   const std::int64_t number = episode_number(arguments.text("EPISODE"));
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
@@ -32,7 +46,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   TimelineStyle style;
   style.width = console.width;
   style.constant_facts = arguments.flag("--all");
-  style.title = fmt::format("episode {} of {}", number, arguments.text("FILE"));
+  style.title =
+      fmt::format("episode {} of {}{}", number, arguments.text("FILE"), pictures_text(catalogue.images(number)));
   console.out << timeline(episode, style);
   return kDone;
 }

@@ -36,6 +36,14 @@ std::vector<std::string> Session::variations(const std::string& task) const { re
 
 Episode Session::run(const std::string& task, const EpisodeRequest& request) { return impl_->core.run(task, request); }
 
+CameraPicture Session::picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request) const {
+  return impl_->core.picture(episode, frame, request);
+}
+
+CameraPoints Session::points(std::int64_t episode, std::int64_t frame, const PictureRequest& request) const {
+  return impl_->core.points(episode, frame, request);
+}
+
 Rows Session::query(std::string_view question) const {
   const QueryResult result = impl_->core.query(question);
   Rows rows{result.columns, {}};

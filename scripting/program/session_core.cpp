@@ -6,6 +6,35 @@
 #include "scripting/program/roots.h"
 
 namespace stampede {
+namespace {
+
+WhichFrames which(PicturesOf frames) {
+  switch (frames) {
+    case PicturesOf::none:
+      return WhichFrames::none;
+    case PicturesOf::keyframes:
+      return WhichFrames::keyframes;
+    case PicturesOf::all:
+      return WhichFrames::all;
+  }
+  return WhichFrames::none;
+}
+
+// All of it: who asks for pictures leaves nothing to the world.
+ObservationChoice choice_of(const PictureStorage& wanted) {
+  ObservationChoice choice;
+  choice.images = which(wanted.frames);
+  choice.cameras = wanted.cameras;
+  if (wanted.width != 0 || wanted.height != 0) choice.size = {wanted.width, wanted.height};
+  choice.kinds = PictureKinds{wanted.rgb, wanted.depth, wanted.instance, wanted.semantic};
+  choice.points = wanted.points;
+  choice.shadows = wanted.shadows;
+  choice.rgb_noise = wanted.rgb_noise;
+  choice.depth_noise = wanted.depth_noise;
+  return choice;
+}
+
+}  // namespace
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
                          std::filesystem::path catalogue)
@@ -47,6 +76,8 @@ Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& req
   RunOptions options;
   options.on_failure = request.on_failure;
   options.controller = request.controller;
+  if (request.pictures) options.observation = choice_of(*request.pictures);
+  if (request.randomise) options.randomise = default_randomisation();
   options.split = request.seed >= kFirstTestSeed ? "test" : "train";
   check_split(options.split, request.seed, request.seed);
   PreparedEpisode prepared(library_, {task_name, variations.empty() ? "" : variations.front(), request.seed}, options);
@@ -70,9 +101,19 @@ Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& req
   return episode;
 }
 
-QueryResult SessionCore::query(std::string_view question) const {
+const std::filesystem::path& SessionCore::catalogue() const {
   if (catalogue_.empty()) throw Error("Session", "it has no catalogue to ask", "set SessionOptions::catalogue");
-  return Catalogue::open(catalogue_).query(question);
+  return catalogue_;
+}
+
+QueryResult SessionCore::query(std::string_view question) const { return Catalogue::open(catalogue()).query(question); }
+
+CameraPicture SessionCore::picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
+  return studio_.picture(Catalogue::open(catalogue()), episode, frame, request);
+}
+
+CameraPoints SessionCore::points(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
+  return studio_.points(Catalogue::open(catalogue()), episode, frame, request);
 }
 
 }  // namespace stampede

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "db/query.h"
+#include "scripting/program/studio.h"
 #include "stampede/episode.h"
 
 namespace stampede {
@@ -21,11 +22,15 @@ class SessionCore {
   std::vector<std::string> variations(const std::string& task) const;
   Episode run(const std::string& task, const EpisodeRequest& request) const;
   QueryResult query(std::string_view question) const;
+  CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
+  CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
 
  private:
   std::optional<Episode> stored(const std::string& key) const;
+  const std::filesystem::path& catalogue() const;  // throws Error when there is none
   std::shared_ptr<const class Library> library_;
   std::filesystem::path catalogue_;
+  Studio studio_;
 };
 
 }  // namespace stampede

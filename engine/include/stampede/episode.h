@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "stampede/outcome.h"
+#include "stampede/picture.h"
 
 namespace stampede {
 
@@ -13,6 +15,8 @@ struct EpisodeRequest {
   std::int64_t seed = 0;  // from 1'000'000 up: the test split
   OnFailure on_failure = OnFailure::undo;
   std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
+  std::optional<PictureStorage> pictures;  // nothing: what the task and its world say in `observe`
+  bool randomise = false;  // looks, light, cameras and dynamics, where the world has no ranges of its own
 };
 
 struct Episode {

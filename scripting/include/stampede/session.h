@@ -10,6 +10,7 @@
 #include "stampede/episode.h"
 #include "stampede/error.h"
 #include "stampede/outcome.h"
+#include "stampede/picture.h"
 #include "stampede/visibility.h"
 
 namespace stampede {
@@ -44,6 +45,11 @@ class STAMPEDE_EXPORT Session {
 
   // One SELECT, or the name of a ready question, over the catalogue's views.
   Rows query(std::string_view question) const;
+
+  // What a camera saw at a frame of a stored episode, drawn now: no noise is added, and no scripts are needed.
+  // Throws Error for unknown episodes, frames and cameras. Repeatable: the same pixels in any session.
+  CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
+  CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
 
  private:
   struct Impl;

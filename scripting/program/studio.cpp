@@ -1,0 +1,91 @@
+#include "scripting/program/studio.h"
+
+#include <optional>
+#include <thread>
+
+#include "engine/render/point_cloud.h"
+#include "scripting/program/stored_episode.h"
+
+namespace stampede {
+namespace {
+
+Observation observation_for(const PictureRequest& request) {
+  Observation observation;
+  observation.cameras = {request.camera};
+  observation.width = request.width;
+  observation.height = request.height;
+  observation.kinds = {request.rgb, request.depth, request.instance, request.semantic};
+  observation.shadows = request.shadows;
+  return observation;
+}
+
+}  // namespace
+
+struct Studio::Impl {
+  std::thread::id thread;
+  std::unique_ptr<Renderer> renderer;
+  std::optional<StoredEpisode> stored;
+  std::vector<Picture> pictures;  // of the last request: one
+
+  // The view of the picture that is then the first in `pictures`.
+  View draw(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame, const PictureRequest& request);
+};
+
+View Studio::Impl::draw(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+                        const PictureRequest& request) {
+  if (!renderer || thread != std::this_thread::get_id()) {
+    renderer = make_osmesa_renderer();
+    thread = std::this_thread::get_id();
+  }
+  if (!stored || stored->id != episode) stored = read_stored(catalogue, episode);
+  const std::string where = "episode " + std::to_string(episode);
+  if (!stored->scene) throw Error(where, "it cannot be drawn: " + stored->why_not);
+  const auto frames = static_cast<std::int64_t>(stored->episode.frames.size());
+  if (frame < 0 || frame >= frames)
+    throw Error(where, "it has no frame " + std::to_string(frame),
+                "frames count from 0 to " + std::to_string(frames - 1));
+  const std::shared_ptr<const Scene> scene = with_cameras(*stored, {}, {request.camera});
+  const Observation observation = observation_for(request);
+  check_observation(*scene, observation);
+  EpisodePainter painter(*renderer, stored->episode, scene, observation);
+  painter.paint(frame, pictures);
+  return painter.views(frame).front();
+}
+
+Studio::Studio() : impl_(std::make_unique<Impl>()) {}
+Studio::~Studio() = default;
+Studio::Studio(Studio&&) noexcept = default;
+Studio& Studio::operator=(Studio&&) noexcept = default;
+
+CameraPicture Studio::picture(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+                              const PictureRequest& request) {
+  const View view = impl_->draw(catalogue, episode, frame, request);
+  Picture& drawn = impl_->pictures.front();
+  CameraPicture result;
+  result.width = drawn.width;
+  result.height = drawn.height;
+  result.rgb = std::move(drawn.rgb);
+  result.depth = std::move(drawn.depth);
+  result.instance = std::move(drawn.instance);
+  result.semantic = std::move(drawn.semantic);
+  result.focal_x = view.camera.focal_x;
+  result.focal_y = view.camera.focal_y;
+  result.centre_x = view.camera.centre_x;
+  result.centre_y = view.camera.centre_y;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      result.world_from_camera[static_cast<std::size_t>(4 * row + column)] =
+          view.world_from_camera.matrix()(row, column);
+  return result;
+}
+
+CameraPoints Studio::points(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+                            const PictureRequest& request) {
+  PictureRequest with_depth = request;
+  with_depth.depth = true;
+  const View view = impl_->draw(catalogue, episode, frame, with_depth);
+  PointCloud cloud = point_cloud(impl_->pictures.front(), view);
+  return {std::move(cloud.positions), std::move(cloud.colours), std::move(cloud.instance), std::move(cloud.semantic)};
+}
+
+}  // namespace stampede

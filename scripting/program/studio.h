@@ -1,0 +1,32 @@
+// Pictures of stored episodes on request, for programs that embed the engine.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "db/catalogue.h"
+#include "stampede/picture.h"
+
+namespace stampede {
+
+// Keeps what the next picture of the same episode needs again. Lifetime: one thread at a time; a picture from another
+// thread than the one before starts afresh, because a renderer belongs to its thread.
+class Studio {
+ public:
+  Studio();
+  ~Studio();
+  Studio(Studio&&) noexcept;
+  Studio& operator=(Studio&&) noexcept;
+
+  // Throws Error for unknown episodes, frames and cameras, and for sizes that cannot be drawn.
+  CameraPicture picture(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+                        const PictureRequest& request);
+  CameraPoints points(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+                      const PictureRequest& request);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stampede
