@@ -51,7 +51,11 @@ GlContext::GlContext() : inside_(std::make_unique<Inside>()) {
                                        0,
                                        0,
                                        0};
-  inside_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  {
+    static std::mutex mutex;  // workers start together, and the first context makes what all of them share
+    const std::lock_guard lock(mutex);
+    inside_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  }
   if (inside_->context == nullptr)
     throw Error("renderer", "OSMesa gives no OpenGL 4.5 core context", "install libosmesa6 22 or later");
   make_current();
