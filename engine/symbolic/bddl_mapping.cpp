@@ -78,6 +78,7 @@ BddlMapping default_libero_mapping() {
                    {"bottom_region", "bottom_drawer"},
                    {"top_side", ""},
                    {"cook_region", ""}};
+  mapping.parts = {{"chest", {"bottom_drawer", "middle_drawer", "top_drawer"}}};
   mapping.predicates = {
       {"on",
        "on",
@@ -123,6 +124,7 @@ BddlMapping default_behavior_mapping() {
                         {"floor.n.01", "floor"},
                         {"block.n.01", "cube"},
                         {"agent.n.01", "hand"}};
+  mapping.parts = {{"chest", {"bottom_drawer", "middle_drawer", "top_drawer"}}};
   mapping.predicates = {
       {"ontop",
        "on",

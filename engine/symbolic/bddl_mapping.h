@@ -35,9 +35,12 @@ struct BddlMapping {
   // LIBERO: sites of fixtures by the end of their name (`top_region`), and our parts (`top_drawer`); ours empty: the
   // fixture itself (`top_side`).
   std::vector<BddlPair> sites;
+  // Our class -> its parts with a joint. Of such a thing as a whole, theirs `open` and `in` are any part, `close` all.
+  std::map<std::string, std::vector<std::string>> parts;
   std::vector<BddlPredicateRule> predicates;  // the first that fits is taken
   std::string support = "on";                 // ours; with a LIBERO region of a surface it becomes `within` as well
   std::string within = "inside";
+  std::string hand = "panda.hand";           // BEHAVIOR: what their agent is here
   std::string room = "kitchen";              // BEHAVIOR: where scene objects stand, unless `rooms` says otherwise
   std::map<std::string, std::string> rooms;  // our class or type -> room
 
@@ -54,6 +57,14 @@ BddlMapping default_behavior_mapping();
 // Throws Error for predicates that the dialect does not have and orders that are no permutation of its arguments.
 // `where`: the file it comes from.
 void check_mapping(const BddlMapping& mapping, const std::string& where);
+
+// Where an object is put at the start: in one of the rectangles, in the frame of what it is put on.
+struct BddlPlacement {
+  std::string object, on;
+  std::vector<BddlRectangle> ranges;
+  std::array<double, 2> yaw_rad = {0, 0};
+  friend bool operator==(const BddlPlacement&, const BddlPlacement&) = default;
+};
 
 // How one predicate of a problem was translated.
 struct BddlNote {
