@@ -4,7 +4,6 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -25,7 +24,7 @@ struct Style {
   Filter filter;
   int level;  // of libdeflate
 };
-constexpr Style kRgbStyle{Filter::none, 2};  // flat areas: filters make more of them
+constexpr int kRgbLevel = 2;
 constexpr Style kDepthStyle{Filter::up, 1};
 constexpr Style kIdStyle{Filter::sub, 2};
 
@@ -36,7 +35,8 @@ struct FreeCompressor {
 // What a thread uses again for each picture: making a compressor costs more than compressing a small picture.
 struct Encoder {
   std::array<std::unique_ptr<libdeflate_compressor, FreeCompressor>, 3> by_level;
-  Bytes rows;
+  Bytes rows;                        // with filters applied, a filter's number ahead of each
+  std::vector<std::uint16_t> above;  // the row before
 
   libdeflate_compressor* at(int level) {
     auto& compressor = by_level.at(static_cast<std::size_t>(level));
@@ -95,42 +95,31 @@ Bytes png_of_rows(int width, int height, int bits, ColourType type, const Bytes&
   return png;
 }
 
-// Predicts each byte from its neighbour and keeps the difference. From the end, so that what is subtracted is still
-// unfiltered. Rows start with the filter's number; `pixel` is in bytes.
-void apply(Filter filter, Bytes& rows, std::size_t row_size, std::size_t pixel) {
-  for (std::size_t start = rows.size(); start >= row_size; start -= row_size) {
-    std::uint8_t* const row = &rows[start - row_size];
-    row[0] = static_cast<std::uint8_t>(filter);
-    if (filter == Filter::up && start > row_size)
-      for (std::size_t i = 1; i < row_size; ++i) row[i] = static_cast<std::uint8_t>(row[i] - (row - row_size)[i]);
-    if (filter == Filter::sub)
-      for (std::size_t i = row_size - 1; i > pixel; --i) row[i] = static_cast<std::uint8_t>(row[i] - row[i - pixel]);
-  }
-}
-
-// 16-bit values, most significant byte first, by `value_of(index)`.
+// 16-bit values, most significant byte first, by `value_of(index)`; less what the filter predicts, byte by byte.
 template <typename ValueOf>
 Bytes grey_png(int width, int height, const Style& style, const ValueOf& value_of) {
   Encoder& with = encoder();
-  const std::size_t row_size = 1 + 2 * static_cast<std::size_t>(width);
-  with.rows.resize(row_size * static_cast<std::size_t>(height));
+  const auto pixels = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  with.rows.resize((1 + 2 * pixels) * rows);
+  with.above.assign(pixels, 0);
   std::uint8_t* at = with.rows.data();
-  std::size_t index = 0;
-  for (int v = 0; v < height; ++v) {
-    ++at;
-    for (int u = 0; u < width; ++u, at += 2) {
+  for (std::size_t row = 0, index = 0; row < rows; ++row) {
+    *at++ = static_cast<std::uint8_t>(style.filter);
+    std::uint16_t left = 0;
+    for (std::uint16_t& above : with.above) {
       const std::uint16_t value = value_of(index++);
-      at[0] = static_cast<std::uint8_t>(value >> 8);
-      at[1] = static_cast<std::uint8_t>(value & 0xff);
+      const std::uint16_t predicted = style.filter == Filter::up ? above : style.filter == Filter::sub ? left : 0;
+      *at++ = static_cast<std::uint8_t>((value >> 8) - (predicted >> 8));
+      *at++ = static_cast<std::uint8_t>(value - predicted);
+      above = left = value;
     }
   }
-  apply(style.filter, with.rows, row_size, 2);
   return png_of_rows(width, height, 16, ColourType::grey, with.rows, with.at(style.level));
 }
 
 std::uint16_t depth_value(float depth) {
-  const double units = std::floor(static_cast<double>(depth) / kDepthUnit + 0.5);
-  return units >= 1 && units <= 65535 ? static_cast<std::uint16_t>(units) : std::uint16_t{0};  // not a number: 0
+  const double units = static_cast<double>(depth) / kDepthUnit + 0.5;
+  return units >= 1 && units < 65536 ? static_cast<std::uint16_t>(units) : std::uint16_t{0};  // not a number: 0
 }
 
 void require(bool condition, const char* what) {
@@ -203,9 +192,11 @@ Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb) {
   Encoder& with = encoder();
   with.rows.resize((row_size + 1) * static_cast<std::size_t>(height));
   std::uint8_t* at = with.rows.data();
-  for (std::size_t from = 0; from < rgb.size(); from += row_size) at = std::copy_n(&rgb[from], row_size, at + 1);
-  apply(kRgbStyle.filter, with.rows, row_size + 1, 3);
-  return png_of_rows(width, height, 8, ColourType::rgb, with.rows, with.at(kRgbStyle.level));
+  for (std::size_t from = 0; from < rgb.size(); from += row_size) {
+    *at++ = static_cast<std::uint8_t>(Filter::none);  // flat areas: filters make more of them
+    at = std::copy_n(&rgb[from], row_size, at);
+  }
+  return png_of_rows(width, height, 8, ColourType::rgb, with.rows, with.at(kRgbLevel));
 }
 
 Bytes to_png(const Picture& picture, PictureKind kind) {
