@@ -103,3 +103,30 @@ TEST_CASE("Through a lens, depth and ids still agree with exact rays") {
   CHECK(found.depth >= 0.999);
   CHECK(found.ids >= 0.995);
 }
+
+TEST_CASE("A ball of a hundred thousand triangles, most of them smaller than a pixel, has no holes") {
+  constexpr double kRadius = 0.3;
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= 224; ++i) {
+    const double angle = std::numbers::pi * (i / 224.0 - 0.5);
+    profile.push_back({i % 224 == 0 ? 0 : kRadius * std::cos(angle), kRadius * std::sin(angle)});
+  }
+  Scene exact, drawn;
+  exact.bodies.push_back(free_body("ball", shape_of(ShapeKind::sphere, kRadius, 0), translation(0, 0, 0.3)));
+  number_masks(exact, RandomKey("ball"));
+  drawn = exact;
+  const auto mesh = std::make_shared<const DrawnMesh>(lathe_mesh(profile, 224));
+  REQUIRE(mesh->triangles.size() > 99'000);
+  drawn.meshes["ball"] = mesh;
+  drawn.bodies[0].parts[0].shapes[0].kind = ShapeKind::mesh;
+  drawn.bodies[0].parts[0].shapes[0].mesh = "ball";
+  Studio studio(drawn);
+  const RayCaster rays(exact, studio.poses);
+  for (const int size : {31, 128, 400}) {
+    const View view = view_from({0.7, -1.0, 0.8}, {0, 0, 0.3}, 40, size, size + 7);
+    const Agreement found = agreement(studio.draw(view), rays.draw(view));
+    CHECK(found.surfaces > size * size / 10);
+    CHECK(found.depth >= 0.999);
+    CHECK(found.ids >= 0.999);
+  }
+}
