@@ -137,6 +137,73 @@ TEST_CASE("golden: names") {
         std::string::npos);
 }
 
+TEST_CASE("golden: how a world is seen") {
+  const auto lab = [](const std::string& fields) {
+    return said("worlds/lab.lua", "  fixtures =", "  " + fields + ",\n  fixtures =");
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    INFO(text << "lacks\n" << part);
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(lab("cameras = { front = { at = { 1, 0, 1 }, look_at = \"tabel\" } }") ==
+        "worlds/lab.lua:4: cameras.front.look_at: there is no object 'tabel'\n    did you mean 'table'?\n");
+  CHECK(lab("cameras = { front = { at = { 1, 0, 1 }, mount = \"tabel\" } }") ==
+        "worlds/lab.lua:4: cameras.front.mount: there is no object or link 'tabel'\n    did you mean 'table'?\n");
+  CHECK(lab("cameras = { front = { at = { 1, 0, 1 }, mount = \"robot.link5\" } }").empty());  // links: by the URDF
+  CHECK(lab("cameras = { front = { at = { 1, 0, 1 }, size = { 0, 128 } } }") ==
+        "worlds/lab.lua:4: cameras.front.size: a picture has 1 to 4096 whole pixels a side\n    size = { 128, 128 "
+        "}\n");
+  CHECK(has(lab("cameras = { front = { at = { 1, 0, 1 }, size = { 5000, 128 } } }"), "1 to 4096"));
+  CHECK(has(lab("cameras = { front = { at = { 1, 0, 1 }, fov = 4 } }"), "front.fov: a field of view lies between"));
+  CHECK(has(lab("cameras = { front = { at = { 1, 0, 1 }, near = 5 } }"), "front.near: near must be above 0"));
+  CHECK(has(lab("cameras = { front = { at = { 1, 0, 1 }, focal = { 0, 1 } } }"), "front.focal: expects two numbers"));
+  CHECK(has(lab("cameras = { front = { at = { 1, 0, 1 }, focl = { 1, 1 } } }"), "did you mean 'focal'?"));
+  CHECK(lab("sensors = { wrench = { \"force_torqe\" } }") ==
+        "worlds/lab.lua:4: sensors.wrench: there is no sensor of kind 'force_torqe'\n    did you mean "
+        "'force_torque'?\n");
+  CHECK(lab("sensors = { wrench = { \"force_torque\", rate = 50 } }") ==
+        "worlds/lab.lua:4: sensors.wrench.rate: 50 Hz does not divide 240 Hz\n    these do: 1 2 3 4 5 6 8 10 12 15 16 "
+        "20 24 30 40 48 60 80 120 240\n");
+  CHECK(has(lab("sensors = { t = { \"joint_torque\", on = \"robot.hand\" } }"), "is of all joints of the arm"));
+  CHECK(lab("light = { ambiant = 0.5 }") ==
+        "worlds/lab.lua:4: light.ambiant: a light has no field 'ambiant'\n    did you mean 'ambient'?\n");
+  CHECK(has(lab("light = { direction = { 0, 0, 0 } }"), "light.direction: has no length"));
+  CHECK(has(lab("light = { diffuse = -1 }"), "is not negative"));
+  CHECK(lab("randomise = { looks = { \"dsk\" } }") ==
+        "worlds/lab.lua:4: randomise.looks: there is no object 'dsk'\n    did you mean 'desk'?\n");
+  CHECK(lab("randomise = { looks = { \"*\", \"robot\", \"table\", \"cube\" }, colours = colours.names }").empty());
+  CHECK(has(lab("randomise = { textures = { \"chequer\" } }"), "there is no kind of texture 'chequer'"));
+  CHECK(has(lab("randomise = { colours = { \"rad\" } }"), "there is no colour 'rad'\n    did you mean 'red'?"));
+  CHECK(has(lab("randomise = { mass = { 2, 1 } }"), "randomise.mass: its lower end lies above its upper"));
+  CHECK(has(lab("randomise = { mass = { 0, 1 } }"), "randomise.mass: must be above 0"));
+  CHECK(has(lab("randomise = { camera_position = -1 }"), "randomise.camera_position: is negative"));
+  CHECK(lab("observe = { images = \"al\" }") ==
+        "worlds/lab.lua:4: observe.images: there is no choice of frames 'al'\n    did you mean 'all'?\n");
+  CHECK(
+      has(lab("observe = { kinds = { \"dept\" } }"), "there is no kind of picture 'dept'\n    did you mean 'depth'?"));
+  CHECK(has(lab("observe = { kinds = { \"points\" } }"), "points = true"));
+  CHECK(has(lab("observe = { noise = { rbg = 1 } }"), "did you mean 'rgb'?"));
+  CHECK(has(lab("observe = { noise = { rgb = -1 } }"), "a standard deviation is not negative"));
+  CHECK(has(lab("observe = { channels = { \"wrench\" } }"), "there is no sensor 'wrench'"));
+  CHECK(has(said("tasks/take.lua", "  goal", "  observe = { cameras = { \"front\" } },\n  goal"),
+            "tasks/take.lua:7: observe.cameras: there is no camera 'front'"));
+}
+
+TEST_CASE("golden: looks of objects") {
+  const auto cube = [](const std::string& fields) {
+    return said("worlds/objects/cube.lua", "mass = ", fields + ", mass = ");
+  };
+  CHECK(cube("texture = checker { \"red\", \"blue\", size = 0.1 }").empty());
+  CHECK(cube("texture = texture { \"wood.png\" }, visual = { box { 1, 1, 1 }, mesh { \"a.obj\" } }").empty());
+  CHECK(cube("visual = mesh { \"a.obj\" }").empty());
+  CHECK(
+      cube("texture = \"wood\"") ==
+      "worlds/objects/cube.lua:2: texture: expects texture such as checker { \"white\", \"black\" }, this is the text "
+      "\"wood\"\n    such as texture = checker { \"white\", \"black\", size = 0.1 }\n");
+  CHECK(cube("texture = stripes { sise = 0.1 }").find("a texture has no field 'sise'\n    did you mean 'size'?") !=
+        std::string::npos);
+}
+
 TEST_CASE("golden: types") {
   CHECK(said("worlds/types.lua", "thing = {}", "thing = { parent = \"cube\" }")
             .find("worlds/types.lua:3: types.cube: a cycle of types: cube < thing < cube\n    every type ends at "
