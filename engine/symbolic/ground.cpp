@@ -16,8 +16,11 @@ class Builder {
   Builder(GroundTask& task, const std::set<PlanStep>& forbidden)
       : task_(task), lifted_(task.lifted), forbidden_(forbidden), reach_(lifted_) {}
 
-  void run() {
-    reach_.run();
+  void run(std::int64_t memory_bytes) {
+    if (!reach_.run(memory_bytes)) {
+      task_.out_of_memory = true;
+      return;
+    }
     judge_atoms();
     number_facts();
     for (const Instance& one : reach_.instances()) {
@@ -110,10 +113,29 @@ class Builder {
     return forbidden_.contains(step);
   }
 
+  bool find_cost(const Schema& schema, const Instance& instance, int& cost) const {
+    const Action& action = lifted_.domain->actions[schema.action];
+    cost = action.cost;
+    if (action.cost_function.empty()) return true;
+    Fact of{action.cost_function, {}};
+    for (const Term& term : action.cost_terms) {
+      int object = -1;
+      for (int i = 0; i < schema.parameters; ++i) {
+        if (term.variable && action.parameters[i].name == term.name) object = instance.binding[i];
+      }
+      of.arguments.push_back(object < 0 ? term.name : lifted_.objects[object].name);
+    }
+    const auto found = lifted_.problem->values.find(of);
+    if (found == lifted_.problem->values.end()) return false;
+    cost = found->second;
+    return true;
+  }
+
   void build_operator(const Instance& instance) {
     const Schema& schema = lifted_.schemas[instance.schema];
     if (is_forbidden(schema, instance)) return;
     Operator op;
+    if (!find_cost(schema, instance, op.cost)) return;
     op.schema = instance.schema;
     if (!literals(schema.body, instance.binding, op.precondition)) return;
     std::vector<int> binding = instance.binding;
@@ -220,10 +242,10 @@ PlanStep GroundTask::step(int op) const {
   return result;
 }
 
-GroundTask ground(LiftedTask lifted, const std::set<PlanStep>& forbidden) {
+GroundTask ground(LiftedTask lifted, const std::set<PlanStep>& forbidden, std::int64_t memory_bytes) {
   GroundTask task;
   task.lifted = std::move(lifted);
-  Builder(task, forbidden).run();
+  Builder(task, forbidden).run(memory_bytes);
   return task;
 }
 

@@ -25,6 +25,7 @@ struct Operator {
   std::vector<int> binding;
   Literals precondition, effects;  // sorted; no removal of what is also added
   std::vector<ConditionalEffect> conditional;
+  int cost = 1;
 };
 
 struct Axiom {
@@ -45,12 +46,16 @@ struct GroundTask {
   std::vector<LiftedAtom> undeniable;  // negated literals of the goal that nothing makes false
   std::vector<LiftedAtom> reachable;   // all atoms that relaxed reachability met
 
+  bool out_of_memory = false;  // grounding was given up; nothing else can be relied on
+
   bool solvable() const { return impossible.empty() && undeniable.empty(); }
   PlanStep step(int op) const;
   Fact fact(const LiftedAtom& atom) const;
 };
 
 // Helmert, Artificial Intelligence 173, 2009, doi:10.1016/j.artint.2008.10.013 (the idea: reachability as Datalog).
-GroundTask ground(LiftedTask lifted, const std::set<PlanStep>& forbidden);
+// An operator whose cost function has no value for its objects cannot be taken.
+GroundTask ground(LiftedTask lifted, const std::set<PlanStep>& forbidden,
+                  std::int64_t memory_bytes = PlanLimits{}.memory_bytes);
 
 }  // namespace stampede::symbolic

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "engine/symbolic/search.h"
 
@@ -8,16 +9,51 @@ namespace {
 constexpr std::int64_t kWindowExpansions = 25;
 constexpr std::int64_t kWholeExpansions = 400;
 constexpr std::int64_t kWindowWork = 4'000'000;  // operators times expansions: bounds the time on large tasks
+constexpr int kMostStepCost = 64;                // in searches; true costs are scaled to it
 
-std::int64_t total(const GroundTask& task, const std::vector<int>& plan) {
-  std::int64_t sum = 0;
-  for (const int op : plan) sum += cost_of(task, op);
-  return sum;
-}
+// What plans are compared by.
+using Price = std::pair<std::int64_t, std::size_t>;  // cost, steps
 
-// The plan without step `drop` and without all later steps that then cannot be taken; empty-handed if the goal fails.
-bool without(const GroundTask& task, const Semantics& semantics, const std::vector<int>& plan, std::size_t drop,
-             Words state, std::vector<int>& rest) {
+struct Improver {
+  const GroundTask& task;
+  const Semantics& semantics;
+  Heuristic& heuristic;
+  std::vector<int> costs;  // by operator, scaled; empty: all equal
+  std::int64_t budget = 0;
+
+  Price price(std::vector<int>::const_iterator from, std::vector<int>::const_iterator to) const {
+    Price sum{0, static_cast<std::size_t>(to - from)};
+    for (; from != to; ++from) sum.first += task.operators[*from].cost;
+    return sum;
+  }
+  Price price(const std::vector<int>& plan) const { return price(plan.begin(), plan.end()); }
+
+  int search_cost(std::vector<int>::const_iterator from, std::vector<int>::const_iterator to) const {
+    if (costs.empty()) return static_cast<int>(to - from);
+    int sum = 0;
+    for (; from != to; ++from) sum += costs[*from];
+    return sum;
+  }
+
+  bool works(const std::vector<int>& plan) const {
+    Words state = semantics.initial(), next;
+    for (const int op : plan) {
+      if (!semantics.applicable(state, op)) return false;
+      semantics.apply(state, op, next);
+      state.swap(next);
+    }
+    return semantics.is_goal(state);
+  }
+
+  bool without(const std::vector<int>& plan, std::size_t drop, Words state, std::vector<int>& rest) const;
+  std::vector<int> eliminate(std::vector<int> plan) const;
+  std::vector<Literals> needed_before(const std::vector<int>& plan) const;
+  bool shorten_windows(std::size_t length, std::vector<int>& plan);
+  void search_again(std::int64_t expansions, std::vector<int>& plan);
+};
+
+// The plan without step `drop` and without all later steps that then cannot be taken; false if the goal fails.
+bool Improver::without(const std::vector<int>& plan, std::size_t drop, Words state, std::vector<int>& rest) const {
   rest.assign(plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(drop));
   Words next;
   for (std::size_t i = drop + 1; i < plan.size(); ++i) {
@@ -26,15 +62,15 @@ bool without(const GroundTask& task, const Semantics& semantics, const std::vect
     state.swap(next);
     rest.push_back(plan[i]);
   }
-  return semantics.is_goal(state) && total(task, rest) <= total(task, plan);
+  return semantics.is_goal(state);
 }
 
-// Action elimination: Nakhost, Müller, ICAPS 2010.
-std::vector<int> eliminate(const GroundTask& task, const Semantics& semantics, std::vector<int> plan) {
+// Action elimination: Nakhost, Müller, ICAPS 2010. By simulation, so conditional effects and axioms are as good as any.
+std::vector<int> Improver::eliminate(std::vector<int> plan) const {
   Words state = semantics.initial(), next;
   std::vector<int> rest;
   for (std::size_t i = 0; i < plan.size();) {
-    if (without(task, semantics, plan, i, state, rest)) {
+    if (without(plan, i, state, rest)) {
       plan = rest;
       continue;
     }
@@ -45,44 +81,104 @@ std::vector<int> eliminate(const GroundTask& task, const Semantics& semantics, s
   return plan;
 }
 
-// What must hold before each step so that the rest of the plan works and ends in the goal. Exact only without
-// conditional effects and axioms.
-std::vector<Literals> needed_before(const GroundTask& task, const std::vector<int>& plan) {
+// What must hold before each step so that the rest of the plan works and ends in the goal: exact for plain effects. For
+// conditional effects and axioms it is more than needed: all that the rest reads, directly or through axioms, as it is.
+std::vector<Literals> Improver::needed_before(const std::vector<int>& plan) const {
+  std::vector<Words> states = {semantics.initial()};
+  for (const int op : plan) {
+    Words next;
+    semantics.apply(states.back(), op, next);
+    states.push_back(std::move(next));
+  }
+  std::vector<std::vector<int>> reads(
+      static_cast<std::size_t>(task.facts - task.basic));  // basic facts, by derived one
+  for (const Axiom& axiom : task.axioms) {
+    std::vector<int>& own = reads[axiom.head - task.basic];
+    for (const Literal one : axiom.body) own.push_back(one >> 1);
+  }
+  std::vector<char> seen(static_cast<std::size_t>(task.facts), 0);
+  std::vector<int> stack, touched;
+  const auto expand = [&](Literals& literals, const Words& state) {  // derived literals into the facts below them
+    stack.clear();
+    touched.clear();
+    Literals basic;
+    for (const Literal one : literals) {
+      if (one >> 1 < task.basic) {
+        basic.push_back(one);
+      } else {
+        stack.push_back(one >> 1);
+      }
+    }
+    while (!stack.empty()) {
+      const int fact = stack.back();
+      stack.pop_back();
+      if (seen[fact]) continue;
+      seen[fact] = 1;
+      touched.push_back(fact);
+      if (fact < task.basic) {
+        basic.push_back(2 * fact + (test(state.data(), fact) ? 0 : 1));
+      } else {
+        stack.insert(stack.end(), reads[fact - task.basic].begin(), reads[fact - task.basic].end());
+      }
+    }
+    for (const int fact : touched) seen[fact] = 0;
+    std::sort(basic.begin(), basic.end());
+    basic.erase(std::unique(basic.begin(), basic.end()), basic.end());
+    literals = std::move(basic);
+  };
   std::vector<Literals> needed(plan.size() + 1);
   needed.back() = task.goal;
   for (std::size_t i = plan.size(); i-- > 0;) {
     const Operator& op = task.operators[plan[i]];
-    Literals before = op.precondition;
-    for (const Literal one : needed[i + 1]) {
-      if (!std::binary_search(op.effects.begin(), op.effects.end(), one)) before.push_back(one);
+    Literals after = needed[i + 1], before = op.precondition;
+    if (i + 1 < plan.size()) expand(after, states[i + 1]);
+    if (i + 1 == plan.size() && !task.axioms.empty()) expand(after, states[i + 1]);
+    for (const ConditionalEffect& effect : op.conditional) {
+      for (const Literal one : effect.when) before.push_back(literal_holds(states[i].data(), one) ? one : one ^ 1);
+      const int fact = effect.effect >> 1;  // may or may not be changed: what matters later must be right before
+      if (std::binary_search(after.begin(), after.end(), effect.effect) ||
+          std::binary_search(after.begin(), after.end(), effect.effect ^ 1)) {
+        before.push_back(2 * fact + (test(states[i].data(), fact) ? 0 : 1));
+      }
     }
-    std::sort(before.begin(), before.end());
-    before.erase(std::unique(before.begin(), before.end()), before.end());
+    for (const Literal one : after) {
+      if (std::binary_search(op.effects.begin(), op.effects.end(), one)) continue;
+      const bool is_conditional =
+          std::any_of(op.conditional.begin(), op.conditional.end(),
+                      [&](const ConditionalEffect& effect) { return effect.effect >> 1 == one >> 1; });
+      if (!is_conditional) before.push_back(one);
+    }
+    expand(before, states[i]);
     needed[i] = std::move(before);
   }
   return needed;
 }
 
 // One pass of windows of `length` steps over the plan; true if some window became cheaper.
-bool shorten_windows(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic, std::size_t length,
-                     std::int64_t& budget, std::vector<int>& plan) {
+bool Improver::shorten_windows(std::size_t length, std::vector<int>& plan) {
   bool better = false;
   Words state = semantics.initial(), next;
-  std::vector<Literals> needed = needed_before(task, plan);
+  std::vector<Literals> needed = needed_before(plan);
   for (std::size_t i = 0; i < plan.size() && budget > 0; ++i) {
     const std::size_t end = std::min(plan.size(), i + length);
+    const auto from = plan.begin() + static_cast<std::ptrdiff_t>(i),
+               to = plan.begin() + static_cast<std::ptrdiff_t>(end);
     PlanLimits limits;
     limits.expansions = std::min(budget, kWindowExpansions);
     heuristic.set_goal(needed[end]);
     const SearchResult found =
-        lazy_search(task, semantics, heuristic, limits, {state, needed[end], 1, static_cast<int>(end - i)});
+        lazy_search(task, semantics, heuristic, limits,
+                    {state, needed[end], 1, search_cost(from, to), nullptr, costs.empty() ? nullptr : &costs});
     budget -= found.evaluated;
-    const auto from = plan.begin() + static_cast<std::ptrdiff_t>(i),
-               to = plan.begin() + static_cast<std::ptrdiff_t>(end);
-    if (found.solved && total(task, found.plan) < total(task, {from, to})) {
-      plan.insert(plan.erase(from, to), found.plan.begin(), found.plan.end());
-      needed = needed_before(task, plan);
-      better = true;
+    if (found.solved && price(found.plan) < price(from, to)) {
+      std::vector<int> changed(plan.begin(), from);
+      changed.insert(changed.end(), found.plan.begin(), found.plan.end());
+      changed.insert(changed.end(), to, plan.end());
+      if (works(changed)) {
+        plan = std::move(changed);
+        needed = needed_before(plan);
+        better = true;
+      }
     }
     if (i >= plan.size()) break;
     semantics.apply(state, plan[i], next);
@@ -92,40 +188,63 @@ bool shorten_windows(const GroundTask& task, const Semantics& semantics, Heurist
   return better;
 }
 
-// Searches for the whole plan again, each time for a shorter one: for tasks whose stretches cannot be replaced because
-// what they need to achieve cannot be regressed (axioms, conditional effects).
-std::vector<int> search_again(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
-                              std::int64_t budget, std::vector<int> plan) {
-  for (const int weight : {3, 1}) {
-    while (budget > 0) {
+// Weighted best-first searches for the whole plan, each from scratch and bounded by the best so far: anytime search as
+// in Richter, Thayer, Ruml, ICAPS 2010.
+void Improver::search_again(std::int64_t expansions, std::vector<int>& plan) {
+  for (const int weight : {5, 3, 2, 1}) {
+    while (expansions > 0) {
       PlanLimits limits;
-      limits.expansions = budget;
-      const SearchResult found = lazy_search(task, semantics, heuristic, limits,
-                                             {semantics.initial(), task.goal, weight, static_cast<int>(plan.size())});
+      limits.expansions = expansions;
+      const SearchResult found =
+          lazy_search(task, semantics, heuristic, limits,
+                      {semantics.initial(), task.goal, weight, search_cost(plan.begin(), plan.end()), nullptr,
+                       costs.empty() ? nullptr : &costs});
+      expansions -= found.evaluated;
       budget -= found.evaluated;
-      if (!found.solved || total(task, found.plan) >= total(task, plan)) break;
-      plan = eliminate(task, semantics, found.plan);
+      if (!found.solved || price(found.plan) >= price(plan)) break;
+      plan = eliminate(found.plan);
     }
   }
-  return plan;
+}
+
+// Costs as searches see them: at least 1 each, so that steps count too. Empty: all are equal.
+std::vector<int> scaled_costs(const GroundTask& task) {
+  int least = 0, most = 0;
+  for (std::size_t i = 0; i < task.operators.size(); ++i) {
+    const int cost = task.operators[i].cost;
+    least = i == 0 ? cost : std::min(least, cost);
+    most = std::max(most, cost);
+  }
+  std::vector<int> costs;
+  if (least == most) return costs;
+  for (const Operator& op : task.operators) {
+    costs.push_back(most < kMostStepCost
+                        ? std::max(1, op.cost)
+                        : static_cast<int>(1 + static_cast<std::int64_t>(op.cost) * (kMostStepCost - 1) / most));
+  }
+  return costs;
 }
 
 }  // namespace
 
 std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
                          std::vector<int> plan, std::int64_t expansions) {
-  if (expansions <= 0) return plan;
-  plan = eliminate(task, semantics, std::move(plan));
-  const bool regresses = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
-                                                            [](const Operator& op) { return op.conditional.empty(); });
-  std::int64_t budget =
+  if (expansions <= 0 || plan.empty()) return plan;
+  Improver improver{task, semantics, heuristic, scaled_costs(task)};
+  if (!improver.costs.empty()) heuristic.set_costs(&improver.costs);
+  improver.budget =
       std::min<std::int64_t>(expansions, kWindowWork / static_cast<std::int64_t>(task.operators.size() + 100));
-  if (!regresses) return search_again(task, semantics, heuristic, std::min(budget, kWholeExpansions), std::move(plan));
+  plan = improver.eliminate(std::move(plan));
   for (const std::size_t length : {8, 16}) {
-    if (shorten_windows(task, semantics, heuristic, length, budget, plan)) {
-      plan = eliminate(task, semantics, std::move(plan));
-    }
+    if (improver.shorten_windows(length, plan)) plan = improver.eliminate(std::move(plan));
   }
+  const bool is_plain = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
+                                                           [](const Operator& op) { return op.conditional.empty(); });
+  const bool is_small = plan.size() <= 24;  // larger plans are beyond what so few expansions find again
+  if (!is_plain || is_small || !improver.costs.empty()) {
+    improver.search_again(std::min(improver.budget, kWholeExpansions), plan);
+  }
+  heuristic.set_costs(nullptr);
   return plan;
 }
 

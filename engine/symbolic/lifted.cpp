@@ -21,6 +21,7 @@ class Lifter {
 
   LiftedTask run() {
     task_.domain = &domain_;
+    task_.problem = &problem_;
     task_.objects = all_objects(domain_, problem_.objects);
     for (std::size_t i = 0; i < task_.objects.size(); ++i) objects_[task_.objects[i].name] = static_cast<int>(i);
     name_predicates();
@@ -143,12 +144,11 @@ class Lifter {
     return {result};
   }
 
-  static Conjunct merged(Conjunct a, const Conjunct& b) {
+  static void append(Conjunct& a, const Conjunct& b) {
     a.positive.insert(a.positive.end(), b.positive.begin(), b.positive.end());
     a.negative.insert(a.negative.end(), b.negative.begin(), b.negative.end());
     a.equalities.insert(a.equalities.end(), b.equalities.begin(), b.equalities.end());
     a.extra.insert(a.extra.end(), b.extra.begin(), b.extra.end());
-    return a;
   }
 
   // Disjunctive normal form of a formula in negation normal form.
@@ -169,7 +169,7 @@ class Lifter {
       }
       case Kind::conjunction: {
         std::vector<Conjunct> all = {Conjunct{}};
-        for (const Formula& part : formula.parts) all = product(all, normal(part, scope));
+        for (const Formula& part : formula.parts) all = product(std::move(all), normal(part, scope));
         return all;
       }
       case Kind::disjunction: {
@@ -197,7 +197,7 @@ class Lifter {
 
   void expand(const Formula& forall, std::size_t from, const Scope& scope, std::vector<Conjunct>& all) {
     if (from == forall.variables.size()) {
-      all = product(all, normal(forall.parts.at(0), scope));
+      all = product(std::move(all), normal(forall.parts.at(0), scope));
       return;
     }
     for (const int value : values(forall.variables[from])) {
@@ -218,11 +218,15 @@ class Lifter {
     return {result};
   }
 
-  std::vector<Conjunct> product(const std::vector<Conjunct>& a, std::vector<Conjunct> b) {
+  std::vector<Conjunct> product(std::vector<Conjunct> a, std::vector<Conjunct> b) {
+    if (b.size() == 1) {  // by far the most: nothing is copied
+      for (Conjunct& left : a) append(left, b.front());
+      return a;
+    }
     if (b.size() > 1 && a.size() * b.size() > kMostDisjuncts) b = {as_predicate(b)};
     std::vector<Conjunct> all;
     for (const Conjunct& left : a) {
-      for (const Conjunct& right : b) all.push_back(merged(left, right));
+      for (const Conjunct& right : b) append(all.emplace_back(left), right);
     }
     return all;
   }

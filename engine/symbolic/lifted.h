@@ -51,6 +51,7 @@ struct Schema {
 
 struct LiftedTask {
   const Domain* domain = nullptr;
+  const Problem* problem = nullptr;
   std::vector<TypedObject> objects;
   std::vector<std::string> predicates;  // the domain's, traits, those only in init, then auxiliary ones
   std::vector<char> fluent;             // by predicate: changed by an action, derived or auxiliary

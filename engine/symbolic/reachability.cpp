@@ -54,6 +54,7 @@ int Reachability::find(const LiftedAtom& atom, const std::vector<int>& binding) 
 void Reachability::add(int predicate, const std::vector<int>& arguments) {
   const int number = static_cast<int>(predicate_.size());
   if (!numbers_[predicate].try_emplace(key(arguments), number).second) return;
+  bytes_ += 120 + 20 * static_cast<std::int64_t>(arguments.size());  // its place in four tables, as allocated
   predicate_.push_back(predicate);
   arguments_.push_back(arguments);
   of_predicate_[predicate].push_back(number);
@@ -64,7 +65,8 @@ void Reachability::add(int predicate, const std::vector<int>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) positions[i][arguments[i]].push_back(number);
 }
 
-void Reachability::run() {
+bool Reachability::run(std::int64_t memory_bytes) {
+  most_bytes_ = memory_bytes;
   std::vector<int> arguments;
   for (const bool fluent : {false, true}) {  // static atoms first: most joins then fail at once
     for (const LiftedAtom& atom : task_.init) {
@@ -80,7 +82,8 @@ void Reachability::run() {
     binding_.assign(task_.schemas[i].domains.size(), -1);
     fill(static_cast<int>(i), 0);
   }
-  for (std::size_t next = 0; next < predicate_.size(); ++next) trigger(static_cast<int>(next));
+  for (std::size_t next = 0; next < predicate_.size() && bytes_ <= most_bytes_; ++next) trigger(static_cast<int>(next));
+  return bytes_ <= most_bytes_;
 }
 
 void Reachability::trigger(int atom) {
@@ -180,6 +183,7 @@ void Reachability::fill(int schema, std::size_t variable) {
     return;
   }
   for (const int value : from.domains[next]) {
+    if (bytes_ > most_bytes_) break;
     binding_[next] = value;
     fill(schema, next + 1);
   }
@@ -202,6 +206,8 @@ bool Reachability::statics_hold(const Conjunct& conjunct, const std::vector<int>
 
 void Reachability::found(int schema) {
   const Schema& from = task_.schemas[schema];
+  if (bytes_ > most_bytes_) return;
+  bytes_ += 150 + 12 * static_cast<std::int64_t>(binding_.size());  // and the operator that will be made of it
   instances_.push_back({schema, binding_});
   std::vector<int> binding = binding_, arguments;
   const auto add_atom = [&](const LiftedAtom& atom) {

@@ -19,7 +19,8 @@ struct Instance {
 class Reachability {
  public:
   explicit Reachability(const LiftedTask& task);
-  void run();
+  // False: given up, because what is reachable needs more memory than this.
+  bool run(std::int64_t memory_bytes);
 
   int find(int predicate, const std::vector<int>& arguments) const;  // number of the atom, or -1
   int find(const LiftedAtom& atom, const std::vector<int>& binding) const;
@@ -66,6 +67,7 @@ class Reachability {
   std::vector<std::vector<std::vector<char>>> allowed_;            // [schema][variable][object]
   std::vector<Instance> instances_;
   std::vector<int> binding_;
+  std::int64_t bytes_ = 0, most_bytes_ = 0;  // about; instances and atoms
 };
 
 }  // namespace stampede::symbolic

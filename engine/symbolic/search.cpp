@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 
 namespace stampede::symbolic {
 namespace {
 
+constexpr std::size_t kHeuristics = 3, kLists = 2 * kHeuristics;
 constexpr int kBoost = 1000;  // expansions that preferred operators get when the heuristic improves (as in LAMA)
 
 struct Entry {
@@ -20,20 +20,28 @@ class OpenList {
   std::int64_t count() const { return count_; }
   void push(int key, Entry entry) {
     if (static_cast<std::size_t>(key) >= buckets_.size()) buckets_.resize(static_cast<std::size_t>(key) + 1);
-    buckets_[static_cast<std::size_t>(key)].push_back(entry);
+    buckets_[static_cast<std::size_t>(key)].entries.push_back(entry);
     lowest_ = std::min(lowest_, static_cast<std::size_t>(key));
     ++count_;
   }
   Entry pop() {
-    while (buckets_[lowest_].empty()) ++lowest_;
-    const Entry entry = buckets_[lowest_].front();
-    buckets_[lowest_].pop_front();
+    while (buckets_[lowest_].next == buckets_[lowest_].entries.size()) ++lowest_;
+    Bucket& bucket = buckets_[lowest_];
+    const Entry entry = bucket.entries[bucket.next++];
+    if (bucket.next == bucket.entries.size()) {
+      bucket.entries.clear();
+      bucket.next = 0;
+    }
     --count_;
     return entry;
   }
 
  private:
-  std::vector<std::deque<Entry>> buckets_;
+  struct Bucket {
+    std::vector<Entry> entries;
+    std::size_t next = 0;
+  };
+  std::vector<Bucket> buckets_;
   std::size_t lowest_ = 0;
   std::int64_t count_ = 0;
 };
@@ -48,6 +56,9 @@ class Search {
         limits_(limits),
         query_(query),
         weight_(query.weight),
+        used_(query.weight != 0            ? 1
+              : query.landmarks == nullptr ? 2
+                                           : 3),
         pool_(semantics.words()) {}
 
   SearchResult run() {
@@ -70,12 +81,12 @@ class Search {
     std::int64_t entries = 0;
     for (const OpenList& list : lists_) entries += list.count();
     return pool_.bytes() + entries * static_cast<std::int64_t>(sizeof(Entry)) +
-           static_cast<std::int64_t>(parents_.size() * sizeof(Entry));
+           static_cast<std::int64_t>(parents_.size() * sizeof(Entry) + reached_.size() * sizeof(std::uint64_t));
   }
 
   int next_list() {
     int best = -1;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < static_cast<int>(kLists); ++i) {
       if (lists_[static_cast<std::size_t>(i)].empty()) continue;
       if (best < 0 || turns_[static_cast<std::size_t>(i)] < turns_[static_cast<std::size_t>(best)]) best = i;
     }
@@ -88,12 +99,30 @@ class Search {
                                           [&](Literal one) { return !literal_holds(state.data(), one); }));
   }
 
+  // Landmarks ahead of the newest state.
+  int ahead(const Words& state) {
+    return query_.landmarks->progress(state, reached_.data() + (reached_.size() - query_.landmarks->words()));
+  }
+
+  int step_cost(int op) const { return query_.costs == nullptr ? 1 : (*query_.costs)[static_cast<std::size_t>(op)]; }
+
+  // Room for what the path to the new state has reached; all states have it, dead ends too.
+  void inherit(int parent) {
+    if (used_ < kHeuristics) return;
+    const std::size_t words = query_.landmarks->words(), end = reached_.size();
+    reached_.resize(end + words, 0);
+    if (parent < 0) return;
+    const auto from = reached_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(parent) * words);
+    std::copy(from, from + static_cast<std::ptrdiff_t>(words), reached_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
   // Evaluates a state that was not seen before and queues its successors; true at a goal.
   bool visit(const Words& state, Entry from) {
     const auto [number, is_new] = pool_.insert(state);
     if (!is_new) return false;
     parents_.push_back(from);
-    depth_.push_back(from.parent < 0 ? 0 : depth_[static_cast<std::size_t>(from.parent)] + 1);
+    inherit(from.parent);
+    depth_.push_back(from.parent < 0 ? 0 : depth_[static_cast<std::size_t>(from.parent)] + step_cost(from.op));
     if (goals_open(state) == 0) {
       extract(number);
       return true;
@@ -103,19 +132,17 @@ class Search {
     if (h == Heuristic::kDeadEnd) return false;
     if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    const std::array<int, 2> values = {h, weight_ == 0 ? goals_open(state) : 0};
-    const std::array<int, 2> keys = {weight_ == 0 ? h : depth_.back() + weight_ * h, values[1]};
-    const std::size_t used = weight_ == 0 ? 2 : 1;
-    for (std::size_t i = 0; i < used; ++i) {
+    const std::array<int, kHeuristics> values = {h, goals_open(state), used_ > 2 ? ahead(state) : 0};
+    const std::array<int, kHeuristics> keys = {weight_ == 0 ? h : depth_.back() + weight_ * h, values[1], values[2]};
+    for (std::size_t i = 0; i < used_; ++i) {
       if (best_[i] >= 0 && values[i] >= best_[i]) continue;
       best_[i] = values[i];
-      turns_[1] -= kBoost;
-      turns_[3] -= kBoost;
+      for (std::size_t list = 1; list < kLists; list += 2) turns_[list] -= kBoost;
     }
     const std::vector<int>& preferred = heuristic_.preferred();
     for (const int op : heuristic_.applicable()) {
       const bool is_preferred = std::binary_search(preferred.begin(), preferred.end(), op);
-      for (std::size_t i = 0; i < used; ++i) {
+      for (std::size_t i = 0; i < used_; ++i) {
         lists_[2 * i].push(keys[i], {number, op});
         if (is_preferred) lists_[2 * i + 1].push(keys[i], {number, op});
       }
@@ -138,21 +165,19 @@ class Search {
   const PlanLimits& limits_;
   const Query& query_;
   int weight_;
+  std::size_t used_;  // heuristics
   StatePool pool_;
   std::vector<Entry> parents_;
   std::vector<int> depth_;
-  std::array<OpenList, 4> lists_;  // h_FF: all, preferred; open goals: all, preferred
-  std::array<std::int64_t, 4> turns_ = {0, 0, 0, 0};
-  std::array<int, 2> best_ = {-1, -1};
+  std::vector<std::uint64_t> reached_;  // by state: the landmarks that were true on the way
+  std::array<OpenList, kLists> lists_;  // of each heuristic: all successors, preferred ones
+  std::array<std::int64_t, kLists> turns_ = {};
+  std::array<int, kHeuristics> best_ = {-1, -1, -1};
   Words next_;
   SearchResult result_;
 };
 
 }  // namespace
-
-int cost_of(const GroundTask& task, int op) {
-  return task.lifted.domain->actions[task.lifted.schemas[task.operators[op].schema].action].cost;
-}
 
 SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
                          const PlanLimits& limits, const Query& query) {
@@ -160,37 +185,3 @@ SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heu
 }
 
 }  // namespace stampede::symbolic
-
-namespace stampede {
-
-std::string to_text(const Plan& plan) {
-  std::string text;
-  for (const PlanStep& step : plan) text += to_text(Fact{step.action, step.arguments}) + "\n";
-  return text;
-}
-
-PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits& limits,
-                  const std::set<PlanStep>& forbidden) {
-  using namespace symbolic;
-  PlanOutcome outcome;
-  const GroundTask task = ground(lift(domain, problem), forbidden);
-  if (!task.solvable()) {
-    outcome.explanation = explain_unsolvable(task, {}, limits);
-    return outcome;
-  }
-  const Semantics semantics(task);
-  Heuristic heuristic(task);
-  const SearchResult result = lazy_search(task, semantics, heuristic, limits, {semantics.initial(), task.goal, 0, 0});
-  outcome.expanded = result.expanded;
-  outcome.evaluated = result.evaluated;
-  outcome.solved = result.solved;
-  if (!result.solved) {
-    outcome.explanation = explain_unsolvable(task, result, limits);
-    return outcome;
-  }
-  for (const int op : shorten(task, semantics, heuristic, result.plan, limits.improve))
-    outcome.plan.push_back(task.step(op));
-  return outcome;
-}
-
-}  // namespace stampede

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/symbolic/heuristic.h"
+#include "engine/symbolic/landmarks.h"
 
 namespace stampede::symbolic {
 
@@ -14,26 +15,27 @@ struct SearchResult {
   std::int64_t expanded = 0, evaluated = 0;
 };
 
-// From `start` to where `goal` holds. `weight` 0: greedy, with the count of open goals beside h_FF; otherwise states
+// From `start` to where `goal` holds. `weight` 0: greedy, alternating between h_FF, the count of open goals and that of
+// landmarks ahead, each with a list of all successors and one of the preferred; otherwise states
 // are ordered by steps so far + weight * h_FF alone, which finds shorter plans more slowly. The heuristic must have
 // been given the same goal.
 struct Query {
   Words start;
   Literals goal;
   int weight = 0;
-  int bound = 0;  // not 0: states whose steps so far + h_FF reach it are given up
+  int bound = 0;                            // not 0: states whose steps so far + h_FF reach it are given up
+  Landmarks* landmarks = nullptr;           // of this start and goal: counted too by the greedy search
+  const std::vector<int>* costs = nullptr;  // by operator, as the heuristic was given; null: each step costs 1
 };
 SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
                          const PlanLimits& limits, const Query& query);
 
-// Removes what the goal does not need; then replaces stretches of the plan by shorter ones, with `expansions` in all.
-// Never dearer than the plan given.
+// Removes what the goal does not need; then replaces stretches of the plan by cheaper ones and searches for cheaper
+// plans as a whole, with `expansions` in all. Never dearer than the plan given, nor longer at the same cost.
 std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
                          std::vector<int> plan, std::int64_t expansions);
 
 // Why the goal cannot be reached, for people.
 std::string explain_unsolvable(const GroundTask& task, const SearchResult& result, const PlanLimits& limits);
-
-int cost_of(const GroundTask& task, int op);
 
 }  // namespace stampede::symbolic

@@ -1,3 +1,4 @@
+#include "engine/base/error.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/task_planner.h"
@@ -44,6 +45,16 @@ std::string fault(const Domain& domain, const Action& action, const PlanStep& st
   return missing.empty() ? "" : "needs " + joined(missing);
 }
 
+// An action whose cost is undefined for its objects cannot be taken.
+std::string cost_fault(const Domain& domain, const Problem& problem, const PlanStep& step) {
+  try {
+    plan_cost(domain, problem, {step});
+    return {};
+  } catch (const Error& error) {
+    return error.message();
+  }
+}
+
 }  // namespace
 
 Validation validate(const Domain& domain, const Problem& problem, const Plan& plan) {
@@ -61,7 +72,8 @@ Validation validate(const Domain& domain, const Problem& problem, const Plan& pl
       result.explanation = place + "unknown action; " + symbolic::did_you_mean(step.action, known);
       return result;
     }
-    const std::string why = fault(domain, *action, step, with_derived(facts, domain, objects), objects);
+    std::string why = fault(domain, *action, step, with_derived(facts, domain, objects), objects);
+    if (why.empty() && !action->cost_function.empty()) why = cost_fault(domain, problem, step);
     if (!why.empty()) {
       result.explanation = place + why;
       return result;

@@ -1,0 +1,169 @@
+#include "engine/symbolic/landmarks.h"
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+
+namespace stampede::symbolic {
+namespace {
+
+constexpr std::size_t kMostLabelWords = 16'000'000;  // 128 MB
+constexpr std::size_t kMostLabelWork = 60'000'000;   // words touched when each rule is looked at a few times
+
+bool bit(const std::uint64_t* words, int i) { return (words[i >> 6] >> (i & 63) & 1) != 0; }
+void set_bit(std::uint64_t* words, int i) { words[i >> 6] |= std::uint64_t{1} << (i & 63); }
+
+}  // namespace
+
+Landmarks::Landmarks(const GroundTask& task, const Relaxation& relaxation, const Words& start) {
+  width_ = (static_cast<std::size_t>(relaxation.nodes) + 63) / 64;
+  const std::size_t nodes = static_cast<std::size_t>(relaxation.nodes);
+  if (width_ * nodes <= kMostLabelWords && width_ * (relaxation.conditions.size() + nodes) <= kMostLabelWork) {
+    label(task, relaxation, start);
+  }
+  choose(task);
+  order(task, relaxation);
+  labels_ = {};
+  labelled_ = {};
+}
+
+// A node's label: the nodes that are true before or with it in every relaxed plan for it.
+void Landmarks::label(const GroundTask& task, const Relaxation& relaxation, const Words& start) {
+  labels_.assign(static_cast<std::size_t>(relaxation.nodes) * width_, 0);
+  labelled_.assign(static_cast<std::size_t>(relaxation.nodes), 0);
+  std::vector<int> open;
+  std::deque<int> queue;
+  std::vector<char> queued(relaxation.rules.size(), 0);
+  for (const Relaxation::Rule& rule : relaxation.rules) open.push_back(rule.conditions_end - rule.conditions_begin);
+  const auto enqueue = [&](int rule) {
+    if (open[rule] > 0 || queued[rule]) return;
+    queued[rule] = 1;
+    queue.push_back(rule);
+  };
+  const auto now_labelled = [&](int node) {
+    labelled_[node] = 1;
+    for (int i = relaxation.used_begin[node]; i < relaxation.used_middle[node]; ++i) --open[relaxation.used[i]];
+  };
+  for (int fact = 0; fact < task.facts; ++fact) {
+    const int node = 2 * fact + (test(start.data(), fact) ? 0 : 1);
+    if (!relaxation.needed[node]) continue;
+    set_bit(labels_.data() + static_cast<std::size_t>(node) * width_, node);
+    now_labelled(node);
+  }
+  for (std::size_t rule = 0; rule < relaxation.rules.size(); ++rule) enqueue(static_cast<int>(rule));
+  std::vector<std::uint64_t> joined(width_);
+  while (!queue.empty()) {
+    const int at = queue.front();
+    queue.pop_front();
+    queued[at] = 0;
+    const Relaxation::Rule& rule = relaxation.rules[at];
+    std::fill(joined.begin(), joined.end(), 0);
+    for (int i = rule.conditions_begin; i < rule.conditions_end; ++i) {
+      const std::uint64_t* label = labels_of(relaxation.conditions[i]);
+      for (std::size_t w = 0; w < width_; ++w) joined[w] |= label[w];
+    }
+    for (int i = rule.begin; i < rule.end; ++i) {
+      const int node = relaxation.effects[i];
+      std::uint64_t* label = labels_.data() + static_cast<std::size_t>(node) * width_;
+      bool changed = !labelled_[node];
+      if (changed) {
+        std::copy(joined.begin(), joined.end(), label);
+        set_bit(label, node);
+        now_labelled(node);
+      } else {
+        for (std::size_t w = 0; w < width_; ++w) {
+          std::uint64_t kept = label[w] & joined[w];
+          if (static_cast<std::size_t>(node) >> 6 == w) kept |= label[w] & (std::uint64_t{1} << (node & 63));
+          changed |= kept != label[w];
+          label[w] = kept;
+        }
+      }
+      if (!changed) continue;
+      for (int j = relaxation.used_begin[node]; j < relaxation.used_middle[node]; ++j) enqueue(relaxation.used[j]);
+    }
+  }
+}
+
+void Landmarks::choose(const GroundTask& task) {
+  std::vector<std::uint64_t> all(width_, 0);
+  for (const Literal goal : task.goal) {
+    set_bit(all.data(), goal);
+    if (labels_.empty() || !labelled_[goal]) continue;
+    for (std::size_t w = 0; w < width_; ++w) all[w] |= labels_of(goal)[w];
+  }
+  of_node_.assign(width_ * 64, -1);
+  for (int node = 0; node < 2 * task.facts; ++node) {
+    if (!bit(all.data(), node)) continue;
+    of_node_[node] = size();
+    node_.push_back(node);
+    is_goal_.push_back(std::binary_search(task.goal.begin(), task.goal.end(), node) ? 1 : 0);
+  }
+  words_ = (node_.size() + 63) / 64;
+  now_.assign(words_, 0);
+}
+
+void Landmarks::order(const GroundTask& task, const Relaxation& relaxation) {
+  before_.resize(node_.size());
+  needed_for_.resize(node_.size());
+  if (labels_.empty()) return;
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (!labelled_[node_[landmark]]) continue;
+    for (int node = 0; node < 2 * task.facts; ++node) {
+      if (node == node_[landmark] || !bit(labels_of(node_[landmark]), node)) continue;
+      if (of_node_[node] >= 0) before_[landmark].push_back(of_node_[node]);
+    }
+  }
+  // What all operators that can be first to achieve a landmark share as a condition must hold right before.
+  std::vector<std::vector<int>> shared(node_.size());
+  std::vector<char> is_first(node_.size(), 1);
+  for (const Relaxation::Rule& rule : relaxation.rules) {
+    const auto begin = relaxation.conditions.begin() + rule.conditions_begin,
+               end = relaxation.conditions.begin() + rule.conditions_end;
+    if (std::any_of(begin, end, [&](int one) { return labelled_[one] == 0; })) continue;
+    for (int i = rule.begin; i < rule.end; ++i) {
+      const int landmark = of_node_[relaxation.effects[i]], node = relaxation.effects[i];
+      if (landmark < 0) continue;
+      if (std::any_of(begin, end, [&](int one) { return bit(labels_of(one), node); })) continue;
+      std::vector<int> both;
+      if (is_first[landmark]) {
+        both.assign(begin, end);
+      } else {
+        std::set_intersection(shared[landmark].begin(), shared[landmark].end(), begin, end, std::back_inserter(both));
+      }
+      is_first[landmark] = 0;
+      shared[landmark] = std::move(both);
+    }
+  }
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    for (const int node : shared[landmark]) {
+      if (of_node_[node] >= 0) needed_for_[of_node_[node]].push_back(landmark);
+    }
+  }
+}
+
+int Landmarks::progress(const Words& state, std::uint64_t* reached) {
+  const auto is_true = [&](int landmark) { return literal_holds(state.data(), node_[landmark]); };
+  const auto is_turn = [&](int landmark) {
+    return std::all_of(before_[landmark].begin(), before_[landmark].end(),
+                       [&](int earlier) { return bit(reached, earlier); });
+  };
+  std::fill(now_.begin(), now_.end(), 0);
+  for (int landmark = 0; landmark < size(); ++landmark) {  // those reached now count as earlier ones only afterwards
+    if (!bit(reached, landmark) && is_true(landmark) && is_turn(landmark)) set_bit(now_.data(), landmark);
+  }
+  for (std::size_t w = 0; w < words_; ++w) reached[w] |= now_[w];
+  int ahead = 0;
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (!bit(reached, landmark)) {
+      ++ahead;
+    } else if (!is_true(landmark)) {
+      const std::vector<int>& later = needed_for_[landmark];
+      const bool is_needed =
+          is_goal_[landmark] || std::any_of(later.begin(), later.end(), [&](int one) { return !bit(reached, one); });
+      if (is_needed) ++ahead;
+    }
+  }
+  return ahead;
+}
+
+}  // namespace stampede::symbolic

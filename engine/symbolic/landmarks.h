@@ -1,0 +1,44 @@
+// Facts that every plan makes true at some time, and how many of them are still ahead.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/symbolic/relaxation.h"
+#include "engine/symbolic/state.h"
+
+namespace stampede::symbolic {
+
+// All fact landmarks of the task without removals, by propagating labels to a fixed point (Zhu, Givan, ICAPS 2003
+// doctoral consortium; Keyder, Richter, Helmert, ECAI 2010), with the orders that follow from them; counted along the
+// path that led to a state (Richter, Westphal, JAIR 2010, doi:10.1613/jair.2972). Where the labels would need too much
+// memory or time, the goals alone.
+class Landmarks {
+ public:
+  Landmarks(const GroundTask& task, const Relaxation& relaxation, const Words& start);
+
+  std::size_t words() const { return words_; }
+  int size() const { return static_cast<int>(node_.size()); }
+  // `reached`: which landmarks came true on the way to the state before; afterwards to this one. Result: how many are
+  // ahead, together with those that are false again though still needed.
+  int progress(const Words& state, std::uint64_t* reached);
+
+ private:
+  void label(const GroundTask& task, const Relaxation& relaxation, const Words& start);
+  void choose(const GroundTask& task);
+  void order(const GroundTask& task, const Relaxation& relaxation);
+  const std::uint64_t* labels_of(int node) const { return labels_.data() + static_cast<std::size_t>(node) * width_; }
+
+  std::size_t words_ = 0, width_ = 0;  // 64-bit words a set of landmarks and a label
+  std::vector<std::uint64_t> labels_;  // by node, while building; empty: none
+  std::vector<char> labelled_;         // by node: reached by the relaxation
+
+  std::vector<int> node_;                     // of each landmark
+  std::vector<int> of_node_;                  // by node: its landmark or -1
+  std::vector<char> is_goal_;                 // by landmark
+  std::vector<std::vector<int>> before_;      // by landmark: which must have been true earlier
+  std::vector<std::vector<int>> needed_for_;  // by landmark: those just before whose first achievement it must hold
+  std::vector<std::uint64_t> now_;            // scratch of `progress`
+};
+
+}  // namespace stampede::symbolic

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <deque>
+
+#include "engine/base/error.h"
+#include "engine/symbolic/pddl_text.h"
+#include "engine/symbolic/search.h"
+
+namespace stampede {
+
+std::string to_text(const Plan& plan) {
+  std::string text;
+  for (const PlanStep& step : plan) text += to_text(Fact{step.action, step.arguments}) + "\n";
+  return text;
+}
+
+std::string to_text(PlanEnd end) {
+  switch (end) {
+    case PlanEnd::solved:
+      return "solved";
+    case PlanEnd::unsolvable:
+      return "unsolvable (proved)";
+    case PlanEnd::expansion_limit:
+      return "gave up at the limit of expansions";
+    case PlanEnd::memory_limit:
+      return "gave up at the limit of memory";
+  }
+  return {};
+}
+
+PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits& limits,
+                  const std::set<PlanStep>& forbidden) {
+  using namespace symbolic;
+  PlanOutcome outcome;
+  const GroundTask task = ground(lift(domain, problem), forbidden, limits.memory_bytes);
+  if (task.out_of_memory) {
+    outcome.end = PlanEnd::memory_limit;
+    outcome.explanation = "the ground actions need more than the limit of " + std::to_string(limits.memory_bytes) +
+                          " bytes; actions with fewer parameters, or narrower types, make fewer";
+    return outcome;
+  }
+  if (!task.solvable()) {
+    outcome.explanation = explain_unsolvable(task, {}, limits);
+    return outcome;
+  }
+  const Semantics semantics(task);
+  Heuristic heuristic(task);
+  Landmarks landmarks(task, heuristic.relaxation(), semantics.initial());
+  const SearchResult result =
+      lazy_search(task, semantics, heuristic, limits, {semantics.initial(), task.goal, 0, 0, &landmarks});
+  outcome.expanded = result.expanded;
+  outcome.evaluated = result.evaluated;
+  outcome.solved = result.solved;
+  if (!result.solved) {
+    outcome.end = result.exhausted                        ? PlanEnd::unsolvable
+                  : result.evaluated >= limits.expansions ? PlanEnd::expansion_limit
+                                                          : PlanEnd::memory_limit;
+    outcome.explanation = explain_unsolvable(task, result, limits);
+    return outcome;
+  }
+  outcome.end = PlanEnd::solved;
+  for (const int op : shorten(task, semantics, heuristic, result.plan, limits.improve)) {
+    outcome.plan.push_back(task.step(op));
+    outcome.cost += task.operators[op].cost;
+  }
+  return outcome;
+}
+
+std::vector<Plan> solve_many(const Domain& domain, const Problem& problem, int k, const PlanLimits& limits) {
+  constexpr std::int64_t kPriceOfTry = 100;  // grounding again is not free: bounds the tries where searches are short
+  std::vector<Plan> found;
+  std::set<Plan> known;                           // steps in alphabetical order
+  std::set<std::set<PlanStep>> tried = {{}};      // forbidden sets
+  std::deque<std::set<PlanStep>> waiting = {{}};  // the same, not yet looked at; fewest forbidden steps first
+  PlanLimits left = limits;
+  while (!waiting.empty() && static_cast<int>(found.size()) < k && left.expansions > 0) {
+    const std::set<PlanStep> forbidden = std::move(waiting.front());
+    waiting.pop_front();
+    const PlanOutcome outcome = solve(domain, problem, left, forbidden);
+    left.expansions -= outcome.evaluated + kPriceOfTry;
+    if (!outcome.solved) continue;
+    Plan sorted = outcome.plan;
+    std::sort(sorted.begin(), sorted.end());
+    if (!known.insert(sorted).second) continue;
+    found.push_back(outcome.plan);
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    for (const PlanStep& step : sorted) {  // each plan that lacks one of these steps is another
+      std::set<PlanStep> more = forbidden;
+      more.insert(step);
+      if (tried.insert(more).second) waiting.push_back(std::move(more));
+    }
+  }
+  return found;
+}
+
+std::int64_t plan_cost(const Domain& domain, const Problem& problem, const Plan& plan) {
+  std::int64_t sum = 0;
+  for (const PlanStep& step : plan) {
+    const Action* action = domain.action(step.action);
+    const std::string place = to_text(Fact{step.action, step.arguments});
+    if (action == nullptr) throw Error(place, "unknown action");
+    if (action->cost_function.empty()) {
+      sum += action->cost;
+      continue;
+    }
+    Fact of{action->cost_function, {}};
+    for (const Term& term : action->cost_terms) {
+      std::string name = term.name;
+      for (std::size_t i = 0; i < std::min(action->parameters.size(), step.arguments.size()); ++i) {
+        if (term.variable && action->parameters[i].name == term.name) name = step.arguments[i];
+      }
+      of.arguments.push_back(name);
+    }
+    const auto value = problem.values.find(of);
+    if (value == problem.values.end()) throw Error(place, "its cost " + to_text(of) + " has no value");
+    sum += value->second;
+  }
+  return sum;
+}
+
+}  // namespace stampede
