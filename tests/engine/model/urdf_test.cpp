@@ -107,6 +107,57 @@ TEST_CASE("a mesh becomes a hull, found beside the URDF") {
   CHECK(bounding_box(body.parts[0])[1] == Vector3(2, 2, 2));
 }
 
+TEST_CASE("visual meshes are drawn as they are, in the material's looks or else the file's") {
+  const TemporaryFolder folder;
+  const std::string tetra = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  folder.write("leaf.mtl", "newmtl leaf\nKd 0 1 0\n");
+  folder.write("leaf.obj", "mtllib leaf.mtl\nusemtl leaf\n" + tetra);
+  const std::string mesh = "<geometry><mesh filename='leaf.obj'/></geometry>";
+  const UrdfBody urdf = read_urdf(folder.write(
+      "arm.urdf", robot("<material name='red'><color rgba='1 0 0 1'/></material>" +
+                        link_of("base", "<visual>" + mesh + "</visual><visual>" + mesh +
+                                            "<material name='red'/></visual><collision>" + mesh + "</collision>"))));
+  const std::vector<Shape>& shapes = urdf.body.parts[0].shapes;
+  REQUIRE(shapes.size() == 3);
+  CHECK((shapes[0].kind == ShapeKind::hull && shapes[0].collides && !shapes[0].visible));
+  for (const int i : {1, 2}) {
+    const Shape& drawn = shapes[static_cast<std::size_t>(i)];
+    CHECK((drawn.kind == ShapeKind::mesh && !drawn.collides && drawn.visible));
+    CHECK(urdf.drawn.meshes.at(drawn.mesh)->triangles.size() == 4);
+  }
+  CHECK(shapes[1].colour.green == 1.0);
+  CHECK(shapes[2].colour.red == 1.0);
+  CHECK(urdf.drawn.meshes.size() == 1);  // the same mesh twice
+  const Body physics = body_from_urdf(folder.write(
+      "again.urdf", robot(link_of("base", "<visual>" + mesh + "</visual><collision>" + mesh + "</collision>"))));
+  REQUIRE(physics.parts[0].shapes.size() == 1);
+  CHECK(physics.parts[0].shapes[0].kind == ShapeKind::hull);
+}
+
+TEST_CASE("equal meshes and textures have equal keys, others do not") {
+  DrawnAssets assets;
+  DrawnMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  const std::string one = assets.add(std::make_shared<const DrawnMesh>(mesh));
+  CHECK(assets.add(std::make_shared<const DrawnMesh>(mesh)) == one);
+  mesh.positions[1][0] = 2;
+  CHECK(assets.add(std::make_shared<const DrawnMesh>(mesh)) != one);
+  CHECK(assets.meshes.size() == 2);
+  Texture texture;
+  texture.kind = TextureKind::checker;
+  const std::string checker = assets.add("checker", texture);
+  CHECK(assets.add("checker", texture) == checker);
+  texture.size_m = 0.2;
+  CHECK(assets.add("checker", texture) != checker);
+  DrawnAssets others;
+  others.add("checker", texture);
+  others.join(assets);
+  CHECK(others.textures.size() == 2);
+  CHECK(others.meshes.size() == 2);
+}
+
 TEST_CASE("bad URDF files say where and what") {
   using Catch::Contains;
   CHECK_THAT(complaint("<robot name='arm'>\n<link name='a'>\n</robot>"),
@@ -125,6 +176,13 @@ TEST_CASE("bad URDF files say where and what") {
       Contains("link 'a'") && Contains("does not hang on"));
   CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><mesh filename='gone.stl'/></geometry></collision>"))),
              Contains("link 'a'") && Contains("gone.stl") && Contains("no such mesh"));
+  CHECK_THAT(complaint(robot(link_of("a", "<visual><geometry><mesh filename='gone.stl'/></geometry></visual>"))),
+             Contains("link 'a'") && Contains("mesh") && Contains("gone.stl"));
+  CHECK_THAT(complaint(robot("<material name='wood'><texture filename='gone.png'/></material>" +
+                             link_of("a",
+                                     "<visual><geometry><box size='1 1 1'/></geometry><material "
+                                     "name='wood'/></visual>"))),
+             Contains("link 'a'") && Contains("texture") && Contains("gone.png"));
   CHECK_THAT(complaint(robot(link_of("a") + link_of("b", "") + joint_of("j", "a", "b"))),
              Contains("link 'b'") && Contains("mass"));
   CHECK_THAT(complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b", "floating", ""))),
