@@ -59,7 +59,11 @@ void FactTracker::enumerate(const WorldView& view) {
     std::vector<std::vector<std::string>> choices;
     for (const Parameter& parameter : predicate.parameters)
       choices.push_back(candidates(parameter, domain, view, objects_));
-    Group group{predicate.name, symbols_.traits(predicate.name), predicate.kind == PredicateKind::fixed, names_.size(),
+    Group group{predicate.name,
+                symbols_.traits(predicate.name),
+                predicate.kind == PredicateKind::fixed,
+                symbols_.can_hide(predicate.name),
+                names_.size(),
                 0};
     Fact fact{predicate.name, {}};
     combine(choices, fact, names_);
@@ -154,6 +158,34 @@ void FactTracker::frame(const WorldView& view) {
     }
   }
   refresh_derived(step);
+  look(view);
+}
+
+void FactTracker::look(const WorldView& view) {
+  for (const Group& group : groups_) {
+    if (!group.hides) continue;
+    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+      Atom& atom = state_.atoms[i];
+      if (atom.known == atom.holds || !symbols_.observable(names_[i], view)) continue;
+      if (atom.known) {
+        FactRecord record;
+        record.fact = names_[i];
+        record.start_step = atom.known_since_step;
+        record.end_step = view.world().step_count();
+        state_.closed_known.push_back(std::move(record));
+      }
+      atom.known = atom.holds;
+      atom.known_since_step = view.world().step_count();
+    }
+  }
+}
+
+Facts FactTracker::observed() const {
+  Facts seen = static_;
+  for (const Group& group : groups_)
+    for (std::size_t i = group.first; i < group.first + group.count; ++i)
+      if (group.hides ? state_.atoms[i].known : state_.atoms[i].holds) seen.insert(names_[i]);
+  return with_derived(seen, symbols_.domain(), objects_);
 }
 
 void FactTracker::update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step) {
@@ -238,6 +270,36 @@ std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_
     if (state_.atoms[i].holds) open(names_[i], state_.atoms[i].since_step, state_.atoms[i].margin);
   for (const auto& [fact, start] : state_.derived_since) open(fact, start, std::nullopt);
   for (const Fact& fact : static_) open(fact, 0, std::nullopt);
+  const std::vector<FactRecord> known = observed_intervals(end_step, steps_per_frame);
+  for (FactRecord& record : records) {
+    const auto own = std::find_if(groups_.begin(), groups_.end(),
+                                  [&](const Group& group) { return group.predicate == record.fact.predicate; });
+    if (own == groups_.end() || !own->hides) continue;
+    record.observed = std::any_of(known.begin(), known.end(), [&](const FactRecord& seen) {
+      return seen.fact == record.fact && seen.start_step <= record.start_step && seen.end_step >= record.end_step;
+    });
+  }
+  finish(records, steps_per_frame);
+  return records;
+}
+
+std::vector<FactRecord> FactTracker::observed_intervals(std::int64_t end_step, int steps_per_frame) const {
+  std::vector<FactRecord> records = state_.closed_known;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!state_.atoms[i].known) continue;
+    FactRecord record;
+    record.fact = names_[i];
+    record.start_step = state_.atoms[i].known_since_step;
+    record.end_step = end_step;
+    record.open_end = true;
+    records.push_back(std::move(record));
+  }
+  finish(records, steps_per_frame);
+  return records;
+}
+
+// Frames, and an order that does not depend on when intervals ended.
+void FactTracker::finish(std::vector<FactRecord>& records, int steps_per_frame) const {
   std::erase_if(records,
                 [](const FactRecord& record) { return record.end_step <= record.start_step && !record.open_end; });
   for (FactRecord& record : records) {
@@ -248,7 +310,6 @@ std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_
   std::sort(records.begin(), records.end(), [](const FactRecord& a, const FactRecord& b) {
     return std::tie(a.fact, a.start_step) < std::tie(b.fact, b.start_step);
   });
-  return records;
 }
 
 }  // namespace stampede

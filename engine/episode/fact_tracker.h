@@ -21,17 +21,21 @@ class FactTracker {
   // Reads every atom that can hold; for begin() and for tests of init.
   std::map<Fact, Symbols::Value> read_all(const WorldView& view, bool filtered = true) const;
 
+  void look(const WorldView& view);   // what can be seen at the start
   void step(const WorldView& view);   // momentary predicates; after every physics step
   void frame(const WorldView& view);  // the others; after every frame
 
   // All that holds now: basic, fixed, traits and attributes, and derived.
   const Facts& facts() const { return state_.facts; }
   Facts basic() const;                   // facts() without derived ones: PDDL's :init
+  Facts observed() const;                // as facts(), but of what can hide only what was seen so when it was last seen
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
   const std::vector<TypedObject>& objects() const { return objects_; }
 
-  // Intervals up to now; open ones end at `end_step`, and say so.
+  // Intervals up to now; open ones end at `end_step`, and say so. Their `observed`: was it known all the time?
   std::vector<FactRecord> intervals(std::int64_t end_step, int steps_per_frame) const;
+  // When facts that can hide were known to hold: what an agent knows that sees what can be seen and forgets nothing.
+  std::vector<FactRecord> observed_intervals(std::int64_t end_step, int steps_per_frame) const;
 
   struct Atom {
     bool holds = false;
@@ -39,12 +43,15 @@ class FactTracker {
     std::int64_t since_step = 0;  // of the debounced value
     std::int64_t raw_since_step = 0;
     std::optional<double> margin;
+    bool known = false;  // of predicates that can hide: as it was when it was last seen
+    std::int64_t known_since_step = 0;
   };
   struct State {
     std::vector<Atom> atoms;
     Facts facts;
     std::map<Fact, std::int64_t> derived_since;
-    std::vector<FactRecord> closed;  // finished intervals, in the order in which they ended
+    std::vector<FactRecord> closed;        // finished intervals, in the order in which they ended
+    std::vector<FactRecord> closed_known;  // the same of what was known
   };
   State save() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
@@ -54,10 +61,12 @@ class FactTracker {
     std::string predicate;
     PredicateTraits traits;
     bool fixed = false;
+    bool hides = false;
     std::size_t first = 0, count = 0;
   };
   void enumerate(const WorldView& view);
   void add_static(const WorldView& view);
+  void finish(std::vector<FactRecord>& records, int steps_per_frame) const;
   void update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step);
   void commit(std::size_t index, bool holds, std::int64_t at_step, std::optional<double> margin);
   void refresh_derived(std::int64_t step);

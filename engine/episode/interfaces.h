@@ -75,6 +75,9 @@ class Symbols {
   };
   // Of a basic or fixed predicate. Repeatable: reads the view only.
   virtual Value value(const Fact& fact, const WorldView& view) = 0;
+  // Can facts of this predicate be hidden from everybody's eyes, and is this one to be seen now?
+  virtual bool can_hide(const std::string&) const { return false; }
+  virtual bool observable(const Fact&, const WorldView&) { return true; }
   // Ways to make the fact true, best or random first, at most `most`; empty when the predicate has no sample.
   virtual std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
                                         int most) = 0;

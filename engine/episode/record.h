@@ -85,7 +85,7 @@ struct FactRecord {
   std::int64_t start_step = 0, end_step = 0;
   std::int64_t first_frame = 0, end_frame = 0;
   bool open_start = false, open_end = false;
-  bool observed = true;
+  bool observed = true;          // known all the time
   std::optional<double> margin;  // at the start of the interval
 };
 
@@ -191,6 +191,7 @@ struct EpisodeRecord {
   std::vector<AttemptRecord> attempts;
   std::vector<ViaRecord> vias;
   std::vector<FactRecord> facts;
+  std::vector<FactRecord> observed_facts;  // of predicates that can hide: when they were known to hold
   std::vector<ContactRecord> contacts;
   std::vector<GraspRecord> grasps;
   std::vector<LanguageRecord> language;

@@ -21,6 +21,7 @@ Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, Senso
       goal_(task.goal()) {
   view_.restore(start.history);
   facts_.begin(start.values);
+  facts_.look(view_);
   recorder_.first_frame(view_);
 }
 

@@ -130,6 +130,7 @@ void EpisodeRunner::close(const SkillResult& result) {
   record_.steps = rollout_->step();
   record_.commands = rollout_->world().log();
   record_.facts = rollout_->facts().intervals(record_.steps, rollout_->steps_per_frame());
+  record_.observed_facts = rollout_->facts().observed_intervals(record_.steps, rollout_->steps_per_frame());
   record_.channels = rollout_->sensors().channels();
   record_.state_hash = rollout_->world().state_hash();
   record_.physics_wall_s = rollout_->physics_wall_s();
