@@ -18,7 +18,7 @@ constexpr std::array<std::uint8_t, 3> kPaper{250, 250, 248}, kInk{30, 32, 36}, k
 // Sizes of letters and bands, from the picture's width.
 struct Layout {
   explicit Layout(int width_)
-      : width(width_), letters(std::clamp(width_ / 26, 9, 28)), margin(letters / 2), line(letters * 4 / 3) {}
+      : width(width_), letters(std::clamp(width_ / 32, 9, 28)), margin(letters / 2), line(letters * 4 / 3) {}
   int width, letters, margin, line;
   int band() const { return 3 * line + 2 * margin; }
   int room() const { return width - 2 * margin; }

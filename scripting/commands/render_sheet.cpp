@@ -49,14 +49,14 @@ void write_header(Canvas& canvas, const Drawn& drawn) {
   const EpisodeRecord& episode = drawn.stored.episode;
   const bool good = episode.outcome == Outcome::success;
   const int room = canvas.width - 2 * kGap;
-  const std::string title = fmt::format("{}  {}", drawn.stored.id, instruction_of(episode));
+  const std::string title = fmt::format("episode {}: {}", drawn.stored.id, instruction_of(episode));
   for (const std::string& line : stampede::wrapped(title, kTitle, room, 1))
     canvas.text(kGap, kGap + kTitle, line, kTitle, kInk);
   const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
   const int baseline = kGap + 2 * kTitle + 4;
   const int x = canvas.text(kGap, baseline, verdict(episode.outcome, episode.reason), kLetters, good ? kGood : kBad);
-  const std::string facts =
-      fmt::format("{} {}  seed {}  {:.1f} s", episode.task, episode.variation, episode.seed, seconds);
+  const std::string variation = episode.variation.empty() ? "" : " · " + episode.variation;
+  const std::string facts = fmt::format("{}{} · seed {} · {:.1f} s", episode.task, variation, episode.seed, seconds);
   for (const std::string& line : stampede::wrapped(facts, kLetters, canvas.width - x - 2 * kGap, 1))
     canvas.text(x + kGap, baseline, line, kLetters, kFaint);
 }

@@ -109,11 +109,13 @@ const std::filesystem::path& SessionCore::catalogue() const {
 QueryResult SessionCore::query(std::string_view question) const { return Catalogue::open(catalogue()).query(question); }
 
 CameraPicture SessionCore::picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
-  return studio_.picture(Catalogue::open(catalogue()), episode, frame, request);
+  if (!studio_) studio_.emplace();
+  return studio_->picture(Catalogue::open(catalogue()), episode, frame, request);
 }
 
 CameraPoints SessionCore::points(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
-  return studio_.points(Catalogue::open(catalogue()), episode, frame, request);
+  if (!studio_) studio_.emplace();
+  return studio_->points(Catalogue::open(catalogue()), episode, frame, request);
 }
 
 }  // namespace stampede

@@ -30,7 +30,7 @@ class SessionCore {
   const std::filesystem::path& catalogue() const;  // throws Error when there is none
   std::shared_ptr<const class Library> library_;
   std::filesystem::path catalogue_;
-  Studio studio_;
+  std::optional<Studio> studio_;  // from the first picture on
 };
 
 }  // namespace stampede

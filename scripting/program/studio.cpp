@@ -1,9 +1,9 @@
 #include "scripting/program/studio.h"
 
 #include <optional>
-#include <thread>
 
 #include "engine/render/point_cloud.h"
+#include "scripting/program/render_thread.h"
 #include "scripting/program/stored_episode.h"
 
 namespace stampede {
@@ -22,8 +22,7 @@ Observation observation_for(const PictureRequest& request) {
 }  // namespace
 
 struct Studio::Impl {
-  std::thread::id thread;
-  std::unique_ptr<Renderer> renderer;
+  RenderThread thread;
   std::optional<StoredEpisode> stored;
   std::vector<Picture> pictures;  // of the last request: one
 
@@ -33,10 +32,6 @@ struct Studio::Impl {
 
 View Studio::Impl::draw(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
                         const PictureRequest& request) {
-  if (!renderer || thread != std::this_thread::get_id()) {
-    renderer = make_osmesa_renderer();
-    thread = std::this_thread::get_id();
-  }
   if (!stored || stored->id != episode) stored = read_stored(catalogue, episode);
   const std::string where = "episode " + std::to_string(episode);
   if (!stored->scene) throw Error(where, "it cannot be drawn: " + stored->why_not);
@@ -47,9 +42,13 @@ View Studio::Impl::draw(const Catalogue& catalogue, std::int64_t episode, std::i
   const std::shared_ptr<const Scene> scene = with_cameras(*stored, {}, {request.camera});
   const Observation observation = observation_for(request);
   check_observation(*scene, observation);
-  EpisodePainter painter(*renderer, stored->episode, scene, observation);
-  painter.paint(frame, pictures);
-  return painter.views(frame).front();
+  View view;
+  thread.run([&](Renderer& renderer) {
+    EpisodePainter painter(renderer, stored->episode, scene, observation);
+    painter.paint(frame, pictures);
+    view = painter.views(frame).front();
+  });
+  return view;
 }
 
 Studio::Studio() : impl_(std::make_unique<Impl>()) {}

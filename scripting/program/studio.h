@@ -9,8 +9,8 @@
 
 namespace stampede {
 
-// Keeps what the next picture of the same episode needs again. Lifetime: one thread at a time; a picture from another
-// thread than the one before starts afresh, because a renderer belongs to its thread.
+// Keeps what the next picture of the same episode needs again, and draws in a thread of its own. Lifetime: one caller
+// at a time, from any thread.
 class Studio {
  public:
   Studio();

@@ -36,6 +36,13 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 
+execute_process(COMMAND ${WORK}/build/pictures WORKING_DIRECTORY ${prefix}/share/stampede
+  RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "pictures: ${code}\n${said}")
+endif()
+message("${said}")
+
 execute_process(COMMAND ${WORK}/build/embed WORKING_DIRECTORY ${prefix}/share/stampede
   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
 string(REGEX MATCHALL "success [0-9]+\\.[0-9] s" successes "${said}")

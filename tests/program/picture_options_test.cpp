@@ -171,7 +171,7 @@ TEST_CASE("a full disk while rendering into a catalogue: exit 4, the episode as 
   INFO(file_text(folder / "story.txt"));
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == kCatalogue);
-  CHECK(says(file_text(folder / "story.txt"), "full"));
+  CHECK(says(file_text(folder / "story.txt"), "space"));
   CHECK(Catalogue::open(file).images(1).empty());
   CHECK(Catalogue::open(file).content_hash() == hash);
   CHECK(say({"render", file, "--into", file, "--root", kRoot}).code == kDone);
