@@ -45,6 +45,18 @@ bool is_diagonal(const Matrix3& m) {
   return std::abs(m(0, 1)) <= scale && std::abs(m(0, 2)) <= scale && std::abs(m(1, 2)) <= scale;
 }
 
+// The one shape that collides, or the one that there is; null: several. What is only drawn must not change the physics.
+const Shape* lone_shape(const Part& part) {
+  const bool any = has_collision(part);
+  const Shape* lone = nullptr;
+  for (const Shape& shape : part.shapes) {
+    if (any && !shape.collides) continue;
+    if (lone != nullptr) return nullptr;
+    lone = &shape;
+  }
+  return lone;
+}
+
 // Prefers the axes of a lone shape, then the part's, to those that a solver for eigenvectors would pick: the shape
 // can then be used bare, and equal moments leave nothing to chance.
 LinkFrame link_frame(const Part& part, const MassProperties& m, const std::string& where) {
@@ -52,7 +64,8 @@ LinkFrame link_frame(const Part& part, const MassProperties& m, const std::strin
   LinkFrame frame;
   frame.part_from_link.translation() = m.centre;
   std::vector<Matrix3> candidates{Matrix3::Identity()};
-  if (part.shapes.size() == 1) candidates.insert(candidates.begin(), part.shapes[0].part_from_shape.linear());
+  if (const Shape* lone = lone_shape(part))
+    candidates.insert(candidates.begin(), Matrix3(lone->part_from_shape.linear()));
   for (const Matrix3& axes : candidates) {
     const Matrix3 turned = axes.transpose() * m.inertia * axes;
     if (!is_diagonal(turned)) continue;

@@ -75,3 +75,25 @@ TEST_CASE("a free body without mass is refused with a cure", "[sim]") {
   scene.bodies.back().parts[0].mass = 0;
   CHECK_THROWS_WITH(World(shared(scene)), Catch::Contains("cube1") && Catch::Contains("mass"));
 }
+
+TEST_CASE("what is only drawn changes no bit of the physics", "[sim]") {
+  const auto end_of = [](bool dressed) {
+    Scene scene = table_scene(2);
+    Body& cube = scene.bodies.back();
+    Part& part = cube.parts[0];
+    part.shapes[0].size = {0.04, 0.06, 0.02};
+    part.shapes[0].part_from_shape = rotation_rpy(0.3, 0.2, 0.1);  // principal axes that are not the part's
+    set_uniform_mass(part, 0.1);
+    cube.world_from_body.translation().z() += 0.05;
+    if (dressed) {
+      Shape coat = box_shape({0.1, 0.02, 0.3});
+      coat.collides = false;
+      part.shapes.push_back(coat);
+      set_uniform_mass(part, 0.1);
+    }
+    World world(shared(scene));
+    run(world, 0.5);
+    return world.state_hash();
+  };
+  CHECK(end_of(true) == end_of(false));
+}
