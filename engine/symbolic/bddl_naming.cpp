@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <cctype>
+
+#include "engine/base/error.h"
+#include "engine/symbolic/bddl_express.h"
+
+namespace stampede::symbolic {
+namespace {
+
+using Kind = BddlThing::Kind;
+
+std::string small_word(const std::string& name) {
+  std::string word;
+  for (const char c : name) {
+    const bool good = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    word += good ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+  }
+  return word;
+}
+
+std::string last_word(const std::string& name) { return small_word(name.substr(name.rfind('.') + 1)); }
+
+}  // namespace
+
+BddlNaming::BddlNaming(const BddlScene& scene, const BddlMapping& mapping, BddlExport& result)
+    : scene_(scene), mapping_(mapping), result_(result) {}
+
+const BddlThing* BddlNaming::thing(const std::string& name) const {
+  for (const BddlThing& one : scene_.things) {
+    if (one.name == name) return &one;
+  }
+  return nullptr;
+}
+
+std::string BddlNaming::unique(const std::string& name) {
+  std::string result = name;
+  for (int i = 2; !taken_.insert(result).second; ++i) result = name + "_" + std::to_string(i);
+  return result;
+}
+
+void BddlNaming::add(std::vector<BddlGroup>& groups, const std::string& category, const std::string& name) {
+  for (BddlGroup& group : groups) {
+    if (group.category != category) continue;
+    group.names.push_back(name);
+    return;
+  }
+  groups.push_back({category, {name}});
+}
+
+void BddlNaming::name_all() {
+  std::set<std::string> seen;
+  for (const BddlThing& one : scene_.things) {
+    if (!seen.insert(one.name).second) throw Error(one.name, "is in the scene twice", "names are unique");
+  }
+  const bool libero = mapping_.dialect == BddlDialect::libero;
+  for (const bool bodies : {true, false}) {  // bodies first: parts and regions need their names
+    for (const BddlThing& one : scene_.things) {
+      if ((one.kind != Kind::part && one.kind != Kind::region) != bodies) continue;
+      libero ? name_libero(one) : name_behavior(one);
+    }
+  }
+}
+
+void BddlNaming::name_libero(const BddlThing& thing) {
+  if (thing.kind == Kind::hand) return;
+  if (thing.kind == Kind::object || thing.kind == Kind::fixture) {
+    const std::string* category = mapping_.category(thing.class_name, thing.type);
+    if (category == nullptr && thing.kind == Kind::fixture) {
+      result_.remarks.push_back("`" + thing.name + "` is left out: the mapping has no category for `" +
+                                thing.class_name + "`");
+      return;
+    }
+    if (category == nullptr) {
+      result_.remarks.push_back("`" + thing.name + "` keeps the category `" + small_word(thing.class_name) +
+                                "`, which LIBERO has to be taught");
+    }
+    const std::string name = unique(small_word(thing.name));
+    result_.names[thing.name] = name;
+    add(thing.kind == Kind::fixture ? result_.problem.fixtures : result_.problem.objects,
+        category == nullptr ? small_word(thing.class_name) : *category, name);
+    return;
+  }
+  const auto owner = result_.names.find(thing.owner);
+  if (owner == result_.names.end()) return;
+  std::string site = last_word(thing.name);
+  if (thing.kind == Kind::part) {
+    const auto mapped = std::find_if(mapping_.sites.begin(), mapping_.sites.end(),
+                                     [&](const BddlPair& pair) { return pair.ours == last_word(thing.name); });
+    if (mapped != mapping_.sites.end()) site = mapped->theirs;
+  }
+  BddlRegion region{site, owner->second, {}, {0, 0}, {0, 0, 1, 0}};
+  for (int i = 2; !taken_.insert(region.key()).second; ++i) region.name = site + "_" + std::to_string(i);
+  if (thing.kind == Kind::region) region.ranges = thing.area;
+  result_.names[thing.name] = region.key();
+  sites_[thing.name] = region;
+}
+
+void BddlNaming::name_behavior(const BddlThing& thing) {
+  const std::string* category = mapping_.category(thing.class_name, thing.type);
+  if (thing.kind == Kind::part) {
+    const auto owner = result_.names.find(thing.owner);
+    if (owner != result_.names.end()) result_.names[thing.name] = owner->second;
+    return;
+  }
+  if (thing.kind == Kind::region && !thing.owner.empty()) return;  // its class is its owner's
+  if (category != nullptr) {
+    result_.names[thing.name] = add_instance(*category);
+  } else if (thing.kind != Kind::region) {
+    result_.remarks.push_back("`" + thing.name + "` is left out: the mapping has no synset for `" + thing.class_name +
+                              "`");
+  }
+}
+
+std::string BddlNaming::add_instance(const std::string& category) {
+  std::size_t count = 1;
+  for (const BddlGroup& group : result_.problem.objects) {
+    if (group.category == category) count += group.names.size();
+  }
+  const std::string name = category + "_" + std::to_string(count);
+  add(result_.problem.objects, category, name);
+  return name;
+}
+
+const std::string& BddlNaming::theirs(const std::string& ours) const {
+  const auto found = result_.names.find(ours);
+  if (found != result_.names.end()) return found->second;
+  const BddlThing* one = thing(ours);
+  const std::string dialect(to_string(mapping_.dialect));
+  if (one == nullptr) throw Refusal{"`" + ours + "` is not in the scene"};
+  if (one->kind == Kind::hand)
+    throw Refusal{"`" + ours + "`: " + dialect + " has no word for a hand; leave it out of the goal"};
+  if (one->kind == Kind::region && mapping_.dialect == BddlDialect::behavior) {
+    throw Refusal{"`" + ours + "`: BEHAVIOR has no regions; name the body"};
+  }
+  throw Refusal{"`" + ours + "` has no name there; add a category for the class `" +
+                (one->owner.empty() || thing(one->owner) == nullptr ? one->class_name : thing(one->owner)->class_name) +
+                "` to the mapping"};
+}
+
+void BddlNaming::add_region(const BddlRegion& region) {
+  for (const BddlRegion& other : result_.problem.regions) {
+    if (other.key() == region.key()) return;
+  }
+  result_.problem.regions.push_back(region);
+}
+
+void BddlNaming::declare(const std::string& ours) {
+  const auto site = sites_.find(ours);
+  if (site != sites_.end()) add_region(site->second);
+}
+
+std::string BddlNaming::surface(const BddlThing& fixture) {
+  const std::string key = fixture.name + " surface";  // a blank: no name of ours
+  if (sites_.count(key) == 0) {
+    BddlRegion region{"top_surface", theirs(fixture.name), fixture.area, {0, 0}, {0, 0, 1, 0}};
+    for (int i = 2; !taken_.insert(region.key()).second; ++i) region.name = "top_surface_" + std::to_string(i);
+    sites_[key] = region;
+    surfaces_.insert(region.key());
+  }
+  add_region(sites_[key]);
+  return sites_[key].key();
+}
+
+bool BddlNaming::is_surface(const std::string& theirs) const {
+  if (surfaces_.count(theirs) > 0) return true;
+  return std::any_of(result_.problem.fixtures.begin(), result_.problem.fixtures.end(), [&](const BddlGroup& group) {
+    return std::find(group.names.begin(), group.names.end(), theirs) != group.names.end();
+  });
+}
+
+std::string BddlNaming::spot(const BddlPlacement& placement) {
+  BddlRegion region{theirs(placement.object) + "_init_region",
+                    theirs(placement.on),
+                    placement.ranges,
+                    placement.yaw_rad,
+                    {0, 0, 1, 0}};
+  for (int i = 2; !taken_.insert(region.key()).second; ++i) {
+    region.name = theirs(placement.object) + "_init_region_" + std::to_string(i);
+  }
+  add_region(region);
+  return region.key();
+}
+
+}  // namespace stampede::symbolic
