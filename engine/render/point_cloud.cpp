@@ -9,10 +9,7 @@ namespace stampede {
 namespace {
 
 template <typename Item>
-void append_list(std::vector<Item>& list, const std::vector<Item>& more, bool first) {
-  if (!first && list.empty() != more.empty())
-    throw Error("point cloud", "only one of the clouds has colours or ids of a kind",
-                "make them from pictures of the same kinds");
+void append_list(std::vector<Item>& list, const std::vector<Item>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
@@ -59,14 +56,15 @@ PointCloud point_cloud(const Picture& picture, const View& view) {
 }
 
 void append(PointCloud& cloud, const PointCloud& more) {
-  if (more.positions.empty()) return;
-  PointCloud sum = cloud;  // an error leaves the cloud as it was
-  const bool first = cloud.positions.empty();
-  append_list(sum.colours, more.colours, first);
-  append_list(sum.instance, more.instance, first);
-  append_list(sum.semantic, more.semantic, first);
-  append_list(sum.positions, more.positions, first);
-  cloud = std::move(sum);
+  const bool alike = cloud.colours.empty() == more.colours.empty() && cloud.instance.empty() == more.instance.empty() &&
+                     cloud.semantic.empty() == more.semantic.empty();
+  if (!alike && !cloud.positions.empty() && !more.positions.empty())
+    throw Error("point cloud", "only one of the clouds has colours, or ids of a kind",
+                "make them from pictures of the same kinds");
+  append_list(cloud.positions, more.positions);
+  append_list(cloud.colours, more.colours);
+  append_list(cloud.instance, more.instance);
+  append_list(cloud.semantic, more.semantic);
 }
 
 std::string to_ply(const PointCloud& cloud) {
