@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/symbolic/relaxation.h"
-#include "engine/symbolic/state.h"
+#include "engine/symbolic/successors.h"
 
 namespace stampede::symbolic {
 
@@ -27,9 +27,12 @@ class Heuristic {
   Literals unreached_goal() const;
 
  private:
-  struct Counter {
+  struct Counter {   // in the numbers of set_goal
     int open, cost;  // conditions not yet reached; the sum of the costs of those reached
   };
+  void find_stale();
+  std::vector<char> relevant_rules(std::vector<char>& relevant_nodes) const;
+  void index_uses();
   void enqueue(int node, int cost, int rule);
   void fire(int rule);
   bool explore();
@@ -38,7 +41,19 @@ class Heuristic {
   const GroundTask& task_;
   const std::vector<int>* costs_ = nullptr;
   Relaxation relaxation_;
-  std::vector<int> unconditional_;  // rules without conditions
+  Successors successors_;
+  // By condition of a rule (as in the relaxation): whether what achieves it has already had all that the rule makes
+  // true. Then the rule is of use only where the condition holds from the start.
+  std::vector<char> is_stale_;
+  std::vector<std::vector<int>> achievers_;  // by node: rules
+
+  // What bears on the goal, by its own numbers for rules; made by set_goal.
+  std::vector<int> rule_of_;                          // the relaxation's
+  int costly_ = 0;                                    // rules below it are operators'
+  std::vector<int> effects_begin_, effects_;          // by rule
+  std::vector<int> used_begin_, used_middle_, used_;  // by node; those from middle on only at the start
+  std::vector<int> unconditional_;                    // rules without conditions
+
   std::vector<int> goal_;
   std::vector<char> is_goal_;
   std::vector<int> cost_, supporter_;          // by node

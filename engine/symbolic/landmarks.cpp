@@ -42,7 +42,7 @@ void Landmarks::label(const GroundTask& task, const Relaxation& relaxation, cons
   };
   const auto now_labelled = [&](int node) {
     labelled_[node] = 1;
-    for (int i = relaxation.used_begin[node]; i < relaxation.used_middle[node]; ++i) --open[relaxation.used[i]];
+    for (int i = relaxation.used_begin[node]; i < relaxation.used_begin[node + 1]; ++i) --open[relaxation.used[i]];
   };
   for (int fact = 0; fact < task.facts; ++fact) {
     const int node = 2 * fact + (test(start.data(), fact) ? 0 : 1);
@@ -79,7 +79,7 @@ void Landmarks::label(const GroundTask& task, const Relaxation& relaxation, cons
         }
       }
       if (!changed) continue;
-      for (int j = relaxation.used_begin[node]; j < relaxation.used_middle[node]; ++j) enqueue(relaxation.used[j]);
+      for (int j = relaxation.used_begin[node]; j < relaxation.used_begin[node + 1]; ++j) enqueue(relaxation.used[j]);
     }
   }
 }

@@ -15,19 +15,19 @@ Relaxation::Relaxation(const GroundTask& task) : nodes(2 * task.facts) {
     for (const Literal one : op.effects) {
       if (needed[one]) effect.push_back(one);
     }
-    add_rule(static_cast<int>(i), op.precondition, effect, true);
+    add_rule(static_cast<int>(i), op.precondition, effect);
     for (const ConditionalEffect& one : op.conditional) {
       if (!needed[one.effect]) continue;
       Literals condition = op.precondition;
       condition.insert(condition.end(), one.when.begin(), one.when.end());
       std::sort(condition.begin(), condition.end());
       condition.erase(std::unique(condition.begin(), condition.end()), condition.end());
-      add_rule(static_cast<int>(i), condition, {one.effect}, false);
+      add_rule(static_cast<int>(i), condition, {one.effect});
     }
   }
   drop_dominated();
   costly = static_cast<int>(rules.size());
-  for (const Axiom& axiom : task.axioms) add_rule(-1, axiom.body, {2 * axiom.head}, false);
+  for (const Axiom& axiom : task.axioms) add_rule(-1, axiom.body, {2 * axiom.head});
   add_denials(task);
   index_uses();
 }
@@ -63,7 +63,7 @@ void Relaxation::mark_needed(const GroundTask& task) {
   }
 }
 
-void Relaxation::add_rule(int op, const std::vector<int>& condition, const std::vector<int>& effect, bool whole) {
+void Relaxation::add_rule(int op, const std::vector<int>& condition, const std::vector<int>& effect) {
   Rule rule;
   rule.op = op;
   rule.begin = static_cast<int>(effects.size());
@@ -72,7 +72,6 @@ void Relaxation::add_rule(int op, const std::vector<int>& condition, const std::
   rule.conditions_begin = static_cast<int>(conditions.size());
   conditions.insert(conditions.end(), condition.begin(), condition.end());
   rule.conditions_end = static_cast<int>(conditions.size());
-  rule.whole = whole;
   rules.push_back(rule);
 }
 
@@ -150,33 +149,20 @@ void Relaxation::add_denials(const GroundTask& task) {
       for (const Literal one : axiom->body) {
         const auto found = layer.find(one >> 1);
         const bool same_layer = (one & 1) == 0 && found != layer.end() && found->second == axiom->layer;
-        add_rule(-1, same_layer ? std::vector<int>{} : std::vector<int>{one ^ 1}, {node}, false);
+        add_rule(-1, same_layer ? std::vector<int>{} : std::vector<int>{one ^ 1}, {node});
       }
     }
-    add_rule(-1, all, {2 * head + 1}, false);
+    add_rule(-1, all, {2 * head + 1});
   }
 }
 
 void Relaxation::index_uses() {
-  for (const Rule& rule : rules) effects_begin.push_back(rule.begin);
-  effects_begin.push_back(static_cast<int>(effects.size()));
-  std::vector<int> count(static_cast<std::size_t>(nodes), 0), with_effects(static_cast<std::size_t>(nodes), 0);
-  for (const Rule& rule : rules) {
-    for (int i = rule.conditions_begin; i < rule.conditions_end; ++i) {
-      ++count[conditions[i]];
-      if (rule.begin != rule.end) ++with_effects[conditions[i]];
-    }
-  }
   used_begin.assign(static_cast<std::size_t>(nodes) + 1, 0);
-  used_middle.assign(static_cast<std::size_t>(nodes), 0);
-  for (int node = 0; node < nodes; ++node) {
-    used_begin[node + 1] = used_begin[node] + count[node];
-    used_middle[node] = used_begin[node] + with_effects[node];
-  }
-  used.resize(static_cast<std::size_t>(used_begin.back()));
-  std::vector<int> front(used_begin.begin(), used_begin.end() - 1), back = used_middle;
+  for (const int condition : conditions) ++used_begin[condition + 1];
+  for (int node = 0; node < nodes; ++node) used_begin[node + 1] += used_begin[node];
+  used.resize(conditions.size());
+  std::vector<int> at(used_begin.begin(), used_begin.end() - 1);
   for (std::size_t rule = 0; rule < rules.size(); ++rule) {
-    std::vector<int>& at = rules[rule].begin != rules[rule].end ? front : back;
     for (int i = rules[rule].conditions_begin; i < rules[rule].conditions_end; ++i) {
       used[at[conditions[i]]++] = static_cast<int>(rule);
     }

@@ -15,20 +15,17 @@ struct Relaxation {
     int op = -1;                                   // -1: an axiom, costs nothing
     int begin = 0, end = 0;                        // of its effects
     int conditions_begin = 0, conditions_end = 0;  // of its conditions
-    bool whole = false;                            // stands for the operator's own precondition
   };
   int nodes = 0;
-  std::vector<Rule> rules;         // operators' first, then those that cost nothing
-  int costly = 0;                  // the number of the former
-  std::vector<int> effects_begin;  // by rule, and one more: the same as in `rules`, dense for the innermost loop
+  std::vector<Rule> rules;  // operators' first, then those that cost nothing
+  int costly = 0;           // the number of the former
   std::vector<int> effects, conditions;
-  // By node: rules with it as a condition; those before `middle` have effects, the rest only tell what is applicable.
-  std::vector<int> used_begin, used_middle, used;
-  std::vector<char> needed;  // by node: some condition or the goal mentions it
+  std::vector<int> used_begin, used;  // by node: rules with it as a condition
+  std::vector<char> needed;           // by node: some condition or the goal mentions it
 
  private:
   void mark_needed(const GroundTask& task);
-  void add_rule(int op, const std::vector<int>& condition, const std::vector<int>& effect, bool whole);
+  void add_rule(int op, const std::vector<int>& condition, const std::vector<int>& effect);
   void add_denials(const GroundTask& task);
   void drop_dominated();
   void index_uses();

@@ -1,111 +1,30 @@
-// Task planning, whole: lifting, grounding, search, shortening. Counters: plan length and expansions.
+// Task planning, whole: lifting, grounding, search, improvement. `symbolic_bench`: generated problems of each size and
+// seed; `symbolic_bench --benchmark_filter=...` picks some; `symbolic_bench write FOLDER COUNT` writes problems as
+// PDDL files; `symbolic_bench files DOMAIN PROBLEM...` plans files. Counters: steps, expansions.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "engine/base/random.h"
+#include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
+#include "planning_problems.h"
 
 namespace {
 
 using namespace stampede;
+using Generator = bench::PlanningProblem (*)(std::int64_t, std::int64_t);
 
-const char* const kBlocks = R"((define (domain blocks) (:requirements :strips :typing) (:types block)
-  (:predicates (on ?x ?y - block) (ontable ?x - block) (clear ?x - block) (handempty) (holding ?x - block))
-  (:action pick_up :parameters (?x - block) :precondition (and (clear ?x) (ontable ?x) (handempty))
-    :effect (and (not (ontable ?x)) (not (clear ?x)) (not (handempty)) (holding ?x)))
-  (:action put_down :parameters (?x - block) :precondition (holding ?x)
-    :effect (and (not (holding ?x)) (clear ?x) (handempty) (ontable ?x)))
-  (:action stack :parameters (?x ?y - block) :precondition (and (holding ?x) (clear ?y))
-    :effect (and (not (holding ?x)) (not (clear ?y)) (clear ?x) (handempty) (on ?x ?y)))
-  (:action unstack :parameters (?x ?y - block) :precondition (and (on ?x ?y) (clear ?x) (handempty))
-    :effect (and (holding ?x) (clear ?y) (not (clear ?x)) (not (handempty)) (not (on ?x ?y))))))";
-
-const char* const kTabletop = R"((define (domain tabletop) (:requirements :strips :typing)
-  (:types movable place - object region drawer - place)
-  (:predicates (handempty) (holding ?o - movable) (at ?o - movable ?p - place) (flat ?o - movable)
-    (on ?o ?b - movable) (clear ?o - movable) (accessible ?p - place) (closed ?d - drawer))
-  (:action pick :parameters (?o - movable ?p - place)
-    :precondition (and (handempty) (at ?o ?p) (flat ?o) (clear ?o) (accessible ?p))
-    :effect (and (holding ?o) (not (handempty)) (not (at ?o ?p)) (not (flat ?o)) (not (clear ?o))))
-  (:action place :parameters (?o - movable ?p - place) :precondition (and (holding ?o) (accessible ?p))
-    :effect (and (handempty) (not (holding ?o)) (at ?o ?p) (flat ?o) (clear ?o)))
-  (:action stack :parameters (?o ?b - movable ?p - region)
-    :precondition (and (holding ?o) (clear ?b) (at ?b ?p))
-    :effect (and (handempty) (not (holding ?o)) (on ?o ?b) (at ?o ?p) (clear ?o) (not (clear ?b))))
-  (:action unstack :parameters (?o ?b - movable ?p - region)
-    :precondition (and (handempty) (on ?o ?b) (clear ?o) (at ?o ?p))
-    :effect (and (holding ?o) (not (handempty)) (not (on ?o ?b)) (not (at ?o ?p)) (not (clear ?o)) (clear ?b)))
-  (:action open_drawer :parameters (?d - drawer) :precondition (and (handempty) (closed ?d))
-    :effect (and (accessible ?d) (not (closed ?d))))
-  (:action close_drawer :parameters (?d - drawer) :precondition (and (handempty) (accessible ?d))
-    :effect (and (closed ?d) (not (accessible ?d))))))";
-
-std::vector<std::string> shuffled(const std::string& stem, std::int64_t count, Random& random) {
-  std::vector<std::string> names;
-  for (std::int64_t i = 0; i < count; ++i) names.push_back(stem + std::to_string(i));
-  for (std::int64_t i = count - 1; i > 0; --i) std::swap(names[i], names[random.below(i + 1)]);
-  return names;
-}
-
-std::string towers(std::int64_t count, Random& random, bool goal) {
-  std::string text, below;
-  for (const std::string& name : shuffled("b", count, random)) {
-    const bool on_table = below.empty() || random.below(4) == 0;
-    if (!goal && !below.empty() && on_table) text += " (clear " + below + ")";
-    if (!on_table) text += " (on " + name + " " + below + ")";
-    if (on_table && !goal) text += " (ontable " + name + ")";
-    below = name;
-  }
-  return goal ? text : text + " (clear " + below + ") (handempty)";
-}
-
-std::string names_text(const std::string& stem, std::int64_t count, const std::string& type) {
-  std::string text;
-  for (std::int64_t i = 0; i < count; ++i) text += stem + std::to_string(i) + " ";
-  return text + "- " + type + " ";
-}
-
-std::string blocks_problem(std::int64_t count) {
-  Random random(RandomKey("bench blocks").with(count));
-  const std::string init = towers(count, random, false), goal = towers(count, random, true);
-  return "(define (problem p) (:domain blocks) (:objects " + names_text("b", count, "block") + ") (:init" + init +
-         ") (:goal (and" + goal + ")))";
-}
-
-// Objects in regions, stacks of two and drawers; about as many are wanted elsewhere.
-std::string layout(std::int64_t count, Random& random, bool goal) {
-  std::string text, below, place;
-  for (const std::string& name : shuffled("o", count, random)) {
-    const bool stacked = !below.empty() && place[0] == 'r' && random.below(3) == 0;
-    if (!below.empty() && !stacked && !goal) text += " (clear " + below + ")";
-    if (!stacked)
-      place = random.below(5) == 0 ? "d" + std::to_string(random.below(3)) : "r" + std::to_string(random.below(8));
-    text += " (at " + name + " " + place + ")";
-    if (stacked) text += " (on " + name + " " + below + ")";
-    if (!stacked && !goal) text += " (flat " + name + ")";
-    below = name;
-  }
-  return goal ? text : text + " (clear " + below + ")";
-}
-
-std::string tabletop_problem(std::int64_t count) {
-  Random random(RandomKey("bench tabletop").with(count));
-  std::string init = layout(count, random, false) + " (handempty)", goal = layout(count, random, true);
-  for (int i = 0; i < 8; ++i) init += " (accessible r" + std::to_string(i) + ")";
-  for (int i = 0; i < 3; ++i) {
-    init += " (closed d" + std::to_string(i) + ")";
-    goal += " (closed d" + std::to_string(i) + ")";
-  }
-  return "(define (problem p) (:domain tabletop) (:objects " + names_text("o", count, "movable") +
-         names_text("r", 8, "region") + names_text("d", 3, "drawer") + ") (:init" + init + ") (:goal (and" + goal +
-         ")))";
-}
-
-void plan_all(benchmark::State& state, const char* domain_text, const std::string& problem_text) {
-  const Domain domain = domain_from_pddl(domain_text, "domain");
-  const Problem problem = problem_from_pddl(problem_text, "problem", domain);
+void plan_all(benchmark::State& state, Generator generate) {
+  const bench::PlanningProblem text = generate(state.range(0), state.range(1));
+  const Domain domain = domain_from_pddl(text.domain, "domain");
+  const Problem problem = problem_from_pddl(text.problem, "problem", domain);
   PlanOutcome outcome;
   for (auto _ : state) outcome = solve(domain, problem);
   if (!validate(domain, problem, outcome.plan).valid) state.SkipWithError("the plan does not validate");
@@ -113,12 +32,84 @@ void plan_all(benchmark::State& state, const char* domain_text, const std::strin
   state.counters["expanded"] = static_cast<double>(outcome.expanded);
 }
 
-void blocks(benchmark::State& state) { plan_all(state, kBlocks, blocks_problem(state.range(0))); }
-void tabletop(benchmark::State& state) { plan_all(state, kTabletop, tabletop_problem(state.range(0))); }
+void read_large(benchmark::State& state) {  // facts of a problem of about 5 MB
+  const Domain domain = domain_from_pddl("(define (domain large) (:predicates (near ?a ?b)))", "domain");
+  std::string text = "(define (problem large) (:domain large) (:objects";
+  for (int i = 0; i < 1000; ++i) text += " object" + std::to_string(i);
+  text += ") (:init";
+  for (int i = 0; i < 200'000; ++i) {
+    text += "\n  (near object" + std::to_string(i % 1000) + " object" + std::to_string(i / 1000) + ")";
+  }
+  text += ") (:goal (near object0 object0)))";
+  for (auto _ : state) benchmark::DoNotOptimize(problem_from_pddl(text, "problem", domain));
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
+}
 
-BENCHMARK(blocks)->Arg(10)->Arg(20)->Arg(40)->Unit(benchmark::kMillisecond);
-BENCHMARK(tabletop)->Arg(10)->Arg(20)->Arg(60)->Unit(benchmark::kMillisecond);
+void sizes_and_seeds(benchmark::internal::Benchmark* bench, std::vector<std::int64_t> sizes) {
+  for (const std::int64_t size : sizes) {
+    for (std::int64_t seed = 1; seed <= 5; ++seed) bench->Args({size, seed});
+  }
+  bench->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK_CAPTURE(plan_all, blocks, bench::blocks)->Apply([](auto* b) { sizes_and_seeds(b, {10, 20, 40}); });
+BENCHMARK_CAPTURE(plan_all, tabletop, bench::tabletop)->Apply([](auto* b) { sizes_and_seeds(b, {10, 20, 60}); });
+BENCHMARK_CAPTURE(plan_all, gripper, bench::gripper)->Apply([](auto* b) { sizes_and_seeds(b, {10, 20, 60}); });
+BENCHMARK(read_large)->Unit(benchmark::kMillisecond);
+
+std::string file_text(const char* path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The median wall time of five runs of `solve` for each problem.
+int plan_files(int count, char** paths) {
+  const Domain domain = domain_from_pddl(file_text(paths[0]), paths[0]);
+  for (int i = 1; i < count; ++i) {
+    const Problem problem = problem_from_pddl(file_text(paths[i]), paths[i], domain);
+    std::vector<double> times;
+    PlanOutcome outcome;
+    for (int run = 0; run < 5; ++run) {
+      const auto begin = std::chrono::steady_clock::now();
+      outcome = solve(domain, problem);
+      times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    }
+    std::sort(times.begin(), times.end());
+    std::printf("%s: %s, %zu steps, %lld states, median %.1f ms (%.1f to %.1f), valid: %s\n", paths[i],
+                to_text(outcome.end).c_str(), outcome.plan.size(), static_cast<long long>(outcome.expanded), times[2],
+                times[0], times[4], validate(domain, problem, outcome.plan).valid ? "yes" : "no");
+  }
+  return 0;
+}
+
+int write_files(const std::string& folder, std::int64_t seeds) {
+  const std::pair<const char*, Generator> all[] = {
+      {"blocks", bench::blocks}, {"tabletop", bench::tabletop}, {"gripper", bench::gripper}};
+  for (const auto& [name, generate] : all) {
+    for (const std::int64_t size : {10, 20, name == all[0].first ? 40 : 60}) {
+      for (std::int64_t seed = 1; seed <= seeds; ++seed) {
+        const bench::PlanningProblem text = generate(size, seed);
+        const std::string stem = folder + "/" + name;
+        std::ofstream(stem + "-domain.pddl") << text.domain;
+        std::ofstream(stem + "-n" + std::to_string(size) + "-s" + std::to_string(seed) + ".pddl") << text.problem;
+      }
+    }
+  }
+  return 0;
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  try {
+    if (argc > 3 && std::strcmp(argv[1], "files") == 0) return plan_files(argc - 2, argv + 2);
+    if (argc > 3 && std::strcmp(argv[1], "write") == 0) return write_files(argv[2], std::stoll(argv[3]));
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
