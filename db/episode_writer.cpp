@@ -97,7 +97,8 @@ EpisodeWriter::EpisodeWriter(const sql::Database& database) : database_(database
   action_channel_ = insert("action_channel"), action_ = insert("action"), command_ = insert("command");
   channel_ = insert("channel"), sample_ = insert("sample");
   segment_ = insert("segment"), attempt_ = insert("attempt"), parameter_ = insert("segment_parameter");
-  effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"), contact_ = insert("contact");
+  effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"),
+  observed_fact_ = insert("observed_fact"), contact_ = insert("contact");
   grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document");
   keyframe_ = insert("keyframe"), mask_ = insert("mask"), image_ = insert("image");
   stored_image_ = {database_, "SELECT data FROM image WHERE episode = ?1 AND frame = ?2 AND camera = ?3 AND kind = ?4",

@@ -66,8 +66,8 @@ class EpisodeWriter {
   sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_, command_,
       channel_, sample_;
   sql::Statement mask_, image_, stored_image_, mount_link_;
-  sql::Statement segment_, attempt_, parameter_, effect_, via_, fact_, contact_, grasp_, language_, document_,
-      keyframe_;
+  sql::Statement segment_, attempt_, parameter_, effect_, via_, fact_, observed_fact_, contact_, grasp_, language_,
+      document_, keyframe_;
 };
 
 // Throws Error for pictures of frames and cameras that are not there, of unknown kinds, or without size.

@@ -90,6 +90,13 @@ void EpisodeReader::read_facts() {
                   f.margin);
          f.fact = fact_from(fact);
        });
+  each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end", "observed_fact", "ordinal",
+       [&](sql::Statement& row) {
+         FactRecord& f = record_.observed_facts.emplace_back();
+         std::string fact;
+         row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end);
+         f.fact = fact_from(fact);
+       });
 }
 
 void EpisodeReader::read_passages() {

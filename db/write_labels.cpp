@@ -91,6 +91,13 @@ void EpisodeWriter::write_facts(const EpisodeRecord& episode) {
     fact_.run(id_, ordinal++, f.fact.predicate, arg1, arg2, arg3, arg4, to_text(f.fact), f.start_step, f.end_step,
               f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed, f.margin);
   }
+  ordinal = 0;
+  for (const FactRecord& f : episode.observed_facts) {
+    const auto arg1 = argument(f.fact.arguments, 0), arg2 = argument(f.fact.arguments, 1),
+               arg3 = argument(f.fact.arguments, 2), arg4 = argument(f.fact.arguments, 3);
+    observed_fact_.run(id_, ordinal++, f.fact.predicate, arg1, arg2, arg3, arg4, to_text(f.fact), f.start_step,
+                       f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end);
+  }
 }
 
 void EpisodeWriter::write_passages(const EpisodeRecord& episode) {

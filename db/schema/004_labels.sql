@@ -132,12 +132,31 @@ CREATE TABLE fact (
   end_frame INTEGER NOT NULL,
   open_start INTEGER NOT NULL CHECK (open_start IN (0, 1)),
   open_end INTEGER NOT NULL CHECK (open_end IN (0, 1)),
-  observed INTEGER NOT NULL CHECK (observed IN (0, 1)),
+  observed INTEGER NOT NULL CHECK (observed IN (0, 1)),  -- known all the time
   margin REAL,
   PRIMARY KEY (episode, ordinal),
   CHECK (start_step <= end_step AND first_frame <= end_frame)
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX fact_by_predicate ON fact (predicate, arg1, arg2);
+
+CREATE TABLE observed_fact (  -- of predicates that can hide: when they were known to hold
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  predicate TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  fact TEXT NOT NULL,
+  start_step INTEGER NOT NULL,
+  end_step INTEGER NOT NULL,
+  first_frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  open_start INTEGER NOT NULL CHECK (open_start IN (0, 1)),
+  open_end INTEGER NOT NULL CHECK (open_end IN (0, 1)),
+  PRIMARY KEY (episode, ordinal),
+  CHECK (start_step <= end_step AND first_frame <= end_frame)
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE contact (
   episode INTEGER NOT NULL REFERENCES episode (id),

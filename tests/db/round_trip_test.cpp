@@ -100,6 +100,10 @@ TEST_CASE("names, labels and documents come back too") {
     CHECK(std::tie(j.name, j.part, j.kind, j.unit, j.lower, j.upper, j.driven) ==
           std::tie(k.name, k.part, k.kind, k.unit, k.lower, k.upper, k.driven));
   }
+  REQUIRE(b.observed_facts.size() == 1);
+  CHECK(b.observed_facts[0].fact == a.observed_facts[0].fact);
+  CHECK(b.observed_facts[0].first_frame == 1);
+  CHECK(b.observed_facts[0].open_end);
   REQUIRE(b.facts.size() == a.facts.size());
   for (std::size_t i = 0; i < a.facts.size(); ++i) {
     const FactRecord &f = a.facts[i], &g = b.facts[i];

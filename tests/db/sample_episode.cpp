@@ -121,6 +121,7 @@ void add_labels(EpisodeRecord& e) {
   e.vias = {{1, "approach", pose_of(1), pose_of(1.01), 18, 0.7, 0.2}};
   const auto end = static_cast<std::int64_t>(e.frames.size());
   const std::int64_t steps = e.steps;
+  e.observed_facts = {{fact("inside", {"block1", "chest.drawer"}), 12, 40, 1, 4, false, true, true, {}}};
   e.facts = {{fact("on", {"block1", "table"}), 0, 40, 0, 4, true, false, true, 0.01},
              {fact("hand_empty", {}), 0, 30, 0, 3, true, false, true, std::nullopt},
              {fact("holding", {"panda.hand", "block1"}), 30, steps, 3, end, false, true, true, std::nullopt},
