@@ -149,13 +149,16 @@ ObservationChoice picture_choice(const Arguments& arguments, PictureUse use) {
   return choice;
 }
 
-void check_cameras(const ObservationChoice& choice, const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
-  if (!choice.cameras) return;
-  for (const std::string& name : *choice.cameras)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw UsageError("--camera: there is no camera '" + name + "'", did_you_mean(name, names));
+void check_choice(const ObservationChoice& choice, const Scene& scene) {
+  std::vector<std::string> cameras, sensors;
+  for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
+  for (const Sensor& sensor : scene.sensors) sensors.push_back(sensor.name);
+  for (const std::string& name : choice.cameras.value_or(std::vector<std::string>{}))
+    if (std::find(cameras.begin(), cameras.end(), name) == cameras.end())
+      throw UsageError("--camera: there is no camera '" + name + "'", did_you_mean(name, cameras));
+  for (const std::string& name : choice.channels.value_or(std::vector<std::string>{}))
+    if (name != "*" && std::find(sensors.begin(), sensors.end(), name) == sensors.end())
+      throw UsageError("--channels: the world has no sensor '" + name + "'", did_you_mean(name, sensors));
 }
 
 }  // namespace stampede::program

@@ -22,8 +22,8 @@ ObservationChoice picture_choice(const Arguments& arguments, PictureUse use);
 // Throws UsageError, and Error for a calibration file of the wrong shape.
 std::vector<Camera> further_cameras(const Arguments& arguments, const Scene& scene);
 
-// Throws UsageError with the nearest name for a camera that the scene does not have.
-void check_cameras(const ObservationChoice& choice, const Scene& scene);
+// Throws UsageError with the nearest name for a camera or sensor that the scene does not have.
+void check_choice(const ObservationChoice& choice, const Scene& scene);
 
 // `64x48`. Throws UsageError for what is no size, and for sizes outside 1 … kLargestSide.
 std::array<int, 2> size_from(const std::string& option, const std::string& text);

@@ -159,7 +159,7 @@ class Rendering {
     drawn.changed = changed_scripts(drawn.stored.episode, roots_);
     const std::shared_ptr<const Scene> scene =
         with_cameras(drawn.stored, request_.further(*drawn.stored.scene), request_.named());
-    check_cameras(request_.given, *scene);
+    check_choice(request_.given, *scene);
     if (film_) {
       film_->add(renderer, request_, drawn);
     } else if (place_ == "--sheet") {

@@ -44,7 +44,8 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
                                                            const std::vector<EpisodeJob>& jobs,
                                                            const Arguments& arguments) {
   std::map<std::string, std::vector<Camera>> cameras;
-  if (!arguments.has("--camera") && !arguments.has("--camera-file") && !arguments.has("--add-camera")) return cameras;
+  const auto given = [&](const char* option) { return arguments.has(option); };
+  if (!given("--camera") && !given("--camera-file") && !given("--add-camera") && !given("--channels")) return cameras;
   const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
   for (const EpisodeJob& job : jobs) {
     const auto [entry, fresh] = cameras.try_emplace(job.task);
@@ -52,7 +53,7 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
     Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task().scene(0);
     entry->second = further_cameras(arguments, scene);
     put_cameras(scene, entry->second);
-    check_cameras(choice, scene);
+    check_choice(choice, scene);
   }
   return cameras;
 }

@@ -25,6 +25,7 @@ TEST_CASE("options about pictures that make no sense are usage errors with a cur
   };
   const std::vector<Case> cases = {
       {{"--camera", "frnt"}, "there is no camera 'frnt'", "did you mean 'front'?"},
+      {{"--camera", "front", "--camera", "wirst"}, "there is no camera 'wirst'", "did you mean 'wrist'?"},
       {{"--size", "0x64"}, "1 to 4096 pixels", ""},
       {{"--size", "64x5000"}, "1 to 4096 pixels a side, not 5000", ""},
       {{"--size", "99999999999x2"}, "1 to 4096 pixels", ""},
@@ -66,6 +67,14 @@ TEST_CASE("options about pictures that make no sense are usage errors with a cur
       CHECK_FALSE(std::filesystem::exists(folder / "new.db"));
       CHECK_FALSE(std::filesystem::exists(folder / "pictures"));
     }
+}
+
+TEST_CASE("a sensor that the world does not have is told before anything runs") {
+  const Folder folder;
+  const Said said = say({"run", "reach_target", "--root", kRoot, "--out", folder / "o.db", "--channels", "wrnch"});
+  CHECK(said.code == kUsage);
+  CHECK(says(said.err, "no sensor 'wrnch'"));
+  CHECK_FALSE(std::filesystem::exists(folder / "o.db"));
 }
 
 TEST_CASE("render says what it needs") {

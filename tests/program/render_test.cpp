@@ -228,6 +228,41 @@ TEST_CASE("scripts that changed since are named on one line, and the pictures ar
   CHECK(file_text(folder / ("before" + name)) == file_text(folder / ("after" + name)));
 }
 
+TEST_CASE("drawn looks are stored: later pictures wear them too") {
+  const Folder folder;
+  const std::vector<std::string> looks = small({"--randomise", "--camera", "front", "--kinds", "rgb"});
+  const auto with = [&](const char* which) {
+    std::vector<std::string> words = looks;
+    words.insert(words.end(), {"--images", which});
+    return words;
+  };
+  run_into(folder / "now.db", with("keyframes"));
+  run_into(folder / "later.db", with("none"));
+  run_into(folder / "plain.db", small({"--images", "keyframes", "--camera", "front", "--kinds", "rgb"}));
+  REQUIRE(render({folder / "later.db", "--into", folder / "later.db", "--frames", "keyframes"}).code == kDone);
+  CHECK(images_of(folder / "later.db") == images_of(folder / "now.db"));
+  CHECK(images_of(folder / "plain.db").begin()->second != images_of(folder / "now.db").begin()->second);
+  CHECK(say({"replay", folder / "now.db"}).code == kDone);
+}
+
+TEST_CASE("an episode that never started is left out with a line; the others are drawn") {
+  const Folder folder, mine;
+  std::filesystem::create_directories(mine / "tasks");
+  std::ofstream(mine / "tasks/never.lua")
+      << "-- Never starts.\nreturn task {\n  world = \"tabletop\",\n  objects = { cup = { \"cube\" } },\n"
+         "  init = { is.on(\"cup\", \"table\"), is.holding(\"cup\") },\n  goal = { is.holding(\"cup\") },\n"
+         "  instructions = { \"take it\" },\n}\n";
+  REQUIRE(say({"run", "never", "--root", kRoot, "--path", mine.text(), "--out", folder / "d.db"}).code == kNo);
+  const std::vector<std::string> words = {folder / "d.db", "--into", folder / "d.db", "--frames", "0"};
+  CHECK(render(words).code == kNo);  // nothing at all was drawn
+  run_into(folder / "d.db");
+  const Said said = render(words);
+  CHECK(said.code == kDone);
+  CHECK(says(said.err, "episode 1 is left out: "));
+  CHECK(Catalogue::open(folder / "d.db").images(1).empty());
+  CHECK_FALSE(Catalogue::open(folder / "d.db").images(2).empty());
+}
+
 TEST_CASE("show says what pictures an episode has") {
   const Folder folder;
   run_into(folder / "d.db", {"--images", "keyframes", "--camera", "front", "--kinds", "rgb"});
