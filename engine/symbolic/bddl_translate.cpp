@@ -151,7 +151,8 @@ Formula BddlTranslator::atom_formula(const BddlFormula& formula, bool negated) {
     fact.arguments.push_back(bound == binding_.end() ? term.name : bound->second);
   }
   Formula result = literal(fact, negated);
-  task_.literals.emplace(std::pair{fact, negated}, result);
+  const bool constant = result.kind == Formula::Kind::always || result.kind == Formula::Kind::never;
+  if (!constant) task_.literals.emplace(std::pair{fact, negated}, result);
   return result;
 }
 

@@ -232,8 +232,7 @@ TEST_CASE("BEHAVIOR: quantifiers stay where they range over a category, else the
       {"(clear cube1)", "(forall (?block.n.01 - block.n.01) (not (ontop block.n.01 block.n.01_1)))"},
       {"(holding panda.hand cube1)", "(grasped agent.n.01_1 block.n.01_1)"},
       {"(not (closed chest.top_drawer))", "(open cabinet.n.01_1)"},
-      {"(inside cube1 table.zone)",
-       "`table.zone`: BEHAVIOR has no regions; name the body"},
+      {"(inside cube1 table.zone)", "`table.zone`: BEHAVIOR has no regions; name the body"},
   }));
   std::string said = goal_text(behavior(goal));
   for (std::size_t at = said.find("?block.n.01 table"); at != std::string::npos; at = said.find("?block.n.01 table"))
