@@ -1,6 +1,9 @@
 // Cameras, sensors, light, randomisation and observation of a world, as they reach the scene and the episode.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <lua.hpp>
 
 #include "engine/model/camera.h"
@@ -209,4 +212,29 @@ TEST_CASE("semantic numbers are the same for all tasks of one library") {
     number_masks(scene, RandomKey("test"));
     CHECK_NOTHROW(mask_key(scene));  // every part has its class among them
   }
+}
+
+TEST_CASE("a calibration file that is missing or has a wrong shape names the world's field, the file and the cure") {
+  namespace fs = std::filesystem;
+  char folder[] = "/tmp/stampede_world_XXXXXX";
+  REQUIRE(mkdtemp(folder) != nullptr);
+  const fs::path root = folder, file = root / "worlds/studio_cameras.json";
+  fs::copy(STAMPEDE_SOURCE_DIR "/tests/scripting/data/runtime", root, fs::copy_options::recursive);
+  const auto said = [&] {
+    try {
+      EpisodeScripts(Library::load({{root}}), "seen", "", 7);
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find("\n    ") != std::string::npos);  // the cure
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(said() == "accepted");
+  using Catch::Contains;
+  std::ofstream(file) << "{ \"cameras\": [ { \"name\": \"above\", \"width\": 80, \"height\": 60, \"camera_matrix\": "
+                         "[[100, 0], [0, 110]], \"mount\": \"world\" } ] }";
+  CHECK_THAT(said(), Contains("worlds/studio.lua: calibration") && Contains("studio_cameras.json"));
+  fs::remove(file);
+  CHECK_THAT(said(), Contains("worlds/studio.lua: calibration") && Contains("studio_cameras.json"));
+  fs::remove_all(root);
 }
