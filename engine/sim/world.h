@@ -122,9 +122,9 @@ class World {
   std::optional<PartRef> grasped() const;
 
   // What contacts did in the last step to `robot_part` and all parts beyond it, from the outside: the hand, the fingers
-  // and, through the pads, what they hold. As a wrist sensor reads that was tared with an empty hand: weight and inertia
-  // of the robot's own parts are left out, and so is what these parts do to each other. Zero until a step was made after
-  // construction, restore or Boundary.
+  // and, through the pads, what they hold. As a wrist sensor reads that was tared with an empty hand: weight and
+  // inertia of the robot's own parts are left out, and so is what these parts do to each other. Zero until a step was
+  // made after construction, restore or Boundary.
   Wrench contact_wrench(int robot_part) const;
 
   // Restoring gives the same future, bit for bit, also in another World of an equal scene. Snapshots are taken

@@ -284,7 +284,8 @@ const Record kObserve{
      {"points", "boolean", false, "false", "", "point clouds too"},
      {"shadows", "boolean", false, "false", "", "of the lamp"},
      {"noise", "observe_noise", false, "{}", "", "of cameras and joint torques"},
-     {"channels", "string[]", false, "{ \"*\" }", "", "sensors of the world by name; { \"*\" }: all", "{ \"wrench\" }"}}};
+     {"channels", "string[]", false, "{ \"*\" }", "", "sensors of the world by name; { \"*\" }: all",
+      "{ \"wrench\" }"}}};
 
 const Record kObserveNoise{"observe_noise",
                            "What real sensors add (standard deviations)",

@@ -12,7 +12,8 @@ namespace stampede {
 
 // `type` is alternatives joined by `|`: string number integer boolean function vector (three numbers) range (two)
 // size (two whole numbers) numbers (a list) colour (a name or three to four numbers) literal formula effect call shape
-// texture cover (a texture or a text) table any, the name of a record (`joint`), each with [] for a list, or {record} for a table by names.
+// texture cover (a texture or a text) table any, the name of a record (`joint`), each with [] for a list, or {record}
+// for a table by names.
 struct Field {
   const char* name;
   const char* type;
