@@ -77,8 +77,12 @@ BddlFormula BddlExpression::literal(const std::string& predicate, const std::vec
     formula.terms.push_back({variable, variable ? name.substr(1) : naming_.theirs(name)});
     if (libero) naming_.declare(name);
   }
-  const bool stands = libero && last != nullptr && last->kind == BddlThing::Kind::fixture && !last->area.empty();
-  if (stands && predicate == mapping_.support && names.size() == 2) formula.terms.back().name = naming_.surface(*last);
+  const bool on_fixture = libero && last != nullptr && last->kind == BddlThing::Kind::fixture &&
+                          predicate == mapping_.support && names.size() == 2;
+  if (on_fixture && !last->area.empty()) formula.terms.back().name = naming_.surface(*last);
+  if (on_fixture && last->area.empty()) {
+    naming_.remark(ours + ": no area is known, so theirs asks that the centres are within 3 cm of one another");
+  }
   BddlNote note{(their_negation ? "not " : "") + rule->theirs, (negated ? "not " : "") + predicate,
                 negated ? opposite(rule->meaning) : rule->meaning, rule->why};
   const bool folded = !libero && last != nullptr && last->kind == BddlThing::Kind::part;

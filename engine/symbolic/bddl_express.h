@@ -19,6 +19,7 @@ class BddlNaming {
   bool is_surface(const std::string& theirs) const;          // a fixture, or the region of its area
   std::string spot(const BddlPlacement& placement);          // LIBERO: the region where an object starts
   void declare(const std::string& ours);                     // LIBERO: the region of a part or region
+  void remark(const std::string& text);                      // once
   std::string add_instance(const std::string& category);     // BEHAVIOR
 
  private:

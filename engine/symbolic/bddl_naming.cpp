@@ -137,6 +137,11 @@ const std::string& BddlNaming::theirs(const std::string& ours) const {
                 "` to the mapping"};
 }
 
+void BddlNaming::remark(const std::string& text) {
+  auto& remarks = result_.remarks;
+  if (std::find(remarks.begin(), remarks.end(), text) == remarks.end()) remarks.push_back(text);
+}
+
 void BddlNaming::add_region(const BddlRegion& region) {
   for (const BddlRegion& other : result_.problem.regions) {
     if (other.key() == region.key()) return;
@@ -146,7 +151,14 @@ void BddlNaming::add_region(const BddlRegion& region) {
 
 void BddlNaming::declare(const std::string& ours) {
   const auto site = sites_.find(ours);
-  if (site != sites_.end()) add_region(site->second);
+  if (site == sites_.end()) return;
+  const BddlRegion& region = site->second;
+  const bool known = std::any_of(mapping_.sites.begin(), mapping_.sites.end(),
+                                 [&](const BddlPair& pair) { return region.name == pair.theirs; });
+  if (!known && region.ranges.empty()) {
+    remark("`" + region.key() + "`: their model of `" + region.target + "` must have a site of that name");
+  }
+  add_region(region);
 }
 
 std::string BddlNaming::surface(const BddlThing& fixture) {

@@ -87,8 +87,10 @@ class Mapped : public BddlValues {
       const BddlPredicateRule* rule = mapping.from_ours(fact.predicate, false);
       if (rule == nullptr || rule->negated) continue;
       Fact theirs{rule->theirs, {}};
-      for (const std::string& name : fact.arguments) theirs.arguments.push_back(result.names.at(name));
-      facts_.insert(theirs);
+      for (const std::string& name : fact.arguments) {
+        if (result.names.count(name) > 0) theirs.arguments.push_back(result.names.at(name));
+      }
+      if (theirs.arguments.size() == fact.arguments.size()) facts_.insert(theirs);
     }
   }
   bool value(const Fact& atom) const override { return facts_.count(atom) > 0; }
@@ -189,6 +191,31 @@ TEST_CASE("LIBERO: what it cannot say is refused with part, reason and cure") {
   CHECK(result.text.empty());
 }
 
+TEST_CASE("LIBERO: what went out comes back the same") {
+  const BddlScene scene =
+      scene_with("(and (inside cube1 chest.top_drawer) (closed chest.top_drawer) (on cube2 cube1))");
+  const BddlExport result = export_bddl(scene, default_libero_mapping(), tabletop());
+  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, default_libero_mapping());
+  CHECK(task.refusal.empty());
+  CHECK(task.goal == scene.goal);
+  REQUIRE(task.placements.size() == 1);
+  CHECK(task.placements[0] == scene.placements[0]);
+  for (const BddlLiteral& literal : task.init) CHECK(scene.facts.count(literal.atom) == 1);
+  CHECK(task.init.size() == 4);  // all but what LIBERO has no words for
+  CHECK(task.fixtures.at(1).class_name == "chest");
+}
+
+TEST_CASE("LIBERO: sites and surfaces that their models may lack are remarked") {
+  BddlScene scene = scene_with("(and (inside cube1 chest.left_door) (on cube2 chest))");
+  scene.things.push_back({Kind::part, "chest.left_door", "chest", "drawer", "chest", {}});
+  const std::vector<std::string> remarks = export_bddl(scene, default_libero_mapping(), tabletop()).remarks;
+  const auto has = [&](const std::string& text) {
+    return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& r) { return r.find(text) == 0; });
+  };
+  CHECK(has("`chest_left_door`: their model of `chest` must have a site of that name"));
+  CHECK(has("(on cube2 chest): no area is known"));
+}
+
 TEST_CASE("BEHAVIOR: the whole text") {
   const BddlExport result =
       behavior("(and (forall (?c - cube) (inside ?c chest.top_drawer)) (closed chest.top_drawer))");
@@ -278,7 +305,8 @@ TEST_CASE("things without a name there are remarked, and refused in goals") {
 
 TEST_CASE("an exported goal holds there exactly where it holds here") {
   const Domain domain = tabletop();
-  const BddlMapping mapping = default_behavior_mapping();
+  const bool to_libero = GENERATE(false, true);
+  const BddlMapping mapping = to_libero ? default_libero_mapping() : default_behavior_mapping();
   Random random(RandomKey("bddl export"));
   const auto pick = [&](const std::vector<std::string>& from) {
     return from[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(from.size())))];
@@ -306,6 +334,7 @@ TEST_CASE("an exported goal holds there exactly where it holds here") {
     std::erase_if(scene.facts,
                   [](const Fact& fact) { return fact.predicate == "closed" || fact.predicate == "openable"; });
     scene.interest.clear();
+    for (BddlThing& thing : scene.things) thing.area.clear();  // `on` the table stays one word
     const BddlExport result = export_bddl(scene, mapping, domain);
     std::vector<TypedObject> objects;
     for (const BddlThing& thing : scene.things) objects.push_back({thing.name, thing.type});
@@ -319,6 +348,7 @@ TEST_CASE("an exported goal holds there exactly where it holds here") {
         }
       }
       const bool here = holds(scene.goal, with_derived(facts, domain, objects), domain, objects);
+      if (result.refusal.find("conjunctions of atoms only") != std::string::npos) continue;
       if (!result.refusal.empty()) {  // decided by what never changes
         REQUIRE(here == (result.refusal.find("holds whatever happens") != std::string::npos));
         continue;
@@ -330,13 +360,17 @@ TEST_CASE("an exported goal holds there exactly where it holds here") {
       Facts again;  // and back: under the names that the import gives
       for (const Fact& fact : facts) {
         Fact renamed = fact;
-        for (std::string& name : renamed.arguments) name = task.names.at(result.names.at(name));
-        again.insert(renamed);
+        bool named = true;
+        for (std::string& name : renamed.arguments) {
+          named = named && result.names.count(name) > 0;
+          if (named) name = task.names.at(result.names.at(name));
+        }
+        if (named) again.insert(renamed);
       }
       REQUIRE(judge_both(result.problem, values, task, again, {}, {}).ours == here);
       ++imported;
     }
   }
-  CHECK(said > 1000);
-  CHECK(imported > 1000);
+  CHECK(said > (to_libero ? 500 : 1000));
+  CHECK(imported > (to_libero ? 500 : 1000));
 }
