@@ -204,7 +204,13 @@ class Exporter {
   }
 
   void write_libero_init() {
-    for (BddlLiteral& literal : said()) add_init(literal);
+    for (const BddlPlacement& placement : scene_.placements) {  // of fixtures there is no fact
+      const BddlThing* thing = naming_.thing(placement.object);
+      const bool named = result_.names.count(placement.object) > 0 && result_.names.count(placement.on) > 0;
+      if (thing == nullptr || thing->kind != BddlThing::Kind::fixture || !named) continue;
+      if (const auto literal = placed({mapping_.support, {placement.object, placement.on}})) add_init(*literal);
+    }
+    for (const BddlLiteral& literal : said()) add_init(literal);
     for (const BddlThing& thing : scene_.things) {
       if (thing.kind == BddlThing::Kind::object) remark_unplaced(thing);
     }

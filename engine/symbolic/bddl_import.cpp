@@ -49,6 +49,11 @@ class Importer {
       task_.refusal = refusal.why;
     }
     std::erase_if(task_.regions, [&](const BddlMadeRegion& region) { return !uses(region); });
+    for (const BddlMadeRegion& region : task_.regions) {
+      if (!region.ranges.empty()) continue;
+      task_.warnings.push_back("`" + region.theirs + "` is a site of their model and no part of ours: make `" +
+                               region.name + "`, or add it to the mapping's sites and parts");
+    }
     return std::move(task_);
   }
 
@@ -96,12 +101,24 @@ class Importer {
     return result;
   }
 
+  bool has_part(const std::string& theirs, const std::string& part) const {
+    if (part.empty()) return true;
+    for (const auto* things : {&task_.fixtures, &task_.objects}) {
+      for (const BddlObject& thing : *things) {
+        const auto parts = mapping_.parts.find(thing.class_name);
+        if (thing.theirs != theirs || parts == mapping_.parts.end()) continue;
+        return std::find(parts->second.begin(), parts->second.end(), part) != parts->second.end();
+      }
+    }
+    return false;
+  }
+
   // A site that the fixture has here too becomes our part; the rest are regions to be made.
   void name_regions() {
     for (const BddlRegion& region : problem_.regions) {
       const std::string& target = task_.names.at(region.target);
       const auto site = std::find_if(mapping_.sites.begin(), mapping_.sites.end(), [&](const BddlPair& pair) {
-        return region.ranges.empty() && region.name.ends_with(pair.theirs);
+        return region.ranges.empty() && region.name.ends_with(pair.theirs) && has_part(region.target, pair.ours);
       });
       if (site != mapping_.sites.end()) {
         task_.names[region.key()] = site->ours.empty() ? target : target + "." + site->ours;
@@ -143,7 +160,9 @@ class Importer {
       if (region.key() != atom.arguments[1] || region.ranges.empty()) continue;
       const std::string &object = task_.names.at(atom.arguments[0]), &on = task_.names.at(region.target);
       task_.placements.push_back({object, on, region.ranges, region.yaw_rad});
-      task_.init.push_back({{rule->ours, {object, on}}, false});
+      const auto is_object = [&](const BddlObject& thing) { return thing.name == object; };
+      const bool fixture = std::any_of(task_.fixtures.begin(), task_.fixtures.end(), is_object);
+      if (!fixture) task_.init.push_back({{rule->ours, {object, on}}, false});  // fixtures stand; nothing carries them
       return true;
     }
     return false;

@@ -81,6 +81,7 @@ class Judge {
     for (const std::string& of_row : rows) {
       bool any = false;
       for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (of_row == columns[k]) continue;  // nothing is paired with itself
         binding_[row.name] = of_row;
         binding_[column.name] = columns[k];
         if (!holds(formula.parts.at(0))) continue;

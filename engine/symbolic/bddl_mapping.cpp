@@ -70,9 +70,12 @@ BddlMapping default_libero_mapping() {
   using enum BddlMeaning;
   BddlMapping mapping;
   mapping.problem_name = "libero_tabletop_manipulation";
-  mapping.categories = {{"table", "work_table"},     {"main_table", "work_table"}, {"kitchen_table", "work_table"},
-                        {"wooden_cabinet", "chest"}, {"white_cabinet", "chest"},   {"flat_stove", "push_button"},
-                        {"floor", "floor"},          {"wooden_block", "cube"}};
+  mapping.categories = {{"table", "work_table"},         {"main_table", "work_table"},
+                        {"kitchen_table", "work_table"}, {"living_room_table", "work_table"},
+                        {"study_table", "work_table"},   {"coffee_table", "work_table"},
+                        {"wooden_cabinet", "chest"},     {"white_cabinet", "chest"},
+                        {"flat_stove", "push_button"},   {"floor", "floor"},
+                        {"wooden_block", "cube"}};
   mapping.sites = {{"top_region", "top_drawer"},
                    {"middle_region", "middle_drawer"},
                    {"bottom_region", "bottom_drawer"},

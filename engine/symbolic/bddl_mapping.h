@@ -32,8 +32,8 @@ struct BddlMapping {
   std::string problem_name;  // LIBERO: the Python class of the arena; BEHAVIOR: empty, the task's name serves
   // Their category or synset, and our class or type of objects. The first that fits is taken, in either direction.
   std::vector<BddlPair> categories;
-  // LIBERO: sites of fixtures by the end of their name (`top_region`), and our parts (`top_drawer`); ours empty: the
-  // fixture itself (`top_side`).
+  // LIBERO: sites of fixtures by the end of their name (`top_region`), and our parts (`top_drawer`), for classes that
+  // have them in `parts`; ours empty: the fixture itself (`top_side`).
   std::vector<BddlPair> sites;
   // Our class -> its parts with a joint. Of such a thing as a whole, theirs `open` and `in` are any part, `close` all.
   std::map<std::string, std::vector<std::string>> parts;

@@ -91,6 +91,7 @@ class ProblemReader {
     if (top_.head() != "define") fail(top_, "a BDDL problem begins with (define (problem NAME) …)");
     read_heading();
     for (std::size_t i = 1; i < top_.items.size(); ++i) read_names(top_.items[i]);
+    drop_dangling_regions();
     const BddlScope scope(problem());
     if (const auto bad = scope.declarations()) fail(top_, bad->what, bad->hint);
     for (std::size_t i = 1; i < top_.items.size(); ++i) read_atoms(top_.items[i], scope);
@@ -218,6 +219,20 @@ class ProblemReader {
       }
       problem().regions.push_back(region);
     }
+  }
+
+  // Files that LIBERO ships have regions of objects that are not there.
+  void drop_dangling_regions() {
+    std::set<std::string> things;
+    for (const auto* groups : {&problem().fixtures, &problem().objects}) {
+      for (const BddlGroup& group : *groups) things.insert(group.names.begin(), group.names.end());
+    }
+    std::erase_if(problem().regions, [&](const BddlRegion& region) {
+      if (things.count(region.target) > 0) return false;
+      warn(top_, "the region `" + region.key() + "` is left out: its :target is not declared (" +
+                     did_you_mean(region.target, {things.begin(), things.end()}) + ")");
+      return true;
+    });
   }
 
   void read_attribute(const Node& node, BddlRegion& region) {

@@ -245,6 +245,7 @@ Formula BddlTranslator::pairs(const BddlFormula& formula, bool negated) {
     for_each_injection(columns.size(), count, [&](const std::vector<std::size_t>& partner) {
       std::vector<Formula> parts;
       for (std::size_t i = 0; i < count; ++i) {
+        if (rows[chosen[i]] == columns[partner[i]]) return;  // nothing is paired with itself
         binding_[formula.variables.at(0).name] = rows[chosen[i]];
         parts.push_back(with_value(formula, 1, columns[partner[i]], negated));
       }

@@ -205,6 +205,15 @@ TEST_CASE("LIBERO: what went out comes back the same") {
   CHECK(task.fixtures.at(1).class_name == "chest");
 }
 
+TEST_CASE("LIBERO: fixtures that stand on another are placed too") {
+  BddlScene scene = scene_with("(open chest.top_drawer)");
+  scene.placements.push_back({"chest", "table", {{0.2, 0.2, 0.2, 0.2}}, {0, 0}});
+  const BddlExport result = export_bddl(scene, default_libero_mapping(), tabletop());
+  CHECK(result.problem.init.at(0).atom == Fact{"on", {"chest", "table_chest_init_region"}});
+  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, default_libero_mapping());
+  CHECK(task.placements.at(0) == scene.placements.at(1));
+}
+
 TEST_CASE("LIBERO: sites and surfaces that their models may lack are remarked") {
   BddlScene scene = scene_with("(and (inside cube1 chest.left_door) (on cube2 chest))");
   scene.things.push_back({Kind::part, "chest.left_door", "chest", "drawer", "chest", {}});

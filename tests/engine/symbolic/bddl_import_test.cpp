@@ -83,6 +83,26 @@ TEST_CASE("a goal on a region asks for the surface and for the region") {
   CHECK(meaning("up") == BddlMeaning::incomparable);
 }
 
+TEST_CASE("fixtures are placed without a fact, and sites are parts only of classes that have them") {
+  std::string text = desk_with(":goal", "(And (On cup_1 rack_1_top_region))");
+  text.replace(text.find("desk - table"), 12, "desk - table rack_1 - wine_rack");
+  text.replace(text.find("(spot (:target desk)"), 5, "(top_region (:target rack_1)) (spot");
+  text.replace(text.find("(:init "), 7, "(:init (On rack_1 desk_spot) ");
+  BddlMapping mapping = desk_mapping();
+  mapping.categories.push_back({"wine_rack", "rack"});
+  const BddlTask task = from_bddl(read_bddl(text, "d").problem, mapping);
+  REQUIRE(task.placements.size() == 2);
+  CHECK(task.placements[0].object == "rack_1");
+  CHECK(task.init == std::vector<BddlLiteral>{{{"on", {"cup_1", "desk"}}, false}});
+  CHECK(to_pddl(task.goal) == "(and (on cup_1 rack_1) (inside cup_1 rack_1--top_region))");
+  CHECK_THAT(task.warnings.at(0), Contains("make `rack_1.top_region`"));
+}
+
+TEST_CASE("pairs are of two different things, even of one category") {
+  const BddlTask task = kitchen_task("(forpairs (?a - apple.n.01) (?b - apple.n.01) (nextto ?a ?b))");
+  CHECK(task.goal.parts.size() == 2);  // derangements of three
+}
+
 TEST_CASE("a thing with several drawers is open when any is, closed when all are") {
   const auto goal = [](const std::string& text) {
     std::string problem = desk_with(":goal", text);

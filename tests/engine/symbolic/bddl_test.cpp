@@ -87,7 +87,7 @@ TEST_CASE("what their parsers choke on or lose is refused with place and cure") 
       {":objects", "cup_1 cup_2 - cup desk - cup", "`desk` is declared twice", ""},
       {":objects", "cup_1 cup_2 cup_* - cup", "no wildcard", ""},
       {":regions", "(spot (:ranges ((0 0 1 1))))", "no (:target OBJECT)", "name what it belongs to"},
-      {":regions", "(spot (:target table))", "unknown :target `table`", ""},
+      {":regions", "(spot (:target table))", "`desk_spot` is neither", ""},
       {":regions", "(spot (:target desk) (:range ((0 0 1 1))))", "no attribute `:range`", ":ranges"},
       {":regions", "(spot (:target desk) (:ranges ((0 0 1))))", "a rectangle needs 4 numbers", ""},
       {":regions", "(spot (:target desk) (:yaw_rotation ((0 tau))))", "`tau` is not a number", "-pi/2"},
@@ -99,6 +99,13 @@ TEST_CASE("what their parsers choke on or lose is refused with place and cure") 
   INFO(section.section << " " << section.text);
   CHECK_THAT(complaint(desk_with(section.section, section.text)), Contains(section.what) && Contains(section.cure));
   CHECK_THAT(complaint(desk_with(section.section, section.text)), Contains("desk.bddl:"));
+}
+
+TEST_CASE("a region of something that is not there is left out, as long as nothing names it") {
+  const BddlReading reading =
+      read_bddl(desk_with(":regions", "(spot (:target desk)) (left_region (:target drainer_1))"), "d");
+  REQUIRE(reading.problem.regions.size() == 1);
+  CHECK_THAT(reading.warnings.at(0), Contains("`drainer_1_left_region` is left out"));
 }
 
 TEST_CASE("places of complaints are line and column") {
