@@ -20,4 +20,5 @@ install(DIRECTORY engine/include/stampede db/include/stampede scripting/include/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN error.h EXCLUDE)
 install(FILES engine/base/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stampede)
 install(DIRECTORY tasks skills worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/stampede
-  FILES_MATCHING PATTERN "*.lua" PATTERN "*.urdf" PATTERN "*.obj" PATTERN "*.stl")
+  FILES_MATCHING PATTERN "*.lua" PATTERN "*.urdf" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.stl"
+  PATTERN "*.dae" PATTERN "*.glb" PATTERN "*.ply" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.json")

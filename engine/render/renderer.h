@@ -17,10 +17,10 @@ struct DrawOptions {
   int samples = 1;       // rgb only: samples x samples a pixel, averaged; 1 … 4
 };
 
-// Lifetime: used by the thread that made it. Repeatable: pixels depend on the arguments alone, not on what was drawn
-// before, nor on which views are drawn together. Colours: sRGB; the light is Scene::light.
-// Throws Error for more than 4096 pixels a side, scenes that were not numbered (masks.h), meshes or textures that are
-// missing, and where no context can be had.
+// Lifetime: used and destroyed by the thread that made it. Repeatable: pixels depend on the arguments alone, not on
+// what was drawn before, nor on which views are drawn together. Colours: sRGB; the light is Scene::light. Throws Error
+// for more than 4096 pixels a side, scenes that were not numbered (masks.h), meshes or textures that are missing, and
+// where no context can be had.
 class Renderer {
  public:
   virtual ~Renderer() = default;
