@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 
 #include "engine/symbolic/bddl_goal.h"
 #include "engine/symbolic/bddl_words.h"
@@ -15,72 +14,6 @@ std::string quoted_list(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "`" : " ") + name;
   return text + "`";
-}
-
-const std::string& word_of(const Node& node, const char* what) {
-  if (node.is_list || node.word.empty()) fail(node, std::string("expected ") + what + ", not a list");
-  return node.word;
-}
-
-// Python's `eval` of the tokens that such files hold: numbers and pi, joined by * / + -, without blanks.
-class Arithmetic {
- public:
-  explicit Arithmetic(const Node& node) : node_(node), text_(word_of(node, "a number")) {}
-
-  double value() {
-    const double result = sum();
-    if (at_ != text_.size()) bad();
-    return result;
-  }
-
- private:
-  [[noreturn]] void bad() const { fail(node_, "`" + text_ + "` is not a number", "write one such as 0.25 or -pi/2"); }
-  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-
-  double sum() {
-    double result = product();
-    while (peek() == '+' || peek() == '-') result += text_[at_++] == '+' ? product() : -product();
-    return result;
-  }
-
-  double product() {
-    double result = factor();
-    while (peek() == '*' || peek() == '/') {
-      const bool times = text_[at_++] == '*';
-      const double next = factor();
-      if (!times && next == 0) bad();
-      result = times ? result * next : result / next;
-    }
-    return result;
-  }
-
-  double factor() {
-    if (peek() == '-' || peek() == '+') return text_[at_++] == '-' ? -factor() : factor();
-    for (const char* pi : {"np.pi", "math.pi", "pi"}) {
-      if (text_.compare(at_, std::string_view(pi).size(), pi) != 0) continue;
-      at_ += std::string_view(pi).size();
-      return 3.14159265358979323846;
-    }
-    if (std::string_view("0123456789.").find(peek()) == std::string_view::npos || peek() == '\0') bad();
-    char* end = nullptr;
-    const double number = std::strtod(text_.c_str() + at_, &end);
-    if (end == text_.c_str() + at_) bad();
-    at_ = static_cast<std::size_t>(end - text_.c_str());
-    return number;
-  }
-
-  const Node& node_;
-  const std::string& text_;
-  std::size_t at_ = 0;
-};
-
-std::vector<double> numbers(const Node& list, std::size_t count, const char* what) {
-  if (!list.is_list || list.items.size() != count) {
-    fail(list, std::string(what) + " needs " + std::to_string(count) + " numbers in parentheses");
-  }
-  std::vector<double> values;
-  for (const Node& item : list.items) values.push_back(Arithmetic(item).value());
-  return values;
 }
 
 class ProblemReader {
@@ -123,9 +56,9 @@ class ProblemReader {
     for (std::size_t i = 1; i < top_.items.size(); ++i) {
       if (top_.items[i].head().empty()) fail(top_.items[i], "expected a section such as (:objects …)");
     }
-    problem().name = word_of(only("problem")->items[1], "the problem's name");
+    problem().name = bddl_word(only("problem")->items[1], "the problem's name");
     const Node& domain = only(":domain")->items[1];
-    problem().domain = word_of(domain, "the domain's name");
+    problem().domain = bddl_word(domain, "the domain's name");
     const std::vector<std::string> behavior = {"igibson", "omnigibson", "behavior-1k"};
     if (problem().domain == "robosuite") {
       problem().dialect = BddlDialect::libero;
@@ -156,7 +89,7 @@ class ProblemReader {
     std::vector<std::string> names, before;
     for (const BddlGroup& group : groups) before.push_back(group.category);
     for (std::size_t i = 1; i < section.items.size(); ++i) {
-      const std::string& word = word_of(section.items[i], "a name");
+      const std::string& word = bddl_word(section.items[i], "a name");
       if (word != "-") {
         names.push_back(word);
         continue;
@@ -164,7 +97,7 @@ class ProblemReader {
       if (i + 1 == section.items.size()) fail(section.items[i], "a type must follow `-`");
       if (names.empty()) fail(section.items[i], "no object stands before `-`", "write `cup_1 cup_2 - cup`");
       const Node& type = section.items[++i];
-      add_group(type, word_of(type, "a type"), names, before, groups);
+      add_group(type, bddl_word(type, "a type"), names, before, groups);
       names.clear();
     }
     if (!names.empty()) {
@@ -244,22 +177,22 @@ class ProblemReader {
     if (node.items.size() != 2) fail(node, "(" + head + " …) takes one value");
     const Node& value = node.items[1];
     if (head == ":target") {
-      region.target = word_of(value, "the name of an object");
+      region.target = bddl_word(value, "the name of an object");
     } else if (head == ":rgba") {
-      const std::vector<double> rgba = numbers(value, 4, ":rgba");
+      const std::vector<double> rgba = read_bddl_numbers(value, 4, ":rgba");
       std::copy(rgba.begin(), rgba.end(), region.rgba.begin());
     } else if (!value.is_list) {
       fail(value, "(" + head + " …) takes a list of lists of numbers");
     } else if (head == ":ranges") {
       for (const Node& item : value.items) {
-        const std::vector<double> r = numbers(item, 4, "a rectangle");
+        const std::vector<double> r = read_bddl_numbers(item, 4, "a rectangle");
         region.ranges.push_back({r[0], r[1], r[2], r[3]});
         if (r[0] > r[2] || r[1] > r[3]) warn(item, "the rectangle's least corner is not before its greatest");
       }
     } else {
       if (value.items.size() > 1) warn(value, "of several yaw ranges their parser keeps the last");
       for (const Node& item : value.items) {
-        const std::vector<double> yaw = numbers(item, 2, ":yaw_rotation");
+        const std::vector<double> yaw = read_bddl_numbers(item, 2, ":yaw_rotation");
         region.yaw_rad = {yaw[0], yaw[1]};
       }
     }
@@ -278,7 +211,7 @@ class ProblemReader {
       problem().goal.insert(problem().goal.end(), parts.begin(), parts.end());
     } else if (libero() && head == ":obj_of_interest") {
       for (std::size_t i = 1; i < section.items.size(); ++i) {
-        const std::string& name = word_of(section.items[i], "a name");
+        const std::string& name = bddl_word(section.items[i], "a name");
         if (const auto bad = scope.name(name)) fail(section.items[i], bad->what, bad->hint);
         problem().interest.push_back(name);
       }

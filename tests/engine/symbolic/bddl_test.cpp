@@ -108,6 +108,21 @@ TEST_CASE("a region of something that is not there is left out, as long as nothi
   CHECK_THAT(reading.warnings.at(0), Contains("`drainer_1_left_region` is left out"));
 }
 
+TEST_CASE("numbers are what their eval makes of them") {
+  const auto yaw = [](const std::string& text) {
+    const std::string region = "(spot (:target desk) (:yaw_rotation ((" + text + " 7))))";
+    return read_bddl(desk_with(":regions", region), "d").problem.regions.at(0).yaw_rad[0];
+  };
+  const double pi = 3.14159265358979323846;
+  CHECK(yaw("-pi/2") == Approx(-pi / 2));
+  CHECK(yaw("3*np.pi/4") == Approx(3 * pi / 4));
+  CHECK(yaw("1e-3+--2") == Approx(2.001));
+  CHECK(yaw("-1.5-2*-pi") == Approx(-1.5 + 2 * pi));
+  CHECK_THROWS_AS(yaw("1/0"), Error);
+  CHECK_THROWS_AS(yaw("1e999"), Error);
+  CHECK_THROWS_AS(yaw(std::string(1'000'000, '-')), Error);
+}
+
 TEST_CASE("places of complaints are line and column") {
   CHECK_THAT(complaint("(define (problem p)\n  (:domain robosuite)\n  (:goal (and (up cup))))"),
              Contains("desk.bddl:3:15:"));
