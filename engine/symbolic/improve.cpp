@@ -6,10 +6,10 @@
 namespace stampede::symbolic {
 namespace {
 
-constexpr std::int64_t kWindowExpansions = 25;
+constexpr std::int64_t kWindowExpansions = 50;
 constexpr std::int64_t kWholeExpansions = 400;
-constexpr std::int64_t kWindowWork = 4'000'000;  // operators times expansions: bounds the time on large tasks
-constexpr int kMostStepCost = 64;                // in searches; true costs are scaled to it
+constexpr std::int64_t kWindowWork = 32'000'000;  // operators times expansions: bounds the time on large tasks
+constexpr int kMostStepCost = 64;                 // in searches; true costs are scaled to it
 
 // What plans are compared by.
 using Price = std::pair<std::int64_t, std::size_t>;  // cost, steps
