@@ -1,0 +1,28 @@
+-- Pick up the small solid of one form and hold it in the zone in the air; the other four stay where they are.
+local words = { cube = "cube", cylinder = "cylinder", prism = "triangular prism", star = "star", moon = "moon" }
+
+return task {
+  world = "tabletop",
+  variations = { form = { "cube", "cylinder", "prism", "star", "moon" } },
+  objects = {
+    small_cube = { "small_cube" },
+    small_cylinder = { "small_cylinder" },
+    small_prism = { "small_prism" },
+    small_star = { "small_star" },
+    small_moon = { "small_moon" },
+    zone = { "air_zone", at = { between(0.10, 0.28), between(-0.22, 0.22), between(0.95, 1.10) } },
+  },
+  init = { is.on("small_cube", "table"), is.on("small_cylinder", "table"), is.on("small_prism", "table"),
+    is.on("small_star", "table"), is.on("small_moon", "table") },
+  goal = function(v) return { is.holding("small_" .. v.form), is.inside("small_" .. v.form, "zone") } end,
+  hold = 0.5, -- s
+  instructions = function(v)
+    local what = words[v.form]
+    return {
+      "pick up the " .. what .. " and lift it to the zone",
+      "grasp the small " .. what .. " and hold it in the green box in the air",
+      "lift the " .. what .. " up to the target",
+      "find the " .. what .. " among the small shapes and raise it into the marked space",
+    }
+  end,
+}
