@@ -1,0 +1,19 @@
+-- Lift the block that bears the number; the two others stay where they are.
+return task {
+  world = "tabletop",
+  variations = { digit = { 1, 2, 3 } },
+  objects = {
+    block1 = { "numbered_block_1" },
+    block2 = { "numbered_block_2" },
+    block3 = { "numbered_block_3" },
+    space = { "raised_space", at = { 0.19, 0, 1.05 } },
+  },
+  init = { is.on("block1", "table"), is.on("block2", "table"), is.on("block3", "table") },
+  goal = function(v) return { is.holding("block" .. v.digit), is.inside("block" .. v.digit, "space") } end,
+  instructions = {
+    "lift the block with the number {digit}",
+    "pick up block number {digit} and hold it well above the table",
+    "find the cube that says {digit} and raise it",
+    "grasp the {digit} block and lift it up high",
+  },
+}

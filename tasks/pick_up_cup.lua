@@ -1,0 +1,20 @@
+-- Pick up the cup of one colour; a cup of another colour stays where it is.
+return task {
+  world = "tabletop",
+  variations = { colour = colours.names },
+  objects = function(v)
+    return {
+      cup = { "cup", colour = v.colour },
+      other = { "cup", colour = one_of(colours.except(v.colour)) },
+    }
+  end,
+  init = { is.on("cup", "table"), is.on("other", "table") },
+  goal = { is.holding("cup"), is.lifted("cup") },
+  also = function(w) return w:bottom("cup") > w:top("table") + 0.05 end, -- m: clear of where it stood
+  instructions = {
+    "pick up the {colour} cup",
+    "grasp the {colour} cup and lift it",
+    "take the {colour} cup off the table",
+    "lift the {colour} cup and leave the other one alone",
+  },
+}
