@@ -2,7 +2,7 @@
 _stampede() {
   local word="${COMP_WORDS[COMP_CWORD]}" words="list check run show plan query replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
-    list) words="--root --path --json --help" ;;
+    list) words="--sheet --hash --root --path --json --help" ;;
     check) words="--physics --episodes --seed --randomise --workers --root --path --json --help" ;;
     run) words="--episodes --variation --seed --split --workers --out --on-failure --controller --randomise --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --root --path --json --help" ;;

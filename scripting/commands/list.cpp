@@ -5,6 +5,7 @@
 
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
+#include "scripting/commands/object_sheet.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/episode_job.h"
 
@@ -46,6 +47,15 @@ QueryResult shelf_table(const Library& library, const Shelf& shelf) {
   return table;
 }
 
+// Of the first variation, and all others: objects that only some of them have count too.
+std::string hash_of(const std::shared_ptr<const Library>& library, const Library::TaskInfo& task) {
+  std::vector<DefinitionRecord> all;
+  for (const std::string& variation : task.variation_texts)
+    for (DefinitionRecord& one : EpisodeScripts(library, task.name, variation, 0).definitions())
+      all.push_back(std::move(one));
+  return definitions_hash(all);
+}
+
 ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Console& console) {
   QueryResult table;
   table.columns = {"variation"};
@@ -64,11 +74,20 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const auto library = load_library(arguments);
   const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
   if (const Shelf* shelf = shelf_named(what)) {
+    if (const std::string sheet = arguments.text("--sheet"); !sheet.empty()) {
+      if (shelf->kind != DefinitionKind::object)
+        throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
+      draw_objects(library, sheet);
+    }
     const QueryResult table = shelf_table(*library, *shelf);
     console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
     return kDone;
   }
-  if (const Library::TaskInfo* task = library->task(what)) return list_task(*task, arguments, console);
+  if (const Library::TaskInfo* task = library->task(what)) {
+    if (!arguments.flag("--hash")) return list_task(*task, arguments, console);
+    console.out << hash_of(library, *task) << "\n";
+    return kDone;
+  }
   std::vector<std::string> names;
   for (const Shelf& shelf : kShelves) names.emplace_back(shelf.name);
   for (const ScriptFile* file : library->files(DefinitionKind::task)) names.push_back(file->name);
@@ -78,13 +97,16 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow list_command() {
-  return {"list",
-          "List tasks, skills, predicates, objects, worlds or robots, or the variations of a task",
-          "Without WHAT it lists the tasks. With the name of a task it lists the task's variations.",
-          {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, or the name of a task", false, false}},
-          {},
-          {"stampede list", "stampede list skills", "stampede list stack_blocks"},
-          run};
+  return {
+      "list",
+      "List tasks, skills, predicates, objects, worlds or robots, or the variations of a task",
+      "Without WHAT it lists the tasks. With the name of a task it lists the task's variations.",
+      {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, or the name of a task", false, false}},
+      {{"--sheet", "FILE", "objects only: a page of pictures of them all (PNG)", Takes::path, "", {}, false},
+       {"--hash", "", "of a task: the hash of all files that its episodes are made of", Takes::flag, "", {}, false}},
+      {"stampede list", "stampede list skills", "stampede list stack_blocks",
+       "stampede list objects --sheet objects.png"},
+      run};
 }
 
 }  // namespace stampede::program

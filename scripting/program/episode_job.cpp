@@ -91,12 +91,23 @@ void check_split(const std::string& split, std::int64_t first_seed, std::int64_t
   }
 }
 
-std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,
-                        const RunOptions& options) {
+namespace {
+
+Hasher hashed(const std::vector<DefinitionRecord>& definitions) {
   std::set<std::string> hashes;
   for (const DefinitionRecord& one : definitions) hashes.insert(one.kind + " " + one.name + " " + one.hash);
   Hasher hasher;
   for (const std::string& one : hashes) hasher.text(one);
+  return hasher;
+}
+
+}  // namespace
+
+std::string definitions_hash(const std::vector<DefinitionRecord>& definitions) { return hashed(definitions).digest(); }
+
+std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,
+                        const RunOptions& options) {
+  Hasher hasher = hashed(definitions);
   hasher.text(job.task).text(job.variation).number(job.seed);
   for (const auto& [name, value] : options.as_text()) hasher.text(name).text(value);
   return hasher.digest();

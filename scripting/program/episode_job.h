@@ -43,6 +43,9 @@ const Library::TaskInfo& task_info(const Library& library, const std::string& na
 // Throws Error when the seed does not belong to the split.
 void check_split(const std::string& split, std::int64_t first_seed, std::int64_t last_seed);
 
+// Of all files that a task's episodes are made of. Other files, other hash; the same on every machine.
+std::string definitions_hash(const std::vector<DefinitionRecord>& definitions);
+
 // What tells the episode from every other, known before it runs: a hash of definitions, task, variation, seed and
 // every option that alters data.
 std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,

@@ -122,25 +122,8 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
   return source;
 }
 
-// By the language's own words: colours.names and colours.rgb(name).
-void TaskReader::read_colours() {
-  lua_getglobal(state_, "colours");
-  lua_getfield(state_, -1, "names");
-  const int names = lua_gettop(state_);
-  const auto count = static_cast<lua_Integer>(lua_rawlen(state_, names));
-  for (lua_Integer i = 1; i <= count; ++i) {
-    lua_getfield(state_, names - 1, "rgb");
-    lua_rawgeti(state_, names, i);
-    const std::string name = luaL_checkstring(state_, -1);
-    lua_call(state_, 1, 1);
-    colours_[name] = colour_from(read_value(state_, -1, {key_, 0, "colours", {}}, name), {});
-    lua_pop(state_, 1);
-  }
-  lua_pop(state_, 2);
-}
-
 void TaskReader::read_world(const Value& world) {
-  read_colours();
+  colours_ = read_colours(state_, key_);
   builder_ = std::make_unique<SceneBuilder>(field("world").text, colours_);
   read_robot(world["robot"]);
   for (const auto& [key, spec] : world["fixtures"].fields)

@@ -16,7 +16,6 @@ class TaskReader {
  private:
   Value field(const char* name);      // of the task, drawn
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
-  void read_colours();
   void read_world(const Value& world);
   void read_robot(const Value& robot);
   void read_looks(const Value& world, const std::filesystem::path& folder);  // light, randomisation, classes

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <lua.hpp>
 
 #include "engine/base/nearest.h"
+#include "scripting/runtime/evaluate.h"
 
 namespace stampede {
 namespace {
@@ -100,6 +102,24 @@ ObservationChoice observation_from(const Value& fields) {
   if (noise["torque"].present()) choice.torque_noise = share_of(noise, "torque", 0);
   if (fields["channels"].present()) choice.channels = fields["channels"].as_texts();
   return choice;
+}
+
+Colours read_colours(lua_State* state, RandomKey key) {
+  Colours colours;
+  lua_getglobal(state, "colours");
+  lua_getfield(state, -1, "names");
+  const int names = lua_gettop(state);
+  const auto count = static_cast<lua_Integer>(lua_rawlen(state, names));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_getfield(state, names - 1, "rgb");
+    lua_rawgeti(state, names, i);
+    const std::string name = luaL_checkstring(state, -1);
+    lua_call(state, 1, 1);
+    colours[name] = colour_from(read_value(state, -1, {key, 0, "colours", {}}, name), {});
+    lua_pop(state, 1);
+  }
+  lua_pop(state, 2);
+  return colours;
 }
 
 }  // namespace stampede

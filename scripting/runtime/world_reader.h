@@ -5,9 +5,16 @@
 #include "engine/model/randomise.h"
 #include "scripting/runtime/body_builder.h"
 
+struct lua_State;
+
 namespace stampede {
 
 // All throw Error.
+
+// worlds/colours.lua, by the language's own words: colours.names and colours.rgb(name). Runs Lua: call it inside a
+// protected call.
+Colours read_colours(lua_State* state, RandomKey key);
+
 Light light_from(const Value& fields, const Colours& colours);
 
 // Textures that it names go to context.drawn.

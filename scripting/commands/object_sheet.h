@@ -1,0 +1,15 @@
+// A page of pictures of all objects.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "scripting/library/library.h"
+
+namespace stampede::program {
+
+// Each object file by itself, as large as fits, with its name, size and mass. Throws Error for bad scripts and where
+// the file cannot be written.
+void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file);
+
+}  // namespace stampede::program

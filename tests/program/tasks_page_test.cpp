@@ -1,0 +1,43 @@
+// The figures of tasks/README.md are of the tasks as they are now: tests/bench/tasks_page writes them anew.
+#include <catch2/catch.hpp>
+#include <map>
+#include <sstream>
+
+#include "scripting/library/library.h"
+#include "tests/program/say.h"
+
+using namespace stampede;
+using namespace stampede::program;
+
+namespace {
+
+// `<!-- figures of stack_blocks: HASH -->`
+std::map<std::string, std::string> hashes_on_page() {
+  std::map<std::string, std::string> hashes;
+  std::istringstream page(file_text(std::string(STAMPEDE_SOURCE_DIR) + "/tasks/README.md"));
+  const std::string mark = "<!-- figures of ";
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with(mark)) continue;
+    const std::size_t colon = line.find(": ");
+    hashes[line.substr(mark.size(), colon - mark.size())] = line.substr(colon + 2, 32);
+  }
+  return hashes;
+}
+
+}  // namespace
+
+TEST_CASE("every task is on the page with figures of its present files: else run tests/bench/tasks_page") {
+  const auto hashes = hashes_on_page();
+  std::istringstream tasks(say({"list", "--json"}).out);
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(STAMPEDE_SOURCE_DIR) + "/tasks")) {
+    if (entry.path().extension() != ".lua") continue;
+    ++count;
+    const std::string task = entry.path().stem();
+    INFO(task);
+    REQUIRE(hashes.contains(task));
+    const std::string now = say({"list", task, "--hash"}).out;
+    CHECK(hashes.at(task) == now.substr(0, 32));
+  }
+  CHECK(hashes.size() == count);
+}
