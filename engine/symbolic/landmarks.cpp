@@ -23,6 +23,7 @@ Landmarks::Landmarks(const GroundTask& task, const Relaxation& relaxation, const
   }
   choose(task);
   order(task, relaxation);
+  find_removals(task);
   labels_ = {};
   labelled_ = {};
 }
@@ -105,6 +106,7 @@ void Landmarks::choose(const GroundTask& task) {
 void Landmarks::order(const GroundTask& task, const Relaxation& relaxation) {
   before_.resize(node_.size());
   needed_for_.resize(node_.size());
+  needs_.resize(node_.size());
   if (labels_.empty()) return;
   for (int landmark = 0; landmark < size(); ++landmark) {
     if (!labelled_[node_[landmark]]) continue;
@@ -136,7 +138,9 @@ void Landmarks::order(const GroundTask& task, const Relaxation& relaxation) {
   }
   for (int landmark = 0; landmark < size(); ++landmark) {
     for (const int node : shared[landmark]) {
-      if (of_node_[node] >= 0) needed_for_[of_node_[node]].push_back(landmark);
+      if (of_node_[node] < 0) continue;
+      needed_for_[of_node_[node]].push_back(landmark);
+      needs_[landmark].push_back(of_node_[node]);
     }
   }
 }
@@ -164,6 +168,59 @@ int Landmarks::progress(const Words& state, std::uint64_t* reached) {
     }
   }
   return ahead;
+}
+
+void Landmarks::find_removals(const GroundTask& task) {
+  takes_away_.resize(node_.size());
+  wanted_.assign(node_.size(), 0);
+  std::vector<char> is_first(node_.size(), 1);
+  std::vector<int> removed, both;
+  for (const Operator& op : task.operators) {
+    removed.clear();
+    for (const Literal one : op.effects) {
+      if (of_node_[one ^ 1] >= 0) removed.push_back(of_node_[one ^ 1]);
+    }
+    std::sort(removed.begin(), removed.end());
+    for (const Literal one : op.effects) {
+      const int landmark = of_node_[one];
+      if (landmark < 0 || !is_goal_[landmark]) continue;
+      both.clear();
+      std::vector<int>& away = takes_away_[landmark];
+      if (is_first[landmark]) {
+        both = removed;
+      } else {
+        std::set_intersection(away.begin(), away.end(), removed.begin(), removed.end(), std::back_inserter(both));
+      }
+      is_first[landmark] = 0;
+      away = both;
+    }
+  }
+}
+
+int Landmarks::open_goals(const Words& state) {
+  const auto is_true = [&](int landmark) { return literal_holds(state.data(), node_[landmark]); };
+  std::fill(wanted_.begin(), wanted_.end(), 0);
+  int open = 0;
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (!is_goal_[landmark] || is_true(landmark)) continue;
+    ++open;
+    stack_.push_back(landmark);
+  }
+  while (!stack_.empty()) {
+    const int at = stack_.back();
+    stack_.pop_back();
+    if (wanted_[at]) continue;
+    wanted_[at] = 1;
+    for (const int before : needs_[at]) {
+      if (!wanted_[before] && !is_true(before)) stack_.push_back(before);
+    }
+  }
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (!is_goal_[landmark] || wanted_[landmark]) continue;
+    const std::vector<int>& away = takes_away_[landmark];
+    if (std::any_of(away.begin(), away.end(), [&](int one) { return wanted_[one] != 0; })) ++open;
+  }
+  return open;
 }
 
 }  // namespace stampede::symbolic

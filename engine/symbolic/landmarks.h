@@ -22,10 +22,14 @@ class Landmarks {
   // `reached`: which landmarks came true on the way to the state before; afterwards to this one. Result: how many are
   // ahead, together with those that are false again though still needed.
   int progress(const Words& state, std::uint64_t* reached);
+  // Goals that are open, and those that hold too early: they will be undone, because every way to make them true takes
+  // away what an open goal still needs (the reasonable orders of Koehler, Hoffmann, JAIR 2000, doi:10.1613/jair.715).
+  int open_goals(const Words& state);
 
  private:
   void label(const GroundTask& task, const Relaxation& relaxation, const Words& start);
   void choose(const GroundTask& task);
+  void find_removals(const GroundTask& task);
   void order(const GroundTask& task, const Relaxation& relaxation);
   const std::uint64_t* labels_of(int node) const { return labels_.data() + static_cast<std::size_t>(node) * width_; }
 
@@ -38,6 +42,10 @@ class Landmarks {
   std::vector<char> is_goal_;                 // by landmark
   std::vector<std::vector<int>> before_;      // by landmark: which must have been true earlier
   std::vector<std::vector<int>> needed_for_;  // by landmark: those just before whose first achievement it must hold
+  std::vector<std::vector<int>> needs_;       // by landmark: what must hold right before it
+  std::vector<std::vector<int>> takes_away_;  // by landmark, goals only: what all its achievers remove
+  std::vector<char> wanted_;                  // scratch of `open_goals`
+  std::vector<int> stack_;                    // the same
   std::vector<std::uint64_t> now_;            // scratch of `progress`
 };
 

@@ -132,7 +132,8 @@ class Search {
     if (h == Heuristic::kDeadEnd) return false;
     if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    const std::array<int, kHeuristics> values = {h, goals_open(state), used_ > 2 ? ahead(state) : 0};
+    const std::array<int, kHeuristics> values = {h, used_ > 2 ? query_.landmarks->open_goals(state) : goals_open(state),
+                                                 used_ > 2 ? ahead(state) : 0};
     const std::array<int, kHeuristics> keys = {weight_ == 0 ? h : depth_.back() + weight_ * h, values[1], values[2]};
     for (std::size_t i = 0; i < used_; ++i) {
       if (best_[i] >= 0 && values[i] >= best_[i]) continue;
