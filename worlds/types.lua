@@ -15,6 +15,7 @@ return {
     food = { parent = "thing" },
     ball = { parent = "thing" },
     bin = { parent = "fixture" },
+    area = { parent = "fixture" },
     button = { parent = "fixture" },
     region = {},
     hand = {},
