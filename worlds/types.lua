@@ -10,6 +10,8 @@ return {
     star = { parent = "block" },
     moon = { parent = "block" },
     cup = { parent = "thing" },
+    pan = { parent = "thing" },
+    lid = { parent = "thing" },
     furniture = { parent = "fixture" },
     drawer = { parent = "fixture" },
     food = { parent = "thing" },
