@@ -145,67 +145,6 @@ bool EpisodeRunner::avoid_obstacles(const SkillResult& failed, std::size_t index
   return false;
 }
 
-// The next plan does without the action that failed most.
-bool EpisodeRunner::other_plan(const Place& start, std::map<PlanStep, int>& blame) {
-  if (explicit_steps_ || plan_.empty()) return false;
-  const auto worst =
-      std::max_element(blame.begin(), blame.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  forbidden_.insert(worst == blame.end() ? plan_.front() : worst->first);
-  if (worst != blame.end()) blame.erase(worst);
-  obstructions_.clear();
-  back_to(start);
-  return plan_rest(0).ok();
-}
-
-SkillResult EpisodeRunner::with_undo() {
-  const Place start = here();
-  SkillResult last;
-  int tries = 0;
-  std::map<PlanStep, int> blame;  // failures of each ground action
-  for (int plans = 0; plans < options_.plans; ++plans) {
-    std::vector<Place> places = {start};
-    std::vector<int> failures(plan_.size() + 1, 0);
-    std::size_t i = 0;
-    while (true) {
-      last = i == plan_.size() ? finish_goal(i) : one_step(i, i);
-      if (last.ok() && i == plan_.size()) return last;
-      if (last.ok()) last = watch(i + 1);
-      if (last.ok()) {
-        places.resize(++i);
-        places.push_back(here());
-        failures.resize(plan_.size() + 1, 0);
-        continue;
-      }
-      if (last.reason == Reason::interrupted || ++tries >= options_.tries_per_episode) return last;
-      if (i == plan_.size() && i > 0) --i;
-      if (i < plan_.size()) ++blame[plan_[i]];
-      if (i < plan_.size() && !last.blockers.empty()) {
-        back_to(places[i]);
-        if (avoid_obstacles(last, i)) {
-          failures.assign(plan_.size() + 1, 0);
-          continue;
-        }
-      }
-      // Where nothing can be grasped, other draws seldom help: what came before has to change.
-      const int most =
-          last.reason == Reason::no_grasp ? std::min(2, options_.tries_per_skill) : options_.tries_per_skill;
-      while (++failures[i] >= most && i > 0) failures[i--] = 0;
-      if (i == 0 && failures[0] >= most) break;
-      back_to(places[i]);
-    }
-    const Plan failed = plan_;
-    record_.documents.push_back(
-        {"failed_plan", to_text(failed) + "; " + std::string(to_string(last.reason)) + ": " + last.detail + "\n"});
-    if (explicit_steps_ || plan_.empty()) return last;
-    if (!other_plan(start, blame)) {
-      plan_ = failed;  // no other way: what failed stays the episode's result
-      SkillResult again = straight();
-      return again.ok() ? again : last;
-    }
-  }
-  return last;
-}
-
 // Draws skills and arguments, and does not mind failing; the episode is as long as was asked for.
 SkillResult EpisodeRunner::at_random() {
   const RandomKey key = RandomKey("behaviour").with(task_.name()).with(task_.variation()).with(options_.seed);

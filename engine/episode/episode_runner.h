@@ -1,4 +1,5 @@
-// One episode in the making: the class behind run_episode. runner.cpp frames it, behave.cpp decides what is done next.
+// One episode in the making: the class behind run_episode. runner.cpp frames it, behave.cpp and
+// undo.cpp decide what is done next.
 #pragma once
 
 #include <map>
@@ -26,6 +27,8 @@ class EpisodeRunner {
     int subgoal_segment = 0;
   };
 
+  struct Undo;
+
   void describe_episode(const PreparedStart& start);
   SkillResult make_plan();
   SkillResult plan_rest(std::size_t done);
@@ -34,6 +37,8 @@ class EpisodeRunner {
   SkillResult straight();
   SkillResult with_recovery();
   SkillResult at_random();
+  void step_done(Undo& undo);
+  bool try_again(Undo& undo, const SkillResult& failed);
   bool avoid_obstacles(const SkillResult& failed, std::size_t index);
   bool other_plan(const Place& start, std::map<PlanStep, int>& blame);
   SkillResult watch(std::size_t done);

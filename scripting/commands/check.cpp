@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <ostream>
 #include <set>
 
@@ -74,14 +76,55 @@ std::vector<std::string> tasks_to_run(const Library& library, const std::vector<
   return tasks;
 }
 
-QueryResult rates(const RunTally& tally) {
-  QueryResult table;
-  table.columns = {"task", "variation", "episodes", "success_percent"};
-  for (const auto& [task, one] : tally.tasks) {
-    for (const auto& [variation, counts] : one.variations) {
-      const double percent = 100.0 * static_cast<double>(counts.first) / static_cast<double>(counts.second);
-      table.rows.push_back({task, variation, counts.second, percent});
+// What was seen of one variation.
+struct Seen {
+  std::int64_t episodes = 0, succeeded = 0, undone = 0;
+  double simulated_s = 0;
+  std::map<std::string, std::pair<double, std::int64_t>> skills;  // seconds and number of kept segments
+  std::map<std::string, std::int64_t> reasons;                    // of failed episodes and undone tries
+
+  void add(const EpisodeRecord& episode) {
+    ++episodes;
+    succeeded += episode.outcome == Outcome::success;
+    undone += static_cast<std::int64_t>(episode.attempts.size());
+    simulated_s += static_cast<double>(episode.steps) / episode.physics_hz;
+    for (const SegmentRecord& segment : episode.segments) {
+      if (segment.kind != "skill" || segment.skill == "wait") continue;
+      auto& [seconds, count] = skills[segment.skill];
+      seconds += static_cast<double>(segment.span.end_step - segment.span.start_step) / episode.physics_hz;
+      ++count;
     }
+    for (const AttemptRecord& attempt : episode.attempts)
+      if (attempt.segment.reason != Reason::none) ++reasons[std::string(to_string(attempt.segment.reason))];
+    if (episode.reason != Reason::none) ++reasons[std::string(to_string(episode.reason))];
+  }
+
+  SqlValue slowest_step() const {  // `place 3.1 s`
+    const auto mean = [](const auto& one) { return one.second.first / static_cast<double>(one.second.second); };
+    const auto slowest =
+        std::max_element(skills.begin(), skills.end(), [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
+    if (slowest == skills.end()) return std::monostate{};
+    return fmt::format("{} {:.1f} s", slowest->first, mean(*slowest));
+  }
+  SqlValue commonest_reason() const {  // `no_grasp 4`
+    const auto most = std::max_element(reasons.begin(), reasons.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == reasons.end()) return std::monostate{};
+    return fmt::format("{} {}", most->first, most->second);
+  }
+};
+
+using SeenVariations = std::map<std::pair<std::string, std::string>, Seen>;
+
+QueryResult table_of(const SeenVariations& variations) {
+  QueryResult table;
+  table.columns = {"task",   "variation",     "episodes",     "success_percent",
+                   "undone", "mean_length_s", "slowest_step", "commonest_failure"};
+  for (const auto& [name, seen] : variations) {
+    const auto count = static_cast<double>(seen.episodes);
+    table.rows.push_back({name.first, name.second, seen.episodes, 100.0 * static_cast<double>(seen.succeeded) / count,
+                          seen.undone, std::round(10 * seen.simulated_s / count) / 10, seen.slowest_step(),
+                          seen.commonest_reason()});
   }
   return table;
 }
@@ -97,17 +140,19 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   settings.options.observation.images = WhichFrames::none;  // nobody would see them
   Progress progress(console);
   std::vector<std::string> failures;
+  SeenVariations seen;
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
     const bool good = episode.outcome == Outcome::success;
     const std::string line = fmt::format("{} {} seed {}: {}", episode.task, episode.variation, episode.seed,
                                          good ? "success" : to_string(episode.reason));
+    seen[{episode.task, episode.variation}].add(episode);
     if (!good) failures.push_back(line + (episode.detail.empty() ? "" : ": " + episode.detail));
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, line);
   };
   const RunTally tally = run_jobs(library, plan_jobs(*library, request), settings, nullptr);
   progress.finish();
   for (const std::string& failure : failures) console.err << failure << "\n";
-  console.out << (arguments.flag("--json") ? to_json(rates(tally)) : to_table(rates(tally)));
+  console.out << (arguments.flag("--json") ? to_json(table_of(seen)) : to_table(table_of(seen)));
   return tally.succeeded == tally.total ? kDone : kNo;
 }
 
@@ -135,7 +180,8 @@ CommandRow check_command() {
       "Check scripts, and with --physics that tasks can be done",
       "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
       "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
-      "runs, and prints the success rate of each variation that was met.",
+      "runs, and prints for each variation that was met: the success rate, undone tries, the mean length, the slowest "
+      "step, and the commonest reason why a try or an episode failed.",
       {{"NAMES", "names of files; default: all", false, true}},
       {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
        {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
