@@ -249,7 +249,9 @@ std::vector<PartRef> SkillDriver::touchable(const Context& context) const {
   for (const std::string& name : names) {
     const Object* thing = rollout_.view().scene().object(name);
     if (thing == nullptr || thing->body.empty()) continue;
-    parts.push_back(rollout_.view().part_of(name));
+    const bool region = thing->kind == ObjectKind::region;  // then: the part that it is fixed to
+    parts.push_back(region ? PartRef{rollout_.view().scene().body_index(thing->body), thing->part}
+                           : rollout_.view().part_of(name));
   }
   return parts;
 }

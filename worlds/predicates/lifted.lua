@@ -1,4 +1,6 @@
--- The object is in the hand and touches nothing that could hold it up.
+-- The object is in the hand, touches nothing that could hold it up, and is in no slot and on no hook.
+local seats = require "worlds.lib.seats"
+
 return predicate {
   params = { "obj: movable" },
   label = "the {obj} is lifted",
@@ -8,6 +10,6 @@ return predicate {
     for _, other in ipairs(w:objects("support")) do
       if other ~= obj and w:touching(other, obj) then return false end
     end
-    return true
+    return seats.clearance(w, obj) > 0
   end,
 }

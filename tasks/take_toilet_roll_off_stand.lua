@@ -1,0 +1,18 @@
+-- Take the toilet roll off the rod of its stand.
+return task {
+  world = "tabletop",
+  objects = {
+    stand = { "toilet_roll_stand", at = { between(0.10, 0.22), between(-0.20, 0.20), 0.75 },
+      yaw = between(-0.62 * math.pi, 0.62 * math.pi) }, -- the rod does not point at the robot
+    roll = { "toilet_roll" },
+  },
+  init = { is.hanging("roll", "stand.rod") },
+  goal = { is_not.hanging("roll", "stand.rod"),
+    any_of { is.lifted("roll"), all_of { is.on("roll", "table"), is.hand_empty() } } },
+  instructions = {
+    "take the toilet roll off the stand",
+    "pull the roll of paper from its rod",
+    "remove the toilet paper from the holder",
+    "slide the toilet roll off the stand",
+  },
+}

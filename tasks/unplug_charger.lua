@@ -1,0 +1,17 @@
+-- Pull the charger out of the wall socket.
+return task {
+  world = "tabletop",
+  objects = {
+    outlet = { "outlet", at = { between(0.28, 0.34), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi / 4, math.pi / 4) },
+    charger = { "charger" },
+  },
+  init = { is.in_slot("charger", "outlet.socket") },
+  goal = { is_not.in_slot("charger", "outlet.socket"),
+    any_of { is.lifted("charger"), all_of { is.on("charger", "table"), is.hand_empty() } } },
+  instructions = {
+    "unplug the charger",
+    "pull the charger out of the wall socket",
+    "take the plug out of the outlet",
+    "disconnect the charger from the wall",
+  },
+}

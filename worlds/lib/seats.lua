@@ -1,0 +1,40 @@
+-- What sits in a slot or hangs on a hook. Slots and hooks are regions whose +z is the way out or off.
+local seats = {}
+
+-- The place of a thing that goes in: its region `seat`, else its origin.
+function seats.seat(w, obj) return w:exists(obj .. ".seat") and obj .. ".seat" or obj end
+
+-- The middle of the loop or hole that it hangs by: its region `loop`, else its origin.
+function seats.loop(w, obj) return w:exists(obj .. ".loop") and obj .. ".loop" or obj end
+
+-- The body or part that a region belongs to.
+function seats.owner(region)
+  local last
+  for i = 1, #region do
+    if string.sub(region, i, i) == "." then last = i end
+  end
+  return last and string.sub(region, 1, last - 1) or region
+end
+
+-- The pose of `obj` at which its part `place` lies at `wanted`.
+function seats.with_part_at(w, obj, place, wanted) return wanted * w:pose(place):inverse() * w:pose(obj) end
+
+-- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.
+function seats.way_out(w, region, place, clear)
+  local _, _, length = w:size(region)
+  local _, _, z = (w:pose(region):inverse() * w:pose(place)):position()
+  local here, there = w:pose(region), w:pose(region):along(0, 0, length / 2 - z + clear)
+  local ax, ay, az = here:position()
+  local bx, by, bz = there:position()
+  return { bx - ax, by - ay, bz - az }
+end
+
+-- How far the object is out of all slots and off all hooks, m; negative while it is in or on one.
+function seats.clearance(w, obj)
+  local least = math.huge
+  for _, slot in ipairs(w:objects("slot")) do least = math.min(least, w:region_distance(slot, seats.seat(w, obj))) end
+  for _, hook in ipairs(w:objects("hook")) do least = math.min(least, w:region_distance(hook, seats.loop(w, obj))) end
+  return least
+end
+
+return seats

@@ -1,0 +1,22 @@
+-- A telephone charger: a block with two pins; they point along +x.
+-- A hand that comes from above, leaning back from the wall by so many degrees.
+local function leaning(degrees, side)
+  local angle = math.rad(degrees)
+  -- tip z: down and forward (+x); tip y: across the block
+  return {
+    at = { -0.004 * math.cos(angle), 0, 0.006 }, width = 0.044, approach = 0.08,
+    rpy = { 0, side * (math.pi - angle), side > 0 and 0 or math.pi },
+  }
+end
+
+return object {
+  type = "charger", traits = { "movable", "graspable" }, mass = 0.06, colour = { 0.12, 0.12, 0.13 },
+  shapes = {
+    box { 0.050, 0.044, 0.034 },
+    box { 0.010, 0.030, 0.026, at = { -0.029, 0, 0 }, colour = { 0.25, 0.45, 0.85 } },
+    box { 0.020, 0.006, 0.006, at = { 0.035, 0.010, 0 }, colour = { 0.80, 0.80, 0.82 } },
+    box { 0.020, 0.006, 0.006, at = { 0.035, -0.010, 0 }, colour = { 0.80, 0.80, 0.82 } },
+  },
+  regions = { seat = { at = { 0.045, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.006, 0.026, 0.002 } } },
+  grasps = { leaning(25, 1), leaning(25, -1), leaning(40, 1), leaning(40, -1), leaning(55, 1), leaning(55, -1) },
+}

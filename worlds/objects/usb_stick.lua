@@ -1,0 +1,19 @@
+-- A USB stick; its plug points along +x.
+local grasps = {}
+for _, lean in ipairs { 0, math.rad(10) } do
+  for _, side in ipairs { 1, -1 } do -- from above, leaning back from what it is plugged in
+    grasps[#grasps + 1] = { at = { -0.008, 0, 0.005 }, rpy = { 0, side * (math.pi - lean), side > 0 and 0 or math.pi },
+      width = 0.020, approach = 0.07, force = 12 }
+  end
+end
+
+return object {
+  type = "usb_stick", traits = { "movable", "graspable" }, mass = 0.02, colour = "red", friction = 0.5,
+  shapes = {
+    box { 0.045, 0.020, 0.012 },
+    box { 0.014, 0.0125, 0.0048, at = { 0.0295, 0, 0 }, colour = { 0.80, 0.80, 0.83 } },
+    box { 0.012, 0.0202, 0.0122, at = { -0.012, 0, 0 }, colour = { 0.92, 0.92, 0.92 }, collides = false },
+  },
+  regions = { seat = { at = { 0.0365, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.0048, 0.0125, 0.001 } } },
+  grasps = grasps,
+}
