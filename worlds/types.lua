@@ -15,6 +15,8 @@ return {
     furniture = { parent = "fixture" },
     drawer = { parent = "fixture" },
     food = { parent = "thing" },
+    meat = { parent = "food" },
+    grill = { parent = "thing" },
     ball = { parent = "thing" },
     bin = { parent = "fixture" },
     area = { parent = "fixture" },

@@ -1,0 +1,28 @@
+-- At the start, the other thing stands where a hand would be that takes the object from above across its shorter side.
+local finger, palm = 0.05, 0.10 -- m to either side: the middle of an open finger, the end of the palm
+local below_palm = 0.03 -- m: the palm stays this far above the middle of what the hand takes
+
+-- The distance of a point of the object's plan from the other thing's box, seen from above.
+local function gap(w, other, obj, x, y)
+  local px, py = w:pose(other):inverse():times(w:pose(obj):along(x, y, 0)):position()
+  local length, width = w:size(other)
+  return math.sqrt(math.max(math.abs(px) - length / 2, 0) ^ 2 + math.max(math.abs(py) - width / 2, 0) ^ 2)
+end
+
+return predicate {
+  params = { "other: movable", "obj: movable" },
+  label = "the {other} leaves no room for a hand around the {obj}",
+  static = true,
+  holds = function(w, other, obj)
+    if other == obj then return false end
+    local length, width = w:size(obj)
+    local tall = w:top(other) > (w:bottom(obj) + w:top(obj)) / 2 + below_palm
+    local room = 1
+    for _, out in ipairs(tall and { -palm, -finger, finger, palm } or { -finger, finger }) do
+      local x, y = 0, out
+      if length < width then x, y = out, 0 end
+      room = math.min(room, gap(w, other, obj, x, y) - (tall and 0.045 or 0.03))
+    end
+    return room < 0, -room -- m
+  end,
+}
