@@ -17,6 +17,8 @@ return {
     food = { parent = "thing" },
     meat = { parent = "food" },
     grill = { parent = "thing" },
+    phone = { parent = "thing" },
+    phone_cradle = { parent = "thing" },
     ball = { parent = "thing" },
     bin = { parent = "fixture" },
     area = { parent = "fixture" },
