@@ -1,5 +1,6 @@
 -- Slide an object along the surface into a marked area with the closed fingers: side by side, so that it does not turn.
 local gap = 0.024    -- m from the side of the object back to the tip, before it is touched
+local safe = 0.75     -- how far out on a surface an object's middle may be; 1 is the edge
 local near = 0.012   -- m: what is left when it is there
 
 -- The level axes of the object, and how far it reaches along each.
@@ -14,32 +15,40 @@ local function sides(w, obj)
   return list
 end
 
--- How far out on the surface the tip is behind an object at x, y that is pushed along a side: 1 at the edge.
-local function off_centre(w, top, x, y, side, way)
-  local cx, cy = w:position(top)
+-- How far out on the surface a point is: 1 at the edge.
+local function outness(w, top)
+  local from_top = w:pose(top):inverse()
   local sx, sy = w:size(top)
-  local back = way > 0 and side.half + gap or -side.half - gap
-  return math.max(math.abs(x - back * side.x - cx) / sx, math.abs(y - back * side.y - cy) / sy) * 2
+  return function(x, y)
+    local tx, ty = from_top:times(pose(x, y, 0)):position()
+    return math.max(math.abs(tx) / sx, math.abs(ty) / sy) * 2
+  end
 end
 
--- The side to push first, and how far: of two ways round, the one on which the hand stays nearer to the middle.
-local function first_side(w, p, goal_x, goal_y)
+-- The side to push next, and how far: of two ways round, the one on which hand and object stay nearer to the middle.
+-- Where both lead over the edge, the object goes a part of the way only: the rest in steps.
+local function next_push(w, p, goal_x, goal_y)
   local x, y = w:position(p.obj)
-  local left = {}
-  for _, side in ipairs(sides(w, p.obj)) do
-    local way = (goal_x - x) * side.x + (goal_y - y) * side.y
-    if math.abs(way) >= near then left[#left + 1] = { side = side, way = way } end
-  end
+  local out = outness(w, p.top)
   local best, least
-  for i, a in ipairs(left) do
-    local out = off_centre(w, p.top, x, y, a.side, a.way)
-    local b = left[3 - i]
-    if b then
-      out = math.max(out, off_centre(w, p.top, x + a.way * a.side.x, y + a.way * a.side.y, b.side, b.way))
+  local all = sides(w, p.obj)
+  for i, side in ipairs(all) do
+    local way = (goal_x - x) * side.x + (goal_y - y) * side.y
+    if math.abs(way) >= near then
+      local back = way > 0 and side.half + gap or -side.half - gap
+      local worst, other = out(x - back * side.x, y - back * side.y), all[3 - i]
+      local at_x, at_y = x + way * side.x, y + way * side.y
+      if other then
+        local left = (goal_x - at_x) * other.x + (goal_y - at_y) * other.y
+        local behind = math.abs(left) < near and 0 or left > 0 and other.half + gap or -other.half - gap
+        worst = math.max(worst, out(at_x - behind * other.x, at_y - behind * other.y), out(at_x, at_y))
+      end
+      local here = math.max(out(x, y), safe)
+      while math.abs(way) > 0.03 and out(x + way * side.x, y + way * side.y) > here do way = 0.8 * way end
+      if not best or worst < least then best, least = { side, way }, worst end
     end
-    if not best or out < least then best, least = a, out end
   end
-  if best then return best.side, best.way end
+  if best then return best[1], best[2] end
 end
 
 return skill {
@@ -52,8 +61,8 @@ return skill {
     local w = robot:view()
     local goal_x, goal_y = w:position(p.area)
     robot:close_hand()
-    for _ = 1, 5 do
-      local side, way = first_side(w, p, goal_x, goal_y)
+    for _ = 1, 8 do
+      local side, way = next_push(w, p, goal_x, goal_y)
       if not side then break end
       local x, y = w:position(p.obj)
       local ux, uy = side.x, side.y

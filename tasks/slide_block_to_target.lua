@@ -5,7 +5,7 @@ return task {
     block = { "wide_block" },
     target = { "target_area", at = { between(0.11, 0.28), between(-0.25, 0.25), 0.75 }, yaw = between(-math.pi, math.pi) },
   },
-  init = { is.on("block", "table"), is_not.inside("block", "target.around") },
+  init = { is.on("block", "table"), is.outside("block", "target") },
   goal = { is.inside("block", "target"), is.on("block", "table"), is.hand_empty() },
   instructions = {
     "slide the block to the target",

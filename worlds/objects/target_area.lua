@@ -5,6 +5,5 @@ return object {
   shape = box { 0.16, 0.16, 0.001, at = { 0, 0, 0.0005 }, collides = false },
   regions = {
     inside = { at = { 0, 0, 0.03 }, size = { 0.06, 0.06, 0.06 } },
-    around = { at = { 0, 0, 0.03 }, size = { 0.24, 0.24, 0.06 }, traits = { "container" } },
   },
 }
