@@ -116,6 +116,14 @@ TEST_CASE("skills that the six tasks do not need: push and place") {
   }
 }
 
+TEST_CASE("what is held goes to a region that rides on another free body: a lid above its pan") {
+  const EpisodeRecord episode = run("take_lid_off_saucepan", "", 1);
+  INFO(to_string(episode.reason) << " " << episode.detail);
+  REQUIRE(episode.outcome == Outcome::success);
+  check_effects(episode);
+  CHECK(replay_episode(episode) == "");
+}
+
 TEST_CASE("reading only the pairs that can hold gives the same facts as reading all, at every frame") {
   const std::string task = GENERATE(as<std::string>{}, "stack_blocks", "put_item_in_drawer");
   const std::string variation = library()->task(task)->variation_texts.front();
