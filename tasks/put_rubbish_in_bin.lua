@@ -2,8 +2,8 @@
 return task {
   world = "tabletop",
   objects = { bin = { "bin" }, rubbish = { "rubbish" }, tomato = { "tomato", count = 2 } },
-  init = { is.on("bin", "table"), is.on("rubbish", "table"), is.on("tomato*", "table"),
-    is.apart("rubbish", "bin") },
+  init = { is.on("bin", "table"), is.apart("rubbish", "bin"), is.on("rubbish", "table"),
+    is.on("tomato*", "table") },
   goal = { is.inside("rubbish", "bin"), is.on("tomato*", "table"), is.hand_empty() },
   instructions = {
     "put the rubbish in the bin",

@@ -1,10 +1,51 @@
 -- The object's centre is in the container's inner region, or in the region itself.
 local function inner(w, box) return w:type(box) == "region" and box or box .. ".inside" end
 
+-- Near the front of a shelf, where the hand need not go deep: across it anywhere; upright; as the object points into the
+-- shelf, or as the hand does that holds it, give or take a turn.
+local function shelf_spots(w, obj, shelf, rng)
+  local most, margin, turn = 24, 0.015, 0.25
+  local region = shelf .. ".inside"
+  local frame = w:pose(region)
+  local deep, wide, high = w:size(region)
+  local length, width, height = w:size(obj)
+  local _, _, yaw = w:pose(obj):rpy()
+  local poses, to_front = {}, 0
+  local _, _, into = frame:rpy()
+  if w:grasped(obj) then
+    most, turn = 60, 0.5
+    local x, y = w:tip():position()
+    local ahead_x, ahead_y = w:tip():along(0, 0, 1):position()
+    to_front = yaw - math.atan(ahead_y - y, ahead_x - x) -- the object's yaw for a hand that points straight in
+  end
+  for _ = 1, most do
+    local relative = to_front + rng:between(-turn, turn)
+    local c, s = math.abs(math.cos(relative)), math.abs(math.sin(relative))
+    local half_x, half_y = (c * length + s * width) / 2, (s * length + c * width) / 2
+    local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- for the open fingers and for the hand, which is 21 cm wide
+    local spot = frame:along(-deep / 2 + margin + half_x, rng:between(-1, 1) * math.max(room, 0), (height - high) / 2 + 0.001)
+    local x, y, z = spot:position()
+    local free = true
+    for _, other in ipairs(w:objects("movable")) do
+      if other ~= obj and w:inside(region, other) then
+        local other_x, other_y = w:position(other)
+        local other_length, other_width = w:size(other)
+        local apart = (math.max(length, width) + math.max(other_length, other_width)) / 2 + 0.02
+        if (other_x - x) ^ 2 + (other_y - y) ^ 2 < apart ^ 2 then free = false end
+      end
+    end
+    if free then poses[#poses + 1] = pose(x, y, z, 0, 0, into + relative) end
+  end
+  return poses
+end
+
 return predicate {
   params = { "obj: movable", "box: container" },
   label = "the {obj} is inside the {box}",
   settle = 0.1, -- s
   holds = function(w, obj, box) return w:inside(inner(w, box), obj) end,
-  sample = function(w, obj, box, rng) return w:region_spots(inner(w, box), obj, rng) end,
+  sample = function(w, obj, box, rng)
+    if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
+    return w:region_spots(inner(w, box), obj, rng)
+  end,
 }

@@ -1,0 +1,19 @@
+-- Put the held object on a shelf from its open front.
+return skill {
+  params = { "obj: movable", "shelf: container & shelf" },
+  precondition = { is.holding("obj") },
+  effect = { is.inside("obj", "shelf"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
+  continuous = { spot = stream(is.inside("obj", "shelf")) },  -- pose of the object
+  label = "put the {obj} on the {shelf}",
+  run = function(robot, p, c)
+    local shelf = robot:view():pose(p.shelf)
+    local x, y = shelf:position()
+    local out_x, out_y = shelf:along(-0.17, 0, 0):position()            -- out of the front, which is its -x
+    out_x, out_y = out_x - x, out_y - y
+    local down = robot:tip_for(p.obj, c.spot)
+    robot:move_through { { "before", down:offset(out_x, out_y, 0.015) }, { "over", down:offset(0, 0, 0.015) }, { "place", down } }
+    robot:wait(0.1)
+    robot:open_hand()
+    robot:move_line { out_x, out_y, 0 }
+  end,
+}

@@ -1,0 +1,20 @@
+-- Take an object off a shelf through its open front.
+return skill {
+  params = { "obj: movable & graspable", "shelf: container & shelf" },
+  precondition = { is.hand_empty(), is.inside("obj", "shelf") },
+  effect = { is.holding("obj"), is_not.hand_empty(), is_not.inside("obj", "shelf"), is.lifted("obj") },
+  continuous = { grasp = stream("grasps") },                            -- of the object, reachable and free
+  label = "take the {obj} off the {shelf}",
+  run = function(robot, p, c)
+    local shelf = robot:view():pose(p.shelf)
+    local x, y = shelf:position()
+    local out_x, out_y = shelf:along(-0.14, 0, 0):position()            -- out of the front, which is its -x
+    robot:open_hand(c.grasp.opening)
+    robot:move_through {
+      approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(out_x - x, out_y - y, 0.015),
+    }
+    robot:close_hand(p.obj, { force = c.grasp.force })
+    robot:lift(0.015)
+    robot:move_line { out_x - x, out_y - y, 0 }
+  end,
+}

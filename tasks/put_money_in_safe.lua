@@ -1,0 +1,17 @@
+-- Put the stack of banknotes on one of the three shelves of the open safe.
+return task {
+  world = "tabletop",
+  variations = { shelf = { "bottom", "middle", "top" } },
+  objects = {
+    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.85, 2.05) },
+    money = { "money" },
+  },
+  init = { is.on("money", "table") },
+  goal = function(v) return { is.inside("money", "safe." .. v.shelf), is.hand_empty() } end,
+  instructions = {
+    "put the money in the {shelf} of the safe",
+    "place the stack of banknotes on the {shelf} shelf of the safe",
+    "pick up the banknotes and leave them on the {shelf} shelf",
+    "the cash belongs on the {shelf} shelf of the safe: put it away",
+  },
+}

@@ -1,0 +1,24 @@
+-- Take the stack of banknotes off one shelf of the open safe and put it on the table; the other two stay.
+return task {
+  world = "tabletop",
+  variations = { shelf = { "bottom", "middle", "top" } },
+  objects = {
+    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.85, 2.05) },
+    low = { "money" }, mid = { "money" }, high = { "money" },
+  },
+  init = { is.inside("low", "safe.bottom"), is.inside("mid", "safe.middle"), is.inside("high", "safe.top") },
+  goal = function(v)
+    local stacks = { bottom = "low", middle = "mid", top = "high" }
+    local parts = { is.on(stacks[v.shelf], "table"), is.hand_empty() }
+    for shelf, stack in pairs(stacks) do
+      if shelf ~= v.shelf then parts[#parts + 1] = is.inside(stack, "safe." .. shelf) end
+    end
+    return parts
+  end,
+  instructions = {
+    "take the money out of the {shelf} of the safe",
+    "take the stack of banknotes off the {shelf} shelf and put it on the table",
+    "fetch the cash from the {shelf} shelf of the safe",
+    "move the banknotes on the {shelf} shelf of the safe to the table",
+  },
+}

@@ -1,0 +1,39 @@
+-- Grasps by a hand that comes forwards and down at an angle: such a hand reaches into shelves as well as onto a table.
+local slanting = {}
+
+-- One grasp from the direction `yaw` about the object's z at the point { x, z } of the plane through its z axis;
+-- `side` 1 or -1: which finger is where. `down`: angle below the horizontal.
+local function one(yaw, x, z, width, force, side, down)
+  local pitch = math.pi / 2 - down
+  return {
+    at = { x * math.cos(yaw), x * math.sin(yaw), z }, rpy = { math.pi, -side * pitch, side > 0 and yaw or yaw + math.pi },
+    width = width, approach = 0.07, force = force,
+  }
+end
+
+-- Fingers on both sides of a box { length, width, height } whose frame is at its middle: near an upper edge of the two
+-- ends, so that the palm, 37 mm behind the tip, stays clear of the box.
+function slanting.box(size, force)
+  local grasps = {}
+  local x, z = -size[1] / 2 + math.min(0.024, size[1] / 2), size[3] / 2 - math.min(0.018, size[3] * 0.45)
+  for _, yaw in ipairs { 0, math.pi } do
+    for _, down in ipairs { 45, 35, 55 } do
+      for _, side in ipairs { 1, -1 } do grasps[#grasps + 1] = one(yaw, x, z, size[2], force, side, math.rad(down)) end
+    end
+  end
+  return grasps
+end
+
+-- From any side, below the upper rim of a can or jar whose frame is at its middle.
+function slanting.round(radius, height, force)
+  local grasps = {}
+  local z = height / 2 - math.min(math.max(0.046 - radius, 0.010), height * 0.4)
+  for k = 0, 11 do
+    for _, side in ipairs { 1, -1 } do
+      grasps[#grasps + 1] = one(k * math.pi / 6, 0, z, 2 * radius, force, side, math.rad(45))
+    end
+  end
+  return grasps
+end
+
+return slanting
