@@ -14,8 +14,8 @@ return object {
     lathe { { 0.014, 0.015 }, { 0.024, 0.09 }, { 0.026, 0.135 }, { 0.016, 0.155 } },                 -- folded cloth
     lathe { { 0.0265, 0.095 }, { 0.0270, 0.110 }, wall = 0.003, colour = { 0.95, 0.85, 0.30 }, collides = false }, -- strap
     cylinder { 0.010, 0.02, at = { 0, 0, 0.165 }, colour = { 0.75, 0.76, 0.78 } },                   -- shaft
-    cylinder { 0.015, 0.07, at = { 0, 0, 0.210 }, colour = { 0.10, 0.10, 0.11 } },                   -- handle
-    sphere { 0.0155, at = { 0, 0, 0.240 }, colour = { 0.10, 0.10, 0.11 } },
+    cylinder { 0.015, 0.07, at = { 0, 0, 0.210 }, colour = { 0.50, 0.30, 0.14 } },                   -- handle
+    sphere { 0.0155, at = { 0, 0, 0.240 }, colour = { 0.50, 0.30, 0.14 } },
   },
   regions = { seat = { size = { 0.026, 0.026, 0.002 } } },
   grasps = grasps,

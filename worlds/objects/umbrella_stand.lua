@@ -1,6 +1,6 @@
 -- A small tube to stand a folding umbrella in.
 return object {
-  type = "stand", traits = {}, fixed = true, colour = { 0.35, 0.38, 0.42 }, friction = 0.4,
+  type = "stand", traits = {}, fixed = true, colour = { 0.80, 0.77, 0.68 }, friction = 0.4,
   shapes = {
     cylinder { 0.046, 0.010, at = { 0, 0, 0.005 } },
     lathe { { 0.038, 0.008 }, { 0.038, 0.15 }, wall = 0.005 },

@@ -1,0 +1,17 @@
+-- Take the USB stick out of the computer and put it on the table.
+return task {
+  world = "tabletop",
+  objects = {
+    computer = { "desktop_computer", at = { between(0.16, 0.24), between(-0.16, 0.16), 0.75 }, yaw = between(-math.pi, math.pi) },
+    stick = { "usb_stick", colour = one_of { "red", "blue", "green", "orange", "magenta" } },
+  },
+  init = { is.in_slot("stick", "computer.left_port") },
+  goal = { is_not.in_slot("stick", "computer.left_port"), is_not.in_slot("stick", "computer.right_port"),
+    is.on("stick", "table"), is.hand_empty() },
+  instructions = {
+    "take the USB stick out of the computer and put it on the table",
+    "unplug the memory stick from the computer and lay it down",
+    "remove the USB stick from its port and leave it on the table",
+    "pull the stick out of the computer's port and put it down",
+  },
+}
