@@ -6,7 +6,7 @@ return task {
     lid = { "saucepan_lid" },
   },
   init = { is.on("saucepan", "table"), is.on("lid", "saucepan") },
-  goal = { is.holding("lid"), is.inside("lid", "saucepan.above"), is.on("saucepan", "table") },
+  goal = { is.holding("lid"), is.inside("lid", "saucepan.overhead_space"), is.on("saucepan", "table") },
   instructions = {
     "take the lid off the saucepan",
     "lift the lid from the pan by its knob",

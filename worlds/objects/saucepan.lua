@@ -10,6 +10,6 @@ return object {
   },
   regions = {
     mouth = { at = { 0, 0, height }, size = { 0.15, 0.15, 0.01 } },
-    above = { at = { 0, 0, 0.28 }, size = { 0.16, 0.16, 0.14 }, traits = { "floating", "container" } },
+    overhead_space = { at = { 0, 0, 0.28 }, size = { 0.16, 0.16, 0.14 }, traits = { "floating", "container" } },
   },
 }
