@@ -72,6 +72,12 @@ struct Wrench {
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
 };
 
+// What a ray meets first.
+struct RayHit {
+  PartRef part;
+  double distance = 0;  // from the ray's start, m
+};
+
 // All that tells one moment of a world from another. Opaque, copyable, comparable by hash.
 class Snapshot {
  public:
@@ -126,6 +132,9 @@ class World {
   // inertia of the robot's own parts are left out, and so is what these parts do to each other. Zero until a step was
   // made after construction, restore or Boundary.
   Wrench contact_wrench(int robot_part) const;
+
+  // Against the shapes that collide, as they are now. Nothing: std::nullopt.
+  std::optional<RayHit> ray(const Vector3& from, const Vector3& to) const;
 
   // Restoring gives the same future, bit for bit, also in another World of an equal scene. Snapshots are taken
   // right after a Boundary operation. Restore also shortens the log to its length at the snapshot.
