@@ -8,7 +8,7 @@ return task {
       other = { "cup", colour = one_of(colours.except(v.colour)) },
     }
   end,
-  init = { is.on("cup", "table"), is.on("other", "table") },
+  init = { is.on("cup", "table"), is.on("other", "table"), is.apart("cup", "other") },
   goal = { is.holding("cup"), is.lifted("cup") },
   also = function(w) return w:bottom("cup") > w:top("table") + 0.05 end, -- m: clear of where it stood
   instructions = {

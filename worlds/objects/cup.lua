@@ -1,9 +1,9 @@
 -- A cup of earthenware with a handle: 7.2 cm across at the rim, 8.5 cm high; its frame is in the middle of its foot.
 local height, rim, foot, wall = 0.085, 0.036, 0.027, 0.004 -- m
 
-local grasps = {} -- the rim between the fingers, one of them inside; not where the handle is (+x)
+local grasps = {} -- the rim between the fingers, one of them inside; not where the handle is (-y)
 for k = -4, 4 do
-  local angle = math.pi + k * math.rad(30)
+  local angle = math.pi / 2 + k * math.rad(30)
   for _, turn in ipairs { -math.pi / 2, math.pi / 2 } do
     grasps[#grasps + 1] = {
       at = { (rim - wall / 2 - 0.0005) * math.cos(angle), (rim - wall / 2 - 0.0005) * math.sin(angle), height - 0.013 },
@@ -17,9 +17,9 @@ return object {
   shapes = {
     lathe { { foot, 0.004 }, { 0.033, 0.03 }, { rim, height }, wall = wall },
     cylinder { foot, 0.006, at = { 0, 0, 0.003 } },
-    box { 0.018, 0.008, 0.007, at = { 0.041, 0, 0.068 } },
-    box { 0.007, 0.008, 0.045, at = { 0.0535, 0, 0.049 } },
-    box { 0.020, 0.008, 0.007, at = { 0.040, 0, 0.030 } },
+    box { 0.008, 0.018, 0.007, at = { 0, -0.041, 0.068 } },
+    box { 0.008, 0.007, 0.045, at = { 0, -0.0535, 0.049 } },
+    box { 0.008, 0.020, 0.007, at = { 0, -0.040, 0.030 } },
   },
   grasps = grasps,
 }
