@@ -3,7 +3,7 @@ local grasps = {}
 for i = 0, 7 do
   for _, lean in ipairs { 0, 0.35 } do
     local yaw = i * math.pi / 4
-    grasps[#grasps + 1] = { at = { 0, 0, 0.226 }, rpy = { math.pi - lean, 0, yaw }, width = 0.030, approach = 0.08, force = 30 }
+    grasps[#grasps + 1] = { at = { 0, 0, 0.226 }, rpy = { math.pi, -lean, yaw }, width = 0.030, approach = 0.08, force = 30 }
   end
 end
 
