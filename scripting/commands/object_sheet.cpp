@@ -37,8 +37,9 @@ Bounds bounds_of(const Scene& scene, const ScenePoses& poses) {
       const auto [low, high] = bounding_box(part);
       bounds.add(poses.world_from_part[b][p], low, high);
     }
+  const bool empty = bounds.lower.x() > bounds.upper.x();  // a region and nothing else: its place, seen or not
   for (std::size_t i = 0; i < scene.regions.size(); ++i)
-    if (scene.regions[i].visible)
+    if (scene.regions[i].visible || empty)
       bounds.add(poses.world_from_region[i], -scene.regions[i].size / 2, scene.regions[i].size / 2);
   return bounds;
 }
