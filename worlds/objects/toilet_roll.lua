@@ -1,4 +1,4 @@
--- A half-used toilet roll, narrow enough for the hand: 66 mm thick, 95 mm long, a hole of 40 mm along z.
+-- A half-used toilet roll, narrow enough for the hand: 66 mm thick, 95 mm long, a hole of 43 mm along z.
 local grasps = {}
 for i = 0, 15 do
   local around = (i + 0.5) * math.pi / 8 -- the hand comes from there; two facets of sixteen lie between the fingers

@@ -12,8 +12,8 @@ return object {
   },
   regions = { -- where the middle of the hole lies for as long as the rod is in it
     rod = {
-      at = { 0.068, 0, z - 0.0115 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.04, 0.04, 0.23 },
-      traits = { "hook" }, numbers = { lift = 0.0115 },
+      at = { 0.068, 0, z - 0.0133 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.04, 0.04, 0.23 },
+      traits = { "hook" }, numbers = { lift = 0.0133 },
     },
   },
 }
