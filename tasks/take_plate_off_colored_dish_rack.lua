@@ -1,0 +1,19 @@
+-- Take the plate out of the slot of one colour and lay it on the table, face up.
+return task {
+  world = "tabletop",
+  variations = { colour = { "black", "red", "purple" } },
+  objects = { rack = { "dish_rack" }, plate = { "plate" } },
+  init = function(v) return { is.on("rack", "table"), is.in_slot("plate", "rack." .. v.colour) } end,
+  goal = function(v) return { is_not.in_slot("plate", "rack." .. v.colour), is.on("plate", "table"), is.hand_empty() } end,
+  also = function(w) -- it lies and does not lean
+    local x, y, z = w:position("plate")
+    local _, _, above = w:pose("plate"):along(0, 0, 1):position()
+    return above - z > 0.99
+  end,
+  instructions = {
+    "take the plate off the {colour} rack",
+    "pull the plate out of the {colour} slot and lay it on the table",
+    "remove the plate from between the {colour} posts and put it down",
+    "the plate in the {colour} part of the dish rack is dry: lay it on the table",
+  },
+}
