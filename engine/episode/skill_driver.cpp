@@ -179,9 +179,9 @@ Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& in
     if (pose == nullptr) continue;
     if (space->held() && rollout_.view().part_of(placement.object).body == *space->held()) {
       const Transform object_from_tip = rollout_.view().world_from(placement.object).inverse() * world.world_from_tip();
-      const auto solution =
-          world.arm().solve(*pose * object_from_tip, planning_start(world), context.key.with("ik"), 10);
-      if (!solution || !space->free(*solution)) continue;
+      const auto ways =  // as many as a grasp is given: the nearest one may touch something
+          world.arm().solutions(*pose * object_from_tip, planning_start(world), context.key.with("ik"), 3, 12);
+      if (std::none_of(ways.begin(), ways.end(), [&](const JointVector& q) { return space->free(q); })) continue;
     }
     if (!value.pose || wanted-- > 0) value.pose = *pose;
     if (wanted < 0 || context.attempt == 0) break;

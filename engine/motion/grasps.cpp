@@ -49,7 +49,7 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
   }
   Random random(key.with("order"));
   for (Option& option : options) {
-    const double down = -(world_from_object.linear() * option.object_from_tip.linear().col(2)).z();
+    const double down = (world_from_object.linear() * option.object_from_tip.linear().col(2)).z();
     const Quaternion turned(world_from_object.linear() * option.object_from_tip.linear());
     const double turn = angle_between(turned, Quaternion(world_from_tip.linear())) / std::numbers::pi;
     // `down` is -1 from straight above; half a turn of the wrist costs a second.
