@@ -8,7 +8,7 @@ return skill {
   run = function(robot, p, c)
     local shelf = robot:view():pose(p.shelf)
     local x, y = shelf:position()
-    local out_x, out_y = shelf:along(-0.14, 0, 0):position()            -- out of the front, which is its -x
+    local out_x, out_y = shelf:along(-0.12, 0, 0):position()            -- out of the front, which is its -x
     robot:open_hand(c.grasp.opening)
     robot:move_through {
       approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(out_x - x, out_y - y, 0.015),

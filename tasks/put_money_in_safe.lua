@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.85, 2.05) },
+    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.50, 1.70) },
     money = { "money" },
   },
   init = { is.on("money", "table") },

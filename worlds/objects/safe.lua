@@ -1,6 +1,6 @@
 -- A safe with three shelves, its door open; it opens towards -x. Its frame is below it, 0.75 m above the floor.
 local steel, dark, brass = { 0.34, 0.36, 0.40 }, { 0.24, 0.25, 0.28 }, { 0.75, 0.62, 0.28 }
-local width, depth, pitch = 0.36, 0.22, 0.185 -- m; pitch: from shelf to shelf
+local width, depth, pitch = 0.36, 0.22, 0.22 -- m; pitch: from shelf to shelf
 
 local function level(n)
   return {

@@ -4,7 +4,7 @@ local function inner(w, box) return w:type(box) == "region" and box or box .. ".
 -- Near the front of a shelf, where the hand need not go deep: across it anywhere; upright; as the object points into the
 -- shelf, or as the hand does that holds it, give or take a turn.
 local function shelf_spots(w, obj, shelf, rng)
-  local most, margin, turn = 24, 0.015, 0.25
+  local most, margin, turn, held = 24, 0.015, 0.25, w:grasped(obj)
   local region = shelf .. ".inside"
   local frame = w:pose(region)
   local deep, wide, high = w:size(region)
@@ -12,14 +12,14 @@ local function shelf_spots(w, obj, shelf, rng)
   local _, _, yaw = w:pose(obj):rpy()
   local poses, to_front = {}, 0
   local _, _, into = frame:rpy()
-  if w:grasped(obj) then
-    most, turn = 60, 0.5
+  if held then
+    most, turn = 60, 0.8
     local x, y = w:tip():position()
     local ahead_x, ahead_y = w:tip():along(0, 0, 1):position()
     to_front = yaw - math.atan(ahead_y - y, ahead_x - x) -- the object's yaw for a hand that points straight in
   end
-  for _ = 1, most do
-    local relative = to_front + rng:between(-turn, turn)
+  for i = 1, most do
+    local relative = to_front + rng:between(-turn, turn) * (held and i / most or 1) -- a hand straight in where that will do
     local c, s = math.abs(math.cos(relative)), math.abs(math.sin(relative))
     local half_x, half_y = (c * length + s * width) / 2, (s * length + c * width) / 2
     local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- for the open fingers and for the hand, which is 21 cm wide

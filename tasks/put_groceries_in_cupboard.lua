@@ -1,0 +1,33 @@
+-- Put the one grocery that is named into the cupboard beside the table.
+local groceries = { "chocolate_jelly", "coffee", "crackers_box", "mustard", "soup_can", "spam_can", "strawberry_jelly",
+  "sugar_box", "tuna_can" }
+local words = { chocolate_jelly = "chocolate jelly", coffee = "coffee", crackers_box = "crackers", mustard = "mustard",
+  soup_can = "soup", spam_can = "tin of meat", strawberry_jelly = "strawberry jelly", sugar_box = "sugar", tuna_can = "tuna" }
+
+return task {
+  world = "tabletop",
+  variations = { item = groceries },
+  objects = function()
+    local things = { cupboard = { "cupboard", at = { between(-0.04, 0.00), between(0.57, 0.60), 0.95 }, yaw = between(1.45, 1.65) } }
+    for _, name in ipairs(groceries) do things[name] = { name } end
+    return things
+  end,
+  init = function(v)
+    local parts = { is.on(v.item, "table") }
+    for _, name in ipairs(groceries) do
+      if name ~= v.item then
+        parts[#parts + 1] = is.apart(name, v.item)
+        parts[#parts + 1] = is.on(name, "table")
+      end
+    end
+    return parts
+  end,
+  goal = function(v)
+    return { is.inside(v.item, "cupboard.shelf"), is.hand_empty() }
+  end,
+  instructions = function(v)
+    local what = words[v.item]
+    return { "put the " .. what .. " in the cupboard", "place the " .. what .. " on the shelf of the cupboard",
+      "the " .. what .. " belongs in the cupboard: put it there", "pick up the " .. what .. " and stow it in the cupboard" }
+  end,
+}
