@@ -60,7 +60,7 @@ void EpisodeReader::read_episode() {
   sql::Statement row(
       database_,
       "SELECT e.key, e.task, e.world, coalesce(e.variation, ''), coalesce(e.seed, 0), e.split, e.outcome, "
-      "e.reason, e.detail, e.physics_hz, e.frame_hz, e.steps, e.draws, coalesce(e.state_hash, ''), "
+      "e.reason, e.detail, e.beside_goal, e.physics_hz, e.frame_hz, e.steps, e.draws, coalesce(e.state_hash, ''), "
       "e.engine_run, coalesce(s.document, ''), coalesce(t.wall_s, 0), coalesce(t.physics_wall_s, 0), "
       "e.frames FROM episode e LEFT JOIN scene s ON s.hash = e.scene "
       "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
@@ -68,8 +68,8 @@ void EpisodeReader::read_episode() {
   EpisodeRecord& e = record_;
   std::string outcome, reason, scene;
   std::int64_t frames = 0;
-  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.physics_hz, e.frame_hz,
-           e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames);
+  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.beside_goal, e.physics_hz,
+           e.frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames);
   e.outcome = outcome_from(outcome);
   e.reason = reason_from(reason).value_or(Reason::none);
   e.scene_document = unpack_scene(database_, scene);

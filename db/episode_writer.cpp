@@ -99,7 +99,8 @@ EpisodeWriter::EpisodeWriter(const sql::Database& database) : database_(database
   segment_ = insert("segment"), attempt_ = insert("attempt"), parameter_ = insert("segment_parameter");
   effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"),
   observed_fact_ = insert("observed_fact"), contact_ = insert("contact");
-  grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document");
+  grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document"),
+  verdict_ = insert("verdict");
   keyframe_ = insert("keyframe"), mask_ = insert("mask"), image_ = insert("image");
   stored_image_ = {database_, "SELECT data FROM image WHERE episode = ?1 AND frame = ?2 AND camera = ?3 AND kind = ?4",
                    true};
@@ -164,8 +165,8 @@ void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engi
   if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
   const double duration = static_cast<double>(e.steps) / e.physics_hz;
   episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, e.split,
-               e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.frames.size(),
-               e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);
+               e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
+               e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);
   timing_.run(id_, e.wall_s, e.physics_wall_s);
 }
 

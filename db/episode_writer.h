@@ -67,7 +67,7 @@ class EpisodeWriter {
       channel_, sample_;
   sql::Statement mask_, image_, stored_image_, mount_link_;
   sql::Statement segment_, attempt_, parameter_, effect_, via_, fact_, observed_fact_, contact_, grasp_, language_,
-      document_, keyframe_;
+      document_, verdict_, keyframe_;
 };
 
 // Throws Error for pictures of frames and cameras that are not there, of unknown kinds, or without size.

@@ -129,6 +129,12 @@ void EpisodeReader::read_language() {
          DocumentRecord& d = record_.documents.emplace_back();
          row.read(d.kind, d.text);
        });
+  each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {
+    VerdictRecord& v = record_.verdicts.emplace_back();
+    std::string disagreements;
+    row.read(v.dialect, v.theirs, v.ours, disagreements);
+    v.disagreements = from_json_list(database_, disagreements);
+  });
   each("method, frame", "keyframe", "method, frame", [&](sql::Statement& row) {
     std::string method;
     std::int64_t frame = 0;

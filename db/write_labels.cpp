@@ -120,6 +120,8 @@ void EpisodeWriter::write_language(const EpisodeRecord& episode) {
   }
   ordinal = 0;
   for (const DocumentRecord& d : episode.documents) document_.run(id_, ordinal++, d.kind, write_text(d.text));
+  for (const VerdictRecord& v : episode.verdicts)
+    verdict_.run(id_, v.dialect, v.theirs, v.ours, to_json_list(v.disagreements));
 }
 
 }  // namespace stampede

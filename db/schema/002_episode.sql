@@ -14,6 +14,7 @@ CREATE TABLE episode (
       'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
       'budget', 'interrupted')),
   detail TEXT NOT NULL,
+  beside_goal TEXT NOT NULL,  -- what success asks and the PDDL goal does not say
   frames INTEGER NOT NULL,
   steps INTEGER NOT NULL,
   duration_s REAL NOT NULL,

@@ -195,10 +195,20 @@ CREATE TABLE language (
 CREATE TABLE document (
   episode INTEGER NOT NULL REFERENCES episode (id),
   ordinal INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('pddl_domain', 'pddl_problem', 'plan', 'failed_plan', 'bddl_behavior',
+  kind TEXT NOT NULL CHECK (kind IN ('pddl_domain', 'pddl_problem', 'plan', 'failed_plan', 'ordered_domain',
+                                     'ordered_problem', 'bddl_behavior',
                                      'bddl_libero')),
   text TEXT NOT NULL REFERENCES text_store (hash),
   PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE verdict (  -- on the end of an episode by the rule of the dialect that its goal was written in
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  dialect TEXT NOT NULL CHECK (dialect IN ('libero', 'behavior')),
+  theirs INTEGER NOT NULL CHECK (theirs IN (0, 1)),
+  ours INTEGER NOT NULL CHECK (ours IN (0, 1)),
+  disagreements TEXT NOT NULL,  -- JSON list of texts
+  PRIMARY KEY (episode, dialect)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE keyframe (

@@ -1,5 +1,5 @@
 CREATE VIEW episodes AS
-SELECT e.id AS episode, e.key, e.task, e.world, e.variation, e.seed, e.split, e.outcome, e.reason, e.detail, e.frames,
+SELECT e.id AS episode, e.key, e.task, e.world, e.variation, e.seed, e.split, e.outcome, e.reason, e.detail, e.beside_goal, e.frames,
        e.steps, e.duration_s, e.physics_hz, e.frame_hz, e.draws, e.state_hash, e.source, e.scene,
        (SELECT count(*) FROM segment s WHERE s.episode = e.id AND s.kind = 'skill') AS skills,
        (SELECT count(*) FROM attempt a WHERE a.episode = e.id AND a.kind = 'skill') AS undone,

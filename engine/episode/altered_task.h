@@ -25,6 +25,7 @@ class AlteredTask : public Task {
     return goal_ ? std::vector<std::pair<std::string, Formula>>{} : task_.subgoals();
   }
   bool also(const WorldView& view) override { return goal_ || task_.also(view); }
+  bool has_also() const override { return !goal_ && task_.has_also(); }
   bool fails(const WorldView& view) override { return !goal_ && task_.fails(view); }
   double reward(const WorldView& view) override { return goal_ ? 0 : task_.reward(view); }
   double hold_s() const override { return task_.hold_s(); }

@@ -19,22 +19,40 @@ bool geometric(Reason reason) {
 
 }  // namespace
 
+// What is forbidden is part of the problem of a planner that knows nothing of it: an obstruction that nothing ends.
+PlanOutcome EpisodeRunner::ask_planner() {
+  const FactTracker& facts = rollout_->facts();
+  std::vector<Obstruction> obstructions = obstructions_;
+  if (options_.planner)
+    for (const PlanStep& step : forbidden_) obstructions.push_back({step, {}, {}});
+  const PlanningTask planning = planning_task(task_, symbols_.domain(), facts, rollout_->stage(), obstructions);
+  if (options_.planner) return options_.planner(planning.domain, planning.problem);
+  return solve(planning.domain, planning.problem, {}, forbidden_);
+}
+
 SkillResult EpisodeRunner::plan_rest(std::size_t done) {
-  const PlanningTask planning =
-      planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage(), obstructions_);
-  const PlanOutcome outcome = solve(planning.domain, planning.problem, {}, forbidden_);
+  const PlanOutcome outcome = ask_planner();
   if (!outcome.solved) return {Reason::no_plan, outcome.explanation};
   plan_.resize(std::min(done, plan_.size()));
   plan_.insert(plan_.end(), outcome.plan.begin(), outcome.plan.end());
   return {};
 }
 
+// The world's own domain, the same for all its tasks; where the goal has an order, also what the planner is asked.
+void EpisodeRunner::write_problem() {
+  const Domain own = named_by_content(symbols_.domain());
+  record_.documents.push_back({"pddl_domain", to_pddl(own)});
+  record_.documents.push_back(
+      {"pddl_problem", to_pddl(world_problem(task_, rollout_->facts()), own, record_.beside_goal)});
+  if (task_.stages().empty()) return;
+  const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
+  const Domain ordered = named_by_content(planning.domain);
+  record_.documents.push_back({"ordered_domain", to_pddl(ordered)});
+  record_.documents.push_back({"ordered_problem", to_pddl(planning.problem, ordered)});
+}
+
 SkillResult EpisodeRunner::make_plan() {
-  if (record_.documents.empty()) {
-    const PlanningTask planning = planning_task(task_, symbols_.domain(), rollout_->facts(), rollout_->stage());
-    record_.documents.push_back({"pddl_domain", to_pddl(planning.domain)});
-    record_.documents.push_back({"pddl_problem", to_pddl(planning.problem, planning.domain)});
-  }
+  if (record_.documents.empty()) write_problem();
   if (options_.behaviour != Behaviour::plan) return {};
   if (const auto steps = task_.steps()) {
     explicit_steps_ = true;

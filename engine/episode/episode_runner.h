@@ -8,6 +8,7 @@
 
 #include "engine/episode/planning.h"
 #include "engine/episode/skill_driver.h"
+#include "engine/symbolic/task_planner.h"
 
 namespace stampede {
 
@@ -31,6 +32,8 @@ class EpisodeRunner {
 
   void describe_episode(const PreparedStart& start);
   SkillResult make_plan();
+  PlanOutcome ask_planner();
+  void write_problem();
   SkillResult plan_rest(std::size_t done);
   SkillResult behave();
   SkillResult with_undo();

@@ -48,6 +48,7 @@ class Task {
   virtual std::optional<std::vector<PlanStep>> steps() const { return std::nullopt; }  // action or skill, arguments
   virtual std::vector<std::pair<std::string, Formula>> subgoals() const { return {}; }
   virtual bool also(const WorldView&) { return true; }    // a further test beside the goal
+  virtual bool has_also() const { return false; }         // whether also() asks for anything
   virtual bool fails(const WorldView&) { return false; }  // ends the episode as failed
   virtual double reward(const WorldView&) { return 0; }   // shaped, added to 1 at success
   virtual double hold_s() const { return 1.0; }           // the goal must stay true for this long at the end

@@ -112,13 +112,25 @@ void advance_stages(Action& action, const std::vector<std::vector<Literal>>& sta
 
 }  // namespace
 
+Problem world_problem(const Task& task, const FactTracker& facts) {
+  Problem problem;
+  problem.name = task.name();
+  problem.objects = facts.objects();
+  problem.init = facts.basic();
+  problem.goal = task.goal();
+  return problem;
+}
+
+std::string beside_goal(const Task& task) {
+  std::string text;
+  if (!task.stages().empty()) text = "the parts of the goal must come true in the order in which they are written";
+  if (task.has_also()) text += std::string(text.empty() ? "" : "; ") + "the task's own test `also` must hold too";
+  return text;
+}
+
 PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
                            const std::vector<Obstruction>& obstructions) {
-  PlanningTask planning{domain, {}};
-  planning.problem.name = task.name();
-  planning.problem.objects = facts.objects();
-  planning.problem.init = facts.basic();
-  planning.problem.goal = task.goal();
+  PlanningTask planning{domain, world_problem(task, facts)};
   for (std::size_t i = 0; i < obstructions.size(); ++i)
     obstruct(planning, obstructions[i], "obstructed_" + std::to_string(i + 1), facts.objects());
   const std::vector<Formula> stages = task.stages();

@@ -31,6 +31,11 @@ PlanningTask planning_task(const Task& task, const Domain& domain, const FactTra
 // was drawn has none.
 std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key);
 
+// The goal and the facts as a problem of the world's own domain, whatever is asked beside the goal.
+Problem world_problem(const Task& task, const FactTracker& facts);
+// What success asks beside the goal, in words: its parts in order, the task's own test. Empty: nothing.
+std::string beside_goal(const Task& task);
+
 // The plan that a task's explicit `steps` mean at this moment: missing trailing arguments (empty names) are bound by
 // the precondition. Throws Error when nothing or more than one binding fits, with the candidates.
 PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTracker& facts);

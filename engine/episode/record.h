@@ -143,8 +143,18 @@ struct LanguageRecord {
 };
 
 struct DocumentRecord {
-  std::string kind;  // pddl_domain pddl_problem plan
+  // pddl_domain pddl_problem plan; failed_plan; ordered_domain ordered_problem: with fluents for the goal's order;
+  // bddl_libero bddl_behavior
+  std::string kind;
   std::string text;
+};
+
+// The end of an episode by the rule of the dialect that its goal was written in, beside ours: the goal formula here.
+struct VerdictRecord {
+  std::string dialect;  // libero behavior
+  bool theirs = false, ours = false;
+  std::vector<std::string> disagreements;  // parts of the goal and ground literals
+  friend bool operator==(const VerdictRecord&, const VerdictRecord&) = default;
 };
 
 // What a further sensor said, at its own rate: values[i * components … ) was read at steps[i].
@@ -172,6 +182,7 @@ struct EpisodeRecord {
   Outcome outcome = Outcome::failure;
   Reason reason = Reason::none;
   std::string detail;
+  std::string beside_goal;  // what success asks and the PDDL goal does not say; empty: nothing
   std::map<std::string, std::string> options;  // that alter data, as text
   std::vector<DefinitionRecord> definitions;
   int physics_hz = 240, frame_hz = 20;
@@ -196,6 +207,7 @@ struct EpisodeRecord {
   std::vector<GraspRecord> grasps;
   std::vector<LanguageRecord> language;
   std::vector<DocumentRecord> documents;
+  std::vector<VerdictRecord> verdicts;
   std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
   std::shared_ptr<const ImageStore> images;                    // null: none were made
   std::string state_hash;                                      // World::state_hash at the end

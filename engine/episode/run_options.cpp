@@ -82,6 +82,7 @@ std::map<std::string, std::string> RunOptions::as_text() const {
     text["behaviour"] = to_string(behaviour);
     text["skills"] = std::to_string(skills);
   }
+  if (planner) text["planner"] = planner_name;
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);
   if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit

@@ -47,6 +47,7 @@ void EpisodeRunner::describe_episode(const PreparedStart& start) {
   record_.options = options_.as_text();
   record_.options.merge(before(options_.observation, task_.observation()).as_text());
   record_.draws = start.draws;
+  record_.beside_goal = beside_goal(task_);
   for (const std::string& sentence : task_.instructions()) record_.language.push_back({"task", sentence, -1});
   for (const Predicate& predicate : symbols_.domain().predicates)
     record_.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"

@@ -15,9 +15,6 @@ namespace stampede {
 std::string_view to_string(OnFailure value);
 std::optional<OnFailure> on_failure_from(std::string_view text);
 
-// What decides on the next skill: a plan for the goal, or seeded draws: of any skill and arguments of the right types
-// and traits, or of those whose precondition holds. Draws include continuous parameters; failures stay in the episode.
-enum class Behaviour { plan, random_skills, random_applicable };
 std::string_view to_string(Behaviour value);
 std::optional<Behaviour> behaviour_from(std::string_view text);
 
@@ -35,6 +32,9 @@ struct RunOptions {
   std::optional<Formula> goal;   // instead of the task's
   Behaviour behaviour = Behaviour::plan;
   int skills = 20;  // of a random behaviour: how many it draws
+  // Asked instead of our own planner; `planner_name` stands for it in the key.
+  std::function<PlanOutcome(const Domain& domain, const Problem& problem)> planner;
+  std::string planner_name;
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name

@@ -6,6 +6,8 @@
 #include "engine/model/camera.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
+#include "scripting/commands/symbol_options.h"
+#include "scripting/program/constraints_fit.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
@@ -19,6 +21,7 @@ RunOptions run_options(const Arguments& arguments) {
   options.split = arguments.text("--split");
   options.on_failure = *on_failure_from(arguments.text("--on-failure"));
   options.controller = arguments.text("--controller");
+  read_symbol_options(arguments, options);
   options.observation = picture_choice(arguments, PictureUse::run);
   if (arguments.flag("--randomise")) options.randomise = default_randomisation();
   return options;
@@ -37,6 +40,21 @@ JobRequest job_request(const Arguments& arguments, const std::string& split) {
     throw UsageError(error.where() + ": " + error.message(), error.hint());
   }
   return request;
+}
+
+// Which variations of each task can meet --where and --goal; told before anything runs.
+void leave_out_misfits(const std::shared_ptr<const Library>& library, const RunOptions& options, JobRequest& request,
+                       Console& console) {
+  if (!options.where && !options.goal) return;
+  request.variations.emplace();
+  for (const std::string& name : request.tasks) {
+    const std::vector<std::string> all = matching_variations(task_info(*library, name), request.variation);
+    std::vector<std::string> fitting = fitting_variations(library, name, all, request.first_seed, options);
+    if (fitting.size() < all.size())
+      console.err << fmt::format("{}: {} of {} variations can meet --where and --goal\n", name, fitting.size(),
+                                 all.size());
+    (*request.variations)[name] = std::move(fitting);
+  }
 }
 
 // A camera may be mounted on what is in the scene, so each task's is asked, and before anything runs.
@@ -92,10 +110,11 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
 ExitCode run(const Arguments& arguments, Console& console) {
   RunSettings settings;
   settings.options = run_options(arguments);
-  const JobRequest request = job_request(arguments, settings.options.split);
+  JobRequest request = job_request(arguments, settings.options.split);
   settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
   const auto library = load_library(arguments);
+  leave_out_misfits(library, settings.options, request, console);
   const std::vector<EpisodeJob> jobs = plan_jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
   const std::string out = arguments.text("--out");
@@ -128,7 +147,10 @@ CommandRow run_command() {
       "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
       "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
       "succeeded or the run was interrupted. What is said about pictures goes before what a task or world says in "
-      "`observe`; `stampede render` makes the same pictures later.",
+      "`observe`; `stampede render` makes the same pictures later. With --where the start is drawn until it holds, "
+      "with "
+      "--goal another goal is planned for; both speak of the objects, predicates, traits and attributes that "
+      "`stampede list TASK` names, chest.top_drawer and chest--top_drawer alike, and the hand may be left out.",
       {{"TASK", "names of tasks", true, true}},
       {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
        {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
@@ -159,8 +181,13 @@ CommandRow run_command() {
         false}},
       {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
        "stampede run stack_blocks --variation colour=red --seed 7",
+       "stampede run put_item_in_drawer --where '(open chest.top_drawer)' --goal '(closed chest.top_drawer)'",
+       "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",
        "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},
       run};
+  add_options(row.options, constraint_options());
+  add_options(row.options, behaviour_options());
+  add_options(row.options, planner_options());
   for (OptionRow& option : picture_options(PictureUse::run)) row.options.push_back(std::move(option));
   return row;
 }

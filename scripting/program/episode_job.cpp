@@ -64,8 +64,9 @@ std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& requ
   for (const std::string& name : std::set<std::string>(request.tasks.begin(), request.tasks.end())) {
     const Library::TaskInfo& task = task_info(library, name);
     std::vector<std::string> variations = shuffled(task.variation_texts, name);
-    if (!request.variation.empty()) {
-      const std::vector<std::string> wanted = matching_variations(task, request.variation);
+    if (!request.variation.empty() || request.variations) {
+      const std::vector<std::string> wanted =
+          request.variations ? request.variations->at(name) : matching_variations(task, request.variation);
       std::erase_if(variations, [&](const std::string& v) { return std::ranges::find(wanted, v) == wanted.end(); });
     }
     for (std::int64_t i = 0; i < request.episodes; ++i) {

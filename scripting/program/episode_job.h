@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ struct JobRequest {
   std::int64_t episodes = 1;  // per task, good or bad
   std::int64_t first_seed = 0;
   std::string variation;  // canonical text or a part of one (`colour=red`); empty: all
+  // Which variations are used, in place of all that match.
+  std::optional<std::map<std::string, std::vector<std::string>>> variations = {};  // by task
 };
 
 // Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone.

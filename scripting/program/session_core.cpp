@@ -1,6 +1,7 @@
 #include "scripting/program/session_core.h"
 
 #include "db/catalogue_writer.h"
+#include "scripting/program/constraints_fit.h"
 #include "scripting/program/episode_job.h"
 #include "scripting/program/numerics.h"
 #include "scripting/program/roots.h"
@@ -72,14 +73,20 @@ std::optional<Episode> SessionCore::stored(const std::string& key) const {
 }
 
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) const {
-  const std::vector<std::string> variations = matching_variations(task_info(*library_, task_name), request.variation);
+  std::vector<std::string> variations = matching_variations(task_info(*library_, task_name), request.variation);
   RunOptions options;
+  if (!request.where.empty()) options.where = formula_option(request.where, "EpisodeRequest::where");
+  if (!request.goal.empty()) options.goal = formula_option(request.goal, "EpisodeRequest::goal");
+  if (request.skills < 1) throw Error("EpisodeRequest::skills", "it is at least 1");
+  options.behaviour = request.behaviour;
+  options.skills = request.skills;
   options.on_failure = request.on_failure;
   options.controller = request.controller;
   if (request.pictures) options.observation = choice_of(*request.pictures);
   if (request.randomise) options.randomise = default_randomisation();
   options.split = request.seed >= kFirstTestSeed ? "test" : "train";
   check_split(options.split, request.seed, request.seed);
+  variations = fitting_variations(library_, task_name, variations, request.seed, options);
   PreparedEpisode prepared(library_, {task_name, variations.empty() ? "" : variations.front(), request.seed}, options);
   if (auto episode = stored(prepared.key())) return *episode;
   EpisodeRecord record = prepared.run(nullptr);

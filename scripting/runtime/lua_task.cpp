@@ -67,6 +67,17 @@ int LuaTask::keep_variation() {
   return reference;
 }
 
+bool LuaTask::has_also() const {
+  ScriptState& scripts = tests_.get();
+  bool found = false;
+  scripts.protect([&](lua_State* state) {
+    scripts.definitions().push(DefinitionKind::task, name_);
+    found = lua_getfield(state, -1, "also") == LUA_TFUNCTION;
+    lua_pop(state, 2);
+  });
+  return found;
+}
+
 bool LuaTask::call_test(const char* field, const WorldView& view) {
   ScriptState& scripts = tests_.get();
   if (generation_ != tests_.generation()) {

@@ -30,6 +30,7 @@ class LuaTask : public Task {
   std::optional<std::vector<PlanStep>> steps() const override { return drawn_.steps; }
   std::vector<std::pair<std::string, Formula>> subgoals() const override { return drawn_.subgoals; }
   bool also(const WorldView& view) override;
+  bool has_also() const override;
   bool fails(const WorldView& view) override;
   double reward(const WorldView& view) override;
   double hold_s() const override { return drawn_.hold_s; }

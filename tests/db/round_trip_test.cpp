@@ -52,6 +52,7 @@ TEST_CASE("an episode read back is the one that was stored, to the last bit") {
   CHECK(std::tie(a.options, a.physics_hz, a.frame_hz, a.steps, a.state_hash, a.draws, a.wall_s, a.physics_wall_s) ==
         std::tie(b.options, b.physics_hz, b.frame_hz, b.steps, b.state_hash, b.draws, b.wall_s, b.physics_wall_s));
   CHECK(a.scene_document == b.scene_document);
+  CHECK(std::tie(a.verdicts, a.beside_goal) == std::tie(b.verdicts, b.beside_goal));
   CHECK(std::tie(a.posed, a.hands, a.predicates, a.keyframes) == std::tie(b.posed, b.hands, b.predicates, b.keyframes));
   REQUIRE(a.frames.size() == b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {

@@ -134,6 +134,8 @@ void add_labels(EpisodeRecord& e) {
   e.grasps = {{0, "block1", pose_of(0.3), 0.04, true}};
   e.language = {{"task", "lift the red block", -1}, {"skill", "pick up the red block", 0}};
   e.documents = {{"pddl_domain", "(define (domain d))"}, {"plan", "(pick block1 table)\n(place block1 shelf)\n"}};
+  e.verdicts = {{"libero", true, false, {"(on block1 shelf)"}}};
+  e.beside_goal = "the task's own test `also` must hold too";
   e.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
 }
 

@@ -16,6 +16,10 @@ struct EpisodeRequest {
   OnFailure on_failure = OnFailure::undo;
   std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
   std::optional<PictureStorage> pictures;  // nothing: what the task and its world say in `observe`
+  std::string where;  // PDDL: what must hold at the start, beside the task's init: `(not (open chest.top_drawer))`
+  std::string goal;   // PDDL: instead of the task's own
+  Behaviour behaviour = Behaviour::plan;
+  int skills = 20;         // of a random behaviour: how many it draws
   bool randomise = false;  // looks, light, cameras and dynamics, where the world has no ranges of its own
 };
 

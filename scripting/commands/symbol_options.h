@@ -1,0 +1,22 @@
+// Options about starts, goals and planning, shared by the commands that make episodes or plans.
+#pragma once
+
+#include <vector>
+
+#include "engine/episode/runner.h"
+#include "scripting/program/command.h"
+
+namespace stampede::program {
+
+std::vector<OptionRow> constraint_options();  // --where, --goal
+std::vector<OptionRow> behaviour_options();   // --behaviour, --skills
+std::vector<OptionRow> planner_options();     // --planner
+void add_options(std::vector<OptionRow>& options, std::vector<OptionRow> further);
+
+// Reads those that the command has. Throws UsageError, and Error for formulas that are none.
+void read_symbol_options(const Arguments& arguments, RunOptions& options);
+
+// What `--planner` names, asked instead of ours. Throws UsageError for a command without {domain}, {problem}, {plan}.
+std::function<PlanOutcome(const Domain& domain, const Problem& problem)> named_planner(const std::string& command);
+
+}  // namespace stampede::program
