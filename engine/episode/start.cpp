@@ -167,9 +167,10 @@ class StartMaker {
     if (!drawn) return refuse(contradiction(tracker));
     const std::vector<std::string> waiting = task_.unplaced();
     for (const Literal& literal : *drawn) {
-      if (literal.negated || literal.fact.arguments.empty() || !is_free(draft.view(), subject(literal))) continue;
+      const bool free = is_free(draft.view(), subject(literal)), part = is_part(draft.view(), subject(literal));
+      if (literal.negated || literal.fact.arguments.empty() || (!free && !part)) continue;
       std::erase_if(literals_, [&](const Literal& own) { return !own.negated && subject(own) == subject(literal); });
-      if (std::find(waiting.begin(), waiting.end(), subject(literal)) == waiting.end())
+      if (free && std::find(waiting.begin(), waiting.end(), subject(literal)) == waiting.end())
         replaced_.push_back(subject(literal));
     }
     literals_.insert(literals_.end(), drawn->begin(), drawn->end());
@@ -188,6 +189,10 @@ class StartMaker {
 
   static const std::string& subject(const Literal& literal) {
     return literal.fact.arguments.empty() ? literal.fact.predicate : literal.fact.arguments[0];
+  }
+  static bool is_part(const WorldView& view, const std::string& name) {
+    const Object* thing = view.scene().object(name);
+    return thing != nullptr && thing->kind == ObjectKind::part;
   }
   static bool is_free(const WorldView& view, const std::string& name) {
     const Object* thing = view.scene().object(name);

@@ -16,11 +16,16 @@ CommandRow check_command();
 CommandRow run_command();
 CommandRow show_command();
 CommandRow plan_command();
+CommandRow validate_command();
+CommandRow export_command();
+CommandRow import_command();
 CommandRow query_command();
 CommandRow replay_command();
 CommandRow render_command();
 CommandRow new_command();
 CommandRow doc_command();
+
+std::int64_t episode_number(const std::string& text);  // throws UsageError
 
 // What --root and --path name. Throws LibraryError with every mistake.
 std::shared_ptr<const Library> load_library(const Arguments& arguments);

@@ -2,26 +2,32 @@
 
 #include <ostream>
 
+#include "engine/episode/altered_task.h"
 #include "engine/episode/planning.h"
 #include "engine/episode/start.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
-#include "scripting/program/episode_job.h"
-#include "scripting/program/json_text.h"
+#include "scripting/commands/plan_output.h"
+#include "scripting/commands/symbol_options.h"
+#include "scripting/program/constraints_fit.h"
+#include "scripting/program/text_file.h"
 
 namespace stampede::program {
 namespace {
 
 struct Answer {
   Start start;
-  PlanningTask asked;
-  PlanOutcome outcome;
-  bool from_steps = false;  // the task says how
+  PlanningTask asked;  // with the goal's order
+  Problem plain;       // of the world's own domain
+  std::string beside_goal;
+  FoundPlans found;
 };
 
-Answer find_plan(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop) {
+Answer answer_of(const Arguments& arguments, EpisodeScripts& scripts, const RunOptions& options,
+                 const std::atomic<bool>* stop) {
   Answer answer;
-  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options, stop);
+  AlteredTask task(scripts.task(), scripts.symbols(), options);
+  const PreparedStart start = prepare_start(task, scripts.symbols(), options, stop);
   answer.start = start;
   if (answer.start.reason != Reason::none) return answer;
   World world(answer.start.scene);
@@ -29,85 +35,141 @@ Answer find_plan(EpisodeScripts& scripts, const RunOptions& options, const std::
   view.restore(start.history);
   FactTracker facts(scripts.symbols(), view);
   facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
-  answer.asked = planning_task(scripts.task(), scripts.symbols().domain(), facts, 0);
-  if (const auto steps = scripts.task().steps()) {
-    answer.from_steps = true;
-    answer.outcome.solved = true;
-    answer.outcome.plan = *steps;
+  answer.asked = planning_task(task, scripts.symbols().domain(), facts, 0);
+  answer.plain = world_problem(task, facts);
+  answer.beside_goal = beside_goal(task);
+  if (const auto steps = task.steps()) {
+    answer.found.from_steps = answer.found.outcome.solved = true;
+    answer.found.outcome.end = PlanEnd::solved;
+    answer.found.outcome.plan = *steps;
+    answer.found.plans = {*steps};
   } else {
-    answer.outcome = solve(answer.asked.domain, answer.asked.problem);
+    answer.found = ask_for_plans(arguments, answer.asked.domain, answer.asked.problem);
   }
   return answer;
 }
 
-void print_json(const Answer& answer, const EpisodeJob& job, const Domain& domain, bool pddl, std::ostream& out) {
-  JsonText json;
-  json.object().field("task", job.task).field("variation", job.variation).field("seed", job.seed);
-  json.field("solved", answer.outcome.solved).field("explanation", answer.outcome.explanation);
-  json.field("from_steps", answer.from_steps).key("plan").array();
-  for (const PlanStep& step : answer.outcome.plan) {
-    json.object().field("action", step.action).key("arguments").array();
-    for (const std::string& argument : step.arguments) json.value(argument);
-    json.end().end();
+struct PddlTexts {
+  std::string domain, problem;
+};
+
+// What catalogues keep: the world's own domain; or, cut to size, what the planner was asked.
+PddlTexts pddl_of(const Answer& answer, const Domain& own, bool task_size) {
+  if (!task_size) {
+    const Domain domain = named_by_content(own);
+    return {to_pddl(domain), to_pddl(answer.plain, domain, answer.beside_goal)};
   }
-  json.end();
-  if (pddl) json.field("domain", to_pddl(domain)).field("problem", to_pddl(answer.asked.problem, domain));
-  out << json.end().text();
+  const Domain sized = named_by_content(task_sized(answer.asked.domain, answer.asked.problem));
+  return {to_pddl(sized), to_pddl(restricted(answer.asked.problem, sized), sized, answer.beside_goal)};
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
-  const auto library = load_library(arguments);
+EpisodeJob job_of(const Arguments& arguments, const std::shared_ptr<const Library>& library,
+                  const RunOptions& options) {
   const Library::TaskInfo& task = task_info(*library, arguments.text("TASK"));
-  const std::vector<std::string> variations = matching_variations(task, arguments.text("--variation"));
-  const EpisodeJob job{task.name, variations.empty() ? "" : variations.front(),
-                       in_range(arguments, "--seed", 0, kLargestSeed)};
+  const std::int64_t seed = in_range(arguments, "--seed", 0, kLargestSeed);
+  const std::vector<std::string> variations =
+      fitting_variations(library, task.name, matching_variations(task, arguments.text("--variation")), seed, options);
+  return {task.name, variations.empty() ? "" : variations.front(), seed};
+}
+
+ExitCode plan_task(const Arguments& arguments, Console& console) {
   RunOptions options;
+  read_symbol_options(arguments, options);
+  const auto library = load_library(arguments);
+  const EpisodeJob job = job_of(arguments, library, options);
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);
-  const Answer answer = find_plan(prepared.scripts(), prepared.options(), console.stop);
+  const Answer answer = answer_of(arguments, prepared.scripts(), prepared.options(), console.stop);
   if (answer.start.reason != Reason::none) {
     console.err << fmt::format("{} {}: no start: {}\n    {}\n", job.task, job.variation, to_string(answer.start.reason),
                                answer.start.detail);
     return kNo;
   }
-  const Domain& domain = answer.asked.domain;
-  const bool pddl = arguments.flag("--pddl");
+  const bool pddl = arguments.flag("--pddl") || arguments.flag("--task-sized");
+  PddlTexts texts;
+  if (pddl) texts = pddl_of(answer, prepared.scripts().symbols().domain(), arguments.flag("--task-sized"));
   if (arguments.flag("--json")) {
-    print_json(answer, job, domain, pddl, console.out);
+    JsonText json;
+    json.object().field("task", job.task).field("variation", job.variation).field("seed", job.seed);
+    write_plans(answer.found, answer.asked.domain, answer.asked.problem, json);
+    json.field("beside_goal", answer.beside_goal);
+    if (pddl) json.field("domain", texts.domain).field("problem", texts.problem);
+    console.out << json.end().text();
   } else {
-    if (pddl) console.out << to_pddl(domain) << "\n" << to_pddl(answer.asked.problem, domain) << "\n";
-    console.out << (pddl ? "; plan\n" : "") << to_text(answer.outcome.plan);
+    if (pddl) console.out << texts.domain << "\n" << texts.problem << "\n; plan\n";
+    write_plans(answer.found, answer.asked.domain, answer.asked.problem, console.out);
   }
-  const PlanOutcome& outcome = answer.outcome;
-  console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed);
-  if (outcome.solved) {
-    console.err << fmt::format("{} steps, {} states expanded\n", outcome.plan.size(), outcome.expanded);
-    return kDone;
+  console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(answer.found);
+  return plan_code(answer.found);
+}
+
+ExitCode plan_files(const Arguments& arguments, Console& console) {
+  for (const char* option : {"--variation", "--seed", "--where", "--goal"})
+    if (arguments.has(option))
+      throw UsageError(std::string(option) + " is for tasks, not for PDDL files", "leave it out, or name a task");
+  const std::string domain_file = arguments.text("TASK"), problem_file = arguments.text("PROBLEM");
+  Domain domain = domain_from_pddl(read_text_file(domain_file), domain_file);
+  Problem problem = problem_from_pddl(read_text_file(problem_file), problem_file, domain);
+  const FoundPlans found = ask_for_plans(arguments, domain, problem);
+  const bool sized = arguments.flag("--task-sized"), pddl = sized || arguments.flag("--pddl");
+  if (sized) {
+    domain = task_sized(domain, problem);
+    problem = restricted(problem, domain);
   }
-  console.err << "no plan\n    " << outcome.explanation << "\n";
-  return outcome.expanded >= PlanLimits{}.expansions ? kBudgetSpent : kNo;
+  if (arguments.flag("--json")) {
+    JsonText json;
+    json.object().field("domain_file", domain_file).field("problem_file", problem_file);
+    write_plans(found, domain, problem, json);
+    if (pddl) json.field("domain", to_pddl(domain)).field("problem", to_pddl(problem, domain));
+    console.out << json.end().text();
+  } else {
+    if (pddl) console.out << to_pddl(domain) << "\n" << to_pddl(problem, domain) << "\n; plan\n";
+    write_plans(found, domain, problem, console.out);
+  }
+  console.err << problem_file << ": " << plan_story(found);
+  return plan_code(found);
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  return arguments.has("PROBLEM") ? plan_files(arguments, console) : plan_task(arguments, console);
 }
 
 }  // namespace
 
 CommandRow plan_command() {
-  return {"plan",
-          "Print the plan of one start of a task",
-          "Makes the start of one variation from one seed, reads its facts, and asks the task planner (or the task's "
-          "own steps). With --pddl it prints the domain and the problem too. Without a plan it says which goal "
-          "literal cannot be made true and which action or fact is missing.",
-          {{"TASK", "the task's name", true, false}},
-          {{"--variation",
-            "TEXT",
-            "the variation, or some of its axes: colour=red; default: the first",
-            Takes::text,
-            "",
-            {},
-            false},
-           {"--seed", "S", "the seed", Takes::integer, "0", {}, false},
-           {"--pddl", "", "print the PDDL domain and problem before the plan", Takes::flag, "", {}, false}},
-          {"stampede plan stack_blocks --variation colour=red,height=3", "stampede plan put_item_in_drawer --pddl"},
-          run};
+  CommandRow row{
+      "plan",
+      "Print the plan of one start of a task, or of a PDDL problem",
+      "Of a task: makes the start of one variation from one seed, reads its facts, and asks the task planner (or the "
+      "task's own steps); with --pddl it prints the domain of the world, the same for all its tasks, and the problem. "
+      "Of two files: the PDDL domain and problem of any author. Without a plan it says which goal literal cannot be "
+      "made true and which action or fact is missing. The exit code is 0 with a plan, 1 where none exists (proved), 5 "
+      "where the planner gave up at a limit, 3 for files that are no PDDL.",
+      {{"TASK", "the task's name, or the file of a PDDL domain", true, false},
+       {"PROBLEM", "the file of a PDDL problem, with a domain file before it", false, false}},
+      {{"--variation",
+        "TEXT",
+        "the variation, or some of its axes: colour=red; default: the first",
+        Takes::text,
+        "",
+        {},
+        false},
+       {"--seed", "S", "the seed", Takes::integer, "0", {}, false},
+       {"--pddl", "", "print the PDDL domain and problem before the plan", Takes::flag, "", {}, false},
+       {"--task-sized",
+        "",
+        "print PDDL with only what this problem needs, and fluents for the order of its goal",
+        Takes::flag,
+        "",
+        {},
+        false}},
+      {"stampede plan stack_blocks --variation colour=red,height=3", "stampede plan put_item_in_drawer --pddl",
+       "stampede plan pick_and_lift --where '(on block1 table)' --goal '(holding block1)' --task-sized",
+       "stampede plan domain.pddl problem.pddl --k 3"},
+      run};
+  add_options(row.options, constraint_options());
+  add_options(row.options, plan_limit_options());
+  return row;
 }
 
 }  // namespace stampede::program

@@ -5,7 +5,11 @@
 #include <set>
 
 #include "db/catalogue.h"
+#include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+#include "scripting/program/stored_episode.h"
+#include "scripting/program/stored_symbols.h"
 #include "scripting/program/timeline.h"
 
 namespace stampede::program {
@@ -35,9 +39,93 @@ std::string pictures_text(const std::vector<ImageEntry>& images) {
                      cameras.size() == 1 ? "" : "s", static_cast<double>(bytes) / 1000);
 }
 
+void names_of(const Facts& facts, JsonText& json) {
+  json.array();
+  for (const Fact& fact : facts) json.value(to_text(fact));
+  json.end();
+}
+
+void numbers_of(const std::map<std::string, double>& numbers, JsonText& json) {
+  json.object();
+  for (const auto& [name, value] : numbers) json.field(name, value);
+  json.end();
+}
+
+std::string facts_text(const AbstractState& state) {
+  Facts all = state.facts;
+  all.insert(state.observed.begin(), state.observed.end());
+  std::string text;
+  for (const Fact& fact : all) {
+    const bool holds = state.facts.contains(fact), known = state.observed.contains(fact);
+    text += to_text(fact) + (holds && known ? "" : holds ? "  ; not known" : "  ; believed, not so") + "\n";
+  }
+  return text;
+}
+
+// One moment in the form that was asked for. `refusals`: what a dialect cannot say.
+std::string moment_text(const StoredEpisode& stored, const AbstractState& state, const std::string& form,
+                        const std::vector<std::string>& leave_out, std::string& refusals) {
+  const StoredSymbols symbols = read_symbols(stored.episode);
+  if (form == "facts") return facts_text(state);
+  if (form == "sentences") return describe(state, symbols.domain, *stored.scene);
+  if (form == "pddl")
+    return unknown_facts(state, symbols.domain) +
+           to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
+  std::string text;
+  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
+    if (form != "bddl" && form != dialect_name(dialect)) continue;
+    const BddlMapping mapping = dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
+    const BddlExport result = bddl_at(stored.episode, *stored.scene, symbols, state, mapping, leave_out);
+    if (result.refusal.empty()) {
+      text += (text.empty() ? "" : "\n") + with_notes(result);
+    } else {
+      refusals += std::string(to_string(dialect)) + " cannot say it: " + result.refusal + "\n";
+    }
+  }
+  return text;
+}
+
+ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Console& console) {
+  const std::int64_t frame = *arguments.integer("--frame");
+  const AbstractState state = abstract_state(stored.episode, frame);
+  if (stored.scene == nullptr) throw Error("episode " + std::to_string(stored.id), stored.why_not);
+  const std::string form = arguments.text("--as");
+  std::string refusals;
+  const std::string text = moment_text(stored, state, form, arguments.list("--leave-out"), refusals);
+  if (arguments.flag("--json")) {
+    JsonText json;
+    json.object().field("episode", stored.id).field("frame", frame);
+    json.field("time_s", static_cast<double>(frame) / stored.episode.frame_hz).key("facts");
+    names_of(state.facts, json);
+    json.key("observed");
+    names_of(state.observed, json);
+    json.key("joints");
+    numbers_of(state.joints, json);
+    json.key("joint_fractions");
+    numbers_of(state.joint_fractions, json);
+    json.key("openings");
+    numbers_of(state.openings, json);
+    json.key("poses").object();
+    for (const auto& [name, pose] : state.poses) {
+      json.key(name).array();
+      for (const double value : pose.position) json.value(value);
+      for (const double value : pose.quaternion) json.value(value);
+      json.end();
+    }
+    json.end().field("as", form).field("text", text).field("refusal", refusals);
+    console.out << json.end().text();
+  } else {
+    console.out << text;
+  }
+  console.err << refusals;
+  return text.empty() && !refusals.empty() ? kNo : kDone;
+}
+
 ExitCode run(const Arguments& arguments, Console& console) {
   const std::int64_t number = episode_number(arguments.text("EPISODE"));
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
+  if (arguments.has("--frame")) return show_moment(arguments, read_stored(catalogue, number), console);
+  if (arguments.has("--as")) throw UsageError("--as is of one moment", "add --frame N");
   const EpisodeRecord episode = catalogue.read_episode(number);
   if (arguments.flag("--json")) {
     console.out << timeline_json(episode);
@@ -56,12 +144,23 @@ ExitCode run(const Arguments& arguments, Console& console) {
 
 CommandRow show_command() {
   return {"show",
-          "Show one episode as a timeline",
+          "Show one episode as a timeline, or the world at one of its frames in symbols",
           "Skills and their motions as bars, with what each changed, the tries that were undone and why, the points "
-          "passed without stopping, and the facts that came and went.",
+          "passed without stopping, and the facts that came and went. With --frame: what holds at that moment, as "
+          "sentences with joints and poses, as facts, as a PDDL problem, or as a BDDL problem of either dialect; what "
+          "holds without being known (it is hidden, or has changed out of sight) is marked.",
           {{"FILE", "the catalogue", true, false}, {"EPISODE", "the episode's number", true, false}},
-          {{"--all", "", "also the facts that held throughout", Takes::flag, "", {}, false}},
-          {"stampede show demos.db 1"},
+          {{"--all", "", "also the facts that held throughout", Takes::flag, "", {}, false},
+           {"--frame", "N", "the world at this frame", Takes::integer, "", {}, false},
+           {"--as",
+            "FORM",
+            "how to say it; bddl is both dialects",
+            Takes::text,
+            "sentences",
+            {"sentences", "facts", "pddl", "bddl", "libero", "behavior"},
+            false},
+           {"--leave-out", "PREDICATE", "not in the goal of a BDDL problem", Takes::text, "", {}, true}},
+          {"stampede show demos.db 1", "stampede show demos.db 1 --frame 40 --as pddl"},
           run};
 }
 

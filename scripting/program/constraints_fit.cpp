@@ -39,7 +39,7 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
   std::set<Facts> seen;
   std::string why;
   for (int draw = 0; draw < options.draws && (draw < kEqualDraws || seen.size() > 1); ++draw) {
-    const World world(std::make_shared<const Scene>(scripts.task().scene(draw)));
+    World world(std::make_shared<const Scene>(scripts.task().scene(draw)));
     const WorldView view(world);
     FactTracker tracker(scripts.symbols(), view);
     tracker.begin({});  // what never changes is known, the rest open

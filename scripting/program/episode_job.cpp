@@ -5,6 +5,7 @@
 
 #include "engine/base/hash.h"
 #include "scripting/library/naming.h"
+#include "scripting/program/bddl_task_file.h"
 
 namespace stampede {
 namespace {
@@ -131,6 +132,11 @@ EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
   record.seed = job_.seed;
   record.split = options_.split;
   record.definitions = definitions_;
+  if (options_.goal || record.frames.empty()) return record;
+  for (const DefinitionRecord& one : definitions_)
+    if (one.kind == "task" && one.name == job_.task)
+      if (const auto imported = imported_problem(one.source, one.path))
+        record.verdicts = {bddl_verdict(record, *imported)};
   return record;
 }
 

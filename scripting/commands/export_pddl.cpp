@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <ostream>
+#include <set>
+
+#include "db/table_text.h"
+#include "engine/symbolic/pddl.h"
+#include "scripting/commands/export_kinds.h"
+#include "scripting/program/stored_symbols.h"
+#include "scripting/program/text_file.h"
+
+namespace stampede::program {
+
+void write_index(const std::filesystem::path& folder, const QueryResult& index) {
+  write_text_file(folder / "index.csv", to_csv(index));
+  write_text_file(folder / "index.json", to_json(index));
+}
+
+namespace {
+
+class PddlExporter {
+ public:
+  explicit PddlExporter(const ExportJob& job) : job_(job) {
+    index_.columns = {"problem", "domain", "plan",    "kind",   "episode",    "task",  "variation",  "seed",
+                      "frame",   "time_s", "outcome", "reason", "plan_steps", "valid", "beside_goal"};
+  }
+
+  ExportCount run() {
+    for (const std::int64_t id : job_.episodes) {
+      if (job_.console.stopped()) break;
+      const EpisodeRecord episode = job_.catalogue.read_episode(id);
+      try {
+        write_episode(id, episode);
+      } catch (const Error& error) {
+        ++count_.left_out;
+        job_.console.err << "episode " << id << " is left out: " << error.message() << "\n";
+      }
+    }
+    write_index(job_.folder, index_);
+    return count_;
+  }
+
+ private:
+  void write_episode(std::int64_t id, const EpisodeRecord& episode) {
+    const StoredSymbols symbols = read_symbols(episode);
+    const std::string domain = write_domain(symbols.domain.name, *document_text(episode, "pddl_domain"));
+    const std::vector<Boundary> boundaries = skill_boundaries(episode, symbols.domain);
+    for (const Boundary& boundary : boundaries) {
+      const AbstractState state = abstract_state(episode, boundary.frame);
+      const Problem problem = problem_at(symbols, state, job_.arguments.flag("--known"));
+      const std::string kind = boundary.frame == 0                         ? "start"
+                               : boundary.frame == boundaries.back().frame ? "end"
+                                                                           : "boundary";
+      const bool valid = validate(symbols.domain, problem, boundary.rest).valid;
+      write_problem(id, episode, kind, domain, boundary.frame,
+                    unknown_facts(state, symbols.domain) + to_pddl(problem, symbols.domain, episode.beside_goal),
+                    boundary.rest, valid);
+    }
+    write_ordered(id, episode);
+  }
+
+  // With fluents for the order of the goal: what the planner was asked.
+  void write_ordered(std::int64_t id, const EpisodeRecord& episode) {
+    const std::string* domain = document_text(episode, "ordered_domain");
+    const std::string* problem = document_text(episode, "ordered_problem");
+    const std::string* plan = document_text(episode, "plan");
+    if (domain == nullptr || problem == nullptr || plan == nullptr) return;
+    const Domain ordered = domain_from_pddl(*domain, "ordered_domain");
+    const Plan steps = plan_from_text(*plan, "plan");
+    const bool valid = validate(ordered, problem_from_pddl(*problem, "ordered_problem", ordered), steps).valid;
+    write_problem(id, episode, "ordered", write_domain(ordered.name, *domain), 0, *problem, steps, valid);
+  }
+
+  std::string write_domain(const std::string& name, const std::string& text) {
+    const std::string file = "domains/" + name + ".pddl";
+    if (domains_.insert(file).second) write(file, text);
+    return file;
+  }
+
+  void write_problem(std::int64_t id, const EpisodeRecord& episode, const std::string& kind, const std::string& domain,
+                     std::int64_t frame, const std::string& text, const Plan& plan, bool valid) {
+    const std::string stem = kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", episode.task, id)
+                                               : fmt::format("problems/{}_e{:05}_f{:05}", episode.task, id, frame);
+    write(stem + ".pddl", text);
+    write(stem + ".plan", to_text(plan));
+    index_.rows.push_back({stem + ".pddl", domain, stem + ".plan", kind, id, episode.task, episode.variation,
+                           episode.seed, frame, static_cast<double>(frame) / episode.frame_hz,
+                           std::string(to_string(episode.outcome)), std::string(to_string(episode.reason)),
+                           static_cast<std::int64_t>(plan.size()), std::int64_t{valid}, episode.beside_goal});
+  }
+
+  void write(const std::string& file, const std::string& text) {
+    write_text_file(job_.folder / file, text);
+    ++count_.files;
+  }
+
+  const ExportJob& job_;
+  std::set<std::string> domains_;
+  QueryResult index_;
+  ExportCount count_;
+};
+
+}  // namespace
+
+ExportCount export_pddl(const ExportJob& job) { return PddlExporter(job).run(); }
+
+}  // namespace stampede::program

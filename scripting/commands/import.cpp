@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+#include "db/catalogue_writer.h"
+#include "scripting/commands/commands.h"
+#include "scripting/library/naming.h"
+#include "scripting/program/bddl_mapping_file.h"
+#include "scripting/program/bddl_task_file.h"
+#include "scripting/program/json_text.h"
+#include "scripting/program/numerics.h"
+#include "scripting/program/progress.h"
+#include "scripting/program/run_job.h"
+#include "scripting/program/text_file.h"
+
+namespace stampede::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Judged {
+  std::int64_t seed = 0;
+  Outcome outcome = Outcome::failure;
+  std::string reason;
+  VerdictRecord verdict;
+};
+
+// The scene of any task of that world: what stands there whatever the task.
+Scene scene_of_world(const std::shared_ptr<const Library>& library, const std::string& world) {
+  for (const ScriptFile* file : library->files(DefinitionKind::task)) {
+    const Library::TaskInfo& task = task_info(*library, file->name);
+    if (task.world == world) return EpisodeScripts(library, task.name, task.variation_texts.at(0), 0).task().scene(0);
+  }
+  std::vector<std::string> names;
+  for (const ScriptFile* file : library->files(DefinitionKind::world)) names.push_back(file->name);
+  throw Error("--world", "no task takes place in a world '" + world + "'", did_you_mean(world, names));
+}
+
+struct Source {
+  BddlReading reading;
+  BddlMapping mapping;
+  std::string mapping_source;
+};
+
+Source read_source(const Arguments& arguments) {
+  Source source;
+  const std::string file = arguments.text("FILE");
+  source.reading = read_bddl(read_text_file(file), file);
+  const bool libero = source.reading.problem.dialect == BddlDialect::libero;
+  source.mapping = libero ? default_libero_mapping() : default_behavior_mapping();
+  if (arguments.has("--mapping")) {
+    source.mapping_source = read_text_file(arguments.text("--mapping"));
+    source.mapping = bddl_mapping_from_lua(source.mapping_source, arguments.text("--mapping"));
+  }
+  return source;
+}
+
+std::string task_name(const Arguments& arguments, const Source& source) {
+  if (!arguments.has("--task")) return proposed_name(source.reading.problem.name);
+  const std::string name = arguments.text("--task");
+  if (const auto fault = name_fault(name))
+    throw UsageError("'" + name + "' cannot be a name: it " + *fault, "take " + proposed_name(name));
+  return name;
+}
+
+// Loads the library with the new file; a file that has mistakes does not stay.
+std::shared_ptr<const Library> library_with(const Arguments& arguments, const fs::path& path, const std::string& text) {
+  std::error_code code;
+  const bool there = fs::exists(path, code);
+  if (there && read_text_file(path) != text)
+    throw UsageError("'" + path.string() + "' exists already and is another task", "take another --task");
+  if (!there) write_text_file(path, text);
+  try {
+    return load_library(arguments);
+  } catch (const Error&) {
+    if (!there) fs::remove(path, code);
+    throw;
+  }
+}
+
+std::vector<Judged> run_task(const Arguments& arguments, const std::shared_ptr<const Library>& library,
+                             const std::string& name, Console& console, bool& interrupted) {
+  std::vector<Judged> judged;
+  JobRequest request;
+  request.tasks = {name};
+  request.episodes = in_range(arguments, "--episodes", 0, kMostEpisodes);
+  request.first_seed = in_range(arguments, "--seed", 0, kLargestSeed);
+  if (request.episodes == 0) return judged;
+  check_split("train", request.first_seed, request.first_seed + request.episodes - 1);
+  RunSettings settings;
+  settings.stop = console.stop;
+  CatalogueWriterOptions writing;
+  writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  const std::string out = arguments.text("--out");
+  {
+    CatalogueWriter writer(out, std::move(writing));
+    const RunTally tally = run_jobs(library, plan_jobs(*library, request), settings, &writer);
+    writer.finish();
+    interrupted = tally.interrupted;
+  }
+  const Catalogue catalogue = Catalogue::open(out);
+  for (const EpisodeSummary& one : catalogue.episodes()) {
+    if (one.task != name || one.seed < request.first_seed || one.seed >= request.first_seed + request.episodes)
+      continue;
+    const EpisodeRecord episode = catalogue.read_episode(one.id);
+    Judged result{one.seed, one.outcome, std::string(to_string(one.reason)), {}};
+    if (!episode.detail.empty()) result.reason += ", " + episode.detail;
+    if (!episode.verdicts.empty()) result.verdict = episode.verdicts[0];
+    judged.push_back(std::move(result));
+  }
+  return judged;
+}
+
+void print(const std::vector<Judged>& judged, const fs::path& path, const ImportedTask& imported, bool as_json,
+           Console& console) {
+  if (!as_json) {
+    console.out << path.string() << "\n";
+    for (const Judged& one : judged) {
+      const bool success = one.outcome == Outcome::success;
+      console.out << fmt::format("seed {}: {}", one.seed, success ? "success" : one.reason);
+      if (!one.verdict.dialect.empty())
+        console.out << fmt::format("; {} says {}, we say {}", one.verdict.dialect, one.verdict.theirs ? "yes" : "no",
+                                   one.verdict.ours ? "yes" : "no");
+      console.out << "\n";
+      for (const std::string& text : one.verdict.disagreements) console.out << "    " << text << "\n";
+    }
+    return;
+  }
+  JsonText json;
+  json.object().field("path", path.string()).key("warnings").array();
+  for (const std::string& text : imported.warnings) json.value(text);
+  json.end().key("notes").array();
+  for (const BddlNote& note : imported.notes) json.value(to_text(note));
+  json.end().key("episodes").array();
+  for (const Judged& one : judged) {
+    json.object().field("seed", one.seed).field("outcome", std::string(to_string(one.outcome)));
+    json.field("reason", one.reason).field("dialect", one.verdict.dialect).field("theirs", one.verdict.theirs);
+    json.field("ours", one.verdict.ours).key("disagreements").array();
+    for (const std::string& text : one.verdict.disagreements) json.value(text);
+    json.end().end();
+  }
+  console.out << json.end().end().text();
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const Source source = read_source(arguments);
+  for (const std::string& warning : source.reading.warnings) console.err << warning << "\n";
+  const std::string name = task_name(arguments, source), world = arguments.text("--world");
+  const fs::path path = roots_of(arguments).folders.back() / "tasks" / (name + ".lua");
+  std::vector<Error> complaints;  // of other files: no reason not to write this one
+  const auto before = Library::load(roots_of(arguments), complaints);
+  const ImportedTask imported =
+      task_file_from(source.reading.problem, source.mapping, source.mapping_source, world,
+                     scene_of_world(before, world), fs::path(arguments.text("FILE")).filename().string());
+  for (const std::string& warning : imported.warnings) console.err << warning << "\n";
+  for (const BddlNote& note : imported.notes) console.err << to_text(note) << "\n";
+  if (!imported.refusal.empty()) {
+    console.err << arguments.text("FILE") << " cannot be a task here: " << imported.refusal << "\n";
+    return kNo;
+  }
+  const auto library = library_with(arguments, path, imported.text);
+  bool interrupted = false;
+  const std::vector<Judged> judged = run_task(arguments, library, name, console, interrupted);
+  print(judged, path, imported, arguments.flag("--json"), console);
+  const bool none =
+      std::none_of(judged.begin(), judged.end(), [](const Judged& one) { return one.outcome == Outcome::success; });
+  return interrupted || (none && *arguments.integer("--episodes") > 0) ? kNo : kDone;
+}
+
+}  // namespace
+
+CommandRow import_command() {
+  return {"import",
+          "Make a BDDL problem of LIBERO or BEHAVIOR a task, run it, and judge it by their rule and by ours",
+          "The task's file goes to tasks/ under the last --path, or under --root where there is none; it keeps the "
+          "problem, so `stampede run` judges its episodes too: view `verdicts` has both verdicts and where they "
+          "differ. Of LIBERO, every predicate is judged by its own geometry; of BEHAVIOR, the rule for counting and "
+          "pairing is theirs and the atoms are ours. What its words mean here, and what could not be kept, is told on "
+          "stderr. The exit code is 1 when it cannot be a task here, or no episode succeeded.",
+          {{"FILE", "the BDDL problem", true, false}},
+          {{"--task", "NAME", "the task's name; default: from the problem's", Takes::text, "", {}, false},
+           {"--world", "NAME", "where it takes place", Takes::text, "tabletop", {}, false},
+           {"--mapping",
+            "FILE",
+            "a Lua file with our words for theirs, instead of the one built in; see scripting/program/README.md",
+            Takes::path,
+            "",
+            {},
+            false},
+           {"--episodes", "N", "how many to run; 0: only write the task", Takes::integer, "1", {}, false},
+           {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
+           {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false}},
+          {"stampede import problem0.bddl --task clear_table --path ~/my_tasks --episodes 5"},
+          run};
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,218 @@
+#include "scripting/program/stored_symbols.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/model/scene.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kSpot = 0.01;  // m, half the edge of the square in which an object is said to stand
+
+bool is_derived(const Domain& domain, const std::string& predicate) {
+  const Predicate* found = domain.predicate(predicate);
+  return found != nullptr && found->kind == PredicateKind::derived;
+}
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+// The box that the shapes of its base fill, seen from above, in the frame of the body.
+std::vector<BddlRectangle> top_of(const Body& body) {
+  if (body.parts.empty() || body.parts[0].shapes.empty()) return {};
+  const auto [lower, upper] = bounding_box(body.parts[0]);
+  return {{rounded(lower.x()), rounded(lower.y()), rounded(upper.x()), rounded(upper.y())}};
+}
+
+bool has_trait(const Object& thing, const char* trait) {
+  return std::find(thing.traits.begin(), thing.traits.end(), trait) != thing.traits.end();
+}
+
+BddlThing thing_of(const Object& object, const Scene& scene) {
+  BddlThing thing{BddlThing::Kind::object, object.name, object.class_name, object.type, {}, {}};
+  if (object.kind == ObjectKind::hand) thing.kind = BddlThing::Kind::hand;
+  if (object.kind == ObjectKind::part) {
+    thing.kind = BddlThing::Kind::part;
+    thing.owner = object.body;
+  }
+  if (object.kind == ObjectKind::region) {
+    thing.kind = BddlThing::Kind::region;
+    thing.owner = object.body;
+    const int index = scene.region_index(object.name);
+    if (index >= 0) {
+      const Region& region = scene.regions[static_cast<std::size_t>(index)];
+      thing.owner = region.body;
+      const double x = region.part_from_region.translation().x(), y = region.part_from_region.translation().y();
+      if (region.part == 0 && !region.body.empty())
+        thing.area = {{rounded(x - region.size.x() / 2), rounded(y - region.size.y() / 2),
+                       rounded(x + region.size.x() / 2), rounded(y + region.size.y() / 2)}};
+    }
+  }
+  if (object.kind == ObjectKind::body) {
+    const int index = scene.body_index(object.body);
+    if (index >= 0 && !scene.bodies[static_cast<std::size_t>(index)].free) {
+      thing.kind = BddlThing::Kind::fixture;
+      if (has_trait(object, "surface")) thing.area = top_of(scene.bodies[static_cast<std::size_t>(index)]);
+    }
+  }
+  return thing;
+}
+
+// Where the object stands on the fixture at that moment, in the fixture's frame.
+std::optional<BddlPlacement> placement_of(const Fact& fact, const Scene& scene, const AbstractState& state) {
+  if (fact.predicate != "on" || fact.arguments.size() != 2) return std::nullopt;
+  const Object* below = scene.object(fact.arguments[1]);
+  const auto pose = state.poses.find(fact.arguments[0]);
+  if (below == nullptr || below->kind != ObjectKind::body || pose == state.poses.end()) return std::nullopt;
+  const int index = scene.body_index(below->body);
+  if (index < 0 || scene.bodies[static_cast<std::size_t>(index)].free) return std::nullopt;
+  const Transform below_from_object =
+      scene.bodies[static_cast<std::size_t>(index)].world_from_body.inverse() * to_transform(pose->second);
+  const double x = rounded(below_from_object.translation().x());
+  const double y = rounded(below_from_object.translation().y());
+  const Matrix3 turn = below_from_object.linear();
+  const double yaw = rounded(std::atan2(turn(1, 0), turn(0, 0)));
+  return BddlPlacement{fact.arguments[0], below->name, {{x - kSpot, y - kSpot, x + kSpot, y + kSpot}}, {yaw, yaw}};
+}
+
+void collect_names(const Formula& formula, std::vector<std::string>& names) {
+  for (const Term& term : formula.terms)
+    if (!term.variable && std::find(names.begin(), names.end(), term.name) == names.end()) names.push_back(term.name);
+  for (const Formula& part : formula.parts) collect_names(part, names);
+}
+
+// The scene of that frame in BDDL's terms: things, where they stand, what holds, the goal.
+BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
+                     const AbstractState& state);
+
+// The parts of a conjunction without literals of these predicates, which are named in `remarks`.
+Formula without(const Formula& goal, const std::vector<std::string>& predicates, std::vector<std::string>& remarks) {
+  std::vector<Formula> parts = goal.kind == Formula::Kind::conjunction ? goal.parts : std::vector<Formula>{goal};
+  std::erase_if(parts, [&](const Formula& part) {
+    const Formula& inner = part.kind == Formula::Kind::negation ? part.parts[0] : part;
+    if (inner.kind != Formula::Kind::atom) return false;
+    if (std::find(predicates.begin(), predicates.end(), inner.predicate) == predicates.end()) return false;
+    remarks.push_back("the goal is weaker than ours: " + to_pddl(part) + " is left out");
+    return true;
+  });
+  return conjunction(std::move(parts));
+}
+
+}  // namespace
+
+std::string dialect_name(BddlDialect dialect) { return dialect == BddlDialect::libero ? "libero" : "behavior"; }
+
+const std::string* document_text(const EpisodeRecord& episode, const std::string& kind) {
+  for (const DocumentRecord& document : episode.documents)
+    if (document.kind == kind) return &document.text;
+  return nullptr;
+}
+
+StoredSymbols read_symbols(const EpisodeRecord& episode) {
+  const std::string* domain = document_text(episode, "pddl_domain");
+  const std::string* problem = document_text(episode, "pddl_problem");
+  if (domain == nullptr || problem == nullptr)
+    throw Error(episode.task, "the episode has no PDDL problem: no start was found", "choose another episode");
+  StoredSymbols symbols;
+  symbols.domain = domain_from_pddl(*domain, "pddl_domain");
+  symbols.problem = problem_from_pddl(*problem, "pddl_problem", symbols.domain);
+  return symbols;
+}
+
+Problem problem_at(const StoredSymbols& symbols, const AbstractState& state, bool known) {
+  Problem problem = symbols.problem;
+  problem.name += "_frame_" + std::to_string(state.frame);
+  problem.init.clear();
+  for (const Fact& fact : known ? state.observed : state.facts)
+    if (!is_derived(symbols.domain, fact.predicate)) problem.init.insert(fact);
+  return problem;
+}
+
+std::string unknown_facts(const AbstractState& state, const Domain& domain) {
+  std::string text;
+  for (const Fact& fact : state.facts)
+    if (!state.observed.contains(fact) && !is_derived(domain, fact.predicate))
+      text += "; not known: " + to_text(fact) + "\n";
+  for (const Fact& fact : state.observed)
+    if (!state.facts.contains(fact) && !is_derived(domain, fact.predicate))
+      text += "; believed, not so: " + to_text(fact) + "\n";
+  return text;
+}
+
+BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
+                   const AbstractState& state, const BddlMapping& mapping, const std::vector<std::string>& leave_out) {
+  BddlScene moment = bddl_scene(episode, scene, symbols, state);
+  std::vector<std::string> remarks;
+  moment.goal = without(moment.goal, leave_out, remarks);
+  BddlExport result = export_bddl(moment, mapping, symbols.domain);
+  result.remarks.insert(result.remarks.begin(), remarks.begin(), remarks.end());
+  return result;
+}
+
+namespace {
+
+BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
+                     const AbstractState& state) {
+  BddlScene result;
+  result.task = episode.task;
+  for (const LanguageRecord& sentence : episode.language)
+    if (sentence.level == "task" && result.instruction.empty()) result.instruction = sentence.text;
+  for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
+  for (const Fact& fact : state.facts)
+    if (const auto placement = placement_of(fact, scene, state)) result.placements.push_back(*placement);
+  result.facts = state.facts;
+  result.goal = symbols.problem.goal;
+  collect_names(result.goal, result.interest);
+  std::erase_if(result.interest, [&](const std::string& name) {
+    const Object* object = scene.object(name);
+    return object == nullptr || object->kind == ObjectKind::hand;
+  });
+  return result;
+}
+
+}  // namespace
+
+std::string with_notes(const BddlExport& result) {
+  std::string text;
+  for (const BddlNote& note : result.notes) text += "; " + to_text(note) + "\n";
+  for (const std::string& remark : result.remarks) text += "; remark: " + remark + "\n";
+  return text + result.text;
+}
+
+std::vector<Boundary> skill_boundaries(const EpisodeRecord& episode, const Domain& domain) {
+  std::vector<Boundary> boundaries;
+  if (episode.frames.empty()) return boundaries;
+  struct Done {
+    std::int64_t begin, end;
+    PlanStep step;
+  };
+  std::vector<Done> skills;  // children of skills are part of them
+  for (const SegmentRecord& segment : episode.segments) {
+    if (segment.kind != "skill") continue;
+    const bool child = segment.parent >= 0 && static_cast<std::size_t>(segment.parent) < episode.segments.size() &&
+                       episode.segments[static_cast<std::size_t>(segment.parent)].kind == "skill";
+    const std::string name = segment.case_name.empty() ? segment.skill : segment.skill + "_" + segment.case_name;
+    if (child || domain.action(name) == nullptr) continue;  // `wait` changes nothing
+    skills.push_back({segment.span.first_frame, segment.span.end_frame, {name, segment.arguments}});
+  }
+  const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
+  std::vector<std::int64_t> frames = {0};
+  for (const Done& skill : skills) {
+    frames.push_back(std::min(skill.begin, last));
+    frames.push_back(std::min(skill.end, last));
+  }
+  frames.push_back(last);
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  for (const std::int64_t frame : frames) {
+    Boundary boundary{frame, {}};
+    for (const Done& skill : skills)
+      if (skill.begin >= frame && skill.end > frame) boundary.rest.push_back(skill.step);
+    boundaries.push_back(std::move(boundary));
+  }
+  return boundaries;
+}
+
+}  // namespace stampede

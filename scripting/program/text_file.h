@@ -1,0 +1,13 @@
+// Whole files as text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace stampede {
+
+std::string read_text_file(const std::filesystem::path& path);  // throws Error where it cannot be read
+// Makes its folder too. Throws Error where it cannot be written.
+void write_text_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace stampede
