@@ -1,13 +1,16 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run show plan query replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run show plan validate query export import replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --root --path --json --help" ;;
     check) words="--physics --episodes --seed --randomise --workers --root --path --json --help" ;;
-    run) words="--episodes --variation --seed --split --workers --out --on-failure --controller --randomise --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
-    show) words="--all --root --path --json --help" ;;
-    plan) words="--variation --seed --pddl --root --path --json --help" ;;
+    run) words="--episodes --variation --seed --split --workers --out --on-failure --controller --randomise --where --goal --behaviour --skills --planner --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
+    show) words="--all --frame --as --leave-out --root --path --json --help" ;;
+    plan) words="--variation --seed --pddl --task-sized --where --goal --k --expansions --planner --root --path --json --help" ;;
+    validate) words="--root --path --json --help" ;;
     query) words="--format --list --hash --root --path --json --help" ;;
+    export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
+    import) words="--task --world --mapping --episodes --seed --out --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;
     render) words="--out --into --video --sheet --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --root --path --json --help" ;;
     new) words="--root --path --json --help" ;;
