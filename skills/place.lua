@@ -7,9 +7,15 @@ return skill {
   label = "put the {obj} on the {to}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in
-    robot:move_through { approach = down:offset(0, 0, 0.08), place = down, ahead = down:along(0, 0, -0.08) }
+    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
     robot:wait(0.1)
     robot:open_hand()
-    robot:retreat(0.08)
+    local _, _, z = robot:tip():position()
+    local _, _, finger_z = robot:tip():along(0, 0.1, 0):position()
+    if math.abs(finger_z - z) < 0.01 then                               -- no finger is below the object:
+      robot:lift(0.08)                                                  -- back the way it came
+    else
+      robot:retreat(0.08)
+    end
   end,
 }

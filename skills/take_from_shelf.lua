@@ -10,11 +10,9 @@ return skill {
     local x, y = shelf:position()
     local out_x, out_y = shelf:along(-0.12, 0, 0):position()            -- out of the front, which is its -x
     robot:open_hand(c.grasp.opening)
-    robot:move_through {
-      approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(out_x - x, out_y - y, 0.015),
-    }
+    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose }
     robot:close_hand(p.obj, { force = c.grasp.force })
-    robot:lift(0.015)
-    robot:move_line { out_x - x, out_y - y, 0 }
+    robot:retreat(0.06)                                                 -- back and up, the way it came
+    robot:move_to(robot:tip():offset(out_x - x, out_y - y, 0.02))
   end,
 }

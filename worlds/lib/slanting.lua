@@ -17,7 +17,7 @@ function slanting.box(size, force)
   local grasps = {}
   local x, z = -size[1] / 2 + math.min(0.024, size[1] / 2), size[3] / 2 - math.min(0.018, size[3] * 0.45)
   for _, yaw in ipairs { 0, math.pi } do
-    for _, down in ipairs { 38, 46 } do
+    for _, down in ipairs { 30, 38, 46 } do
       for _, side in ipairs { 1, -1 } do grasps[#grasps + 1] = one(yaw, x, z, size[2], force, side, math.rad(down)) end
     end
   end
@@ -29,7 +29,7 @@ function slanting.round(radius, height, force)
   local grasps = {}
   local z = height / 2 - math.min(math.max(0.046 - radius, 0.010), height * 0.4)
   for k = 0, 11 do
-    for _, down in ipairs { 38, 46 } do
+    for _, down in ipairs { 30, 38, 46 } do
       for _, side in ipairs { 1, -1 } do
         grasps[#grasps + 1] = one(k * math.pi / 6, 0, z, 2 * radius, force, side, math.rad(down))
       end
