@@ -16,7 +16,10 @@ return skill {
     local x, y, z = w:position(p.slot)
     local ox, oy, oz = w:pose(p.slot):along(0, 0, 1):position()
     local function before(way) return seated:offset((ox - x) * way, (oy - y) * way, (oz - z) * way) end
-    robot:move_through { approach = before(depth + c.clear), goal = before(depth), ahead = seated }
+    robot:move_through {
+      { "approach", before(depth + c.clear) }, { "goal", before(depth) },
+      { "ahead", seated }, { "ahead", seated:along(0, 0, -0.10) },      -- and back again
+    }
     robot:move_line(seated, { speed = c.speed, collide = true })        -- it touches what it goes into
     robot:wait(0.1)
     robot:open_hand()

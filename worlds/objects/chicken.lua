@@ -1,9 +1,9 @@
--- A chicken drumstick that lies on its flat side, the bone towards +x.
+-- A chicken drumstick that lies on its flat side, the bone towards +x; its frame is where a hand takes it.
 -- Eight-cornered sections across the leg: x, half the width, height; all begin at the flat side.
 local function leg(sections, colour)
   local points = {}
   for _, s in ipairs(sections) do
-    local x, w, h = s[1], s[2], s[3]
+    local x, w, h = s[1] + 0.018, s[2], s[3]
     for _, p in ipairs { { 0.6, 0 }, { 1, 0.28 }, { 1, 0.72 }, { 0.6, 1 } } do
       points[#points + 1] = { x, w * p[1], h * p[2] - 0.022 }
       points[#points + 1] = { x, -w * p[1], h * p[2] - 0.022 }
@@ -22,9 +22,9 @@ return object {
   shapes = {
     leg({ { -0.060, 0.014, 0.034 }, { -0.045, 0.027, 0.043 }, { -0.030, 0.028, 0.044 }, { -0.002, 0.028, 0.044 } }, skin),
     leg({ { -0.002, 0.028, 0.044 }, { 0.040, 0.011, 0.026 } }, skin),
-    cylinder { 0.007, 0.035, at = { 0.052, 0, -0.009 }, rpy = { 0, math.pi / 2, 0 }, colour = bone },
-    sphere { 0.010, at = { 0.070, 0.006, -0.009 }, colour = bone },
-    sphere { 0.010, at = { 0.070, -0.006, -0.009 }, colour = bone },
+    cylinder { 0.007, 0.035, at = { 0.070, 0, -0.009 }, rpy = { 0, math.pi / 2, 0 }, colour = bone },
+    sphere { 0.010, at = { 0.088, 0.006, -0.009 }, colour = bone },
+    sphere { 0.010, at = { 0.088, -0.006, -0.009 }, colour = bone },
   },
-  grasps = { from_above(-0.016, 0), from_above(-0.016, math.pi), from_above(-0.024, 0), from_above(-0.024, math.pi) },
+  grasps = { from_above(0, 0), from_above(0, math.pi), from_above(-0.008, 0), from_above(-0.008, math.pi) },
 }

@@ -21,7 +21,7 @@ return predicate {
     for _, out in ipairs(tall and { -palm, -finger, finger, palm } or { -finger, finger }) do
       local x, y = 0, out
       if length < width then x, y = out, 0 end
-      room = math.min(room, gap(w, other, obj, x, y) - (tall and 0.045 or 0.03))
+      room = math.min(room, gap(w, other, obj, x, y) - (tall and 0.04 or 0.022))
     end
     return room < 0, -room -- m
   end,
