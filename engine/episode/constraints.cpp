@@ -135,7 +135,9 @@ class Checker {
         unknown("type", variable.type, types());
     }
     if (formula.kind == Formula::Kind::atom) check_atom(formula);
-    for (const Term& term : formula.terms) {
+    for (std::size_t i = 0; i < formula.terms.size(); ++i) {
+      const Term& term = formula.terms[i];
+      if (is_value(formula, i)) continue;
       if (term.variable && !bound.contains(term.name))
         throw Error(place_, "nothing binds the variable ?" + term.name, "write (exists (?" + term.name + " - …) …)");
       if (!term.variable && std::find(objects_.begin(), objects_.end(), term.name) == objects_.end())
@@ -154,6 +156,12 @@ class Checker {
     std::vector<std::string> names;
     for (const auto& [name, parent] : domain_.types) names.push_back(name);
     return names;
+  }
+  // Values of attributes are in a problem when something of this draw has them; another draw may have others.
+  bool is_value(const Formula& formula, std::size_t index) const {
+    const Predicate* predicate = formula.kind == Formula::Kind::atom ? domain_.predicate(formula.predicate) : nullptr;
+    return predicate != nullptr && predicate->kind == PredicateKind::fixed &&
+           predicate->parameters.at(index).type == "value" && !formula.terms[index].variable;
   }
   void check_atom(Formula& formula) const {
     if (std::find(predicates_.begin(), predicates_.end(), formula.predicate) == predicates_.end())

@@ -150,7 +150,7 @@ void LibraryBuilder::declare_predicates() {
   }
 }
 
-// (colour block1 red): declared when a formula speaks of it.
+// (colour block1 red): a constraint or goal that a run brings along may speak of it, whatever the files do.
 void LibraryBuilder::declare_attributes() {
   Domain& domain = library_->domain_;
   attributes_ = {"colour"};
@@ -161,12 +161,7 @@ void LibraryBuilder::declare_attributes() {
     }
   }
   for (const std::string& attribute : attributes_) {
-    const auto used = [&](const ScriptFile& file) {
-      return file.source.find("is." + attribute + "(") != std::string::npos ||
-             file.source.find("is_not." + attribute + "(") != std::string::npos;
-    };
-    if (domain.predicate(attribute) != nullptr || std::none_of(library_->files_.begin(), library_->files_.end(), used))
-      continue;
+    if (domain.predicate(attribute) != nullptr) continue;
     Predicate predicate;
     predicate.name = attribute;
     predicate.kind = PredicateKind::fixed;

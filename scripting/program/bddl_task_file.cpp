@@ -146,7 +146,8 @@ class TaskWriter {
     return {x0, y0, x1, y1};
   }
 
-  void add_region(const std::string& name, const std::string& on, const std::vector<BddlRectangle>& ranges) {
+  void add_region(const std::string& name, const std::string& on, const std::vector<BddlRectangle>& ranges,
+                  const char* traits) {
     const auto top = surface(on);
     if (!top) {
       refuse("`" + name + "` is a region of `" + on + "`, which is no fixture of the world; place it by a mapping");
@@ -158,7 +159,7 @@ class TaskWriter {
         top->world_from_body * Vector3((area.x_min_m + area.x_max_m) / 2, (area.y_min_m + area.y_max_m) / 2,
                                        top->upper.z() + kRegionHeight / 2);
     const Matrix3 turn = top->world_from_body.linear();
-    objects_ += "    " + name + " = { \"air_zone\", traits = { \"container\" }, at = { " + number(centre.x()) + ", " +
+    objects_ += "    " + name + " = { \"air_zone\", traits = { " + traits + " }, at = { " + number(centre.x()) + ", " +
                 number(centre.y()) + ", " + number(centre.z()) +
                 " }, yaw = " + number(std::atan2(turn(1, 0), turn(0, 0))) + ", region = { size = { " +
                 number(area.x_max_m - area.x_min_m) + ", " + number(area.y_max_m - area.y_min_m) + ", " +
@@ -187,7 +188,7 @@ class TaskWriter {
       if (region.ranges.empty()) {
         refuse("`" + region.theirs + "` is a site of their model and no part of ours; map it, see `sites` and `parts`");
       } else {
-        add_region(region.name, region.on, region.ranges);
+        add_region(region.name, region.on, region.ranges, "\"container\", \"marked\"");  // can be pushed into
       }
   }
 
@@ -201,7 +202,7 @@ class TaskWriter {
     for (const BddlPlacement& placement : task_.placements) {
       if (!is_object(placement.object)) continue;
       const std::string spot = placement.object + "_spot";
-      add_region(spot, placement.on, placement.ranges);
+      add_region(spot, placement.on, placement.ranges, "\"container\"");
       init_ += "    is.inside(" + lua_text(placement.object) + ", " + lua_text(spot) + "),\n";
       if (placement.yaw_rad != std::array<double, 2>{0, 0})
         result_.warnings.push_back("`" + placement.object + "` starts at any angle");

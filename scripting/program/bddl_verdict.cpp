@@ -111,7 +111,8 @@ class Geometry {
   std::set<std::string> touching(const std::string& body) const {
     std::set<std::string> names;
     for (const ContactRecord& contact : episode_.contacts) {
-      if (contact.first_frame > last_ || contact.end_frame <= last_) continue;
+      // Contacts are summed over the steps up to a frame: that of the last one is the one that ends there.
+      if (contact.end_frame < last_) continue;
       const std::string* other = contact.object_a == body   ? &contact.object_b
                                  : contact.object_b == body ? &contact.object_a
                                                             : nullptr;
@@ -192,6 +193,9 @@ VerdictRecord bddl_verdict(const EpisodeRecord& episode, const ImportedProblem& 
     const OurAtoms atoms(imported.task, state.facts, symbols.domain, symbols.problem.objects);
     verdicts = judge_both(imported.problem, atoms, imported.task, state.facts, symbols.domain, symbols.problem.objects);
   }
+  std::vector<std::string>& texts = verdicts.disagreements;  // a part that is one literal is listed as both
+  std::set<std::string> seen;
+  std::erase_if(texts, [&](const std::string& text) { return !seen.insert(text).second; });
   return {dialect_name(imported.problem.dialect), verdicts.theirs, verdicts.ours, verdicts.disagreements};
 }
 

@@ -28,7 +28,11 @@ std::string contradiction(const Formula& where, const Domain& domain, const Fact
 Formula formula_option(const std::string& text, const std::string& place) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw Error(place, "the formula is empty", "write one such as " + place + " '(on block1 table)'");
-  return formula_from_pddl(text, place);
+  Formula formula = formula_from_pddl(text, place);
+  if (formula.kind == Formula::Kind::always || formula.kind == Formula::Kind::never)
+    throw Error(place, text + " says nothing about the world",
+                "name what must hold: " + place + " '(on block1 table)'");
+  return formula;
 }
 
 std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options) {
