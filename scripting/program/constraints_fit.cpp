@@ -1,5 +1,7 @@
 #include "scripting/program/constraints_fit.h"
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -13,14 +15,16 @@ namespace {
 
 constexpr int kEqualDraws = 5;  // when so many draws differ in nothing static, none will
 
-// The first part that cannot be met by itself; empty when all together can be.
-std::string contradiction(const Formula& where, const Domain& domain, const FactTracker& tracker) {
+// The parts that cannot be met by themselves, or the whole where only together they cannot; nothing when they can.
+std::vector<std::string> contradictions(const Formula& where, const Domain& domain, const FactTracker& tracker) {
   const RandomKey key("where");
-  if (draw_literals(where, domain, tracker.objects(), tracker.facts(), key)) return {};
+  std::vector<std::string> texts;
+  if (draw_literals(where, domain, tracker.objects(), tracker.facts(), key)) return texts;
   if (where.kind == Formula::Kind::conjunction)
     for (const Formula& part : where.parts)
-      if (!draw_literals(part, domain, tracker.objects(), tracker.facts(), key)) return to_pddl(part);
-  return to_pddl(where);
+      if (!draw_literals(part, domain, tracker.objects(), tracker.facts(), key)) texts.push_back(to_pddl(part));
+  if (texts.empty()) texts.push_back(to_pddl(where));
+  return texts;
 }
 
 }  // namespace
@@ -41,17 +45,21 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
   if (!options.where) return {};
   const Domain& domain = scripts.symbols().domain();
   std::set<Facts> seen;
-  std::string why;
+  std::map<std::string, int> failures;  // draws in which a part failed
   for (int draw = 0; draw < options.draws && (draw < kEqualDraws || seen.size() > 1); ++draw) {
     World world(std::make_shared<const Scene>(scripts.task().scene(draw)));
     const WorldView view(world);
     FactTracker tracker(scripts.symbols(), view);
     tracker.begin({});  // what never changes is known, the rest open
-    why = contradiction(checked_formula(*options.where, domain, tracker.objects(), "--where"), domain, tracker);
-    if (why.empty()) return why;
+    const Formula where = checked_formula(*options.where, domain, tracker.objects(), "--where");
+    const std::vector<std::string> failed = contradictions(where, domain, tracker);
+    if (failed.empty()) return {};
+    for (const std::string& part : failed) ++failures[part];
     seen.insert(tracker.facts());
   }
-  return why;
+  return std::max_element(failures.begin(), failures.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 std::vector<std::string> fitting_variations(const std::shared_ptr<const Library>& library, const std::string& task,
