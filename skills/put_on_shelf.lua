@@ -11,7 +11,8 @@ return skill {
     local out_x, out_y = shelf:along(-0.17, 0, 0):position()            -- out of the front, which is its -x
     out_x, out_y = out_x - x, out_y - y
     local down = robot:tip_for(p.obj, c.spot)
-    robot:move_through { { "before", down:offset(out_x, out_y, 0.015) }, { "over", down:offset(0, 0, 0.015) }, { "place", down } }
+    local over = down:offset(0, 0, 0.015)
+    robot:move_through { { "before", over:offset(out_x, out_y, 0) }, { "over", over }, { "place", down } }
     robot:wait(0.1)
     robot:open_hand()
     robot:move_line { out_x, out_y, 0 }

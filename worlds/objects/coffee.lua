@@ -6,7 +6,7 @@ return object {
   shapes = {
     cylinder { 0.035, 0.120 },
     cylinder { 0.0353, 0.045, at = { 0, 0, -0.020 }, colour = { 0.90, 0.80, 0.55 }, collides = false },
-    cylinder { 0.0353, 0.022, at = { 0, 0, 0.049 }, colour = { 0.75, 0.10, 0.08 }, collides = false },
+    cylinder { 0.0353, 0.022, at = { 0, 0, 0.0496 }, colour = { 0.75, 0.10, 0.08 }, collides = false },
   },
   grasps = slanting.round(0.035, 0.120, 50),
 }

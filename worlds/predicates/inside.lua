@@ -1,10 +1,10 @@
 -- The object's centre is in the container's inner region, or in the region itself.
 local function inner(w, box) return w:type(box) == "region" and box or box .. ".inside" end
 
--- Near the front of a shelf, where the hand need not go deep: across it anywhere; upright; as the object points into the
+-- Near the front of a shelf, where the hand need not go deep: anywhere across it; upright; as the object points into the
 -- shelf, or as the hand does that holds it, give or take a turn.
 local function shelf_spots(w, obj, shelf, rng)
-  local most, margin, turn, held = 24, 0.015, 0.25, w:grasped(obj)
+  local most, margin, turn, held = 24, 0.015, 0.2, w:grasped(obj)
   local region = shelf .. ".inside"
   local frame = w:pose(region)
   local deep, wide, high = w:size(region)
@@ -19,11 +19,14 @@ local function shelf_spots(w, obj, shelf, rng)
     to_front = yaw - math.atan(ahead_y - y, ahead_x - x) -- the object's yaw for a hand that points straight in
   end
   for i = 1, most do
-    local relative = to_front + rng:between(-turn, turn) * (held and i / most or 1) -- a hand straight in where that will do
+    local share = held and i / most or 1 -- the hand goes straight in where that will do
+    local relative = to_front + share * rng:between(-turn, turn)
     local c, s = math.abs(math.cos(relative)), math.abs(math.sin(relative))
     local half_x, half_y = (c * length + s * width) / 2, (s * length + c * width) / 2
-    local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- for the open fingers and for the hand, which is 21 cm wide
-    local spot = frame:along(-deep / 2 + margin + half_x, rng:between(-1, 1) * math.max(room, 0), (height - high) / 2 + 0.001)
+    local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- beside the open fingers and the hand, which is 21 cm wide
+    if not held then room = 0.75 * room end -- so that it is easily taken off again
+    local side = rng:between(-1, 1) * math.max(room, 0)
+    local spot = frame:along(-deep / 2 + margin + half_x, side, (height - high) / 2 + 0.001)
     local x, y, z = spot:position()
     local free = true
     for _, other in ipairs(w:objects("movable")) do
