@@ -108,6 +108,23 @@ TEST_CASE("authored grasps replace those from geometry") {
   CHECK(grasps[0].width == 0.041);
 }
 
+TEST_CASE("of two grasps that can both be reached, the one from above comes first") {
+  const World world(std::make_shared<Scene>(table_scene(1)));
+  Object cube = *world.scene().object("cube1");
+  for (const double slant : {0.785, 0.0}) {
+    Grasp grasp;
+    grasp.object_from_tip = rotation_rpy(3.14159265358979, -slant, 0);
+    cube.grasps.push_back(grasp);
+  }
+  const auto space = world.collision_space();
+  for (int k = 0; k < 10; ++k) {
+    const auto grasps = grasp_candidates(*space, world, cube, world.arm().home(), RandomKey("slant").with(k), 4);
+    REQUIRE(grasps.size() == 2);
+    CHECK(grasps[0].world_from_tip.linear().col(2).z() < -0.99);
+    CHECK(grasps[1].world_from_tip.linear().col(2).z() > -0.8);
+  }
+}
+
 TEST_CASE("free spots lie on the table, clear of the other cubes, and rest on it") {
   const World world(std::make_shared<Scene>(table_scene(12)));
   const auto space = world.collision_space();
