@@ -7,6 +7,7 @@
 #include "engine/symbolic/pddl.h"
 #include "scripting/program/constraints_fit.h"
 #include "scripting/program/roots.h"
+#include "scripting/program/session_core.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {
@@ -341,6 +342,49 @@ TEST_CASE("`export bddl` and back: the drawer task is imported, run, and judged 
   REQUIRE(verdicts.size() == 1);
   CHECK(verdicts[0].theirs);
   CHECK(verdicts[0].ours);
+}
+
+TEST_CASE("a program says where and goal as the command line does") {
+  SessionCore session(STAMPEDE_SOURCE_DIR, {}, {});
+  EpisodeRequest request;
+  request.variation = "level=top";
+  request.where = "(open chest.top_drawer)";
+  request.goal = "(closed chest--top_drawer)";
+  CHECK(session.run("put_item_in_drawer", request).outcome == Outcome::success);
+  request.goal = "(closed chest.top_drawr)";
+  CHECK_THROWS_AS(session.run("put_item_in_drawer", request), Error);
+}
+
+TEST_CASE("another planner's program can plan for a run: here our own, as if it were a stranger's") {
+  const Folder mine;
+  const std::string planner = std::string(STAMPEDE_PROGRAM) + " plan {domain} {problem} > {plan}";
+  const Said said = say({"run", "put_item_in_drawer", "--variation", "level=top", "--root", STAMPEDE_SOURCE_DIR,
+                         "--out", mine / "o.db", "--planner", planner});
+  INFO(said.err);
+  CHECK(said.code == kDone);
+  CHECK(Catalogue::open(mine / "o.db").read_episode(1).options.at("planner") == planner);
+}
+
+TEST_CASE("where LIBERO's rule and ours differ, both verdicts are kept and the difference is listed") {
+  const Folder mine;
+  std::filesystem::create_directories(mine / "own");
+  put(mine / "map.lua",
+      "return { dialect = \"libero\", categories = { { \"mug\", \"cube\" }, { \"plate\", \"cube\" } } }\n");
+  put(mine / "desk.bddl",  // theirs: on asks that the centres are within 3 cm, and the table's is far away
+      "(define (problem LIBERO_Tabletop_Manipulation) (:domain robosuite) (:language take the mug off the plate)\n"
+      "(:regions (spot (:target desk) (:ranges ((-0.1 -0.2 -0.08 -0.18)))))\n"
+      "(:fixtures desk - table)\n(:objects mug_1 - mug plate_1 - plate)\n(:obj_of_interest mug_1)\n"
+      "(:init (On plate_1 desk_spot) (On mug_1 plate_1))\n(:goal (And (On mug_1 desk))))\n");
+  const Said said = say({"import", mine / "desk.bddl", "--task", "off_plate", "--mapping", mine / "map.lua", "--root",
+                         STAMPEDE_SOURCE_DIR, "--path", mine / "own", "--out", mine / "o.db"});
+  INFO(said.err << said.out);
+  CHECK(said.code == kDone);
+  const std::vector<VerdictRecord> verdicts = Catalogue::open(mine / "o.db").read_episode(1).verdicts;
+  REQUIRE(verdicts.size() == 1);
+  CHECK(verdicts[0].ours);
+  CHECK_FALSE(verdicts[0].theirs);
+  REQUIRE(verdicts[0].disagreements.size() == 1);
+  CHECK(says(verdicts[0].disagreements[0], "(on mug_1 desk)"));
 }
 
 TEST_CASE("what cannot be imported is refused with the reason") {
