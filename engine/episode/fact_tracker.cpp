@@ -41,6 +41,7 @@ std::int64_t frame_at(std::int64_t step, int steps_per_frame) { return (step + s
 
 FactTracker::FactTracker(Symbols& symbols, const WorldView& view) : symbols_(symbols), dt_(view.world().dt()) {
   enumerate(view);
+  index_arguments(view);
   add_static(view);
   state_.atoms.resize(names_.size());
 }
@@ -87,36 +88,65 @@ void FactTracker::add_static(const WorldView& view) {
   std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 
-std::set<std::pair<std::string, std::string>> FactTracker::touching_pairs(const WorldView& view) const {
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const Contact& contact : view.world().contacts()) {
-    for (const Object& first : view.scene().objects) {
-      if (!view.owns(first, contact.a)) continue;
-      for (const Object& second : view.scene().objects)
-        if (view.owns(second, contact.b)) pairs.insert(std::minmax(first.name, second.name));
+// All that each frame would look up by name otherwise.
+void FactTracker::index_arguments(const WorldView& view) {
+  const Scene& scene = view.scene();
+  std::map<std::string, int> indices;
+  owners_.resize(scene.bodies.size() + 1);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& thing = scene.objects[i];
+    indices[thing.name] = static_cast<int>(i);
+    radii_.push_back(view.size(thing.name).norm() / 2);
+    for (int body = -1; body < static_cast<int>(scene.bodies.size()); ++body) {
+      const auto& parts = body < 0 ? scene.robot.body.parts : scene.bodies[static_cast<std::size_t>(body)].parts;
+      for (int part = 0; part < static_cast<int>(parts.size()); ++part)
+        if (view.owns(thing, {body, part}))
+          owners_[static_cast<std::size_t>(body + 1)].push_back({part, static_cast<int>(i)});
     }
   }
-  return pairs;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto& arguments = names_[i].arguments;
+    index_.emplace(names_[i], static_cast<int>(i));
+    pairs_.push_back({-1, -1});
+    if (arguments.size() < 2) continue;
+    pairs_.back() = {indices.at(arguments[arguments.size() - 2]), indices.at(arguments.back())};
+  }
+  for (const Group& group : groups_) any_near_ |= group.traits.requires_pairs == Pairs::near;
 }
 
-bool FactTracker::can_hold(const Group& group, const Fact& fact, const WorldView& view,
-                           const std::set<std::pair<std::string, std::string>>& touching) const {
+FactTracker::Neighbours FactTracker::neighbours(const WorldView& view) const {
+  const std::size_t count = radii_.size();
+  Neighbours near;
+  near.touching.resize(count * count);
+  for (const Contact& contact : view.world().contacts())
+    for (const Owner& first : owners_[static_cast<std::size_t>(contact.a.body + 1)]) {
+      if (first.part != contact.a.part) continue;
+      for (const Owner& second : owners_[static_cast<std::size_t>(contact.b.body + 1)]) {
+        if (second.part != contact.b.part) continue;
+        const auto a = static_cast<std::size_t>(first.object), b = static_cast<std::size_t>(second.object);
+        near.touching[a * count + b] = near.touching[b * count + a] = 1;
+      }
+    }
+  if (!any_near_) return near;
+  for (const Object& thing : view.scene().objects) near.at.push_back(view.world_from(thing.name).translation());
+  return near;
+}
+
+bool FactTracker::can_hold(const Group& group, std::size_t atom, const Neighbours& near) const {
   constexpr double kNear = 0.05;  // m between bounding spheres
-  if (group.traits.requires_pairs == Pairs::all || fact.arguments.size() < 2) return true;
-  const std::string &a = fact.arguments[fact.arguments.size() - 2], &b = fact.arguments.back();
-  if (touching.contains(std::minmax(a, b))) return true;
+  if (group.traits.requires_pairs == Pairs::all || pairs_[atom][0] < 0) return true;
+  const auto a = static_cast<std::size_t>(pairs_[atom][0]), b = static_cast<std::size_t>(pairs_[atom][1]);
+  if (near.touching[a * radii_.size() + b] != 0) return true;
   if (group.traits.requires_pairs == Pairs::touching) return false;
-  const double gap = (view.world_from(a).translation() - view.world_from(b).translation()).norm();
-  return gap < (view.size(a).norm() + view.size(b).norm()) / 2 + kNear;
+  return (near.at[a] - near.at[b]).norm() < radii_[a] + radii_[b] + kNear;
 }
 
 std::map<Fact, Symbols::Value> FactTracker::read_all(const WorldView& view, bool filtered) const {
   std::map<Fact, Symbols::Value> values;
-  const auto touching = touching_pairs(view);
+  const Neighbours near = neighbours(view);
   for (const Group& group : groups_)
     for (std::size_t i = group.first; i < group.first + group.count; ++i)
-      values[names_[i]] =
-          !filtered || can_hold(group, names_[i], view, touching) ? symbols_.value(names_[i], view) : Symbols::Value{};
+      values[names_[i]] = !filtered || can_hold(group, i, near) ? symbols_.value(names_[i], view) : Symbols::Value{};
   return values;
 }
 
@@ -147,13 +177,13 @@ void FactTracker::step(const WorldView& view) {
 
 void FactTracker::frame(const WorldView& view) {
   const std::int64_t step = view.world().step_count();
-  const auto touching = touching_pairs(view);
+  const Neighbours near = neighbours(view);
   for (const Group& group : groups_) {
     if (group.traits.momentary || group.fixed) continue;
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
       const Atom& atom = state_.atoms[i];
       if (group.traits.remember && atom.holds) continue;
-      const bool read = atom.raw || atom.holds || can_hold(group, names_[i], view, touching);
+      const bool read = atom.raw || atom.holds || can_hold(group, i, near);
       update(i, group, read ? symbols_.value(names_[i], view) : Symbols::Value{}, step);
     }
   }
@@ -248,10 +278,24 @@ void FactTracker::refresh_derived(std::int64_t step) {
   state_.facts = std::move(now);
 }
 
+int FactTracker::index_of(const Fact& fact) const {
+  const auto found = index_.find(fact);
+  return found == index_.end() ? -1 : found->second;
+}
+
+bool FactTracker::known(const Fact& fact) const {
+  const int index = index_of(fact);
+  if (index < 0) return derived_names_.contains(fact.predicate) ? observed().contains(fact) : static_.contains(fact);
+  const bool hides = std::any_of(groups_.begin(), groups_.end(),
+                                 [&](const Group& group) { return group.hides && group.predicate == fact.predicate; });
+  const Atom& atom = state_.atoms[static_cast<std::size_t>(index)];
+  return hides ? atom.known : atom.holds;
+}
+
 bool FactTracker::pending(const Fact& fact) const {
-  const auto found = std::find(names_.begin(), names_.end(), fact);
-  if (found == names_.end()) return false;
-  const Atom& atom = state_.atoms[static_cast<std::size_t>(found - names_.begin())];
+  const int index = index_of(fact);
+  if (index < 0) return false;
+  const Atom& atom = state_.atoms[static_cast<std::size_t>(index)];
   return atom.raw != atom.holds;
 }
 

@@ -1,6 +1,7 @@
 // Which facts hold, debounced: verdicts, plans and stored intervals all read the same values.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,7 +30,9 @@ class FactTracker {
   const Facts& facts() const { return state_.facts; }
   Facts basic() const;                   // facts() without derived ones: PDDL's :init
   Facts observed() const;                // as facts(), but of what can hide only what was seen so when it was last seen
+  bool known(const Fact& fact) const;    // is it in observed()?
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
+  const Domain& domain() const { return symbols_.domain(); }
   const std::vector<TypedObject>& objects() const { return objects_; }
 
   // Intervals up to now; open ones end at `end_step`, and say so. Their `observed`: was it known all the time?
@@ -70,14 +73,29 @@ class FactTracker {
   void update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step);
   void commit(std::size_t index, bool holds, std::int64_t at_step, std::optional<double> margin);
   void refresh_derived(std::int64_t step);
-  std::set<std::pair<std::string, std::string>> touching_pairs(const WorldView& view) const;
-  bool can_hold(const Group& group, const Fact& fact, const WorldView& view,
-                const std::set<std::pair<std::string, std::string>>& touching) const;
+  // Who is near whom at one moment, by indices of scene objects.
+  struct Neighbours {
+    std::vector<char> touching;  // a square table
+    std::vector<Vector3> at;     // where they are
+  };
+  void index_arguments(const WorldView& view);
+  Neighbours neighbours(const WorldView& view) const;
+  bool can_hold(const Group& group, std::size_t atom, const Neighbours& near) const;
+  int index_of(const Fact& fact) const;  // of an atom; -1: none
 
   Symbols& symbols_;
   double dt_ = 0;
   std::vector<TypedObject> objects_;
   std::vector<Fact> names_;  // per atom
+  std::map<Fact, int> index_;
+  std::vector<std::array<int, 2>> pairs_;  // per atom, its last two arguments: indices of scene objects
+  std::vector<double> radii_;              // of scene objects, m
+  struct Owner {
+    int part = 0;  // -1: any of the body
+    int object = 0;
+  };
+  std::vector<std::vector<Owner>> owners_;  // of contacts, by body + 1
+  bool any_near_ = false;
   std::vector<Group> groups_;
   Facts static_;  // traits and attributes
   std::set<std::string> derived_names_;

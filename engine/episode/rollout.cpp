@@ -19,6 +19,7 @@ Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, Senso
       horizon_steps_(std::llround(task.horizon_s() * start.scene->physics_hz)),
       stages_(task.stages()),
       goal_(task.goal()) {
+  view_.set_facts(&facts_);
   view_.restore(start.history);
   facts_.begin(start.values);
   facts_.look(view_);

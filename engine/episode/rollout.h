@@ -14,6 +14,8 @@ class Rollout {
  public:
   Rollout(Task& task, Symbols& symbols, const PreparedStart& start, SensorReader sensors,
           const std::atomic<bool>* stop);
+  Rollout(const Rollout&) = delete;  // the view knows the facts by their address
+  Rollout& operator=(const Rollout&) = delete;
 
   World& world() { return world_; }
   const WorldView& view() const { return view_; }

@@ -263,7 +263,10 @@ class StartMaker {
       if (tracker.facts().contains(literal.fact) == literal.negated) return refuse(text_of(literal));
     if (where_ && !holds(*where_, tracker.facts(), symbols_.domain(), tracker.objects()))
       return refuse(failing_parts(*where_, tracker.facts(), symbols_.domain(), tracker.objects()).front());
-    if (holds(task_.goal(), tracker.facts(), symbols_.domain(), tracker.objects()) && task_.also(view))
+    tracker.look(view);
+    WorldView with_facts = view;
+    with_facts.set_facts(&tracker);
+    if (holds(task_.goal(), tracker.facts(), symbols_.domain(), tracker.objects()) && task_.also(with_facts))
       return refuse("the goal not holding at the start");
     start.scene = std::make_shared<const Scene>(settled(view));
     start.values = std::move(values);

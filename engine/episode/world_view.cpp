@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/base/error.h"
@@ -33,7 +34,18 @@ std::array<Vector3, 2> world_bounds(const Transform& world_from_part, const Part
 
 WorldView::WorldView(World& world) : world_(&world) {
   const auto& objects = scene().objects;
-  for (std::size_t i = 0; i < objects.size(); ++i) index_[objects[i].name] = static_cast<int>(i);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    index_[objects[i].name] = static_cast<int>(i);
+    bodies_.push_back(objects[i].body.empty() ? -1 : scene().body_index(objects[i].body));
+  }
+}
+
+// Contacts are asked for whom they belong to many times a frame: names are looked up once.
+int WorldView::body_of(const Object& thing) const {
+  const auto& objects = scene().objects;
+  const auto index = static_cast<std::size_t>(&thing - objects.data());
+  const bool own = !std::less<>()(&thing, objects.data()) && index < objects.size();
+  return own ? bodies_[index] : scene().body_index(thing.body);
 }
 
 const Object& WorldView::object(std::string_view name) const {
@@ -53,7 +65,7 @@ PartRef WorldView::part_of(std::string_view name) const {
   switch (thing.kind) {
     case ObjectKind::body:
     case ObjectKind::part:
-      return {scene().body_index(thing.body), thing.part};
+      return {body_of(thing), thing.part};
     case ObjectKind::hand:
       return {-1, scene().robot.tip_part};
     case ObjectKind::region:
@@ -66,9 +78,9 @@ bool WorldView::owns(const Object& thing, PartRef part) const {
   const Robot& robot = scene().robot;
   switch (thing.kind) {
     case ObjectKind::body:
-      return part.body >= 0 && part.body == scene().body_index(thing.body);
+      return part.body >= 0 && part.body == body_of(thing);
     case ObjectKind::part:
-      return part.body >= 0 && part == PartRef{scene().body_index(thing.body), thing.part};
+      return part.body >= 0 && part == PartRef{body_of(thing), thing.part};
     case ObjectKind::hand:
       return part.body == -1 &&
              (std::count(robot.pads.begin(), robot.pads.end(), part.part) > 0 ||

@@ -13,6 +13,8 @@
 
 namespace stampede {
 
+class FactTracker;
+
 // Reads a world; keeps a short history per frame for tests of rest. Contacts are those of the last frame.
 // Throws Error for names that the scene does not have, with the nearest name as cure.
 class WorldView {
@@ -59,13 +61,21 @@ class WorldView {
   void restore(History history) { history_ = std::move(history); }
   void attach(World& world) { world_ = &world; }
 
+  // The symbols of this moment beside the raw state, where a run keeps them; else null. Predicates never read them.
+  const FactTracker* facts() const { return facts_; }
+  void set_facts(const FactTracker* facts) { facts_ = facts; }
+
   // The free body's object that a body index stands for; empty: a fixture part etc.
   PartRef part_of(std::string_view object) const;
   bool owns(const Object& object, PartRef part) const;  // does a contact on `part` count as on `object`?
 
  private:
+  int body_of(const Object& object) const;  // index of its body; -1: none
+
   World* world_;
+  const FactTracker* facts_ = nullptr;
   std::map<std::string, int, std::less<>> index_;  // object name -> index in scene().objects
+  std::vector<int> bodies_;                        // of each of them, the index of its body; -1: none
   History history_;
 };
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kDepth_m = 0.030;  // the palm is 37 mm behind the tip
 constexpr double kApproach_m = 0.08;
+constexpr double kNarrow_m = 0.02;  // wider than the object, where wide open fingers meet something
 constexpr std::size_t kMostTested = 96;
 
 struct Option {
@@ -107,20 +108,24 @@ std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World&
   if (options.size() > kMostTested) options.resize(kMostTested);
   std::vector<GraspCandidate> found;
   space.set_padding(0);
-  space.set_opening(scene.robot.opening_max);
-  for (const Option& option : options) {
-    if (static_cast<int>(found.size()) >= most) break;
-    GraspCandidate grasp;
-    grasp.object_from_tip = option.object_from_tip;
-    grasp.world_from_tip = world_from_body * option.object_from_tip;
-    grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -option.approach);
-    grasp.width = option.width;
-    grasp.opening = scene.robot.opening_max;
-    grasp.force = option.force;
-    grasp.index = static_cast<int>(found.size());
-    // Authored grasps may touch what they were authored for; those from geometry start clear of it.
-    if (option.authored) space.allow({body, object.part});
-    if (feasible(space, grasp, start, key.with("ik"))) found.push_back(grasp);
+  for (const double room :
+       {scene.robot.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
+    if (!found.empty()) break;
+    for (const Option& option : options) {
+      if (static_cast<int>(found.size()) >= most) break;
+      GraspCandidate grasp;
+      grasp.object_from_tip = option.object_from_tip;
+      grasp.world_from_tip = world_from_body * option.object_from_tip;
+      grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -option.approach);
+      grasp.width = option.width;
+      grasp.opening = std::min(scene.robot.opening_max, option.width + room);
+      grasp.force = option.force;
+      grasp.index = static_cast<int>(found.size());
+      space.set_opening(grasp.opening);
+      // Authored grasps may touch what they were authored for; those from geometry start clear of it.
+      if (option.authored) space.allow({body, object.part});
+      if (feasible(space, grasp, start, key.with("ik"))) found.push_back(grasp);
+    }
   }
   if (!object.grasps.empty()) space.clear_allowed();
   return found;

@@ -94,6 +94,23 @@ function each(list, f) end
 function range(first, last, step) end
 ---@type { names: string[], except: (fun(...): string[]), rgb: fun(name: string): number[] }
 colours = {}
+-- The world, as tests and skills read it; scripting/runtime/README.md lists the other methods.
+---@class stampede.world_view
+local world_view = {}
+-- Does it hold now (debounced, as verdicts and catalogues have it)? Not in predicates.
+---@param predicate string
+---@param ... string
+---@return boolean
+function world_view:fact(predicate, ...) end
+-- Is it known to hold: what can be hidden as it was when it was last seen. Not in predicates.
+---@param predicate string
+---@param ... string
+---@return boolean
+function world_view:observed(predicate, ...) end
+-- All facts, or those of one predicate: { { "on", "cup", "table" }, … }. Not in predicates.
+---@param predicate? string
+---@return string[][]
+function world_view:facts(predicate) end
 )lua";
 
 }  // namespace

@@ -196,6 +196,14 @@ void LibraryBuilder::define_predicates() {
       complain(definition, "settle", "a momentary predicate has no settle time", "remove one of both");
     }
     library_->predicate_traits_[name] = traits;
+    const Node& observable = node["observable"];
+    const bool hides = observable.present() && !(observable.kind == Node::Kind::boolean && observable.boolean);
+    if (hides && node["derived"].present()) {
+      complain(definition, "observable", "what a derived predicate lets be seen follows from what it is derived of",
+               "say observable there");
+    } else if (hides) {
+      library_->hiding_.insert(name);
+    }
     for (const Node& other : node["mutex"].items) {
       if (library_->domain_.predicate(other.text) != nullptr) continue;
       std::vector<std::string> known;

@@ -84,7 +84,8 @@ const Record kPredicate{
      {"requires", "string", false, "\"all\"", "", "evaluate only pairs that are \"touching\" or \"near\""},
      {"mutex", "string[]", false, "{}", "", "predicates that cannot hold of the same first argument"},
      {"functional", "boolean|string", false, "false", "", "at most one value of the last (or named) parameter"},
-     {"observable", "function|boolean", false, "true", "", "function(w, …): can it be seen"},
+     {"observable", "function|boolean", false, "true", "",
+      "function(w, …): can one see now whether it holds; false: never"},
      {"margin_unit", "string", false, "", "", "unit of the margin", "\"m\""}}};
 
 const std::vector<Field> kBodyFields = {

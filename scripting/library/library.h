@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ class Library {
   // name it have it as a parameter like any other (`hand_empty(hand)`, `holding(hand, obj)`).
   const Domain& domain() const { return domain_; }
   const std::map<std::string, PredicateTraits>& predicate_traits() const { return predicate_traits_; }
+  bool can_hide(const std::string& predicate) const { return hiding_.contains(predicate); }  // its file: `observable`
   const SkillInfo* skill(std::string_view name) const;
 
   struct TaskInfo {
@@ -82,6 +84,7 @@ class Library {
   std::vector<ScriptFile> files_;
   Domain domain_;
   std::map<std::string, PredicateTraits> predicate_traits_;
+  std::set<std::string> hiding_;
   std::map<std::string, SkillInfo, std::less<>> skills_;
   std::map<std::string, TaskInfo, std::less<>> tasks_;
 };

@@ -29,32 +29,39 @@ PredicateTraits LuaSymbols::traits(const std::string& predicate) const {
   return found == all.end() ? PredicateTraits{} : found->second;
 }
 
-int LuaSymbols::holds_of(const std::string& predicate) {
+int LuaSymbols::function_of(Functions& known, const char* field, const std::string& predicate) {
   if (generation_ != tests_.generation()) {
     holds_.clear();
+    observable_.clear();
     generation_ = tests_.generation();
   }
-  const auto found = holds_.find(predicate);
-  if (found != holds_.end()) return found->second;
+  const auto found = known.find(predicate);
+  if (found != known.end()) return found->second;
   const bool scripted = tests_.library()->file(DefinitionKind::predicate, predicate) != nullptr;
-  const int holds = scripted ? tests_.get().function_of(DefinitionKind::predicate, predicate, "holds") : 0;
-  holds_.emplace(predicate, holds);
-  return holds;
+  const int function = scripted ? tests_.get().function_of(DefinitionKind::predicate, predicate, field) : 0;
+  known.emplace(predicate, function);
+  return function;
+}
+
+bool LuaSymbols::observable(const Fact& fact, const WorldView& view) {
+  if (!can_hide(fact.predicate)) return true;
+  const int function = function_of(observable_, "observable", fact.predicate);
+  return function != 0 && call(function, fact, view).holds;  // `observable = false`: never
 }
 
 Symbols::Value LuaSymbols::value(const Fact& fact, const WorldView& view) {
-  if (const int holds = holds_of(fact.predicate); holds != 0) return call(holds, fact, view);
+  if (const int holds = function_of(holds_, "holds", fact.predicate); holds != 0) return call(holds, fact, view);
   const std::vector<std::string>& arguments = fact.arguments;
   if (arguments.size() == 1) return {has_trait(view.object(arguments[0]), fact.predicate), std::nullopt};
   if (arguments.size() == 2) return {has_attribute(view.object(arguments[0]), fact.predicate, arguments[1]), {}};
   throw Error("predicate " + fact.predicate, "has no 'holds', and is neither a trait nor an attribute");
 }
 
-Symbols::Value LuaSymbols::call(int holds, const Fact& fact, const WorldView& view) {
+Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView& view) {
   ScriptState& scripts = tests_.get();
   const ViewScope scope(scripts.view, view);
   lua_State* const state = scripts.lua();
-  lua_rawgeti(state, LUA_REGISTRYINDEX, holds);
+  lua_rawgeti(state, LUA_REGISTRYINDEX, function);
   lua_rawgeti(state, LUA_REGISTRYINDEX, scripts.view_reference());
   push_arguments(state, fact);
   scripts.sandbox().call(static_cast<int>(fact.arguments.size()) + 1, 2);

@@ -15,16 +15,21 @@ class LuaSymbols : public Symbols {
   PredicateTraits traits(const std::string& predicate) const override;
   // Traits and attributes are read from the scene's objects, all else by the predicate's `holds`.
   Value value(const Fact& fact, const WorldView& view) override;
+  // A predicate hides where its file says `observable`, which is then asked of a fact at a moment.
+  bool can_hide(const std::string& predicate) const override { return tests_.library()->can_hide(predicate); }
+  bool observable(const Fact& fact, const WorldView& view) override;
   // In a fresh state each time: a sample depends on its arguments only.
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
                                 int most) override;
 
  private:
-  int holds_of(const std::string& predicate);  // registry reference, 0: it has none
-  Value call(int holds, const Fact& fact, const WorldView& view);
+  // A predicate's function, as registry reference; 0: it has none.
+  using Functions = std::unordered_map<std::string, int>;  // looked up only
+  int function_of(Functions& known, const char* field, const std::string& predicate);
+  Value call(int function, const Fact& fact, const WorldView& view);
 
   TestState& tests_;
-  std::unordered_map<std::string, int> holds_;  // looked up only
+  Functions holds_, observable_;
   int generation_ = -1;
 };
 

@@ -91,7 +91,7 @@ bool LuaTask::call_test(const char* field, const WorldView& view) {
   }
   if (found->second == 0) return false;
   if (v_ == 0) v_ = keep_variation();
-  const ViewScope scope(scripts.view, view);
+  const ViewScope scope(scripts.view, view, ViewScope::Facts::readable);
   scripts.push_kept(found->second);
   scripts.push_kept(scripts.view_reference());
   scripts.push_kept(v_);

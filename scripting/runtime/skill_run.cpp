@@ -90,7 +90,7 @@ class LuaRun : public SkillRun {
 
   RobotCall next(const WorldView& view) override {
     if (finished_) return robot_call::Done{};
-    const ViewScope scope(scripts_.view, view);
+    const ViewScope scope(scripts_.view, view, ViewScope::Facts::readable);
     scripts_.robot.running = coroutine_;
     scripts_.robot.call.reset();
     return resume();

@@ -1,9 +1,12 @@
 #include "scripting/runtime/view_binding.h"
 
+#include <algorithm>
 #include <lua.hpp>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/episode/fact_tracker.h"
 #include "scripting/lua/binding.h"
 #include "scripting/runtime/pose_binding.h"
 #include "scripting/runtime/sampling_binding.h"
@@ -197,6 +200,72 @@ int tip(lua_State* state) {
   return 1;
 }
 
+const FactTracker& facts_of(lua_State* state) {
+  const ViewContext& context = check_context(state);
+  if (!context.facts) luaL_error(state, "facts are made of predicates: a predicate reads the world, not the facts");
+  if (context.view->facts() == nullptr) luaL_error(state, "there are no facts here: nothing is being run");
+  return *context.view->facts();
+}
+
+// The fact named by the arguments from `index` on. A hand that is left out is filled in, as in formulas.
+Fact check_fact(lua_State* state, int index, const FactTracker& facts) {
+  const ViewContext& context = check_context(state);
+  Fact fact{std::string(check_text(state, index)), {}};
+  const Domain& domain = facts.domain();
+  const Predicate* predicate = domain.predicate(fact.predicate);
+  for (int i = index + 1; i <= lua_gettop(state); ++i) fact.arguments.emplace_back(check_text(state, i));
+  const bool trait = std::find(domain.traits.begin(), domain.traits.end(), fact.predicate) != domain.traits.end();
+  if (predicate == nullptr && !trait) {
+    std::vector<std::string> names = domain.traits;
+    for (const Predicate& one : domain.predicates) names.push_back(one.name);
+    throw Error("w", "there is no predicate '" + fact.predicate + "'", did_you_mean(fact.predicate, names));
+  }
+  const std::size_t wanted = predicate == nullptr ? 1 : predicate->parameters.size();
+  for (std::size_t i = 0; predicate != nullptr && i < wanted && fact.arguments.size() + 1 == wanted; ++i) {
+    if (predicate->parameters[i].type == "hand")
+      fact.arguments.insert(fact.arguments.begin() + static_cast<std::ptrdiff_t>(i), context.hand);
+  }
+  if (fact.arguments.size() != wanted) {
+    throw Error("w", "'" + fact.predicate + "' is about " + std::to_string(wanted) + " things, not " +
+                         std::to_string(fact.arguments.size()));
+  }
+  return fact;
+}
+
+int fact(lua_State* state) {
+  const FactTracker& facts = facts_of(state);
+  lua_pushboolean(state, facts.facts().contains(check_fact(state, 2, facts)) ? 1 : 0);
+  return 1;
+}
+
+int observed(lua_State* state) {
+  const FactTracker& facts = facts_of(state);
+  lua_pushboolean(state, facts.known(check_fact(state, 2, facts)) ? 1 : 0);
+  return 1;
+}
+
+// { { "on", "cup", "table" }, … } in order; with a predicate's name only its facts.
+int facts(lua_State* state) {
+  const FactTracker& tracker = facts_of(state);
+  const std::string_view only = lua_isnoneornil(state, 2) ? std::string_view() : check_text(state, 2);
+  lua_newtable(state);
+  lua_Integer count = 0;
+  for (const Fact& one : tracker.facts()) {
+    if (!only.empty() && one.predicate != only) continue;
+    charge(state, 1);
+    lua_createtable(state, static_cast<int>(one.arguments.size()) + 1, 0);
+    lua_Integer place = 0;
+    lua_pushlstring(state, one.predicate.data(), one.predicate.size());
+    lua_rawseti(state, -2, ++place);
+    for (const std::string& argument : one.arguments) {
+      lua_pushlstring(state, argument.data(), argument.size());
+      lua_rawseti(state, -2, ++place);
+    }
+    lua_rawseti(state, -2, ++count);
+  }
+  return 1;
+}
+
 constexpr luaL_Reg kMethods[] = {
     {"position", lua_function<position>},
     {"pose", lua_function<pose>},
@@ -229,6 +298,9 @@ constexpr luaL_Reg kMethods[] = {
     {"hand", lua_function<hand>},
     {"tip", lua_function<tip>},
     {"time", lua_function<time>},
+    {"fact", lua_function<fact>},
+    {"observed", lua_function<observed>},
+    {"facts", lua_function<facts>},
     {nullptr, nullptr},
 };
 

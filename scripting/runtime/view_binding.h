@@ -17,6 +17,7 @@ struct ViewContext {
   const WorldView* view = nullptr;
   CollisionSpace* space = nullptr;  // while sampling
   int most = 0;                     // samples asked for
+  bool facts = false;               // may the facts be read? Not by predicates: facts are made of these
   std::string hand;                 // `panda.hand`
 };
 
@@ -28,11 +29,15 @@ class ViewScope {
     context.view = &view;
     context.space = space;
     context.most = most;
+    context.facts = false;
   }
+  enum class Facts { readable };
+  ViewScope(ViewContext& context, const WorldView& view, Facts) : ViewScope(context, view) { context.facts = true; }
   ~ViewScope() {
     context_.view = before_.view;
     context_.space = before_.space;
     context_.most = before_.most;
+    context_.facts = before_.facts;
   }
   ViewScope(const ViewScope&) = delete;
   ViewScope& operator=(const ViewScope&) = delete;
@@ -40,10 +45,12 @@ class ViewScope {
  private:
   ViewContext& context_;
   struct Before {
-    explicit Before(const ViewContext& context) : view(context.view), space(context.space), most(context.most) {}
+    explicit Before(const ViewContext& context)
+        : view(context.view), space(context.space), most(context.most), facts(context.facts) {}
     const WorldView* view;
     CollisionSpace* space;
     int most;
+    bool facts;
   } before_;
 };
 

@@ -42,10 +42,24 @@ local function shelf_spots(w, obj, shelf, rng)
   return poses
 end
 
+-- A drawer is looked into when it is open; a box when one of its doors or lids is.
+local function looks_open(w, box)
+  if w:type(box) == "region" then return true end
+  local shut = false
+  for _, part in ipairs(w:objects("openable")) do
+    if part == box or string.sub(part, 1, #box + 1) == box .. "." then
+      if w:joint(part) >= w:number(part, "open_at") then return true end
+      shut = true
+    end
+  end
+  return not shut
+end
+
 return predicate {
   params = { "obj: movable", "box: container" },
   label = "the {obj} is inside the {box}",
   settle = 0.1, -- s
+  observable = function(w, _, box) return looks_open(w, box) end,
   holds = function(w, obj, box) return w:inside(inner(w, box), obj) end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end

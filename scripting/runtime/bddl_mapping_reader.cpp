@@ -1,0 +1,181 @@
+#include "scripting/runtime/bddl_mapping_reader.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <lua.hpp>
+
+#include "engine/base/nearest.h"
+#include "scripting/library/node.h"
+#include "scripting/lua/sandbox.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::uintmax_t kLargest = 1u << 20;  // bytes
+
+class MappingReader {
+ public:
+  MappingReader(const Library& library, std::string place) : library_(library), place_(std::move(place)) {}
+
+  BddlMapping read(const Node& table) {
+    if (!table.is_table()) throw Error(place_, "expected a table, got " + table.type_name(), "return { … }");
+    only(table, "",
+         {"dialect", "extend", "domain", "problem_name", "categories", "sites", "parts", "predicates", "support",
+          "within", "hand", "room", "rooms"});
+    const std::string& dialect = text(table["dialect"], "dialect");
+    if (dialect != "libero" && dialect != "behavior")
+      fail("dialect", "there is no dialect '" + dialect + "'", did_you_mean(dialect, {"behavior", "libero"}));
+    const BddlMapping standard = dialect == "libero" ? default_libero_mapping() : default_behavior_mapping();
+    BddlMapping mapping = standard;
+    if (!table["extend"].boolean) {
+      mapping.categories.clear();
+      mapping.sites.clear();
+      mapping.parts.clear();
+      mapping.predicates.clear();
+      mapping.rooms.clear();
+    }
+    read_words(table, mapping);
+    read_things(table, mapping);
+    put_first(mapping.predicates, rules(table["predicates"]));
+    check_mapping(mapping, place_);
+    return mapping;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& field, const std::string& what, const std::string& hint = {}) const {
+    throw Error(place_ + ": " + field, what, hint);
+  }
+
+  void only(const Node& table, const std::string& field, const std::vector<std::string>& known) const {
+    for (const auto& [name, value] : table.fields)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        fail(field.empty() ? name : field, "there is no field '" + name + "'", did_you_mean(name, known));
+  }
+
+  const std::string& text(const Node& node, const std::string& field) const {
+    if (!node.is_text()) fail(field, "expected a text, got " + node.type_name());
+    return node.text;
+  }
+
+  template <typename T>
+  static void put_first(std::vector<T>& all, std::vector<T> own) {
+    all.insert(all.begin(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  }
+
+  void read_words(const Node& table, BddlMapping& mapping) const {
+    const std::pair<const char*, std::string BddlMapping::*> words[] = {
+        {"domain", &BddlMapping::domain},   {"problem_name", &BddlMapping::problem_name},
+        {"support", &BddlMapping::support}, {"within", &BddlMapping::within},
+        {"hand", &BddlMapping::hand},       {"room", &BddlMapping::room}};
+    for (const auto& [name, member] : words)
+      if (table[name].present()) mapping.*member = text(table[name], name);
+    known_predicate("support", mapping.support);
+    known_predicate("within", mapping.within);
+  }
+
+  void read_things(const Node& table, BddlMapping& mapping) const {
+    put_first(mapping.categories, pairs(table["categories"], "categories", false));
+    for (const BddlPair& pair : mapping.categories) known_thing("categories", pair.ours);
+    put_first(mapping.sites, pairs(table["sites"], "sites", true));
+    for (const auto& [thing, parts] : table["parts"].fields) {
+      known_thing("parts", thing);
+      std::vector<std::string>& names = mapping.parts[thing];
+      names.clear();
+      for (const Node& part : parts.items) names.push_back(text(part, "parts." + thing));
+    }
+    for (const auto& [thing, room] : table["rooms"].fields) {
+      known_thing("rooms", thing);
+      mapping.rooms[thing] = text(room, "rooms." + thing);
+    }
+  }
+
+  // { { "theirs", "ours" }, … }
+  std::vector<BddlPair> pairs(const Node& list, const std::string& field, bool may_be_empty) const {
+    if (list.present() && (!list.is_table() || !list.fields.empty()))
+      fail(field, "expected a list of pairs", "{ { \"theirs\", \"ours\" } }: the first that fits is taken");
+    std::vector<BddlPair> result;
+    for (const Node& item : list.items) {
+      if (item.items.size() != 2) fail(field, "expected a pair, got " + item.type_name(), "{ \"theirs\", \"ours\" }");
+      result.push_back({text(item.items[0], field), text(item.items[1], field)});
+      if (result.back().ours.empty() && !may_be_empty)
+        fail(field, "'" + result.back().theirs + "' is mapped to nothing");
+    }
+    return result;
+  }
+
+  std::vector<BddlPredicateRule> rules(const Node& list) const {
+    std::vector<BddlPredicateRule> result;
+    for (const Node& item : list.items) {
+      const std::string field = "predicates[" + std::to_string(result.size() + 1) + "]";
+      only(item, field, {"theirs", "ours", "negated", "order", "meaning", "why"});
+      BddlPredicateRule rule;
+      rule.theirs = text(item["theirs"], field + ".theirs");
+      rule.ours = text(item["ours"], field + ".ours");
+      known_predicate(field + ".ours", rule.ours);
+      rule.negated = item["negated"].boolean;
+      for (const Node& place : item["order"].items) {
+        if (!place.integer) fail(field + ".order", "expected whole numbers from 1", "{ 2, 1 } swaps two arguments");
+        rule.order.push_back(static_cast<int>(place.number) - 1);  // Lua counts from 1
+      }
+      rule.meaning = meaning(item["meaning"], field + ".meaning");
+      if (item["why"].present()) rule.why = text(item["why"], field + ".why");
+      result.push_back(std::move(rule));
+    }
+    return result;
+  }
+
+  BddlMeaning meaning(const Node& node, const std::string& field) const {
+    using enum BddlMeaning;
+    if (!node.present()) return equal;
+    std::vector<std::string> names;
+    for (const BddlMeaning one : {equal, stronger, weaker, incomparable}) {
+      if (text(node, field) == to_string(one)) return one;
+      names.emplace_back(to_string(one));
+    }
+    fail(field, "'" + node.text + "' is no relation of meanings", did_you_mean(node.text, names));
+  }
+
+  void known_predicate(const std::string& field, const std::string& name) const {
+    if (library_.domain().predicate(name) != nullptr) return;
+    std::vector<std::string> names;
+    for (const Predicate& one : library_.domain().predicates) names.push_back(one.name);
+    fail(field, "there is no predicate '" + name + "'", did_you_mean(name, names));
+  }
+
+  // An object file or a type.
+  void known_thing(const std::string& field, const std::string& name) const {
+    if (library_.domain().types.contains(name) || library_.file(DefinitionKind::object, name) != nullptr) return;
+    std::vector<std::string> names;
+    for (const ScriptFile* file : library_.files(DefinitionKind::object)) names.push_back(file->name);
+    for (const auto& [type, parent] : library_.domain().types) names.push_back(type);
+    fail(field, "there is no object or type '" + name + "'", did_you_mean(name, names));
+  }
+
+  const Library& library_;
+  std::string place_;
+};
+
+std::string source_of(const std::string& path) {
+  std::error_code code;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(path, "cannot be read", "name a file of worlds/bddl, or a path to one");
+  if (std::filesystem::file_size(path, code) > kLargest) throw Error(path, "larger than 1 MiB");
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+}  // namespace
+
+BddlMapping read_bddl_mapping(const Library& library, const std::string& path) {
+  const ScriptFile* own = library.module("worlds.bddl." + path);
+  const std::string place = own != nullptr ? own->shown_path : path;
+  const std::string bytecode = own != nullptr ? own->bytecode : Sandbox::compile(source_of(path), path);
+  Sandbox sandbox({}, [&](std::string_view name) {
+    const ScriptFile* file = library.module(name);
+    return file == nullptr ? std::string_view() : std::string_view(file->bytecode);
+  });
+  sandbox.run(bytecode, "@" + place, 1);
+  return MappingReader(library, place).read(read_node(sandbox.state(), -1, place));
+}
+
+}  // namespace stampede
