@@ -9,7 +9,7 @@ return skill {
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in
     robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
     robot:wait(0.1)
-    robot:open_hand()
+    robot:open_hand(robot:view():opening() + 0.02)                      -- no wider: there may be neighbours
     local _, _, z = robot:tip():position()
     local _, _, finger_z = robot:tip():along(0, 0.1, 0):position()
     if math.abs(finger_z - z) < 0.01 then                               -- no finger is below the object:

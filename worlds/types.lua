@@ -29,6 +29,7 @@ return {
     ball = { parent = "thing" },
     bin = { parent = "fixture" },
     area = { parent = "fixture" },
+    tray = { parent = "fixture" },
     button = { parent = "fixture" },
     outlet = { parent = "fixture" },
     computer = { parent = "fixture" },
