@@ -1,0 +1,77 @@
+// Hidden state: what is true in a closed drawer and what is known of it.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "db/catalogue.h"
+#include "engine/episode/abstract_state.h"
+#include "tests/tasks/run_task.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+EpisodeRecord find_item(const std::string& level, std::int64_t seed) {
+  RunOptions options;
+  options.seed = seed;
+  EpisodeRecord episode = run_task("find_item_in_drawer", "hidden_in=" + level, options);
+  INFO(level << " seed " << seed << ": " << verdict(episode));
+  REQUIRE(episode.outcome == Outcome::success);
+  return episode;
+}
+
+const FactRecord* interval(const std::vector<FactRecord>& facts, const Fact& fact) {
+  const auto found =
+      std::find_if(facts.begin(), facts.end(), [&](const FactRecord& record) { return record.fact == fact; });
+  return found == facts.end() ? nullptr : &*found;
+}
+
+std::int64_t number(const Catalogue& catalogue, const std::string& sql) {
+  const QueryResult result = catalogue.query(sql);
+  REQUIRE(result.rows.size() == 1);
+  return std::get<std::int64_t>(result.rows[0][0]);
+}
+
+}  // namespace
+
+TEST_CASE("an item in a closed drawer is inside and not known to be, until its drawer is open") {
+  const auto level = GENERATE(as<std::string>{}, "bottom", "middle", "top");
+  const EpisodeRecord episode = find_item(level, 11);
+  const std::string drawer = "chest." + level + "_drawer";
+  const FactRecord* real = interval(episode.facts, {"inside", {"item", drawer}});
+  const FactRecord* known = interval(episode.observed_facts, {"inside", {"item", drawer}});
+  const FactRecord* open = interval(episode.facts, {"open", {drawer}});
+  REQUIRE((real != nullptr && known != nullptr && open != nullptr));
+  CHECK(real->open_start);
+  CHECK_FALSE(real->observed);
+  CHECK_FALSE(known->open_start);
+  // Seen at a frame at which the drawer is far enough open: `open` is dated at the same frame, whatever its settle
+  // time.
+  CHECK(known->first_frame == open->first_frame);
+  CHECK(known->end_step >= real->end_step);
+  CHECK(known->end_step <= real->end_step + 48);  // its end has to settle too, 0.1 s
+  CHECK(skills_of(episode) == std::vector<std::string>{"open " + drawer, "take_out item", "place item"});
+
+  const AbstractState before = abstract_state(episode, 0), after = abstract_state(episode, known->first_frame);
+  const Fact fact{"inside", {"item", drawer}};
+  CHECK((before.facts.contains(fact) && !before.observed.contains(fact)));
+  CHECK((after.facts.contains(fact) && after.observed.contains(fact)));
+}
+
+TEST_CASE("the catalogue keeps both versions: facts and observed_facts") {
+  EpisodeRecord episode = find_item("middle", 12);
+  episode.key = "hidden";
+  const auto path = std::filesystem::temp_directory_path() / "stampede_hidden_test.db";
+  std::filesystem::remove(path);
+  Catalogue catalogue = Catalogue::write(path);
+  catalogue.add(episode, {"test", "probe"});
+  const std::string at_start = " WHERE predicate = 'inside' AND arg1 = 'item' AND first_frame = 0";
+  CHECK(number(catalogue, "SELECT count(*) FROM facts" + at_start) == 1);
+  CHECK(number(catalogue, "SELECT count(*) FROM observed_facts" + at_start) == 0);
+  CHECK(number(catalogue, "SELECT count(*) FROM observed_facts WHERE predicate = 'inside' AND arg1 = 'item'") == 1);
+  // What does not hide is known as it is.
+  const std::string on = " WHERE predicate = 'on' AND arg1 = 'item'";
+  CHECK(number(catalogue, "SELECT count(*) FROM observed_facts" + on) ==
+        number(catalogue, "SELECT count(*) FROM facts" + on));
+  std::filesystem::remove(path);
+}

@@ -1,0 +1,60 @@
+// Execution is watched: what goes otherwise than declared is planned around from where the world is.
+#include <catch2/catch.hpp>
+
+#include "tests/tasks/run_task.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+EpisodeRecord run_with(const std::string& task, OnFailure on_failure) {
+  RunOptions options;
+  options.seed = 1;
+  options.on_failure = on_failure;
+  return run_task(task, "", options);
+}
+
+}  // namespace
+
+TEST_CASE("a block is knocked off the post that a later step would take it from: the rest is planned again") {
+  const auto on_failure = GENERATE(OnFailure::undo, OnFailure::recover, OnFailure::stop);
+  const EpisodeRecord episode = run_with("sweep_past_pole", on_failure);
+  INFO(to_string(on_failure) << ": " << verdict(episode));
+  REQUIRE(episode.outcome == Outcome::success);
+  const auto push = std::find_if(episode.segments.begin(), episode.segments.end(),
+                                 [](const SegmentRecord& segment) { return segment.skill == "push"; });
+  const auto pick = std::find_if(episode.segments.begin(), episode.segments.end(), [](const SegmentRecord& segment) {
+    return segment.skill == "pick" && segment.arguments[0] == "perched";
+  });
+  REQUIRE((push != episode.segments.end() && pick != episode.segments.end()));
+  CHECK(push->outcome == Outcome::success);  // it did what it declares, and more
+  const Fact perched{"on", {"perched", "pole"}};
+  const auto lost = std::find_if(episode.facts.begin(), episode.facts.end(),
+                                 [&](const FactRecord& record) { return record.fact == perched; });
+  REQUIRE(lost != episode.facts.end());
+  CHECK(lost->open_start);
+  CHECK(lost->end_step > push->span.start_step);
+  CHECK(lost->end_step <= push->span.end_step);
+  // The first plan was to take it from the post: that is where it was. No try was undone to learn better.
+  CHECK(pick->arguments[1] == "table");
+  CHECK(pick->precondition_held == true);
+  if (on_failure != OnFailure::recover) CHECK(episode.attempts.empty());
+}
+
+TEST_CASE("blocks that leave no room for the fingers are found, named, and moved first") {
+  const auto on_failure = GENERATE(OnFailure::undo, OnFailure::recover);
+  const EpisodeRecord episode = run_with("walled_in", on_failure);
+  INFO(to_string(on_failure) << ": " << verdict(episode));
+  REQUIRE(episode.outcome == Outcome::success);
+  const auto skills = skills_of(episode);
+  const auto last = std::find(skills.rbegin(), skills.rend(), "pick item");
+  REQUIRE(last == skills.rbegin());
+  CHECK(std::count_if(skills.begin(), skills.end(), [](const auto& text) { return text.starts_with("place"); }) >= 1);
+  std::string reason;
+  for (const SegmentRecord& segment : episode.segments)
+    if (segment.reason == Reason::no_grasp) reason = segment.detail;
+  for (const AttemptRecord& attempt : episode.attempts)
+    if (attempt.segment.reason == Reason::no_grasp) reason = attempt.segment.detail;
+  CHECK_THAT(reason, Catch::Contains("in the way: "));
+}

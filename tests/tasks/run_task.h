@@ -1,0 +1,44 @@
+// Runs tasks of this repository, and those of this folder's `data`, from a test.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/episode/runner.h"
+#include "scripting/library/library.h"
+#include "scripting/runtime/episode_scripts.h"
+
+namespace stampede::test {
+
+inline std::shared_ptr<const Library> all_tasks() {
+  static const std::shared_ptr<const Library> shared =
+      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/data"}});
+  return shared;
+}
+
+inline EpisodeRecord run_task(const std::string& task, const std::string& variation, RunOptions options) {
+  EpisodeScripts scripts(all_tasks(), task, variation, options.seed);
+  return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+}
+
+inline std::string first_variation(const std::string& task) {
+  const auto& texts = all_tasks()->task(task)->variation_texts;
+  return texts.empty() ? "" : texts.front();
+}
+
+// `pick item`: skills that the episode kept, in order.
+inline std::vector<std::string> skills_of(const EpisodeRecord& episode) {
+  std::vector<std::string> skills;
+  for (const SegmentRecord& segment : episode.segments)
+    if (segment.kind == "skill" && segment.skill != "wait")
+      skills.push_back(segment.skill + (segment.arguments.empty() ? "" : " " + segment.arguments[0]));
+  return skills;
+}
+
+inline std::string verdict(const EpisodeRecord& episode) {
+  return std::string(to_string(episode.outcome)) + ", " + std::string(to_string(episode.reason)) + " " + episode.detail;
+}
+
+}  // namespace stampede::test
