@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kGoalPatience = 1.0;  // s for the goal's facts to become steady after the last skill
 constexpr int kFailuresPerAction = 3;  // with recovery: then plans do without it
+constexpr double kMoved_m = 0.02;      // so far from where it was in the way, a thing is not in the way any more
 constexpr int kRandomDraws = 50;       // of a skill that has arguments here
 
 bool geometric(Reason reason) {
@@ -19,10 +20,16 @@ bool geometric(Reason reason) {
 
 }  // namespace
 
+bool EpisodeRunner::stands(const Obstruction& one) const {
+  return (rollout_->view().world_from(one.blocker).translation() - one.at).norm() < kMoved_m;
+}
+
 // What is forbidden is part of the problem of a planner that knows nothing of it: an obstruction that nothing ends.
 PlanOutcome EpisodeRunner::ask_planner() {
   const FactTracker& facts = rollout_->facts();
-  std::vector<Obstruction> obstructions = obstructions_;
+  std::vector<Obstruction> obstructions;
+  std::copy_if(obstructions_.begin(), obstructions_.end(), std::back_inserter(obstructions),
+               [&](const Obstruction& one) { return stands(one); });
   if (options_.planner)
     for (const PlanStep& step : forbidden_) obstructions.push_back({step, {}, {}});
   const PlanningTask planning = planning_task(task_, symbols_.domain(), facts, rollout_->stage(), obstructions);
@@ -149,11 +156,11 @@ bool EpisodeRunner::avoid_obstacles(const SkillResult& failed, std::size_t index
   const PlanStep step = plan_[std::min(index, plan_.size() - 1)];
   const std::size_t known = obstructions_.size();
   for (const std::string& blocker : failed.blockers) {
-    Obstruction found{failed.step.value_or(step), blocker, {}};
+    Obstruction found{failed.step.value_or(step), blocker, {}, rollout_->view().world_from(blocker).translation()};
     for (const Fact& fact : rollout_->facts().basic())
       if (!fact.arguments.empty() && fact.arguments[0] == blocker) found.facts.push_back(fact);
     const bool old = std::any_of(obstructions_.begin(), obstructions_.end(), [&](const Obstruction& one) {
-      return one.action == found.action && one.blocker == blocker;
+      return one.action == found.action && one.blocker == blocker && stands(one);
     });
     if (!old) obstructions_.push_back(std::move(found));
   }

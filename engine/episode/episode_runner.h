@@ -42,6 +42,7 @@ class EpisodeRunner {
   SkillResult at_random();
   void step_done(Undo& undo);
   bool try_again(Undo& undo, const SkillResult& failed);
+  bool stands(const Obstruction& one) const;
   bool avoid_obstacles(const SkillResult& failed, std::size_t index);
   bool other_plan(const Place& start, std::map<PlanStep, int>& blame);
   SkillResult watch(std::size_t done);

@@ -108,10 +108,15 @@ void FactTracker::index_arguments(const WorldView& view) {
     const auto& arguments = names_[i].arguments;
     index_.emplace(names_[i], static_cast<int>(i));
     pairs_.push_back({-1, -1});
-    if (arguments.size() < 2) continue;
-    pairs_.back() = {indices.at(arguments[arguments.size() - 2]), indices.at(arguments.back())};
+    if (!arguments.empty()) pairs_.back()[1] = indices.at(arguments.back());
+    if (arguments.size() > 1) pairs_.back()[0] = indices.at(arguments[arguments.size() - 2]);
   }
-  for (const Group& group : groups_) any_near_ |= group.traits.requires_pairs == Pairs::near;
+  needs_place_.resize(scene.objects.size());
+  for (const Group& group : groups_)
+    for (std::size_t i = group.first; i < group.first + group.count; ++i)
+      for (const int argument : pairs_[i])
+        if (group.traits.requires_pairs == Pairs::near && argument >= 0)
+          needs_place_[static_cast<std::size_t>(argument)] = 1;
 }
 
 FactTracker::Neighbours FactTracker::neighbours(const WorldView& view) const {
@@ -127,14 +132,21 @@ FactTracker::Neighbours FactTracker::neighbours(const WorldView& view) const {
         near.touching[a * count + b] = near.touching[b * count + a] = 1;
       }
     }
-  if (!any_near_) return near;
-  for (const Object& thing : view.scene().objects) near.at.push_back(view.world_from(thing.name).translation());
+  near.held.resize(count);
+  if (const auto held = view.world().grasped())
+    for (const Owner& owner : owners_[static_cast<std::size_t>(held->body + 1)])
+      if (owner.part == held->part) near.held[static_cast<std::size_t>(owner.object)] = 1;
+  near.at.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    if (needs_place_[i] != 0) near.at[i] = view.world_from(view.scene().objects[i]).translation();
   return near;
 }
 
 bool FactTracker::can_hold(const Group& group, std::size_t atom, const Neighbours& near) const {
   constexpr double kNear = 0.05;  // m between bounding spheres
-  if (group.traits.requires_pairs == Pairs::all || pairs_[atom][0] < 0) return true;
+  if (group.traits.requires_pairs == Pairs::all || pairs_[atom][1] < 0) return true;
+  if (group.traits.requires_pairs == Pairs::held) return near.held[static_cast<std::size_t>(pairs_[atom][1])] != 0;
+  if (pairs_[atom][0] < 0) return true;
   const auto a = static_cast<std::size_t>(pairs_[atom][0]), b = static_cast<std::size_t>(pairs_[atom][1]);
   if (near.touching[a * radii_.size() + b] != 0) return true;
   if (group.traits.requires_pairs == Pairs::touching) return false;

@@ -76,7 +76,8 @@ class FactTracker {
   // Who is near whom at one moment, by indices of scene objects.
   struct Neighbours {
     std::vector<char> touching;  // a square table
-    std::vector<Vector3> at;     // where they are
+    std::vector<char> held;
+    std::vector<Vector3> at;  // where they are
   };
   void index_arguments(const WorldView& view);
   Neighbours neighbours(const WorldView& view) const;
@@ -88,14 +89,14 @@ class FactTracker {
   std::vector<TypedObject> objects_;
   std::vector<Fact> names_;  // per atom
   std::map<Fact, int> index_;
-  std::vector<std::array<int, 2>> pairs_;  // per atom, its last two arguments: indices of scene objects
+  std::vector<std::array<int, 2>> pairs_;  // per atom, its last two arguments: indices of scene objects; -1: none
   std::vector<double> radii_;              // of scene objects, m
   struct Owner {
     int part = 0;  // -1: any of the body
     int object = 0;
   };
   std::vector<std::vector<Owner>> owners_;  // of contacts, by body + 1
-  bool any_near_ = false;
+  std::vector<char> needs_place_;           // of scene objects: are they arguments of a predicate of near pairs?
   std::vector<Group> groups_;
   Facts static_;  // traits and attributes
   std::set<std::string> derived_names_;

@@ -56,7 +56,9 @@ class Task {
   virtual std::vector<std::string> instructions() const = 0;  // filled in for this variation
 };
 
-enum class Pairs { all, touching, near };  // which argument pairs of a predicate can hold at all
+// Of which arguments a predicate can hold at all: pairs that touch or are near each other; held: the last argument is
+// what the pads grasp.
+enum class Pairs { all, touching, near, held };
 
 struct PredicateTraits {
   double settle_s = 0;     // a shorter change is noise

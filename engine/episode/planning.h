@@ -17,6 +17,7 @@ struct Obstruction {
   PlanStep action;
   std::string blocker;
   std::vector<Fact> facts;
+  Vector3 at = Vector3::Zero();  // where it was: elsewhere it is no longer in the way
 };
 
 // `reached` parts of an ordered goal are done already. An ordered goal becomes fluents `stage_1 …` that conditional

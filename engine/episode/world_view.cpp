@@ -91,9 +91,19 @@ bool WorldView::owns(const Object& thing, PartRef part) const {
   return false;
 }
 
-Transform WorldView::world_from(std::string_view name) const {
-  const Object& thing = object(name);
-  return thing.kind == ObjectKind::hand ? world_->world_from_tip() : world_from_object(*world_, thing);
+Transform WorldView::world_from(std::string_view name) const { return world_from(object(name)); }
+
+Transform WorldView::world_from(const Object& thing) const {
+  switch (thing.kind) {
+    case ObjectKind::body:
+    case ObjectKind::part:
+      return world_->world_from_part({body_of(thing), thing.part});
+    case ObjectKind::hand:
+      return world_->world_from_tip();
+    case ObjectKind::region:
+      break;
+  }
+  return world_from_object(*world_, thing);
 }
 
 Vector3 WorldView::velocity(std::string_view name) const {

@@ -26,6 +26,7 @@ class WorldView {
   double time_s() const;
 
   Transform world_from(std::string_view object) const;  // body, part, region centre, or the hand's tip
+  Transform world_from(const Object& object) const;     // the same, of one of the scene's
   Vector3 velocity(std::string_view object) const;      // linear, world, m/s
   Vector3 size(std::string_view object) const;          // bounding box in its own frame, m
   double bottom(std::string_view object) const;         // lowest and highest world z of its bounding box, m

@@ -187,9 +187,10 @@ void LibraryBuilder::define_predicates() {
     const std::string& pairs = node["requires"].text;
     if (pairs == "touching") traits.requires_pairs = Pairs::touching;
     if (pairs == "near") traits.requires_pairs = Pairs::near;
-    if (!pairs.empty() && pairs != "touching" && pairs != "near" && pairs != "all") {
+    if (pairs == "held") traits.requires_pairs = Pairs::held;
+    if (!pairs.empty() && pairs != "touching" && pairs != "near" && pairs != "held" && pairs != "all") {
       complain(definition, "requires", "'" + pairs + "' is not a kind of pairs",
-               did_you_mean(pairs, {"all", "near", "touching"}));
+               did_you_mean(pairs, {"all", "held", "near", "touching"}));
     }
     if (traits.settle_s < 0) complain(definition, "settle", "a settle time is not negative");
     if (traits.momentary && traits.settle_s > 0) {

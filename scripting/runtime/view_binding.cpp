@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/episode/fact_tracker.h"
 #include "scripting/lua/binding.h"
+#include "scripting/lua/whitelist.h"
 #include "scripting/runtime/pose_binding.h"
 #include "scripting/runtime/sampling_binding.h"
 

@@ -4,5 +4,6 @@ return predicate {
   label = "the hand holds the {obj}",
   settle = 0.1, -- s
   functional = true,
+  requires = "held",
   holds = function(w, _, obj) return w:grasped(obj) end,
 }

@@ -59,6 +59,7 @@ return predicate {
   params = { "obj: movable", "box: container" },
   label = "the {obj} is inside the {box}",
   settle = 0.1, -- s
+  requires = "near",
   observable = function(w, _, box) return looks_open(w, box) end,
   holds = function(w, obj, box) return w:inside(inner(w, box), obj) end,
   sample = function(w, obj, box, rng)

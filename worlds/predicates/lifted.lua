@@ -5,6 +5,7 @@ return predicate {
   params = { "obj: movable" },
   label = "the {obj} is lifted",
   settle = 0.1, -- s
+  requires = "held",
   holds = function(w, obj)
     if not w:grasped(obj) then return false end
     for _, other in ipairs(w:objects("support")) do
