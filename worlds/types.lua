@@ -10,6 +10,7 @@ return {
     star = { parent = "block" },
     moon = { parent = "block" },
     cup = { parent = "thing" },
+    tin = { parent = "thing" },
     pan = { parent = "thing" },
     lid = { parent = "thing" },
     furniture = { parent = "fixture" },

@@ -51,10 +51,10 @@ TEST_CASE("blocks that leave no room for the fingers are found, named, and moved
   const auto last = std::find(skills.rbegin(), skills.rend(), "pick item");
   REQUIRE(last == skills.rbegin());
   CHECK(std::count_if(skills.begin(), skills.end(), [](const auto& text) { return text.starts_with("place"); }) >= 1);
-  std::string reason;
+  std::string reasons;
   for (const SegmentRecord& segment : episode.segments)
-    if (segment.reason == Reason::no_grasp) reason = segment.detail;
+    if (segment.reason == Reason::no_grasp) reasons += segment.detail + "\n";
   for (const AttemptRecord& attempt : episode.attempts)
-    if (attempt.segment.reason == Reason::no_grasp) reason = attempt.segment.detail;
-  CHECK_THAT(reason, Catch::Contains("in the way: "));
+    if (attempt.segment.reason == Reason::no_grasp) reasons += attempt.segment.detail + "\n";
+  CHECK_THAT(reasons, Catch::Contains("in the way: "));
 }

@@ -42,17 +42,32 @@ local function shelf_spots(w, obj, shelf, rng)
   return poses
 end
 
--- A drawer is looked into when it is open; a box when one of its doors or lids is.
+-- A drawer is looked into when it is open; a box or a shelf of it when one of its doors or lids is.
 local function looks_open(w, box)
   if w:type(box) == "region" then return true end
+  if w:has_trait(box, "openable") then return w:joint(box) >= w:number(box, "open_at") end
+  local dot = string.find(box, ".")
+  local whole = dot and string.sub(box, 1, dot) or box .. "."
   local shut = false
   for _, part in ipairs(w:objects("openable")) do
-    if part == box or string.sub(part, 1, #box + 1) == box .. "." then
+    if string.sub(part, 1, #whole) == whole then
       if w:joint(part) >= w:number(part, "open_at") then return true end
       shut = true
     end
   end
   return not shut
+end
+
+-- Spots that a hand can get at from above, where the container says which (numbers `hand_back` and `hand_side`: greatest x
+-- and |y| in its frame, m).
+local function handy(w, box, spots)
+  local back, side = w:number(box, "hand_back", 1), w:number(box, "hand_side", 1)
+  local kept, from = {}, w:pose(box):inverse()
+  for _, spot in ipairs(spots) do
+    local x, y = from:times(spot):position()
+    if x <= back and math.abs(y) <= side then kept[#kept + 1] = spot end
+  end
+  return kept
 end
 
 return predicate {
@@ -64,6 +79,6 @@ return predicate {
   holds = function(w, obj, box) return w:inside(inner(w, box), obj) end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
-    return w:region_spots(inner(w, box), obj, rng)
+    return handy(w, box, w:region_spots(inner(w, box), obj, rng))
   end,
 }

@@ -1,4 +1,34 @@
 -- The object rests on the support: held up by it from below, not by a hand.
+-- Spots with room for fingers around them, where the object asks for it (number `room`: m from centre to centre, and
+-- most of it to the edge of what stands up beside it); all spots where there are none such.
+local function roomy(w, obj, below, spots)
+  local room = w:number(obj, "room", 0)
+  if room == 0 or #spots == 0 then return spots end
+  local _, _, z = spots[1]:position()
+  local others, edges, kept = {}, {}, {}
+  for _, other in ipairs(w:objects("movable")) do
+    if other ~= obj then others[#others + 1] = { w:position(other) } end
+  end
+  for _, other in ipairs(w:objects("surface")) do
+    local length, width = w:size(other)
+    local edge = { from = w:pose(other):inverse(), x = length / 2 + 0.8 * room, y = width / 2 + 0.8 * room }
+    if other ~= below and w:top(other) > z - room / 4 then edges[#edges + 1] = edge end
+  end
+  for _, spot in ipairs(spots) do
+    local x, y = spot:position()
+    local free = true
+    for _, at in ipairs(others) do
+      free = free and (at[1] - x) ^ 2 + (at[2] - y) ^ 2 + (at[3] - z) ^ 2 >= room ^ 2
+    end
+    for _, edge in ipairs(edges) do
+      local along, across = edge.from:times(spot):position()
+      free = free and (math.abs(along) >= edge.x or math.abs(across) >= edge.y)
+    end
+    if free then kept[#kept + 1] = spot end
+  end
+  return #kept > 0 and kept or spots
+end
+
 return predicate {
   params = { "obj: movable", "below: support" },
   label = "the {obj} is on the {below}",
@@ -10,6 +40,6 @@ return predicate {
       return w:pose(below .. ".mouth"):offset(0, 0, 0.001):turned(rng:between(-math.pi, math.pi))
     end
     if w:has_trait(below, "stackable") then return w:stack_spots(below, obj, rng) end
-    return w:free_spots(below, obj, rng)
+    return roomy(w, obj, below, w:free_spots(below, obj, rng))
   end,
 }
