@@ -54,6 +54,23 @@ function each(list, f) end
 function range(first, last, step) end
 ---@type { names: string[], except: (fun(...): string[]), rgb: fun(name: string): number[] }
 colours = {}
+-- The world, as tests and skills read it; scripting/runtime/README.md lists the other methods.
+---@class stampede.world_view
+local world_view = {}
+-- Does it hold now (debounced, as verdicts and catalogues have it)? Not in predicates.
+---@param predicate string
+---@param ... string
+---@return boolean
+function world_view:fact(predicate, ...) end
+-- Is it known to hold: what can be hidden as it was when it was last seen. Not in predicates.
+---@param predicate string
+---@param ... string
+---@return boolean
+function world_view:observed(predicate, ...) end
+-- All facts, or those of one predicate: { { "on", "cup", "table" }, … }. Not in predicates.
+---@param predicate? string
+---@return string[][]
+function world_view:facts(predicate) end
 
 -- What is to be done: objects, how they start, what must be true at the end
 ---@class stampede.task
@@ -99,10 +116,10 @@ colours = {}
 ---@field settle? number  a shorter change is noise [s] (default 0)
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
----@field requires? string  evaluate only pairs that are "touching" or "near" (default "all")
+---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
 ---@field mutex? string[]  predicates that cannot hold of the same first argument (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter (default false)
----@field observable? fun(...): any|boolean  function(w, …): can it be seen (default true)
+---@field observable? fun(...): any|boolean  function(w, …): can one see now whether it holds; false: never (default true)
 ---@field margin_unit? string  unit of the margin
 
 -- A thing: shape, mass, type, traits, parts, grasps
