@@ -11,7 +11,6 @@ namespace {
 constexpr double kGoalPatience = 1.0;  // s for the goal's facts to become steady after the last skill
 constexpr int kFailuresPerAction = 3;  // with recovery: then plans do without it
 constexpr double kMoved_m = 0.02;      // so far from where it was in the way, a thing is not in the way any more
-constexpr int kRandomDraws = 50;       // of a skill that has arguments here
 
 bool geometric(Reason reason) {
   return reason == Reason::no_grasp || reason == Reason::no_placement || reason == Reason::no_path ||
@@ -178,9 +177,7 @@ SkillResult EpisodeRunner::at_random() {
   for (int i = 0; i < options_.skills; ++i) {
     here();
     const RandomKey own = key.with(i);
-    std::optional<PlanStep> step;
-    for (int draw = 0; draw < kRandomDraws && !step; ++draw)
-      step = random_step(symbols_.domain(), rollout_->facts(), applicable, own.with(draw));
+    const std::optional<PlanStep> step = random_step(symbols_.domain(), rollout_->facts(), applicable, own);
     if (!step) return {Reason::no_plan, "no skill applies to anything here"};
     CallMode mode;
     mode.refuse = applicable;

@@ -203,19 +203,25 @@ PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTrac
 }
 
 std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key) {
-  if (domain.actions.empty()) return std::nullopt;
   Random random(key);
-  const Action& action =
-      domain.actions[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(domain.actions.size())))];
-  std::vector<std::vector<std::string>> bindings;
-  std::vector<std::string> arguments(action.parameters.size());
-  complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
-    if (!applicable || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
-      bindings.push_back(names);
-  });
-  if (bindings.empty()) return std::nullopt;
-  return PlanStep{action.name,
-                  bindings[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(bindings.size())))]};
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(random.below(static_cast<std::int64_t>(n)));
+  };
+  std::vector<const Action*> actions;
+  for (const Action& action : domain.actions) actions.push_back(&action);
+  while (!actions.empty()) {
+    const std::size_t index = below(actions.size());
+    const Action& action = *actions[index];
+    actions.erase(actions.begin() + static_cast<std::ptrdiff_t>(index));
+    std::vector<std::vector<std::string>> bindings;
+    std::vector<std::string> arguments(action.parameters.size());
+    complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
+      if (!applicable || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
+        bindings.push_back(names);
+    });
+    if (!bindings.empty()) return PlanStep{action.name, bindings[below(bindings.size())]};
+  }
+  return std::nullopt;
 }
 
 }  // namespace stampede

@@ -27,9 +27,9 @@ struct Obstruction {
 PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
                            const std::vector<Obstruction>& obstructions = {});
 
-// A ground action drawn at random: each action with equal chance, then each binding of its parameters to objects of
-// their types and traits; with `applicable` only those whose precondition holds. Result: nothing when the action that
-// was drawn has none.
+// A ground action drawn at random: each action that has any with equal chance, then each binding of its parameters to
+// objects of their types and traits; with `applicable` only those whose precondition holds. Result: nothing when no
+// action has one.
 std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key);
 
 // The goal and the facts as a problem of the world's own domain, whatever is asked beside the goal.

@@ -182,7 +182,7 @@ struct EpisodeRecord {
   Outcome outcome = Outcome::failure;
   Reason reason = Reason::none;
   std::string detail;
-  std::string beside_goal;  // what success asks and the PDDL goal does not say; empty: nothing
+  std::string beside_goal;                     // what success asks and the PDDL goal does not say; empty: nothing
   std::map<std::string, std::string> options;  // that alter data, as text
   std::vector<DefinitionRecord> definitions;
   int physics_hz = 240, frame_hz = 20;

@@ -187,7 +187,8 @@ struct Robot {
 
 // What is measured beside the frames. kind `force_torque`: what contacts do to robot part `part` and all parts beyond
 // it (see World::contact_wrench), in that part's frame: force_x force_y force_z N, torque_x torque_y torque_z N m, the
-// mean over each period. kind `joint_torque`: the effort of each joint of the arm at the end of each period, N m (or N).
+// mean over each period. kind `joint_torque`: the effort of each joint of the arm at the end of each period, N m (or
+// N).
 struct Sensor {
   std::string name, kind;
   int part = 0;       // of the robot; force_torque

@@ -123,7 +123,8 @@ void fields(Archive& a, Sensor& s) {
 template <typename Archive>
 void fields(Archive& a, Scene& s) {
   a("world", s.world), a("robot", s.robot), a("bodies", s.bodies), a("regions", s.regions), a("cameras", s.cameras);
-  a("sensors", s.sensors), a("light", s.light), a("meshes", s.meshes), a("textures", s.textures), a("classes", s.classes);
+  a("sensors", s.sensors), a("light", s.light), a("meshes", s.meshes), a("textures", s.textures),
+      a("classes", s.classes);
   a("objects", s.objects), a("gravity", s.gravity), a("physics_hz", s.physics_hz), a("frame_hz", s.frame_hz);
 }
 

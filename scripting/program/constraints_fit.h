@@ -14,7 +14,8 @@ namespace stampede {
 Formula formula_option(const std::string& text, const std::string& place);
 
 // Why no start of this variation can meet `options.where`: the part that most often contradicts what never changes
-// (traits, attributes, types). Empty: some start may. Throws Error for a `where` or `goal` that speaks of what is not there.
+// (traits, attributes, types). Empty: some start may. Throws Error for a `where` or `goal` that speaks of what is not
+// there.
 std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options);
 
 // Those of `variations` that fit; all of them when the options constrain nothing. Throws Error when none does, with

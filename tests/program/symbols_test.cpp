@@ -165,7 +165,7 @@ TEST_CASE("a file of 50 MB is read or refused, not choked on") {
   CHECK(say({"plan", mine / "d.pddl", mine / "p.pddl"}).code == kBadInput);
 }
 
-TEST_CASE("--goal and --where are read before anything runs: what is not there is told with the nearest name") {
+TEST_CASE("goals and constraints are read before anything runs: what is not there is told with the nearest name") {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--goal", "(inside item chest.top_drawr)"}, "chest.top_drawer"},
       {{"--goal", "(insid item chest.top_drawer)"}, "inside"},
