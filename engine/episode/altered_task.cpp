@@ -5,6 +5,7 @@
 #include "engine/episode/constraints.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
+#include "engine/symbolic/pddl_text.h"
 
 namespace stampede {
 namespace {
@@ -17,7 +18,8 @@ std::vector<TypedObject> objects_of(const Scene& scene, const Domain& domain) {
     objects.push_back({thing.name, thing.type});
     for (const auto& [key, value] : thing.attributes) {
       const Predicate* predicate = domain.predicate(key);
-      if (predicate == nullptr || predicate->parameters.size() != 2 || !values.insert(value).second) continue;
+      if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
+      if (!values.insert(value).second) continue;
       objects.push_back({value, predicate->parameters[1].type});
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/symbolic/pddl_text.h"
+
 namespace stampede {
 namespace {
 
@@ -80,7 +82,7 @@ void FactTracker::add_static(const WorldView& view) {
     for (const std::string& trait : thing.traits) static_.insert({trait, {thing.name}});
     for (const auto& [key, value] : thing.attributes) {
       const Predicate* predicate = domain.predicate(key);
-      if (predicate == nullptr || predicate->parameters.size() != 2) continue;
+      if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
       static_.insert({key, {thing.name, value}});
       if (values.insert(value).second) objects_.push_back({value, predicate->parameters[1].type});
     }

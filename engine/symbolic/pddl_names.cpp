@@ -7,6 +7,14 @@
 #include "engine/symbolic/task_planner.h"
 
 namespace stampede::symbolic {
+
+bool is_pddl_name(std::string_view name) {
+  const std::string text = name_text(name, Names::pddl);
+  return !text.empty() && text.front() >= 'a' && text.front() <= 'z' &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
+}
+
 namespace {
 
 // What Fast Downward and VAL would stumble over: signs, words of PDDL, and names that differ only in case.
@@ -19,11 +27,7 @@ class NameCheck {
                                                     "exists", "forall", "imply",    "increase", "not",
                                                     "number", "object", "or",       "when"};
     const std::string text = name_text(name, Names::pddl);
-    const bool is_word = !text.empty() && text.front() >= 'a' && text.front() <= 'z' &&
-                         std::all_of(text.begin(), text.end(), [](char c) {
-                           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-                         });
-    if (!is_word) {
+    if (!is_pddl_name(text)) {
       throw Error(where_, std::string("the ") + kind + " `" + name + "` is not a name in PDDL",
                   "begin with a letter; then letters, digits, `_` and `-`");
     }

@@ -27,6 +27,9 @@ std::vector<Formula> trait_guards(const std::vector<Parameter>& parameters);
 std::vector<Formula> inequalities(const Action& action, const Domain& domain);
 bool could_be_equal(const Parameter& a, const Parameter& b, const Domain& domain);
 
+// A letter; then letters, digits, `_` and `-`, as PDDL's names are. `4` and `0.25` are none.
+bool is_pddl_name(std::string_view name);
+
 // Throws Error for names that PDDL does not have or keeps for itself, and for two that differ only in case.
 void check_names(const Domain& domain);
 void check_names(const Problem& problem);

@@ -33,6 +33,6 @@ return function(number)
   end
   return object {
     type = "cube", traits = { "movable", "graspable", "support", "stackable" },
-    shapes = shapes, mass = 0.06, colour = { 0.93, 0.87, 0.70 }, attributes = { digit = tostring(number) },
+    shapes = shapes, mass = 0.06, colour = { 0.93, 0.87, 0.70 }, attributes = { digit = ({ "one", "two", "three" })[number] },
   }
 end

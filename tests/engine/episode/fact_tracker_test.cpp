@@ -61,3 +61,30 @@ TEST_CASE("what holds from the start and to the end is open on both sides") {
   CHECK(records[0].open_end);
   CHECK(records[0].end_frame == 5);  // the frame count
 }
+
+TEST_CASE("values of attributes that are no names stay out of symbols: PDDL could not say them") {
+  class Marked : public plain::PlainSymbols {
+   public:
+    Marked() {
+      domain_.predicates.push_back(
+          {"mark", {{"thing", "", {}}, {"value", "object", {}}}, PredicateKind::fixed, {}, ""});
+    }
+    const Domain& domain() const override { return domain_; }
+
+   private:
+    Domain domain_ = plain::domain();
+  };
+  Scene scene = table_scene(2);
+  for (Object& object : scene.objects) {
+    if (object.name == "cube1") object.attributes["mark"] = "4";
+    if (object.name == "cube2") object.attributes["mark"] = "four";
+  }
+  Marked symbols;
+  World world(std::make_shared<const Scene>(scene));
+  const WorldView view(world);
+  FactTracker tracker(symbols, view);
+  tracker.begin({});
+  CHECK(tracker.facts().contains(Fact{"mark", {"cube2", "four"}}));
+  CHECK_FALSE(tracker.facts().contains(Fact{"mark", {"cube1", "4"}}));
+  for (const TypedObject& object : tracker.objects()) CHECK(object.name != "4");
+}
