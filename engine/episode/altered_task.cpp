@@ -3,9 +3,9 @@
 #include <set>
 
 #include "engine/episode/constraints.h"
+#include "engine/episode/fact_tracker.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
-#include "engine/symbolic/pddl_text.h"
 
 namespace stampede {
 namespace {
@@ -13,16 +13,10 @@ namespace {
 // The scene's objects, and the values of attributes that predicates speak of.
 std::vector<TypedObject> objects_of(const Scene& scene, const Domain& domain) {
   std::vector<TypedObject> objects;
+  for (const Object& thing : scene.objects) objects.push_back({thing.name, thing.type});
   std::set<std::string> values;
-  for (const Object& thing : scene.objects) {
-    objects.push_back({thing.name, thing.type});
-    for (const auto& [key, value] : thing.attributes) {
-      const Predicate* predicate = domain.predicate(key);
-      if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
-      if (!values.insert(value).second) continue;
-      objects.push_back({value, predicate->parameters[1].type});
-    }
-  }
+  for (const auto& [fact, type] : attribute_facts(scene, domain))
+    if (values.insert(fact.arguments[1]).second) objects.push_back({fact.arguments[1], type});
   return objects;
 }
 

@@ -41,6 +41,17 @@ std::int64_t frame_at(std::int64_t step, int steps_per_frame) { return (step + s
 
 }  // namespace
 
+std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& domain) {
+  std::vector<AttributeFact> facts;
+  for (const Object& thing : scene.objects)
+    for (const auto& [key, value] : thing.attributes) {
+      const Predicate* predicate = domain.predicate(key);
+      if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
+      facts.push_back({{key, {thing.name, value}}, predicate->parameters[1].type});
+    }
+  return facts;
+}
+
 FactTracker::FactTracker(Symbols& symbols, const WorldView& view) : symbols_(symbols), dt_(view.world().dt()) {
   enumerate(view);
   index_arguments(view);
@@ -76,16 +87,12 @@ void FactTracker::enumerate(const WorldView& view) {
 }
 
 void FactTracker::add_static(const WorldView& view) {
-  const Domain& domain = symbols_.domain();
-  std::set<std::string> values;
-  for (const Object& thing : view.scene().objects) {
+  for (const Object& thing : view.scene().objects)
     for (const std::string& trait : thing.traits) static_.insert({trait, {thing.name}});
-    for (const auto& [key, value] : thing.attributes) {
-      const Predicate* predicate = domain.predicate(key);
-      if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
-      static_.insert({key, {thing.name, value}});
-      if (values.insert(value).second) objects_.push_back({value, predicate->parameters[1].type});
-    }
+  std::set<std::string> values;
+  for (const auto& [fact, type] : attribute_facts(view.scene(), symbols_.domain())) {
+    static_.insert(fact);
+    if (values.insert(fact.arguments[1]).second) objects_.push_back({fact.arguments[1], type});
   }
   std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }

@@ -12,6 +12,14 @@
 
 namespace stampede {
 
+// An attribute that a predicate of two arguments speaks of, such as (colour block1 red), and the type of its value.
+// Values that are no names in PDDL are left out.
+struct AttributeFact {
+  Fact fact;
+  std::string value_type;
+};
+std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& domain);
+
 // Follows every ground atom of the domain's basic predicates. Copy its State to undo.
 class FactTracker {
  public:

@@ -4,16 +4,12 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/model/body_tree.h"
 
 namespace stampede {
 namespace {
 
 constexpr const char* kHandClass = "hand";
-
-bool hangs_on(const Body& body, int part, int ancestor) {
-  while (part > ancestor) part = body.parts[static_cast<std::size_t>(part)].parent;
-  return part == ancestor;
-}
 
 // The object that is the part itself; else the one that is the whole body; null: no object has that body.
 const Object* object_of(const Scene& scene, const std::string& body, int part) {

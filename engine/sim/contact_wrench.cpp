@@ -1,14 +1,10 @@
 // What a tared wrist sensor reads, from what the solver applied in the last step.
 #include "engine/base/error.h"
+#include "engine/model/body_tree.h"
 #include "engine/sim/impl.h"
 
 namespace stampede {
 namespace {
-
-bool hangs_on(const Body& body, int part, int ancestor) {
-  while (part > ancestor) part = body.parts[static_cast<std::size_t>(part)].parent;
-  return part == ancestor;
-}
 
 struct Impulse {
   btVector3 force{0, 0, 0}, point{0, 0, 0};

@@ -7,19 +7,12 @@
 #include "engine/render/picture.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
+#include "scripting/library/rates.h"
 
 namespace stampede {
 namespace {
 
 constexpr int kMostPixels = 4096;
-
-std::string divisors_of(int rate) {
-  std::string divisors;
-  for (int one = 1; one <= rate; ++one) {
-    if (rate % one == 0) divisors += (divisors.empty() ? "" : " ") + std::to_string(one);
-  }
-  return "these do: " + divisors;
-}
 
 int rate_or(const Node& node, int otherwise) { return node.is_number() ? static_cast<int>(node.number) : otherwise; }
 

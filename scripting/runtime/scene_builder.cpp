@@ -7,6 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/model/camera.h"
+#include "scripting/library/rates.h"
 #include "scripting/runtime/world_reader.h"
 
 namespace stampede {
@@ -48,13 +49,6 @@ void set_optics(const Value& fields, Camera& camera) {
     if (terms.size() != camera.distortion.size()) distortion.expected("five numbers { k1, k2, p1, p2, k3 }");
     std::copy(terms.begin(), terms.end(), camera.distortion.begin());
   }
-}
-
-std::string divisors_of(int rate) {
-  std::string divisors;
-  for (int one = 1; one <= rate; ++one)
-    if (rate % one == 0) divisors += (divisors.empty() ? "" : " ") + std::to_string(one);
-  return "these do: " + divisors;
 }
 
 }  // namespace
