@@ -163,7 +163,7 @@ void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engi
   const std::string run = write_engine_run(e, engine);
   std::optional<std::string> scene;  // a start that could not be made has none
   if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
-  const double duration = static_cast<double>(e.steps) / e.physics_hz;
+  const double duration = e.duration_s();
   episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, e.split,
                e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
                e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);

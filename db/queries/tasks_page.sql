@@ -1,4 +1,4 @@
--- One row a task for tasks/README.md: variations, skills, plan length, success, simulated and wall seconds an episode.
+-- One row a task for tasks/README.md: variations, skills, plan length, success, seconds an episode, demonstrations an hour.
 WITH used AS (
   SELECT DISTINCT e.task, s.skill FROM segment s JOIN episode e ON e.id = s.episode
   WHERE s.kind = 'skill' AND s.skill <> 'wait' AND s.outcome = 'success'
@@ -13,6 +13,7 @@ SELECT e.task, count(DISTINCT e.variation) AS variations,
        (SELECT round(avg(length), 1) FROM steps JOIN episode o ON o.id = steps.id WHERE o.task = e.task) AS plan_length,
        count(*) AS episodes, sum(e.outcome = 'success') AS succeeded,
        round(avg(e.duration_s), 1) AS simulated_s, round(avg(t.wall_s), 2) AS wall_s,
-       round(sum(e.duration_s) / sum(t.wall_s), 0) AS times_real_time
+       round(sum(e.duration_s) / sum(t.wall_s), 0) AS times_real_time,
+       100 * round(36 * sum(e.outcome = 'success') / sum(t.wall_s)) AS successes_an_hour
 FROM episode e LEFT JOIN timing t ON t.episode = e.id
 GROUP BY e.task ORDER BY e.task;

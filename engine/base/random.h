@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace stampede {
 
@@ -32,6 +34,13 @@ class Random {
   double between(double low, double high);  // [low, high)
   std::int64_t below(std::int64_t n);       // 0 … n-1 without bias; n >= 1
   double normal();                          // mean 0, deviation 1 (Box-Muller; two draws each)
+
+  // Fisher and Yates: every order is as likely.
+  template <typename T>
+  void shuffle(std::vector<T>& values) {
+    for (std::size_t i = values.size(); i > 1; --i)
+      std::swap(values[i - 1], values[static_cast<std::size_t>(below(static_cast<std::int64_t>(i)))]);
+  }
 
  private:
   std::uint64_t key_;

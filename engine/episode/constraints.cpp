@@ -18,9 +18,7 @@ constexpr int kMostSteps = 100'000;  // of the search; a formula that needs more
 std::vector<std::size_t> shuffled(std::size_t count, RandomKey key) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  Random random(key);
-  for (std::size_t i = count; i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
+  Random(key).shuffle(order);
   return order;
 }
 

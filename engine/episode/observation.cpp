@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace stampede {
 namespace {
@@ -21,14 +22,9 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::vector<std::string> split(std::string_view text, char at) {
-  std::vector<std::string> words;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(at), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return words;
+// The inverse of `joined`.
+std::vector<std::string> words_of(std::string_view text) {
+  return text.empty() ? std::vector<std::string>{} : split(text, ',');
 }
 
 std::string kinds_text(const PictureKinds& kinds) {
@@ -40,7 +36,7 @@ std::string kinds_text(const PictureKinds& kinds) {
 
 PictureKinds kinds_from(std::string_view text) {
   PictureKinds kinds{false, false, false, false};
-  for (const std::string& name : split(text, ',')) {
+  for (const std::string& name : words_of(text)) {
     const auto kind = picture_kind_from(name);
     kinds.rgb |= kind == PictureKind::rgb;
     kinds.depth |= kind == PictureKind::depth;
@@ -126,7 +122,7 @@ ObservationChoice observation_of(const EpisodeRecord& episode) {
     return found == episode.options.end() ? std::nullopt : std::optional(found->second);
   };
   if (const auto text = get("images")) choice.images = which_frames_from(*text);
-  if (const auto text = get("cameras")) choice.cameras = split(*text, ',');
+  if (const auto text = get("cameras")) choice.cameras = words_of(*text);
   if (const auto text = get("size")) {
     const std::vector<std::string> numbers = split(*text, 'x');
     if (numbers.size() == 2) choice.size = {number_from<int>(numbers[0]), number_from<int>(numbers[1])};
@@ -137,7 +133,7 @@ ObservationChoice observation_of(const EpisodeRecord& episode) {
   if (const auto text = get("rgb_noise")) choice.rgb_noise = number_from<double>(*text);
   if (const auto text = get("depth_noise")) choice.depth_noise = number_from<double>(*text);
   if (const auto text = get("torque_noise")) choice.torque_noise = number_from<double>(*text);
-  if (const auto text = get("channels")) choice.channels = split(*text, ',');
+  if (const auto text = get("channels")) choice.channels = words_of(*text);
   return choice;
 }
 

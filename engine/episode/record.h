@@ -187,6 +187,7 @@ struct EpisodeRecord {
   std::vector<DefinitionRecord> definitions;
   int physics_hz = 240, frame_hz = 20;
   std::int64_t steps = 0;
+  double duration_s() const { return static_cast<double>(steps) / physics_hz; }
   std::string scene_document;
   std::vector<Object> objects;
   std::vector<std::string> posed;  // names of objects whose pose is in frames

@@ -90,9 +90,7 @@ void number_masks(Scene& scene, RandomKey key) {
   }
   std::vector<int> numbers(others.size());
   for (int& number : numbers) number = next++;
-  Random random(key);
-  for (std::size_t i = numbers.size(); i > 1; --i)  // Fisher-Yates
-    std::swap(numbers[i - 1], numbers[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
+  Random(key).shuffle(numbers);
   for (std::size_t i = 0; i < others.size(); ++i) *others[i] = numbers[i];
   if (next > 65536) throw Error("scene", "it has more parts than 16-bit masks can tell apart", "use fewer objects");
   if (scene.classes.empty()) collect_classes(scene);

@@ -107,6 +107,19 @@ namespace {
 
 using symbolic::View;
 
+constexpr std::size_t kMostWays = 4;  // named to a person
+
+// Ways to make a disjunction true, by what each lacks: those that lack least, then how many others there are.
+std::string nearest_ways(std::vector<std::vector<std::string>> ways) {
+  std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  std::string text = "one of:";
+  for (std::size_t way = 0; way < std::min(ways.size(), kMostWays); ++way) {
+    text += way == 0 ? " " : " or ";
+    for (std::size_t i = 0; i < ways[way].size(); ++i) text += (i > 0 ? " and " : "") + ways[way][i];
+  }
+  return ways.size() <= kMostWays ? text : text + " or " + std::to_string(ways.size() - kMostWays) + " other ways";
+}
+
 // `formula` is false, in negation normal form.
 void collect_unmet(const Formula& formula, const View& view, Binding& binding, std::vector<std::string>& texts) {
   using Kind = Formula::Kind;
@@ -122,14 +135,9 @@ void collect_unmet(const Formula& formula, const View& view, Binding& binding, s
       });
       return;
     case Kind::disjunction: {
-      std::string text = "one of:";
-      for (const Formula& part : formula.parts) {
-        std::vector<std::string> inner;
-        collect_unmet(part, view, binding, inner);
-        text += text.back() == ':' ? " " : " or ";
-        for (std::size_t i = 0; i < inner.size(); ++i) text += (i > 0 ? " and " : "") + inner[i];
-      }
-      texts.push_back(text);
+      std::vector<std::vector<std::string>> ways;
+      for (const Formula& part : formula.parts) collect_unmet(part, view, binding, ways.emplace_back());
+      texts.push_back(nearest_ways(std::move(ways)));
       return;
     }
     default:

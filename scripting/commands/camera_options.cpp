@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/nearest.h"
+#include "engine/base/text.h"
 #include "engine/model/camera.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/library/naming.h"
@@ -35,7 +36,7 @@ std::map<std::string, Mount> mounts_of(const Scene& scene) {
 }
 
 Vector3 point_from(const std::string& name, const std::string& text) {
-  const std::vector<std::string> parts = split_text(text, ',');
+  const std::vector<std::string> parts = split(text, ',');
   if (parts.size() != 3) throw UsageError(fmt::format("{}: {} takes x,y,z, not '{}'", kOption, name, text), kExample);
   Vector3 point;
   for (std::size_t i = 0; i < 3; ++i)
@@ -46,7 +47,7 @@ Vector3 point_from(const std::string& name, const std::string& text) {
 std::map<std::string, std::string> fields_of(const std::string& text) {
   static const std::vector<std::string> known = {"at", "look", "up", "fov", "size", "near", "far", "mount"};
   std::map<std::string, std::string> fields;
-  for (const std::string& one : split_text(text, ';')) {
+  for (const std::string& one : split(text, ';')) {
     const std::size_t colon = one.find(':');
     const std::string name = one.substr(0, colon);
     if (colon == std::string::npos || std::find(known.begin(), known.end(), name) == known.end())

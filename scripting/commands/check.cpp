@@ -87,7 +87,7 @@ struct Seen {
     ++episodes;
     succeeded += episode.outcome == Outcome::success;
     undone += static_cast<std::int64_t>(episode.attempts.size());
-    simulated_s += static_cast<double>(episode.steps) / episode.physics_hz;
+    simulated_s += episode.duration_s();
     for (const SegmentRecord& segment : episode.segments) {
       if (segment.kind != "skill" || segment.skill == "wait") continue;
       auto& [seconds, count] = skills[segment.skill];

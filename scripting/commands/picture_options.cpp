@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/base/text.h"
 
 namespace stampede::program {
 namespace {
@@ -21,7 +22,7 @@ OptionRow text_option(const char* name, const char* value, const char* help, boo
 void read_kinds(const std::string& text, ObservationChoice& choice) {
   choice.kinds = PictureKinds{false, false, false, false};
   choice.points = false;
-  for (const std::string& name : split_text(text, ',')) {
+  for (const std::string& name : split(text, ',')) {
     const auto kind = picture_kind_from(name);
     if (!kind && name != "points") {
       std::vector<std::string> all = {"points"};
@@ -41,7 +42,7 @@ void read_kinds(const std::string& text, ObservationChoice& choice) {
 
 void read_noise(const std::string& text, PictureUse use, ObservationChoice& choice) {
   const std::string cure = use == PictureUse::run ? "rgb=0.02,depth=kinect,torque=0.1" : "rgb=0.02,depth=kinect";
-  for (const std::string& one : split_text(text, ',')) {
+  for (const std::string& one : split(text, ',')) {
     const std::size_t equals = one.find('=');
     const std::string name = one.substr(0, equals);
     if (equals == std::string::npos) throw UsageError("--noise takes NAME=NUMBER, not '" + one + "'", cure);
@@ -61,20 +62,10 @@ void read_noise(const std::string& text, PictureUse use, ObservationChoice& choi
 std::vector<std::string> channels_from(const std::string& text) {
   if (text == "all") return {"*"};
   if (text == "none") return {};
-  return split_text(text, ',');
+  return split(text, ',');
 }
 
 }  // namespace
-
-std::vector<std::string> split_text(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(at, start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
 
 double number_in(const std::string& option, const std::string& text, double least, double most) {
   double value = 0;
@@ -87,7 +78,7 @@ double number_in(const std::string& option, const std::string& text, double leas
 }
 
 std::array<int, 2> size_from(const std::string& option, const std::string& text) {
-  const std::vector<std::string> parts = split_text(text, 'x');
+  const std::vector<std::string> parts = split(text, 'x');
   std::array<int, 2> size{};
   if (parts.size() != 2) throw UsageError(option + " takes WIDTHxHEIGHT, not '" + text + "'", option + " 128x128");
   for (std::size_t i = 0; i < 2; ++i) {

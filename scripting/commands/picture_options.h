@@ -28,7 +28,6 @@ void check_choice(const ObservationChoice& choice, const Scene& scene);
 // `64x48`. Throws UsageError for what is no size, and for sizes outside 1 … kLargestSide.
 std::array<int, 2> size_from(const std::string& option, const std::string& text);
 
-std::vector<std::string> split_text(const std::string& text, char at);
 double number_in(const std::string& option, const std::string& text, double least, double most);
 
 }  // namespace stampede::program

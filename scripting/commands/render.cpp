@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "engine/base/text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/render_output.h"
@@ -41,7 +42,7 @@ FrameChoice frames_from(const std::string& text) {
   if (text.empty()) return choice;
   choice.which = which_frames_from(text);
   if (choice.which && *choice.which != WhichFrames::none) return choice;
-  for (const std::string& one : split_text(text, ',')) {
+  for (const std::string& one : split(text, ',')) {
     const std::size_t dash = one.find('-');
     const std::int64_t first = frame_number(one.substr(0, dash));
     const std::int64_t last = dash == std::string::npos ? first : frame_number(one.substr(dash + 1));

@@ -52,7 +52,7 @@ void write_header(Canvas& canvas, const Drawn& drawn) {
   const std::string title = fmt::format("episode {}: {}", drawn.stored.id, instruction_of(episode));
   for (const std::string& line : stampede::wrapped(title, kTitle, room, 1))
     canvas.text(kGap, kGap + kTitle, line, kTitle, kInk);
-  const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
+  const double seconds = episode.duration_s();
   const int baseline = kGap + 2 * kTitle + 4;
   const int x = canvas.text(kGap, baseline, verdict(episode.outcome, episode.reason), kLetters, good ? kGood : kBad);
   const std::string variation = episode.variation.empty() ? "" : " · " + episode.variation;

@@ -78,7 +78,7 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
 
 std::string episode_line(const EpisodeRecord& episode) {
   const std::string name = episode.task + (episode.variation.empty() ? "" : " " + episode.variation);
-  const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
+  const double seconds = episode.duration_s();
   if (episode.outcome == Outcome::success)
     return fmt::format("{} seed {}: success, {:.1f} s", name, episode.seed, seconds);
   return fmt::format("{} seed {}: {}{}", name, episode.seed, to_string(episode.reason),

@@ -4,30 +4,17 @@
 #include <set>
 
 #include "engine/base/hash.h"
+#include "engine/base/text.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/bddl_task_file.h"
 
 namespace stampede {
 namespace {
 
-// Fisher and Yates; the key holds the task alone, so that every run of a task meets its variations in one order.
+// The key holds the task alone, so that every run of a task meets its variations in one order.
 std::vector<std::string> shuffled(std::vector<std::string> variations, const std::string& task) {
-  Random random(RandomKey("variations").with(task));
-  for (std::size_t i = variations.size(); i > 1; --i) {
-    std::swap(variations[i - 1], variations[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
-  }
+  Random(RandomKey("variations").with(task)).shuffle(variations);
   return variations;
-}
-
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
 }
 
 bool agrees(const std::map<std::string, std::string>& axes, const std::vector<std::string>& parts) {
@@ -50,7 +37,7 @@ const Library::TaskInfo& task_info(const Library& library, const std::string& na
 
 std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text) {
   if (text.empty()) return task.variation_texts;
-  const std::vector<std::string> parts = split_at_commas(text);
+  const std::vector<std::string> parts = split(text, ',');
   std::vector<std::string> found;
   for (std::size_t i = 0; i < task.variation_texts.size(); ++i) {
     if (task.variation_texts[i] == text || agrees(task.variations[i], parts)) found.push_back(task.variation_texts[i]);

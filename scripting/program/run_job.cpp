@@ -63,7 +63,7 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
   ++tally.finished;
   ++task.episodes;
   ++variation_episodes;
-  task.simulated_s += static_cast<double>(episode.steps) / episode.physics_hz;
+  task.simulated_s += episode.duration_s();
   if (success) {
     ++tally.succeeded;
     ++task.succeeded;

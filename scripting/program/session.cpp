@@ -44,6 +44,8 @@ CameraPoints Session::points(std::int64_t episode, std::int64_t frame, const Pic
   return impl_->core.points(episode, frame, request);
 }
 
+WorldState Session::state(std::int64_t episode, std::int64_t frame) const { return impl_->core.state(episode, frame); }
+
 Rows Session::query(std::string_view question) const {
   const QueryResult result = impl_->core.query(question);
   Rows rows{result.columns, {}};

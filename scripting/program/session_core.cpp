@@ -1,6 +1,7 @@
 #include "scripting/program/session_core.h"
 
 #include "db/catalogue_writer.h"
+#include "engine/episode/abstract_state.h"
 #include "scripting/program/constraints_fit.h"
 #include "scripting/program/episode_job.h"
 #include "scripting/program/numerics.h"
@@ -35,6 +36,23 @@ ObservationChoice choice_of(const PictureStorage& wanted) {
   return choice;
 }
 
+WorldState world_state(const AbstractState& state, double frame_hz) {
+  WorldState result;
+  result.frame = state.frame;
+  result.time_s = static_cast<double>(state.frame) / frame_hz;
+  Facts all = state.facts;
+  all.insert(state.observed.begin(), state.observed.end());
+  for (const Fact& fact : all)
+    result.facts.push_back({fact.predicate, fact.arguments, state.facts.contains(fact), state.observed.contains(fact)});
+  for (const auto& [name, position] : state.joints) {
+    const auto fraction = state.joint_fractions.find(name);
+    result.joints.push_back({name, position, fraction == state.joint_fractions.end() ? 0 : fraction->second});
+  }
+  for (const auto& [name, pose] : state.poses) result.objects.push_back({name, pose.position, pose.quaternion});
+  for (const auto& [name, opening] : state.openings) result.hands.push_back({name, opening});
+  return result;
+}
+
 }  // namespace
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
@@ -67,7 +85,7 @@ std::optional<Episode> SessionCore::stored(const std::string& key) const {
   episode.reason = to_string(record.reason);
   episode.detail = record.detail;
   episode.frames = static_cast<std::int64_t>(record.frames.size());
-  episode.duration_s = static_cast<double>(record.steps) / record.physics_hz;
+  episode.duration_s = record.duration_s();
   episode.undone = static_cast<int>(record.attempts.size());
   return episode;
 }
@@ -99,7 +117,7 @@ Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& req
                   std::string(to_string(record.reason)),
                   record.detail,
                   static_cast<std::int64_t>(record.frames.size()),
-                  static_cast<double>(record.steps) / record.physics_hz,
+                  record.duration_s(),
                   static_cast<int>(record.attempts.size())};
   if (catalogue_.empty()) return episode;
   Catalogue catalogue = Catalogue::write(catalogue_);
@@ -123,6 +141,14 @@ CameraPicture SessionCore::picture(std::int64_t episode, std::int64_t frame, con
 CameraPoints SessionCore::points(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
   if (!studio_) studio_.emplace();
   return studio_->points(Catalogue::open(catalogue()), episode, frame, request);
+}
+
+WorldState SessionCore::state(std::int64_t episode, std::int64_t frame) {
+  if (record_id_ != episode) {
+    record_ = Catalogue::open(catalogue()).read_episode(episode);
+    record_id_ = episode;
+  }
+  return world_state(abstract_state(record_, frame), record_.frame_hz);
 }
 
 }  // namespace stampede

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "db/query.h"
+#include "engine/episode/record.h"
 #include "scripting/program/studio.h"
 #include "stampede/episode.h"
+#include "stampede/world_state.h"
 
 namespace stampede {
 
@@ -24,6 +26,7 @@ class SessionCore {
   QueryResult query(std::string_view question) const;
   CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
   CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
+  WorldState state(std::int64_t episode, std::int64_t frame);
 
  private:
   std::optional<Episode> stored(const std::string& key) const;
@@ -31,6 +34,9 @@ class SessionCore {
   std::shared_ptr<const class Library> library_;
   std::filesystem::path catalogue_;
   std::optional<Studio> studio_;  // from the first picture on
+  // Of the last state asked for: the next one is mostly of the same episode.
+  std::int64_t record_id_ = 0;
+  EpisodeRecord record_;
 };
 
 }  // namespace stampede

@@ -91,7 +91,7 @@ std::string header(const EpisodeRecord& episode, const TimelineStyle& style) {
     text += "“" + language.text + "”\n";
     break;
   }
-  const double seconds = static_cast<double>(episode.steps) / episode.physics_hz;
+  const double seconds = episode.duration_s();
   if (episode.outcome == Outcome::success) {
     text += fmt::format("✓ success after {:.2f} s", seconds);
   } else {

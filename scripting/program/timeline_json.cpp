@@ -28,7 +28,7 @@ std::string timeline_json(const EpisodeRecord& episode) {
   json.object().field("key", episode.key).field("task", episode.task).field("variation", episode.variation);
   json.field("seed", episode.seed).field("split", episode.split).field("world", episode.world);
   json.field("outcome", to_string(episode.outcome)).field("reason", to_string(episode.reason));
-  json.field("detail", episode.detail).field("duration", static_cast<double>(episode.steps) / hz);
+  json.field("detail", episode.detail).field("duration", episode.duration_s());
   json.field("frames", static_cast<std::int64_t>(episode.frames.size()));
   json.key("segments").array();
   for (const SegmentRecord& segment : episode.segments) {

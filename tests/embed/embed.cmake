@@ -18,7 +18,7 @@ file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/embed/project -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix}
-  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=Release)
+  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 
 # No header of another library may be needed, or leak in, through ours.
@@ -36,12 +36,14 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 
-execute_process(COMMAND ${WORK}/build/pictures WORKING_DIRECTORY ${prefix}/share/stampede
-  RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
-if(NOT code EQUAL 0)
-  message(FATAL_ERROR "pictures: ${code}\n${said}")
-endif()
-message("${said}")
+foreach(program pictures states)
+  execute_process(COMMAND ${WORK}/build/${program} WORKING_DIRECTORY ${prefix}/share/stampede
+    RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${program}: ${code}\n${said}")
+  endif()
+  message("${said}")
+endforeach()
 
 execute_process(COMMAND ${WORK}/build/embed WORKING_DIRECTORY ${prefix}/share/stampede
   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)

@@ -10,14 +10,15 @@
 
 namespace stampede {
 
+// Every field has a default, so that designated initialisers name what differs and no compiler warns of the rest.
 struct EpisodeRequest {
-  std::string variation;  // canonical text or some of its axes (`colour=red`: the first that has them); empty: first
-  std::int64_t seed = 0;  // from 1'000'000 up: the test split
+  std::string variation = {};  // canonical text, or axes of it (`colour=red`: the first that has them); empty: first
+  std::int64_t seed = 0;       // from 1'000'000 up: the test split
   OnFailure on_failure = OnFailure::undo;
-  std::string controller;  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
-  std::optional<PictureStorage> pictures;  // nothing: what the task and its world say in `observe`
-  std::string where;  // PDDL: what must hold at the start, beside the task's init: `(not (open chest.top_drawer))`
-  std::string goal;   // PDDL: instead of the task's own
+  std::string controller = {};  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
+  std::optional<PictureStorage> pictures = {};  // nothing: what the task and its world say in `observe`
+  std::string where = {};  // PDDL: what must hold at the start, beside the task's init: `(not (open chest.top_drawer))`
+  std::string goal = {};   // PDDL: instead of the task's own
   Behaviour behaviour = Behaviour::plan;
   int skills = 20;         // of a random behaviour: how many it draws
   bool randomise = false;  // looks, light, cameras and dynamics, where the world has no ranges of its own

@@ -13,8 +13,8 @@ enum class PicturesOf { none, keyframes, all };  // frames
 // What `run` stores beside the episode.
 struct PictureStorage {
   PicturesOf frames = PicturesOf::all;
-  std::vector<std::string> cameras;  // empty: all of the world
-  int width = 0, height = 0;         // pixels, at most 4096; 0: each camera's own
+  std::vector<std::string> cameras = {};  // empty: all of the world
+  int width = 0, height = 0;              // pixels, at most 4096; 0: each camera's own
   bool rgb = true, depth = true, instance = true, semantic = true;
   bool points = false;
   bool shadows = false;

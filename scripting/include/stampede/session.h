@@ -12,13 +12,14 @@
 #include "stampede/outcome.h"
 #include "stampede/picture.h"
 #include "stampede/visibility.h"
+#include "stampede/world_state.h"
 
 namespace stampede {
 
 struct SessionOptions {
-  std::filesystem::path root;                // holds tasks/, skills/, worlds/; empty: those that came with the library
-  std::vector<std::filesystem::path> paths;  // further folders of the same shape, whose files win
-  std::filesystem::path catalogue;           // where episodes go; empty: nowhere
+  std::filesystem::path root = {};  // holds tasks/, skills/, worlds/; empty: those that came with the library
+  std::vector<std::filesystem::path> paths = {};  // further folders of the same shape, whose files win
+  std::filesystem::path catalogue = {};           // where episodes go; empty: nowhere
 };
 
 struct Rows {
@@ -50,6 +51,10 @@ class STAMPEDE_EXPORT Session {
   // Throws Error for unknown episodes, frames and cameras. Repeatable: the same pixels in any session.
   CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
   CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
+
+  // The same frame in symbols and numbers: what holds, what is known to hold, joints, poses.
+  // Throws Error for unknown episodes and frames.
+  WorldState state(std::int64_t episode, std::int64_t frame) const;
 
  private:
   struct Impl;

@@ -3,7 +3,9 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <set>
+#include <vector>
 
 using namespace stampede;
 
@@ -51,4 +53,16 @@ TEST_CASE("below(n) hits every number equally often") {
   for (int i = 0; i < 70000; ++i) ++counts.at(static_cast<std::size_t>(random.below(7)));
   for (const int count : counts) CHECK(std::abs(count - 10000) < 5 * std::sqrt(10000 * 6.0 / 7));
   CHECK(random.below(1) == 0);
+}
+
+TEST_CASE("every order of three is drawn equally often") {
+  Random random(RandomKey("orders"));
+  std::map<std::vector<int>, int> counts;
+  for (int i = 0; i < 60000; ++i) {
+    std::vector<int> values = {1, 2, 3};
+    random.shuffle(values);
+    ++counts[values];
+  }
+  CHECK(counts.size() == 6);
+  for (const auto& [order, count] : counts) CHECK(std::abs(count - 10000) < 5 * std::sqrt(10000 * 5.0 / 6));
 }

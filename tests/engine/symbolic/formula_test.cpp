@@ -70,6 +70,12 @@ TEST_CASE("unmet names what a person would have to make true") {
   CHECK(missing("(forall (?x - cup) (on ?x table))") == Texts{"(on cup1 table)"});
   CHECK(missing("(or (open chest--drawer) (holding cup1))") == Texts{"one of: (open chest.drawer) or (holding cup1)"});
   CHECK(missing("(hand_empty)").empty());
+  // Of many ways the nearest are named, and the others are counted.
+  CHECK(
+      missing("(or (and (holding cup1) (holding cup2)) (and (holding cup1) (open chest--drawer)) (holding cup2) "
+              "(and (hand_empty) (holding cup1)) (and (holding cup1) (on cup2 cup1)) (open chest--drawer))") ==
+      Texts{"one of: (holding cup2) or (holding cup1) or (open chest.drawer) or (holding cup1) and (holding cup2) or 2 "
+            "other ways"});
 }
 
 TEST_CASE("effects read the state before; additions win over removals") {

@@ -1,0 +1,13 @@
+// Small things that every reader of options does.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stampede {
+
+// One part more than there are separators: empty ones are kept, so that who reads them can complain.
+std::vector<std::string> split(std::string_view text, char at);
+
+}  // namespace stampede
