@@ -5,10 +5,9 @@ return task {
   init = { is.on("hoop", "table"), is.apart("ball", "hoop"), is.on("ball", "table") },
   goal = { is.inside("ball", "hoop"), is.on("hoop", "table"), is.hand_empty() },
   instructions = {
-    "put the ball in the hoop",
-    "score a basket",
-    "drop the basketball through the ring",
-    "pick up the orange ball and dunk it",
-    "let the ball fall through the net of the basketball stand",
+    "score with the toy basketball",
+    "send the basketball down through the net and into the box",
+    "hold the orange ball over the ring and let go",
+    "get the basketball into the box by way of its hoop",
   },
 }

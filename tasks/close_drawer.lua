@@ -11,9 +11,9 @@ return task {
   init = function(v) return { is_not.closed("chest." .. v.level .. "_drawer") } end,
   goal = function(v) return { is.closed("chest." .. v.level .. "_drawer") } end,
   instructions = {
-    "close the {level} drawer",
-    "shut the {level} drawer of the chest",
-    "push the {level} drawer in",
-    "make sure that the {level} drawer is closed",
+    "push the {level} drawer back into the chest",
+    "the {level} drawer stands open: push it home",
+    "leave no gap at the {level} drawer of the chest",
+    "make sure that the {level} drawer ends up closed",
   },
 }

@@ -11,9 +11,9 @@ return task {
   init = { is.on("block1", "table"), is.on("block2", "table"), is.on("block3", "table") },
   goal = function(v) return { is.holding("block" .. v.digit), is.inside("block" .. v.digit, "space") } end,
   instructions = {
-    "lift the block with the number {digit}",
-    "pick up block number {digit} and hold it well above the table",
+    "raise the cube marked {digit} off the table",
     "find the cube that says {digit} and raise it",
-    "grasp the {digit} block and lift it up high",
+    "of the three blocks hold number {digit} well above the table",
+    "only the block numbered {digit} goes up in the air",
   },
 }

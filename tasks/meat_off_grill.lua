@@ -10,9 +10,9 @@ return task {
     return { is.on(v.meat, "table"), is.on(other, "grill"), is.hand_empty() }
   end,
   instructions = {
-    "take the {meat} off the grill",
-    "the {meat} is done: put it on the table",
     "move the {meat} from the grate to the table",
-    "remove the {meat} from the grill and set it down beside it",
+    "the {meat} is done: put it on the table",
+    "serve the {meat}: from the grill onto the table with it",
+    "save the {meat} from the heat and let it rest on the table",
   },
 }

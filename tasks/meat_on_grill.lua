@@ -8,9 +8,9 @@ return task {
     is_not.crowds("chicken", "steak"), is_not.crowds("steak", "chicken") },
   goal = function(v) return { is.on(v.meat, "grill"), is.hand_empty() } end,
   instructions = {
-    "put the {meat} on the grill",
-    "grill the {meat}",
-    "pick up the {meat} and lay it on the grate",
-    "the {meat} is to be cooked: place it on the grill and leave the other meat where it is",
+    "lay the {meat} across the bars of the grate",
+    "start cooking the {meat} and leave the other meat where it is",
+    "the {meat} is still raw: it belongs on the grate",
+    "of the two pieces of meat only the {meat} goes onto the grill",
   },
 }

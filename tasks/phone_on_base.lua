@@ -5,9 +5,9 @@ return task {
   init = { is.on("cradle", "table"), is.on("phone", "table"), is_not.crowds("cradle", "phone") },
   goal = { is.in_slot("phone", "cradle.seat"), is.hand_empty() },
   instructions = {
-    "put the phone on its base",
-    "hang up the phone",
-    "place the phone in the cradle",
-    "the phone has to charge: set it on its base",
+    "return the handset to its charging cradle",
+    "the phone has to charge: set it in its cradle",
+    "dock the blue phone",
+    "seat the phone in the cradle that stands on the table",
   },
 }

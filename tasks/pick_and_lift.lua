@@ -13,9 +13,9 @@ return task {
   goal = { is.holding("target"), is.inside("target", "zone") },
   hold = 0.5, -- s
   instructions = {
-    "pick up the {colour} block and lift it to the zone",
-    "grasp the {colour} cube and hold it in the green box in the air",
-    "lift the {colour} block up to the target",
+    "carry the {colour} block up into the green zone and keep it there",
+    "hold the {colour} cube inside the green box in the air",
     "raise the {colour} cube into the marked space",
+    "take the {colour} block from the table to the floating zone",
   },
 }

@@ -18,10 +18,10 @@ return task {
   instructions = function(v)
     local what = words[v.form]
     return {
-      "pick up the " .. what .. " and lift it to the zone",
-      "grasp the small " .. what .. " and hold it in the green box in the air",
-      "lift the " .. what .. " up to the target",
       "find the " .. what .. " among the small shapes and raise it into the marked space",
+      "grasp the small " .. what .. " and hold it in the green box in the air",
+      "carry the " .. what .. " up into the green zone and keep it there",
+      "of the five small solids take the " .. what .. " to the floating zone",
     }
   end,
 }

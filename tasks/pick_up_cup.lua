@@ -12,9 +12,9 @@ return task {
   goal = { is.holding("cup"), is.lifted("cup") },
   also = function(w) return w:bottom("cup") > w:top("table") + 0.05 end, -- m: clear of where it stood
   instructions = {
-    "pick up the {colour} cup",
-    "grasp the {colour} cup and lift it",
-    "take the {colour} cup off the table",
-    "lift the {colour} cup and leave the other one alone",
+    "take hold of the {colour} cup and keep it off the table",
+    "hold the {colour} cup clear of the table",
+    "raise the cup that is {colour}",
+    "of the two cups get the {colour} one into your hand and up",
   },
 }

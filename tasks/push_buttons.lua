@@ -11,6 +11,8 @@ end
 local words = { "the {first} button", "the {first} button, then the {second} one",
   "the {first} button, then the {second} one, then the {third} one" }
 
+local orders = { "{first}", "{first}, {second}", "{first}, {second}, {third}" }
+
 return task {
   world = "tabletop",
   variations = sequences(),
@@ -29,6 +31,7 @@ return task {
   end,
   instructions = function(v)
     local what = words[v.count]
-    return { "press " .. what, "push " .. what, "hit " .. what, "operate " .. what .. " in this order" }
+    return { "operate " .. what, "press down " .. what, "let a finger push down " .. what,
+      "buttons to press, in this order and no others: " .. orders[v.count] }
   end,
 }

@@ -27,7 +27,7 @@ return task {
   end,
   instructions = function(v)
     local what = words[v.item]
-    return { "put the " .. what .. " in the cupboard", "place the " .. what .. " on the shelf of the cupboard",
-      "the " .. what .. " belongs in the cupboard: put it there", "pick up the " .. what .. " and stow it in the cupboard" }
+    return { "stow the " .. what .. " on the shelf of the cupboard", "the cupboard is where the " .. what .. " should go",
+      "tidy the " .. what .. " away into the cupboard beside the table", "of all the groceries shelve just the " .. what }
   end,
 }

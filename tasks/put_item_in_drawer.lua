@@ -10,9 +10,9 @@ return task {
     is.on("item", "table"), is_not.inside("item", "chest.front") },
   goal = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer"), is.hand_empty() } end,
   instructions = {
-    "put the block in the {level} drawer",
-    "open the {level} drawer and place the block inside",
     "store the cube in the {level} drawer of the chest",
-    "the block belongs in the {level} drawer: put it there",
+    "the block belongs in the {level} drawer: open it and put the block there",
+    "pull out the {level} drawer and lay the cube in it",
+    "make the {level} drawer hold the block",
   },
 }

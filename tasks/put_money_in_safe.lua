@@ -9,9 +9,9 @@ return task {
   init = { is.on("money", "table") },
   goal = function(v) return { is.inside("money", "safe." .. v.shelf), is.hand_empty() } end,
   instructions = {
-    "put the money in the {shelf} of the safe",
-    "place the stack of banknotes on the {shelf} shelf of the safe",
-    "pick up the banknotes and leave them on the {shelf} shelf",
+    "deposit the bundle of money on the {shelf} shelf inside the safe",
+    "store the banknotes in the safe, {shelf} shelf",
     "the cash belongs on the {shelf} shelf of the safe: put it away",
+    "from the table into the safe with the banknotes, onto its {shelf} shelf",
   },
 }

@@ -6,10 +6,9 @@ return task {
     is.on("tomato*", "table") },
   goal = { is.inside("rubbish", "bin"), is.on("tomato*", "table"), is.hand_empty() },
   instructions = {
-    "put the rubbish in the bin",
-    "throw the crumpled paper away",
-    "drop the ball of paper into the bin and leave the tomatoes alone",
-    "pick up the trash and let it fall into the waste-paper bin",
     "clear the waste paper off the table into the bin",
+    "the crumpled paper is rubbish: get rid of it",
+    "drop the ball of paper into the bin and spare the tomatoes",
+    "bin the paper; the tomatoes are still good",
   },
 }

@@ -8,9 +8,9 @@ return task {
   init = { is.on("block", "table"), is.outside("block", "target") },
   goal = { is.inside("block", "target"), is.on("block", "table"), is.hand_empty() },
   instructions = {
-    "slide the block to the target",
-    "push the block onto the green square",
-    "move the red block into the marked area without lifting it",
     "shove the block along the table until it lies on the green patch",
+    "move the red block into the marked area without lifting it",
+    "the wide red block cannot be gripped: push it to the green square",
+    "nudge the block over the table and onto the green square",
   },
 }

@@ -19,7 +19,7 @@ return task {
   instructions = {
     "stack {height} {colour} blocks",
     "build a tower of {height} {colour} cubes",
-    "put {height} of the {colour} blocks on top of each other",
+    "pile up {height} of the blocks that are {colour}",
     "make a pile of {height} {colour} blocks",
   },
 }

@@ -8,9 +8,9 @@ return task {
   init = { is.hanging("frame", "hanger.hook") },
   goal = { is_not.hanging("frame", "hanger.hook"), is.on("frame", "table"), is.hand_empty() },
   instructions = {
-    "take the picture off the hanger and put it on the table",
-    "take down the frame and set it on the table",
     "unhook the picture frame and leave it on the table",
-    "remove the picture from its hook and place it on the table",
+    "lift the framed picture from its hook and set it down",
+    "the picture has hung long enough: stand it on the table",
+    "free the frame from the hook; the table is where it goes",
   },
 }

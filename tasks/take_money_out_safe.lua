@@ -16,9 +16,9 @@ return task {
     return parts
   end,
   instructions = {
-    "take the money out of the {shelf} of the safe",
-    "take the stack of banknotes off the {shelf} shelf and put it on the table",
     "fetch the cash from the {shelf} shelf of the safe",
     "move the banknotes on the {shelf} shelf of the safe to the table",
+    "withdraw the bundle of notes from the {shelf} shelf and put it on the table",
+    "empty the {shelf} shelf of the safe onto the table",
   },
 }

@@ -11,9 +11,9 @@ return task {
     return above - z > 0.99
   end,
   instructions = {
-    "take the plate off the {colour} rack",
     "pull the plate out of the {colour} slot and lay it on the table",
-    "remove the plate from between the {colour} posts and put it down",
     "the plate in the {colour} part of the dish rack is dry: lay it on the table",
+    "lay the plate that stands between the {colour} posts flat on the table",
+    "bring the plate from the {colour} slot of the rack to the table, face up",
   },
 }

@@ -10,9 +10,9 @@ return task {
   goal = { is_not.hanging("roll", "stand.rod"),
     any_of { is.lifted("roll"), all_of { is.on("roll", "table"), is.hand_empty() } } },
   instructions = {
-    "take the toilet roll off the stand",
     "pull the roll of paper from its rod",
-    "remove the toilet paper from the holder",
-    "slide the toilet roll off the stand",
+    "slip the paper roll off the end of its holder",
+    "bare the rod of the stand: take its roll",
+    "the stand must be free of paper: draw the roll off it",
   },
 }

@@ -8,9 +8,9 @@ return task {
   init = { is.in_slot("umbrella", "stand.tube") },
   goal = { is_not.in_slot("umbrella", "stand.tube"), is.lifted("umbrella") },
   instructions = {
-    "take the umbrella out of the umbrella stand",
-    "pull the umbrella from its stand",
-    "lift the umbrella out of the holder",
-    "remove the umbrella from the stand and hold it",
+    "draw the umbrella up out of its tube",
+    "pull the umbrella up and clear of its stand",
+    "it rains: get hold of the umbrella",
+    "hold the umbrella in the air, out of the stand",
   },
 }

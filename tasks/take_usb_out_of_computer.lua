@@ -9,9 +9,9 @@ return task {
   goal = { is_not.in_slot("stick", "computer.left_port"), is_not.in_slot("stick", "computer.right_port"),
     is.on("stick", "table"), is.hand_empty() },
   instructions = {
-    "take the USB stick out of the computer and put it on the table",
     "unplug the memory stick from the computer and lay it down",
-    "remove the USB stick from its port and leave it on the table",
-    "pull the stick out of the computer's port and put it down",
+    "draw the stick out of its port; it goes on the table",
+    "eject the memory stick by hand and put it on the table",
+    "the USB stick has done its work: pull it and leave it on the table",
   },
 }

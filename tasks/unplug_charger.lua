@@ -9,9 +9,9 @@ return task {
   goal = { is_not.in_slot("charger", "outlet.socket"),
     any_of { is.lifted("charger"), all_of { is.on("charger", "table"), is.hand_empty() } } },
   instructions = {
-    "unplug the charger",
-    "pull the charger out of the wall socket",
-    "take the plug out of the outlet",
-    "disconnect the charger from the wall",
+    "free the socket by pulling out the charger",
+    "pull the charger's plug clear of the wall",
+    "the charger draws power for nothing: unplug it",
+    "part the charger from its outlet",
   },
 }
