@@ -98,6 +98,7 @@ void Landmarks::choose(const GroundTask& task) {
     of_node_[node] = size();
     node_.push_back(node);
     is_goal_.push_back(std::binary_search(task.goal.begin(), task.goal.end(), node) ? 1 : 0);
+    if (is_goal_.back()) goals_.push_back(size() - 1);
   }
   words_ = (node_.size() + 63) / 64;
   now_.assign(words_, 0);
@@ -145,29 +146,15 @@ void Landmarks::order(const GroundTask& task, const Relaxation& relaxation) {
   }
 }
 
-int Landmarks::progress(const Words& state, std::uint64_t* reached) {
-  const auto is_true = [&](int landmark) { return literal_holds(state.data(), node_[landmark]); };
-  const auto is_turn = [&](int landmark) {
-    return std::all_of(before_[landmark].begin(), before_[landmark].end(),
-                       [&](int earlier) { return bit(reached, earlier); });
-  };
+void Landmarks::progress(const Words& state, std::uint64_t* reached) {
   std::fill(now_.begin(), now_.end(), 0);
   for (int landmark = 0; landmark < size(); ++landmark) {  // those reached now count as earlier ones only afterwards
-    if (!bit(reached, landmark) && is_true(landmark) && is_turn(landmark)) set_bit(now_.data(), landmark);
+    if (bit(reached, landmark) || !literal_holds(state.data(), node_[landmark])) continue;
+    const bool is_turn = std::all_of(before_[landmark].begin(), before_[landmark].end(),
+                                     [&](int earlier) { return bit(reached, earlier); });
+    if (is_turn) set_bit(now_.data(), landmark);
   }
   for (std::size_t w = 0; w < words_; ++w) reached[w] |= now_[w];
-  int ahead = 0;
-  for (int landmark = 0; landmark < size(); ++landmark) {
-    if (!bit(reached, landmark)) {
-      ++ahead;
-    } else if (!is_true(landmark)) {
-      const std::vector<int>& later = needed_for_[landmark];
-      const bool is_needed =
-          is_goal_[landmark] || std::any_of(later.begin(), later.end(), [&](int one) { return !bit(reached, one); });
-      if (is_needed) ++ahead;
-    }
-  }
-  return ahead;
 }
 
 void Landmarks::find_removals(const GroundTask& task) {
@@ -197,30 +184,52 @@ void Landmarks::find_removals(const GroundTask& task) {
   }
 }
 
-int Landmarks::open_goals(const Words& state) {
+// Marks the goals still to be achieved, those held too early included, and what they need first; their number.
+int Landmarks::find_wanted(const Words& state) {
   const auto is_true = [&](int landmark) { return literal_holds(state.data(), node_[landmark]); };
   std::fill(wanted_.begin(), wanted_.end(), 0);
-  int open = 0;
-  for (int landmark = 0; landmark < size(); ++landmark) {
-    if (!is_goal_[landmark] || is_true(landmark)) continue;
-    ++open;
-    stack_.push_back(landmark);
+  int goals = 0;
+  for (const int goal : goals_) {
+    if (!is_true(goal)) stack_.push_back(goal);
   }
   while (!stack_.empty()) {
-    const int at = stack_.back();
-    stack_.pop_back();
-    if (wanted_[at]) continue;
-    wanted_[at] = 1;
-    for (const int before : needs_[at]) {
-      if (!wanted_[before] && !is_true(before)) stack_.push_back(before);
+    goals += static_cast<int>(stack_.size());
+    while (!stack_.empty()) {
+      const int at = stack_.back();
+      stack_.pop_back();
+      if (wanted_[at]) continue;
+      wanted_[at] = 1;
+      for (const int before : needs_[at]) {
+        if (!wanted_[before] && !is_true(before)) stack_.push_back(before);
+      }
+    }
+    for (const int goal : goals_) {
+      const std::vector<int>& away = takes_away_[goal];
+      if (wanted_[goal]) continue;
+      if (std::any_of(away.begin(), away.end(), [&](int one) { return wanted_[one] != 0; })) stack_.push_back(goal);
     }
   }
-  for (int landmark = 0; landmark < size(); ++landmark) {
-    if (!is_goal_[landmark] || wanted_[landmark]) continue;
-    const std::vector<int>& away = takes_away_[landmark];
-    if (std::any_of(away.begin(), away.end(), [&](int one) { return wanted_[one] != 0; })) ++open;
+  return goals;
+}
+
+Landmarks::Ahead Landmarks::judge(const Words& state, std::uint64_t* reached) {
+  const auto is_true = [&](int landmark) { return literal_holds(state.data(), node_[landmark]); };
+  Ahead ahead;
+  ahead.goals = find_wanted(state);
+  progress(state, reached);
+  for (const int goal : goals_) {
+    if (wanted_[goal]) reached[goal >> 6] &= ~(std::uint64_t{1} << (goal & 63));
   }
-  return open;
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (!bit(reached, landmark)) {
+      ++ahead.landmarks;
+    } else if (!is_true(landmark)) {
+      const std::vector<int>& later = needed_for_[landmark];
+      const bool is_needed = std::any_of(later.begin(), later.end(), [&](int one) { return !bit(reached, one); });
+      if (is_needed) ++ahead.landmarks;
+    }
+  }
+  return ahead;
 }
 
 }  // namespace stampede::symbolic

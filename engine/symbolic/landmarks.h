@@ -19,17 +19,22 @@ class Landmarks {
 
   std::size_t words() const { return words_; }
   int size() const { return static_cast<int>(node_.size()); }
-  // `reached`: which landmarks came true on the way to the state before; afterwards to this one. Result: how many are
-  // ahead, together with those that are false again though still needed.
-  int progress(const Words& state, std::uint64_t* reached);
-  // Goals that are open, and those that hold too early: they will be undone, because every way to make them true takes
-  // away what an open goal still needs (the reasonable orders of Koehler, Hoffmann, JAIR 2000, doi:10.1613/jair.715).
-  int open_goals(const Words& state);
+  // `reached`: which landmarks came true on the way to the state before; afterwards on the way to this one.
+  void progress(const Words& state, std::uint64_t* reached);
+  struct Ahead {
+    int landmarks = 0;  // not yet reached, or false again though still needed
+    int goals = 0;      // open, or held too early
+  };
+  // As `progress`, except that goals which hold too early are taken out of `reached`: they will be undone, because
+  // every way to make them true takes away what an open goal, or another of them, still needs (the reasonable orders of
+  // Koehler, Hoffmann, JAIR 2000, doi:10.1613/jair.715).
+  Ahead judge(const Words& state, std::uint64_t* reached);
 
  private:
   void label(const GroundTask& task, const Relaxation& relaxation, const Words& start);
   void choose(const GroundTask& task);
   void find_removals(const GroundTask& task);
+  int find_wanted(const Words& state);
   void order(const GroundTask& task, const Relaxation& relaxation);
   const std::uint64_t* labels_of(int node) const { return labels_.data() + static_cast<std::size_t>(node) * width_; }
 
@@ -40,13 +45,14 @@ class Landmarks {
   std::vector<int> node_;                     // of each landmark
   std::vector<int> of_node_;                  // by node: its landmark or -1
   std::vector<char> is_goal_;                 // by landmark
+  std::vector<int> goals_;                    // landmarks
   std::vector<std::vector<int>> before_;      // by landmark: which must have been true earlier
   std::vector<std::vector<int>> needed_for_;  // by landmark: those just before whose first achievement it must hold
   std::vector<std::vector<int>> needs_;       // by landmark: what must hold right before it
   std::vector<std::vector<int>> takes_away_;  // by landmark, goals only: what all its achievers remove
-  std::vector<char> wanted_;                  // scratch of `open_goals`
+  std::vector<char> wanted_;                  // scratch of `find_wanted`
   std::vector<int> stack_;                    // the same
-  std::vector<std::uint64_t> now_;            // scratch of `progress`
+  std::vector<std::uint64_t> now_;            // scratch of `progress` and `judge`
 };
 
 }  // namespace stampede::symbolic

@@ -99,9 +99,12 @@ class Search {
                                           [&](Literal one) { return !literal_holds(state.data(), one); }));
   }
 
-  // Landmarks ahead of the newest state.
-  int ahead(const Words& state) {
-    return query_.landmarks->progress(state, reached_.data() + (reached_.size() - query_.landmarks->words()));
+  // Of a state that is reached from state `number`, or that state itself.
+  Landmarks::Ahead ahead(const Words& state, int number) {
+    const auto from =
+        reached_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(number) * query_.landmarks->words());
+    judged_.assign(from, from + static_cast<std::ptrdiff_t>(query_.landmarks->words()));
+    return query_.landmarks->judge(state, judged_.data());
   }
 
   int step_cost(int op) const { return query_.costs == nullptr ? 1 : (*query_.costs)[static_cast<std::size_t>(op)]; }
@@ -132,23 +135,49 @@ class Search {
     if (h == Heuristic::kDeadEnd) return false;
     if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    const std::array<int, kHeuristics> values = {h, used_ > 2 ? query_.landmarks->open_goals(state) : goals_open(state),
-                                                 used_ > 2 ? ahead(state) : 0};
-    const std::array<int, kHeuristics> keys = {weight_ == 0 ? h : depth_.back() + weight_ * h, values[1], values[2]};
+    std::array<int, kHeuristics> values = {h, goals_open(state), 0};
+    if (used_ > 2) {
+      std::uint64_t* reached = reached_.data() + static_cast<std::size_t>(number) * query_.landmarks->words();
+      Landmarks::Ahead now;
+      if (query_.strict) {
+        now = query_.landmarks->judge(state, reached);
+      } else {
+        query_.landmarks->progress(state, reached);
+        now = ahead(state, number);
+      }
+      values = {h, now.goals, now.landmarks};
+    }
+    boost(values);
+    if (weight_ != 0) values[0] = depth_.back() + weight_ * h;
+    queue_successors(state, number, values);
+    return false;
+  }
+
+  // The more turns for preferred operators, the more heuristics say that the search is getting on.
+  void boost(const std::array<int, kHeuristics>& values) {
     for (std::size_t i = 0; i < used_; ++i) {
       if (best_[i] >= 0 && values[i] >= best_[i]) continue;
       best_[i] = values[i];
       for (std::size_t list = 1; list < kLists; list += 2) turns_[list] -= kBoost;
     }
+  }
+
+  // h_FF is that of the state itself (lazy); what landmarks say is cheap and far better known of each successor.
+  void queue_successors(const Words& state, int number, std::array<int, kHeuristics> keys) {
     const std::vector<int>& preferred = heuristic_.preferred();
     for (const int op : heuristic_.applicable()) {
       const bool is_preferred = std::binary_search(preferred.begin(), preferred.end(), op);
+      if (used_ > 2) {
+        semantics_.apply(state, op, successor_);
+        const Landmarks::Ahead then = ahead(successor_, number);
+        keys[1] = then.goals;
+        keys[2] = then.landmarks;
+      }
       for (std::size_t i = 0; i < used_; ++i) {
         lists_[2 * i].push(keys[i], {number, op});
         if (is_preferred) lists_[2 * i + 1].push(keys[i], {number, op});
       }
     }
-    return false;
   }
 
   void extract(int number) {
@@ -174,7 +203,8 @@ class Search {
   std::array<OpenList, kLists> lists_;  // of each heuristic: all successors, preferred ones
   std::array<std::int64_t, kLists> turns_ = {};
   std::array<int, kHeuristics> best_ = {-1, -1, -1};
-  Words next_;
+  Words next_, successor_;
+  std::vector<std::uint64_t> judged_;
   SearchResult result_;
 };
 

@@ -15,10 +15,10 @@ struct SearchResult {
   std::int64_t expanded = 0, evaluated = 0;
 };
 
-// From `start` to where `goal` holds. `weight` 0: greedy, alternating between h_FF, the count of open goals and that of
-// landmarks ahead, each with a list of all successors and one of the preferred; otherwise states
-// are ordered by steps so far + weight * h_FF alone, which finds shorter plans more slowly. The heuristic must have
-// been given the same goal.
+// From `start` to where `goal` holds. `weight` 0: greedy, alternating between h_FF of the state that is left, and the
+// open goals and the landmarks ahead of the one that is entered, each with a list of all successors and one of the
+// preferred; otherwise states are ordered by steps so far + weight * h_FF alone, which finds shorter plans more slowly.
+// The heuristic must have been given the same goal.
 struct Query {
   Words start;
   Literals goal;
@@ -26,6 +26,7 @@ struct Query {
   int bound = 0;                            // not 0: states whose steps so far + h_FF reach it are given up
   Landmarks* landmarks = nullptr;           // of this start and goal: counted too by the greedy search
   const std::vector<int>* costs = nullptr;  // by operator, as the heuristic was given; null: each step costs 1
+  bool strict = false;                      // goals held too early count as never reached on the whole path
 };
 SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
                          const PlanLimits& limits, const Query& query);
