@@ -1,11 +1,24 @@
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/search.h"
 
 namespace stampede {
+
+namespace {
+
+constexpr std::int64_t kSecondShare = 2;  // expansions of the second search, as a multiple of the first's
+
+std::pair<std::int64_t, std::size_t> price(const symbolic::GroundTask& task, const std::vector<int>& plan) {
+  std::int64_t cost = 0;
+  for (const int op : plan) cost += task.operators[op].cost;
+  return {cost, plan.size()};
+}
+
+}  // namespace
 
 std::string to_text(const Plan& plan) {
   std::string text;
@@ -45,8 +58,8 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
   const Semantics semantics(task);
   Heuristic heuristic(task);
   Landmarks landmarks(task, heuristic.relaxation(), semantics.initial());
-  const SearchResult result =
-      lazy_search(task, semantics, heuristic, limits, {semantics.initial(), task.goal, 0, 0, &landmarks});
+  Query query{semantics.initial(), task.goal, 0, 0, &landmarks};
+  SearchResult result = lazy_search(task, semantics, heuristic, limits, query);
   outcome.expanded = result.expanded;
   outcome.evaluated = result.evaluated;
   outcome.solved = result.solved;
@@ -58,6 +71,13 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
     return outcome;
   }
   outcome.end = PlanEnd::solved;
+  if (limits.improve > 0 && !result.plan.empty()) {  // two greedy searches seldom go wrong at the same place
+    PlanLimits second = limits;
+    second.expansions = std::min(limits.improve, kSecondShare * result.evaluated);
+    query.strict = true;
+    SearchResult other = lazy_search(task, semantics, heuristic, second, query);
+    if (other.solved && price(task, other.plan) < price(task, result.plan)) result.plan = std::move(other.plan);
+  }
   for (const int op : shorten(task, semantics, heuristic, result.plan, limits.improve)) {
     outcome.plan.push_back(task.step(op));
     outcome.cost += task.operators[op].cost;
