@@ -7,6 +7,7 @@ namespace stampede::symbolic {
 namespace {
 
 constexpr std::int64_t kWindowExpansions = 50;
+constexpr std::size_t kWayBack = 4;  // steps of the plan that a way back into it may replace
 constexpr std::int64_t kWholeExpansions = 400;
 constexpr std::int64_t kWindowWork = 32'000'000;  // operators times expansions: bounds the time on large tasks
 constexpr int kMostStepCost = 64;                 // in searches; true costs are scaled to it
@@ -48,7 +49,9 @@ struct Improver {
   bool without(const std::vector<int>& plan, std::size_t drop, Words state, std::vector<int>& rest) const;
   std::vector<int> eliminate(std::vector<int> plan) const;
   std::vector<Literals> needed_before(const std::vector<int>& plan) const;
+  SearchResult search_window(const Words& from, const Literals& goal, int bound);
   bool shorten_windows(std::size_t length, std::vector<int>& plan);
+  bool postpone(std::size_t count, std::vector<int>& plan);
   void search_again(std::int64_t expansions, std::vector<int>& plan);
 };
 
@@ -154,6 +157,16 @@ std::vector<Literals> Improver::needed_before(const std::vector<int>& plan) cons
   return needed;
 }
 
+SearchResult Improver::search_window(const Words& from, const Literals& goal, int bound) {
+  PlanLimits limits;
+  limits.expansions = std::min(budget, kWindowExpansions);
+  heuristic.set_goal(goal);
+  const SearchResult found = lazy_search(task, semantics, heuristic, limits,
+                                         {from, goal, 1, bound, nullptr, costs.empty() ? nullptr : &costs});
+  budget -= found.evaluated;
+  return found;
+}
+
 // One pass of windows of `length` steps over the plan; true if some window became cheaper.
 bool Improver::shorten_windows(std::size_t length, std::vector<int>& plan) {
   bool better = false;
@@ -163,13 +176,7 @@ bool Improver::shorten_windows(std::size_t length, std::vector<int>& plan) {
     const std::size_t end = std::min(plan.size(), i + length);
     const auto from = plan.begin() + static_cast<std::ptrdiff_t>(i),
                to = plan.begin() + static_cast<std::ptrdiff_t>(end);
-    PlanLimits limits;
-    limits.expansions = std::min(budget, kWindowExpansions);
-    heuristic.set_goal(needed[end]);
-    const SearchResult found =
-        lazy_search(task, semantics, heuristic, limits,
-                    {state, needed[end], 1, search_cost(from, to), nullptr, costs.empty() ? nullptr : &costs});
-    budget -= found.evaluated;
+    const SearchResult found = search_window(state, needed[end], search_cost(from, to));
     if (found.solved && price(found.plan) < price(from, to)) {
       std::vector<int> changed(plan.begin(), from);
       changed.insert(changed.end(), found.plan.begin(), found.plan.end());
@@ -183,6 +190,44 @@ bool Improver::shorten_windows(std::size_t length, std::vector<int>& plan) {
     if (i >= plan.size()) break;
     semantics.apply(state, plan[i], next);
     state.swap(next);
+  }
+  heuristic.set_goal(task.goal);
+  return better;
+}
+
+// One pass that leaves out `count` steps in a row, takes those after them as far as they can be taken, and looks there
+// for a way back into the plan: what was done too early is done where it is needed, as if the plan's order had been
+// loosened first (the idea of block deordering: Siddiqui, Haslum, JAIR 54, 2015). True if the plan became cheaper.
+bool Improver::postpone(std::size_t count, std::vector<int>& plan) {
+  bool better = false;
+  Words state = semantics.initial(), next, after;
+  std::vector<Literals> needed = needed_before(plan);
+  for (std::size_t i = 0; i + count <= plan.size() && budget > 0;) {
+    const auto at = [&](std::size_t step) { return plan.begin() + static_cast<std::ptrdiff_t>(step); };
+    after = state;
+    std::size_t stuck = i + count;
+    for (; stuck < plan.size() && semantics.applicable(after, plan[stuck]); ++stuck) {
+      semantics.apply(after, plan[stuck], next);
+      after.swap(next);
+    }
+    const std::size_t back = std::min(plan.size(), stuck + kWayBack);
+    const int bound = search_cost(at(i), at(i + count)) + search_cost(at(stuck), at(back));
+    const SearchResult found = search_window(after, needed[back], bound);
+    if (found.solved) {
+      std::vector<int> changed(plan.begin(), at(i));
+      changed.insert(changed.end(), at(i + count), at(stuck));
+      changed.insert(changed.end(), found.plan.begin(), found.plan.end());
+      changed.insert(changed.end(), at(back), plan.end());
+      if (price(changed) < price(plan) && works(changed)) {
+        plan = std::move(changed);
+        needed = needed_before(plan);
+        better = true;
+        continue;
+      }
+    }
+    semantics.apply(state, plan[i], next);
+    state.swap(next);
+    ++i;
   }
   heuristic.set_goal(task.goal);
   return better;
@@ -237,6 +282,9 @@ std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heu
   plan = improver.eliminate(std::move(plan));
   for (const std::size_t length : {8, 16}) {
     if (improver.shorten_windows(length, plan)) plan = improver.eliminate(std::move(plan));
+  }
+  for (const std::size_t count : {2, 4}) {
+    if (improver.postpone(count, plan)) plan = improver.eliminate(std::move(plan));
   }
   const bool is_plain = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
                                                            [](const Operator& op) { return op.conditional.empty(); });
