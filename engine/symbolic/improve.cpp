@@ -7,7 +7,8 @@ namespace stampede::symbolic {
 namespace {
 
 constexpr std::int64_t kWindowExpansions = 50;
-constexpr std::size_t kWayBack = 4;  // steps of the plan that a way back into it may replace
+constexpr std::size_t kMostWaiting = 10;  // steps at the end of the plan that are sought anew
+constexpr std::size_t kWayBack = 4;       // steps of the plan that a way back into it may replace
 constexpr std::int64_t kWholeExpansions = 400;
 constexpr std::int64_t kWindowWork = 32'000'000;  // operators times expansions: bounds the time on large tasks
 constexpr int kMostStepCost = 64;                 // in searches; true costs are scaled to it
@@ -51,6 +52,7 @@ struct Improver {
   std::vector<Literals> needed_before(const std::vector<int>& plan) const;
   SearchResult search_window(const Words& from, const Literals& goal, int bound);
   bool shorten_windows(std::size_t length, std::vector<int>& plan);
+  bool finish_last(std::size_t count, std::vector<int>& plan);
   bool postpone(std::size_t count, std::vector<int>& plan);
   void search_again(std::int64_t expansions, std::vector<int>& plan);
 };
@@ -233,6 +235,37 @@ bool Improver::postpone(std::size_t count, std::vector<int>& plan) {
   return better;
 }
 
+// The same where other steps wait for those left out: all that can still be taken is, and the goal is sought from
+// there.
+bool Improver::finish_last(std::size_t count, std::vector<int>& plan) {
+  bool better = false;
+  Words state = semantics.initial(), next;
+  heuristic.set_goal(task.goal);
+  for (std::size_t i = 0; i + count <= plan.size() && budget > 0;) {
+    std::vector<int> changed(plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(i));
+    Words after = state;
+    for (std::size_t step = i + count; step < plan.size(); ++step) {
+      if (!semantics.applicable(after, plan[step])) continue;
+      semantics.apply(after, plan[step], next);
+      after.swap(next);
+      changed.push_back(plan[step]);
+    }
+    const int bound = search_cost(plan.begin(), plan.end()) - search_cost(changed.begin(), changed.end());
+    SearchResult found;
+    if (plan.size() - changed.size() <= kMostWaiting) found = search_window(after, task.goal, bound);
+    changed.insert(changed.end(), found.plan.begin(), found.plan.end());
+    if (found.solved && price(changed) < price(plan)) {
+      plan = std::move(changed);
+      better = true;
+      continue;
+    }
+    semantics.apply(state, plan[i], next);
+    state.swap(next);
+    ++i;
+  }
+  return better;
+}
+
 // Weighted best-first searches for the whole plan, each from scratch and bounded by the best so far: anytime search as
 // in Richter, Thayer, Ruml, ICAPS 2010.
 void Improver::search_again(std::int64_t expansions, std::vector<int>& plan) {
@@ -286,6 +319,7 @@ std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heu
   for (const std::size_t count : {2, 4}) {
     if (improver.postpone(count, plan)) plan = improver.eliminate(std::move(plan));
   }
+  if (improver.finish_last(2, plan)) plan = improver.eliminate(std::move(plan));
   const bool is_plain = task.axioms.empty() && std::all_of(task.operators.begin(), task.operators.end(),
                                                            [](const Operator& op) { return op.conditional.empty(); });
   const bool is_small = plan.size() <= 24;  // larger plans are beyond what so few expansions find again
