@@ -1,61 +1,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/symbolic/search.h"
+#include "engine/symbolic/improver.h"
 
 namespace stampede::symbolic {
 namespace {
 
 constexpr std::int64_t kWindowExpansions = 50;
-constexpr std::size_t kMostWaiting = 10;  // steps at the end of the plan that are sought anew
-constexpr std::size_t kWayBack = 4;       // steps of the plan that a way back into it may replace
 constexpr std::int64_t kWholeExpansions = 400;
 constexpr std::int64_t kWindowWork = 32'000'000;  // operators times expansions: bounds the time on large tasks
 constexpr int kMostStepCost = 64;                 // in searches; true costs are scaled to it
 
-// What plans are compared by.
-using Price = std::pair<std::int64_t, std::size_t>;  // cost, steps
-
-struct Improver {
-  const GroundTask& task;
-  const Semantics& semantics;
-  Heuristic& heuristic;
-  std::vector<int> costs;  // by operator, scaled; empty: all equal
-  std::int64_t budget = 0;
-
-  Price price(std::vector<int>::const_iterator from, std::vector<int>::const_iterator to) const {
-    Price sum{0, static_cast<std::size_t>(to - from)};
-    for (; from != to; ++from) sum.first += task.operators[*from].cost;
-    return sum;
-  }
-  Price price(const std::vector<int>& plan) const { return price(plan.begin(), plan.end()); }
-
-  int search_cost(std::vector<int>::const_iterator from, std::vector<int>::const_iterator to) const {
-    if (costs.empty()) return static_cast<int>(to - from);
-    int sum = 0;
-    for (; from != to; ++from) sum += costs[*from];
-    return sum;
-  }
-
-  bool works(const std::vector<int>& plan) const {
-    Words state = semantics.initial(), next;
-    for (const int op : plan) {
-      if (!semantics.applicable(state, op)) return false;
-      semantics.apply(state, op, next);
-      state.swap(next);
-    }
-    return semantics.is_goal(state);
-  }
-
-  bool without(const std::vector<int>& plan, std::size_t drop, Words state, std::vector<int>& rest) const;
-  std::vector<int> eliminate(std::vector<int> plan) const;
-  std::vector<Literals> needed_before(const std::vector<int>& plan) const;
-  SearchResult search_window(const Words& from, const Literals& goal, int bound);
-  bool shorten_windows(std::size_t length, std::vector<int>& plan);
-  bool finish_last(std::size_t count, std::vector<int>& plan);
-  bool postpone(std::size_t count, std::vector<int>& plan);
-  void search_again(std::int64_t expansions, std::vector<int>& plan);
-};
+}  // namespace
 
 // The plan without step `drop` and without all later steps that then cannot be taken; false if the goal fails.
 bool Improver::without(const std::vector<int>& plan, std::size_t drop, Words state, std::vector<int>& rest) const {
@@ -197,75 +153,6 @@ bool Improver::shorten_windows(std::size_t length, std::vector<int>& plan) {
   return better;
 }
 
-// One pass that leaves out `count` steps in a row, takes those after them as far as they can be taken, and looks there
-// for a way back into the plan: what was done too early is done where it is needed, as if the plan's order had been
-// loosened first (the idea of block deordering: Siddiqui, Haslum, JAIR 54, 2015). True if the plan became cheaper.
-bool Improver::postpone(std::size_t count, std::vector<int>& plan) {
-  bool better = false;
-  Words state = semantics.initial(), next, after;
-  std::vector<Literals> needed = needed_before(plan);
-  for (std::size_t i = 0; i + count <= plan.size() && budget > 0;) {
-    const auto at = [&](std::size_t step) { return plan.begin() + static_cast<std::ptrdiff_t>(step); };
-    after = state;
-    std::size_t stuck = i + count;
-    for (; stuck < plan.size() && semantics.applicable(after, plan[stuck]); ++stuck) {
-      semantics.apply(after, plan[stuck], next);
-      after.swap(next);
-    }
-    const std::size_t back = std::min(plan.size(), stuck + kWayBack);
-    const int bound = search_cost(at(i), at(i + count)) + search_cost(at(stuck), at(back));
-    const SearchResult found = search_window(after, needed[back], bound);
-    if (found.solved) {
-      std::vector<int> changed(plan.begin(), at(i));
-      changed.insert(changed.end(), at(i + count), at(stuck));
-      changed.insert(changed.end(), found.plan.begin(), found.plan.end());
-      changed.insert(changed.end(), at(back), plan.end());
-      if (price(changed) < price(plan) && works(changed)) {
-        plan = std::move(changed);
-        needed = needed_before(plan);
-        better = true;
-        continue;
-      }
-    }
-    semantics.apply(state, plan[i], next);
-    state.swap(next);
-    ++i;
-  }
-  heuristic.set_goal(task.goal);
-  return better;
-}
-
-// The same where other steps wait for those left out: all that can still be taken is, and the goal is sought from
-// there.
-bool Improver::finish_last(std::size_t count, std::vector<int>& plan) {
-  bool better = false;
-  Words state = semantics.initial(), next;
-  heuristic.set_goal(task.goal);
-  for (std::size_t i = 0; i + count <= plan.size() && budget > 0;) {
-    std::vector<int> changed(plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(i));
-    Words after = state;
-    for (std::size_t step = i + count; step < plan.size(); ++step) {
-      if (!semantics.applicable(after, plan[step])) continue;
-      semantics.apply(after, plan[step], next);
-      after.swap(next);
-      changed.push_back(plan[step]);
-    }
-    const int bound = search_cost(plan.begin(), plan.end()) - search_cost(changed.begin(), changed.end());
-    SearchResult found;
-    if (plan.size() - changed.size() <= kMostWaiting) found = search_window(after, task.goal, bound);
-    changed.insert(changed.end(), found.plan.begin(), found.plan.end());
-    if (found.solved && price(changed) < price(plan)) {
-      plan = std::move(changed);
-      better = true;
-      continue;
-    }
-    semantics.apply(state, plan[i], next);
-    state.swap(next);
-    ++i;
-  }
-  return better;
-}
-
 // Weighted best-first searches for the whole plan, each from scratch and bounded by the best so far: anytime search as
 // in Richter, Thayer, Ruml, ICAPS 2010.
 void Improver::search_again(std::int64_t expansions, std::vector<int>& plan) {
@@ -284,6 +171,8 @@ void Improver::search_again(std::int64_t expansions, std::vector<int>& plan) {
     }
   }
 }
+
+namespace {
 
 // Costs as searches see them: at least 1 each, so that steps count too. Empty: all are equal.
 std::vector<int> scaled_costs(const GroundTask& task) {

@@ -21,7 +21,8 @@ std::string to_text(const Plan& plan);  // one `(pick block1 table)` a line
 struct PlanLimits {
   std::int64_t expansions = 1'000'000;
   std::int64_t memory_bytes = 2'000'000'000;
-  std::int64_t improve = 20'000;  // expansions spent on shortening after the first plan
+  std::int64_t improve =
+      20'000;  // expansions: at most so many for a second plan, and as many to shorten the better one
 };
 
 enum class PlanEnd {
