@@ -51,7 +51,7 @@ AlteredTask::AlteredTask(Task& task, const Symbols& symbols, const RunOptions& o
   const Scene scene = task.scene(0);
   goal_ = checked_formula(*options.goal, symbols.domain(), objects_of(scene, symbols.domain()), "--goal");
   const std::string text = sentence(*goal_, symbols.domain(), scene);
-  instructions_ = {text.empty() ? "make this true: " + to_pddl(*goal_) : "make sure that " + text};
+  instructions_ = {text.empty() ? "make this true: " + to_text(*goal_) : "make sure that " + text};
 }
 
 }  // namespace stampede

@@ -50,7 +50,7 @@ std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vect
       world.scene().bodies[static_cast<std::size_t>(rollout.keep->body)].free)
     space->hold(rollout.keep->body, world.world_from_tip().inverse() * world.world_from_part(*rollout.keep));
   for (const PartRef part : touchable) space->allow(part);
-  for (const int body : rollout.imagined_away) space->move_body(body, translation(0, 0, -100));
+  for (const PartRef part : rollout.imagined_away) space->remove(part);
   return space;
 }
 

@@ -25,8 +25,9 @@ std::vector<std::size_t> shuffled(std::size_t count, RandomKey key) {
 // Depth first over alternatives; `then` is what remains to be made true.
 class Drawing {
  public:
-  Drawing(const Domain& domain, const std::vector<TypedObject>& objects, const Facts& known, RandomKey key)
-      : view_{known, domain, objects}, key_(key) {
+  Drawing(const Symbols& symbols, const std::vector<TypedObject>& objects, const Facts& known, RandomKey key)
+      : symbols_(symbols), view_{known, symbols.domain(), objects}, key_(key) {
+    const Domain& domain = symbols.domain();
     for (const Fact& fact : known) decided_.insert(fact.predicate);
     decided_.insert(domain.traits.begin(), domain.traits.end());
   }
@@ -69,12 +70,27 @@ class Drawing {
   bool literal(const Formula& formula, const Binding& binding, bool negated, const std::function<bool()>& then) {
     const Fact fact = symbolic::ground_atom(formula.predicate, formula.terms, binding);
     if (decided_.contains(fact.predicate)) return view_.facts.contains(fact) != negated && then();
-    for (const Literal& known : literals_)
+    for (const Literal& known : literals_) {
       if (known.fact == fact) return known.negated == negated && then();
+      if (!negated && !known.negated && (excludes(fact, known.fact) || excludes(known.fact, fact))) return false;
+    }
     literals_.push_back({fact, negated});
     if (then()) return true;
     literals_.pop_back();
     return false;
+  }
+
+  // What `one` says of itself rules the other out.
+  bool excludes(const Fact& one, const Fact& other) const {
+    const PredicateTraits traits = symbols_.traits(one.predicate);
+    const bool same_first =
+        !one.arguments.empty() && !other.arguments.empty() && one.arguments[0] == other.arguments[0];
+    if (same_first && std::find(traits.mutex.begin(), traits.mutex.end(), other.predicate) != traits.mutex.end())
+      return true;
+    if (traits.functional < 0 || one.predicate != other.predicate) return false;
+    for (std::size_t i = 0; i < one.arguments.size(); ++i)
+      if (static_cast<int>(i) != traits.functional && one.arguments[i] != other.arguments[i]) return false;
+    return true;
   }
 
   bool all(const Formula& formula, const Binding& binding, std::size_t from, const std::function<bool()>& then) {
@@ -107,6 +123,7 @@ class Drawing {
     return from(0);
   }
 
+  const Symbols& symbols_;
   symbolic::View view_;
   RandomKey key_;
   std::set<std::string> decided_;
@@ -186,10 +203,10 @@ class Checker {
 
 }  // namespace
 
-std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Domain& domain,
+std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Symbols& symbols,
                                                   const std::vector<TypedObject>& objects, const Facts& known,
                                                   RandomKey key) {
-  Drawing drawing(domain, objects, known, key);
+  Drawing drawing(symbols, objects, known, key);
   if (!drawing.make(symbolic::negation_normal(formula), {}, [] { return true; })) return std::nullopt;
   return drawing.take();
 }
@@ -206,7 +223,7 @@ std::vector<std::string> failing_parts(const Formula& formula, const Facts& fact
     for (const Formula& part : formula.parts)
       for (std::string& text : failing_parts(part, facts, domain, objects)) texts.push_back(std::move(text));
   } else if (!holds(formula, facts, domain, objects)) {
-    texts.push_back(to_pddl(formula));
+    texts.push_back(to_text(formula));
   }
   return texts;
 }

@@ -12,8 +12,9 @@ namespace stampede {
 // Draws bindings and alternatives until what is known does not contradict: quantifiers over objects of the types and
 // traits, disjunctions by one of their parts. `known` holds all traits and attributes; a literal of these is decided
 // at once and not in the result. Result: what else has to be true, each once, in the formula's order; nothing when
-// the formula contradicts itself or what is known. Repeatable: a pure function of its arguments.
-std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Domain& domain,
+// the formula contradicts itself, what is known, or what predicates say of themselves (`functional`, `mutex`).
+// Repeatable: a pure function of its arguments.
+std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Symbols& symbols,
                                                   const std::vector<TypedObject>& objects, const Facts& known,
                                                   RandomKey key);
 

@@ -65,6 +65,8 @@ struct PredicateTraits {
   bool momentary = false;  // read at every physics step, no settle time
   bool remember = false;   // stays true once true
   Pairs requires_pairs = Pairs::all;
+  int functional = -1;             // index of the parameter that has at most one value for given others; -1: none
+  std::vector<std::string> mutex;  // predicates that cannot hold of the same first argument
 };
 
 class Symbols {

@@ -39,8 +39,8 @@ class Rollout {
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
 
-  // Bodies that planning takes to be elsewhere: to find out what is in the way.
-  std::vector<int> imagined_away;
+  // What planning takes to be elsewhere: to find out what is in the way.
+  std::vector<PartRef> imagined_away;
 
   struct Checkpoint {
     Snapshot world;

@@ -196,45 +196,6 @@ Reason SkillDriver::draw_sample(const Context& context, const ContinuousInfo& in
   return Reason::none;
 }
 
-// The nearest free body without which `works` says yes; else all near ones together, when that helps.
-void SkillDriver::name_blockers(const Context& context, SkillResult& result, const std::function<bool()>& works) {
-  constexpr double kNear = 0.35;  // m
-  constexpr std::size_t kMost = 5;
-  if (context.attempt > 0 || context.arguments.empty()) return;
-  const WorldView& view = rollout_.view();
-  const Scene& scene = view.scene();
-  std::vector<std::tuple<double, std::string, int>> near;
-  for (const Object& thing : scene.objects) {
-    const int body = thing.kind == ObjectKind::body ? scene.body_index(thing.body) : -1;
-    if (body < 0 || !scene.bodies[static_cast<std::size_t>(body)].free) continue;
-    if (rollout_.keep && rollout_.keep->body == body) continue;
-    double distance = kNear;
-    for (const std::string& name : context.arguments) {
-      if (name == thing.name) distance = 1e9;  // what it is about is not in its way
-      const Object* other = scene.object(name);
-      if (other == nullptr || other->kind == ObjectKind::hand || distance > kNear) continue;
-      distance =
-          std::min(distance, (view.world_from(name).translation() - view.world_from(thing.name).translation()).norm());
-    }
-    if (distance < kNear) near.emplace_back(distance, thing.name, body);
-  }
-  std::sort(near.begin(), near.end());
-  if (near.size() > kMost) near.resize(kMost);
-  for (const auto& [distance, name, body] : near) {
-    rollout_.imagined_away = {body};
-    if (result.blockers.empty() && works()) result.blockers = {name};
-  }
-  if (result.blockers.empty() && near.size() > 1) {
-    rollout_.imagined_away.clear();
-    for (const auto& [distance, name, body] : near) rollout_.imagined_away.push_back(body);
-    if (works())
-      for (const auto& [distance, name, body] : near) result.blockers.push_back(name);
-  }
-  rollout_.imagined_away.clear();
-  for (std::size_t i = 0; i < result.blockers.size(); ++i)
-    result.detail += (i == 0 ? "; in the way: " : ", ") + result.blockers[i];
-}
-
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<PartRef> SkillDriver::touchable(const Context& context) const {
   std::vector<std::string> names;

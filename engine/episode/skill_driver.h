@@ -15,7 +15,7 @@ struct SkillResult {
   std::string detail;
   bool ends_episode = false;               // interrupted, timeout, out_of_order, failed_by_task
   int segment = -1;                        // ordinal of the skill's segment
-  std::vector<std::string> blockers = {};  // free bodies without which the reason would not be
+  std::vector<std::string> blockers = {};  // things without which the reason would not be: free bodies, drawers, doors
   std::optional<PlanStep> step = {};       // what was tried
   bool ok() const { return reason == Reason::none; }
 };

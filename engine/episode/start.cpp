@@ -163,7 +163,7 @@ class StartMaker {
     FactTracker tracker(symbols_, draft.view());
     tracker.begin({});
     where_ = checked_formula(*options_.where, symbols_.domain(), tracker.objects(), "--where");
-    const auto drawn = draw_literals(*where_, symbols_.domain(), tracker.objects(), tracker.facts(), key);
+    const auto drawn = draw_literals(*where_, symbols_, tracker.objects(), tracker.facts(), key);
     if (!drawn) return refuse(contradiction(tracker));
     const std::vector<std::string> waiting = task_.unplaced();
     for (const Literal& literal : *drawn) {
@@ -182,9 +182,8 @@ class StartMaker {
     const std::vector<Formula> parts =
         where_->kind == Formula::Kind::conjunction ? where_->parts : std::vector<Formula>{*where_};
     for (const Formula& part : parts)
-      if (!draw_literals(part, symbols_.domain(), tracker.objects(), tracker.facts(), RandomKey("where")))
-        return to_pddl(part);
-    return to_pddl(*where_);
+      if (!draw_literals(part, symbols_, tracker.objects(), tracker.facts(), RandomKey("where"))) return to_text(part);
+    return to_text(*where_);
   }
 
   static const std::string& subject(const Literal& literal) {

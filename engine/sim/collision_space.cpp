@@ -60,6 +60,7 @@ class ExactCollisionSpace final : public CollisionSpace {
   void set_opening(double opening_m) override { opening_ = opening_m; }
   void set_padding(double padding_m) override { padding_ = padding_m; }
   void move_body(int body, const Transform& world_from_body) override;
+  void remove(PartRef part) override;
   bool free(const JointVector& q) override { return !search(q, nullptr); }
   std::optional<CollisionPair> first_contact(const JointVector& q) override;
   bool body_free(int body, const Transform& world_from_body, double padding_m) override;
@@ -156,6 +157,16 @@ void ExactCollisionSpace::move_body(int body, const Transform& world_from_body) 
   const Range range = body_pieces_[static_cast<std::size_t>(body)];
   for (std::size_t i = range.begin; i < range.end; ++i)
     bodies_[i].place(world_from_body * state.body_from_part[static_cast<std::size_t>(bodies_[i].part.part)]);
+}
+
+void ExactCollisionSpace::remove(PartRef part) {
+  const std::vector<Part>& parts = scene_->bodies.at(static_cast<std::size_t>(part.body)).parts;
+  const Range range = body_pieces_[static_cast<std::size_t>(part.body)];
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    int above = bodies_[i].part.part;
+    while (above > 0 && above != part.part) above = std::max(0, parts[static_cast<std::size_t>(above)].parent);
+    if (above == part.part) bodies_[i].place(translation(0, 0, -100));
+  }
 }
 
 void ExactCollisionSpace::place_robot(const JointVector& q) {

@@ -30,6 +30,7 @@ class CollisionSpace {
   virtual void set_opening(double opening_m) = 0;
   virtual void set_padding(double padding_m) = 0;  // obstacles grow by this; default 0
   virtual void move_body(int body, const Transform& world_from_body) = 0;
+  virtual void remove(PartRef part) = 0;  // with all that hangs on it; of a base part, the whole body
 
   virtual bool free(const JointVector& q) = 0;                                   // no contact anywhere
   virtual std::optional<CollisionPair> first_contact(const JointVector& q) = 0;  // in a fixed order

@@ -15,6 +15,7 @@ namespace stampede {
 std::string to_pddl(const Domain& domain);
 std::string to_pddl(const Problem& problem, const Domain& domain, const std::string& not_complete = {});
 std::string to_pddl(const Formula& formula);
+std::string to_text(const Formula& formula);  // with our names, for messages: (open chest.top_drawer)
 
 // PDDL 2.2 without numbers and time, from any author: `:adl` and its parts, derived predicates, and action costs that
 // are whole numbers or functions of objects whose values the problem states. Nested `when` and `forall` effects are

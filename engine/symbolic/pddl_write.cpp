@@ -204,6 +204,8 @@ std::string to_pddl(const Formula& formula) {
   return formula.kind == Formula::Kind::always ? "(and)" : symbolic::formula_text(formula, Names::pddl);
 }
 
+std::string to_text(const Formula& formula) { return symbolic::formula_text(formula, Names::plain); }
+
 std::string to_pddl(const Domain& domain) {
   symbolic::check_names(domain);
   std::string text = "(define (domain " + pddl(domain.name) + ")\n";

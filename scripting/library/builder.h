@@ -69,6 +69,7 @@ class LibraryBuilder {
   void read_types();
   void declare_predicates();  // names and parameters
   void define_predicates();   // traits, derived formulas
+  void read_exclusions(const Definition& definition, const Predicate& predicate, PredicateTraits& traits);
   void check_strata();
   void declare_attributes();
   std::vector<Parameter> parameters_of(const Definition& definition, bool add_hand);

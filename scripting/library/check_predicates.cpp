@@ -196,6 +196,7 @@ void LibraryBuilder::define_predicates() {
     if (traits.momentary && traits.settle_s > 0) {
       complain(definition, "settle", "a momentary predicate has no settle time", "remove one of both");
     }
+    read_exclusions(definition, *found, traits);
     library_->predicate_traits_[name] = traits;
     const Node& observable = node["observable"];
     const bool hides = observable.present() && !(observable.kind == Node::Kind::boolean && observable.boolean);
@@ -205,12 +206,6 @@ void LibraryBuilder::define_predicates() {
     } else if (hides) {
       library_->hiding_.insert(name);
     }
-    for (const Node& other : node["mutex"].items) {
-      if (library_->domain_.predicate(other.text) != nullptr) continue;
-      std::vector<std::string> known;
-      for (const Predicate& one : library_->domain_.predicates) known.push_back(one.name);
-      complain(definition, "mutex", "there is no predicate '" + other.text + "'", did_you_mean(other.text, known));
-    }
     if (!node["derived"].present()) continue;
     guarded([&] {
       FormulaContext where = context(definition, "derived");
@@ -218,6 +213,30 @@ void LibraryBuilder::define_predicates() {
       where.parameters = found->parameters;
       found->derived = formula_from(node["derived"], where);
     });
+  }
+}
+
+// What cannot hold together: a constraint that asks for it is refused before anything is placed.
+void LibraryBuilder::read_exclusions(const Definition& definition, const Predicate& predicate,
+                                     PredicateTraits& traits) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : predicate.parameters) names.push_back(parameter.name);
+  const Node& functional = definition.node["functional"];
+  const std::string last = names.empty() ? "" : names.back();
+  const std::string wanted = functional.kind == Node::Kind::text ? functional.text : functional.boolean ? last : "";
+  if (functional.present() && !wanted.empty()) {
+    const auto at = std::find(names.begin(), names.end(), wanted);
+    if (at == names.end())
+      complain(definition, "functional", "it has no parameter '" + wanted + "'", did_you_mean(wanted, names));
+    else
+      traits.functional = static_cast<int>(at - names.begin());
+  }
+  for (const Node& other : definition.node["mutex"].items) {
+    traits.mutex.push_back(other.text);
+    if (library_->domain_.predicate(other.text) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const Predicate& one : library_->domain_.predicates) known.push_back(one.name);
+    complain(definition, "mutex", "there is no predicate '" + other.text + "'", did_you_mean(other.text, known));
   }
 }
 

@@ -83,8 +83,10 @@ const Record kPredicate{
      {"remember", "boolean", false, "false", "", "stays true once true"},
      {"requires", "string", false, "\"all\"", "",
       "what can hold at all: pairs that are \"touching\" or \"near\"; \"held\": the last is in the hand"},
-     {"mutex", "string[]", false, "{}", "", "predicates that cannot hold of the same first argument"},
-     {"functional", "boolean|string", false, "false", "", "at most one value of the last (or named) parameter"},
+     {"mutex", "string[]", false, "{}", "",
+      "predicates that cannot hold of the same first argument: no start is drawn with both"},
+     {"functional", "boolean|string", false, "false", "",
+      "at most one value of the last (or named) parameter: no start is drawn with two"},
      {"observable", "function|boolean", false, "true", "",
       "function(w, …): can one see now whether it holds; false: never"},
      {"margin_unit", "string", false, "", "", "unit of the margin", "\"m\""}}};

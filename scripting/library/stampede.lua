@@ -117,8 +117,8 @@ function world_view:facts(predicate) end
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
 ---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
----@field mutex? string[]  predicates that cannot hold of the same first argument (default {})
----@field functional? boolean|string  at most one value of the last (or named) parameter (default false)
+---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
+---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)
 ---@field observable? fun(...): any|boolean  function(w, …): can one see now whether it holds; false: never (default true)
 ---@field margin_unit? string  unit of the margin
 

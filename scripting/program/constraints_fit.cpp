@@ -16,14 +16,14 @@ namespace {
 constexpr int kEqualDraws = 5;  // when so many draws differ in nothing static, none will
 
 // The parts that cannot be met by themselves, or the whole where only together they cannot; nothing when they can.
-std::vector<std::string> contradictions(const Formula& where, const Domain& domain, const FactTracker& tracker) {
+std::vector<std::string> contradictions(const Formula& where, const Symbols& symbols, const FactTracker& tracker) {
   const RandomKey key("where");
   std::vector<std::string> texts;
-  if (draw_literals(where, domain, tracker.objects(), tracker.facts(), key)) return texts;
+  if (draw_literals(where, symbols, tracker.objects(), tracker.facts(), key)) return texts;
   if (where.kind == Formula::Kind::conjunction)
     for (const Formula& part : where.parts)
-      if (!draw_literals(part, domain, tracker.objects(), tracker.facts(), key)) texts.push_back(to_pddl(part));
-  if (texts.empty()) texts.push_back(to_pddl(where));
+      if (!draw_literals(part, symbols, tracker.objects(), tracker.facts(), key)) texts.push_back(to_text(part));
+  if (texts.empty()) texts.push_back(to_text(where));
   return texts;
 }
 
@@ -52,7 +52,7 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
     FactTracker tracker(scripts.symbols(), view);
     tracker.begin({});  // what never changes is known, the rest open
     const Formula where = checked_formula(*options.where, domain, tracker.objects(), "--where");
-    const std::vector<std::string> failed = contradictions(where, domain, tracker);
+    const std::vector<std::string> failed = contradictions(where, scripts.symbols(), tracker);
     if (failed.empty()) return {};
     for (const std::string& part : failed) ++failures[part];
     seen.insert(tracker.facts());
@@ -83,7 +83,7 @@ std::vector<std::string> fitting_variations(const std::shared_ptr<const Library>
                   (variations.size() == 1 ? (variations[0].empty() ? "" : " " + variations[0])
                                           : ", in none of " + std::to_string(variations.size()) + " variations,") +
                   " can meet " + why,
-              "it contradicts what never changes there; `stampede list " + task + "` says what there is");
+              "it contradicts itself or what never changes there; `stampede list " + task + "` says what there is");
 }
 
 }  // namespace stampede

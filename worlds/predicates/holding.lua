@@ -3,7 +3,7 @@ return predicate {
   params = { "hand: hand", "obj: movable" },
   label = "the hand holds the {obj}",
   settle = 0.1, -- s
-  functional = true,
+  functional = true, mutex = { "hand_empty" },
   requires = "held",
   holds = function(w, _, obj) return w:grasped(obj) end,
 }

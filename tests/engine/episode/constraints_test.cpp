@@ -20,7 +20,7 @@ const Facts kKnown = {
     {"movable", {"a"}}, {"movable", {"b"}}, {"movable", {"c"}}, {"surface", {"t"}}, {"surface", {"b"}}};
 
 std::optional<std::vector<Literal>> draw(const char* text, int n = 0) {
-  return draw_literals(formula(text), domain(), kObjects, kKnown, RandomKey("test").with(n));
+  return draw_literals(formula(text), PlainSymbols(), kObjects, kKnown, RandomKey("test").with(n));
 }
 
 Start start_where(const char* text, std::int64_t seed = 1) {
@@ -44,6 +44,16 @@ TEST_CASE("literals that make a formula true: what is known is decided, the rest
   CHECK_FALSE(draw("(movable t)"));
   CHECK_FALSE(draw("(and (on a t) (not (on a t)))"));
   CHECK_FALSE(draw("(and (on a t) (= a b))"));
+}
+
+TEST_CASE("what a predicate says of itself rules starts out before anything is placed") {
+  CHECK(draw("(holding hand a)"));
+  CHECK_FALSE(draw("(and (holding hand a) (holding hand b))"));
+  CHECK(draw("(and (holding hand a) (not (holding hand b)))"));
+  CHECK_FALSE(draw("(and (hand_empty hand) (holding hand b))"));  // whichever of the two names the other
+  const auto drawn = draw("(and (holding hand a) (or (hand_empty hand) (on b t)))");
+  REQUIRE(drawn);
+  CHECK(drawn->at(1).fact == Fact{"on", {"b", "t"}});
 }
 
 TEST_CASE("every way to meet an existential constraint is drawn, and no other") {

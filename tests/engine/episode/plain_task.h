@@ -40,7 +40,12 @@ inline Domain domain() {
 class PlainSymbols : public Symbols {
  public:
   const Domain& domain() const override { return domain_; }
-  PredicateTraits traits(const std::string&) const override { return {0.1, false, false, Pairs::all}; }
+  PredicateTraits traits(const std::string& predicate) const override {
+    PredicateTraits traits;
+    traits.settle_s = 0.1;
+    if (predicate == "holding") traits.functional = 1, traits.mutex = {"hand_empty"};
+    return traits;
+  }
   Value value(const Fact& fact, const WorldView& view) override {
     if (fact.predicate == "on") return {view.supports(fact.arguments[1], fact.arguments[0]), {}};
     if (fact.predicate == "holding") return {view.grasped(fact.arguments[1]), {}};
