@@ -88,7 +88,9 @@ SkillResult EpisodeRunner::one_step(std::size_t index, std::size_t position) {
   if (action != nullptr)
     expected_ =
         apply(*action, step.arguments, rollout_->facts().basic(), symbols_.domain(), rollout_->facts().objects());
-  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), tries_[position]);
+  CallMode mode;
+  mode.find_blockers = asked_.emplace(position, step).second;
+  SkillResult result = driver_->run(step, subgoal_segment_, static_cast<int>(position), tries_[position], mode);
   remember(result.segment, position);
   if (result.ok()) after_skill();
   return result;
@@ -152,9 +154,14 @@ SkillResult EpisodeRunner::with_recovery() {
 // Plans the rest from here so that what was found in the way is moved first. False: it is known already, or cannot be.
 bool EpisodeRunner::avoid_obstacles(const SkillResult& failed, std::size_t index) {
   if (explicit_steps_ || failed.blockers.empty() || !geometric(failed.reason)) return false;
+  return std::any_of(failed.blockers.begin(), failed.blockers.end(),
+                     [&](const std::vector<std::string>& way) { return avoid(way, failed, index); });
+}
+
+bool EpisodeRunner::avoid(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index) {
   const PlanStep step = plan_[std::min(index, plan_.size() - 1)];
   const std::size_t known = obstructions_.size();
-  for (const std::string& blocker : failed.blockers) {
+  for (const std::string& blocker : blockers) {
     Obstruction found{failed.step.value_or(step), blocker, {}, rollout_->view().world_from(blocker).translation()};
     for (const Fact& fact : rollout_->facts().basic())
       if (!fact.arguments.empty() && fact.arguments[0] == blocker) found.facts.push_back(fact);

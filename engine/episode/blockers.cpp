@@ -64,24 +64,27 @@ std::vector<Candidate> candidates(const std::vector<std::string>& arguments, con
 
 }  // namespace
 
-// The nearest thing without which `works` says yes; else all near ones together, when that helps.
+// Each thing without which `works` says yes; where there is none, all near ones together, when that helps.
 void SkillDriver::name_blockers(const Context& context, SkillResult& result, const std::function<bool()>& works) {
-  if (context.attempt > 0 || context.arguments.empty()) return;
+  if (!context.mode.find_blockers || context.arguments.empty()) return;
   const int held = rollout_.keep ? rollout_.keep->body : -1;
   const std::vector<Candidate> near = candidates(context.arguments, rollout_.view(), held);
   for (const auto& [distance, name, part] : near) {
     rollout_.imagined_away = {part};
-    if (result.blockers.empty() && works()) result.blockers = {name};
+    if (works()) result.blockers.push_back({name});
   }
   if (result.blockers.empty() && near.size() > 1) {
     rollout_.imagined_away.clear();
     for (const auto& [distance, name, part] : near) rollout_.imagined_away.push_back(part);
-    if (works())
-      for (const auto& [distance, name, part] : near) result.blockers.push_back(name);
+    if (works()) {
+      std::vector<std::string>& all = result.blockers.emplace_back();
+      for (const auto& [distance, name, part] : near) all.push_back(name);
+    }
   }
   rollout_.imagined_away.clear();
-  for (std::size_t i = 0; i < result.blockers.size(); ++i)
-    result.detail += (i == 0 ? "; in the way: " : ", ") + result.blockers[i];
+  for (std::size_t way = 0; way < result.blockers.size(); ++way)
+    for (std::size_t i = 0; i < result.blockers[way].size(); ++i)
+      result.detail += (i > 0 ? ", " : way > 0 ? " or " : "; in the way: ") + result.blockers[way][i];
 }
 
 }  // namespace stampede

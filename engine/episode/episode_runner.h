@@ -44,6 +44,7 @@ class EpisodeRunner {
   bool try_again(Undo& undo, const SkillResult& failed);
   bool stands(const Obstruction& one) const;
   bool avoid_obstacles(const SkillResult& failed, std::size_t index);
+  bool avoid(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index);
   bool other_plan(const Place& start, std::map<PlanStep, int>& blame);
   SkillResult watch(std::size_t done);
   SkillResult one_step(std::size_t index, std::size_t position);
@@ -70,9 +71,10 @@ class EpisodeRunner {
   std::size_t subgoal_ = 0;
   int subgoal_segment_ = 0;
   Plan plan_;
-  std::set<PlanStep> forbidden_;           // ground actions that plans do without
-  std::vector<Obstruction> obstructions_;  // what was found in the way of which action
-  std::optional<Facts> expected_;          // basic facts that the last step should have led to
+  std::set<PlanStep> forbidden_;                      // ground actions that plans do without
+  std::set<std::pair<std::size_t, PlanStep>> asked_;  // steps tried at a place: what is in the way is sought once
+  std::vector<Obstruction> obstructions_;             // what was found in the way of which action
+  std::optional<Facts> expected_;                     // basic facts that the last step should have led to
   struct Slot {
     std::size_t position = 0;
     int try_number = 0;

@@ -240,6 +240,7 @@ SkillResult SkillDriver::run_child(const Context& context, const SkillCall& call
   if (action == nullptr)
     return {Reason::script_error, "skill '" + call.skill + "' has no case '" + call.case_name + "'"};
   Context child{*action, *info, call.arguments, key, context.attempt, -1};
+  child.mode.find_blockers = context.mode.find_blockers;
   return run_call(child, &call, context.segment);
 }
 

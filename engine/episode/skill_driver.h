@@ -13,17 +13,20 @@ namespace stampede {
 struct SkillResult {
   Reason reason = Reason::none;
   std::string detail;
-  bool ends_episode = false;               // interrupted, timeout, out_of_order, failed_by_task
-  int segment = -1;                        // ordinal of the skill's segment
-  std::vector<std::string> blockers = {};  // things without which the reason would not be: free bodies, drawers, doors
-  std::optional<PlanStep> step = {};       // what was tried
+  bool ends_episode = false;  // interrupted, timeout, out_of_order, failed_by_task
+  int segment = -1;           // ordinal of the skill's segment
+  // Ways to clear what was in the way, nearest first: without these things (free bodies, drawers, doors) the reason
+  // would not be.
+  std::vector<std::vector<std::string>> blockers = {};
+  std::optional<PlanStep> step = {};  // what was tried
   bool ok() const { return reason == Reason::none; }
 };
 
-// How a skill is called by who draws skills instead of planning them.
+// How a skill is called; the first two are for who draws skills instead of planning them.
 struct CallMode {
   bool refuse = true;              // a false precondition ends the call; else it is noted and the skill runs
   bool random_parameters = false;  // continuous parameters within their bounds, any of the grasps and placements
+  bool find_blockers = false;      // where nothing reaches: look what is in the way
 };
 
 class SkillDriver {

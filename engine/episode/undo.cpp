@@ -4,6 +4,11 @@
 #include "engine/episode/episode_runner.h"
 
 namespace stampede {
+namespace {
+
+constexpr std::size_t kMostDetours = 3;  // one within the other: what is in the way of what is in the way
+
+}  // namespace
 
 // Where an undone episode stands. places[i] is before step i of the plan, failures[i] counts what failed there.
 struct EpisodeRunner::Undo {
@@ -15,14 +20,14 @@ struct EpisodeRunner::Undo {
   std::vector<Place> places;
   std::vector<int> failures;
   std::map<std::size_t, SkillResult> blocked;  // what was found in the way of a step
-  std::optional<Detour> detour;
+  std::vector<Detour> detours;                 // the later ones within the earlier ones
   std::size_t i = 0;
 
   void restart(const Place& start, std::size_t steps) {
     places = {start};
     failures.assign(steps + 1, 0);
     blocked.clear();
-    detour.reset();
+    detours.clear();
     i = 0;
   }
 };
@@ -67,9 +72,10 @@ void EpisodeRunner::step_done(Undo& undo) {
   undo.failures.resize(plan_.size() + 1, 0);
   undo.failures[undo.i] = 0;
   undo.blocked.erase(undo.blocked.lower_bound(undo.i), undo.blocked.end());
-  if (undo.detour && obstructions_.size() > undo.detour->obstructions &&
-      plan_[undo.i - 1] == obstructions_.back().action)
-    undo.detour.reset();  // it led where it should
+  if (undo.detours.empty()) return;
+  const std::size_t first = undo.detours.back().obstructions;  // of those that the last detour is for
+  if (first < obstructions_.size() && plan_[undo.i - 1] == obstructions_[first].action)
+    undo.detours.pop_back();  // it led where it should
 }
 
 // Chooses where to go on after a failure, and goes there: the same step with other draws; a detour around what was
@@ -83,24 +89,26 @@ bool EpisodeRunner::try_again(Undo& undo, const SkillResult& failed) {
     back_to(undo.places[i]);
     return true;
   }
-  if (undo.detour) {
-    i = undo.detour->index;
-    plan_ = undo.detour->before;
-    obstructions_.resize(undo.detour->obstructions);
-    undo.detour.reset();
-    undo.failures.assign(plan_.size() + 1, 0);
-    undo.places.resize(i + 1);
-    undo.failures[i] = most;
-  } else if (const auto found = undo.blocked.find(i); found != undo.blocked.end()) {
+  if (const auto found = undo.blocked.find(i); found != undo.blocked.end() && undo.detours.size() < kMostDetours) {
     const SkillResult blocked = found->second;
     undo.blocked.erase(found);
     back_to(undo.places[i]);
     Undo::Detour detour{i, plan_, obstructions_.size()};
     if (avoid_obstacles(blocked, i)) {
-      undo.detour = std::move(detour);
+      undo.detours.push_back(std::move(detour));
       undo.failures.assign(plan_.size() + 1, 0);
       return true;
     }
+  }
+  if (!undo.detours.empty()) {
+    const Undo::Detour failed_detour = std::move(undo.detours.back());
+    undo.detours.pop_back();
+    i = failed_detour.index;
+    plan_ = failed_detour.before;
+    obstructions_.resize(std::min(obstructions_.size(), failed_detour.obstructions));
+    undo.failures.assign(plan_.size() + 1, 0);
+    undo.places.resize(i + 1);
+    undo.failures[i] = most;
   }
   while (undo.failures[i] >= most && i > 0) {
     undo.failures[i--] = 0;

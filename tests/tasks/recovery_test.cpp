@@ -1,6 +1,7 @@
 // Execution is watched: what goes otherwise than declared is planned around from where the world is.
 #include <catch2/catch.hpp>
 
+#include "engine/symbolic/pddl.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;
@@ -57,4 +58,19 @@ TEST_CASE("blocks that leave no room for the fingers are found, named, and moved
   for (const AttemptRecord& attempt : episode.attempts)
     if (attempt.segment.reason == Reason::no_grasp) reasons += attempt.segment.detail + "\n";
   CHECK_THAT(reasons, Catch::Contains("in the way: "));
+}
+
+TEST_CASE("an open drawer over the one that is wanted is found in the way, and shut first") {
+  RunOptions options;
+  options.seed = 1;
+  options.where = formula_from_pddl("(open chest.top_drawer)", "test");
+  const EpisodeRecord episode = run_task("put_item_in_drawer", "level=bottom", options);
+  INFO(verdict(episode));
+  REQUIRE(episode.outcome == Outcome::success);
+  CHECK(skills_of(episode) ==
+        std::vector<std::string>{"close chest.top_drawer", "open chest.bottom_drawer", "pick item", "put_in item"});
+  const auto named = std::any_of(episode.attempts.begin(), episode.attempts.end(), [](const AttemptRecord& attempt) {
+    return attempt.segment.detail.find("in the way: chest.top_drawer") != std::string::npos;
+  });
+  CHECK(named);
 }

@@ -12,7 +12,7 @@ namespace {
 // cube1 stands between two walls; the fingers need the other two sides, and cube2 stands 8 mm off one of these.
 class NicheTask : public StackTask {
  public:
-  NicheTask() : StackTask(2) {}
+  explicit NicheTask(int cubes = 2) : StackTask(cubes) {}
   Scene scene(int draw) override {
     Scene scene = StackTask::scene(draw);
     const auto cube = [&](const char* name) -> Body& {
@@ -35,6 +35,21 @@ class NicheTask : public StackTask {
   std::vector<std::string> unplaced() const override { return {}; }
   std::vector<Literal> init() const override { return {{{"on", {"cube1", "table"}}, false}}; }
   Formula goal() const override { return atom("holding", {{false, "panda.hand"}, {false, "cube1"}}); }
+};
+
+// As before, and cube3 keeps the fingers from the one side of cube2 that cube1 leaves free.
+class CornerTask : public NicheTask {
+ public:
+  CornerTask() : NicheTask(3) {}
+  Scene scene(int draw) override {
+    Scene scene = NicheTask::scene(draw);
+    for (Body& body : scene.bodies) {
+      if (body.name == "wall2") body.parts[0].shapes[0].size.y() = 0.006;
+      if (body.name == "wall2") body.world_from_body = translation(0.45, 0.03, 0.02);
+      if (body.name == "cube3") body.world_from_body = translation(0.498, 0.05, 0.02);
+    }
+    return scene;
+  }
 };
 
 EpisodeRecord run_niche(OnFailure on_failure) {
@@ -67,6 +82,23 @@ TEST_CASE("undo: the plan that failed is kept with its reason, and what was in t
   CHECK(first.arguments[0] == "cube1");
   CHECK(first.reason == Reason::no_grasp);
   CHECK(first.detail.find("in the way: cube2") != std::string::npos);
+}
+
+TEST_CASE("what is in the way of what is in the way is moved before both") {
+  CornerTask task;
+  PlainSymbols symbols;
+  PlainSkills skills;
+  RunOptions options;
+  options.seed = 1;
+  const EpisodeRecord episode = run_episode(task, symbols, skills, options);
+  std::string tries;
+  for (const AttemptRecord& attempt : episode.attempts)
+    if (attempt.segment.kind == "skill")
+      tries += attempt.segment.skill + " " + attempt.segment.arguments[0] + ": " + attempt.segment.detail + "\n";
+  INFO(to_string(episode.reason) << " " << episode.detail << "\n" << tries);
+  REQUIRE(episode.outcome == Outcome::success);
+  CHECK(done(episode) ==
+        std::vector<std::string>{"pick cube3", "place cube3", "pick cube2", "place cube2", "pick cube1"});
 }
 
 TEST_CASE("recover: the failed try stays, and the blocker is moved afterwards") {
