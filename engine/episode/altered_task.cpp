@@ -47,6 +47,8 @@ std::string sentence(const Formula& formula, const Domain& domain, const Scene& 
 }  // namespace
 
 AlteredTask::AlteredTask(Task& task, const Symbols& symbols, const RunOptions& options) : task_(task) {
+  where_ = task.where();
+  if (options.where) where_ = where_ ? conjunction({*options.where, *where_}) : *options.where;
   if (!options.goal) return;
   const Scene scene = task.scene(0);
   goal_ = checked_formula(*options.goal, symbols.domain(), objects_of(scene, symbols.domain()), "--goal");

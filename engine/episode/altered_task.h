@@ -18,6 +18,7 @@ class AlteredTask : public Task {
   ObservationChoice observation() const override { return task_.observation(); }
   std::vector<std::string> unplaced() const override { return task_.unplaced(); }
   std::vector<Literal> init() const override { return task_.init(); }
+  std::optional<Formula> where() const override { return where_; }
   Formula goal() const override { return goal_ ? *goal_ : task_.goal(); }
   std::vector<Formula> stages() const override { return goal_ ? std::vector<Formula>{} : task_.stages(); }
   std::optional<std::vector<PlanStep>> steps() const override { return goal_ ? std::nullopt : task_.steps(); }
@@ -34,7 +35,7 @@ class AlteredTask : public Task {
 
  private:
   Task& task_;
-  std::optional<Formula> goal_;
+  std::optional<Formula> where_, goal_;
   std::vector<std::string> instructions_;
 };
 

@@ -43,6 +43,8 @@ class Task {
   virtual ObservationChoice observation() const { return {}; }  // what the run asks for goes before it
   virtual std::vector<std::string> unplaced() const = 0;        // free objects that a literal of init must place
   virtual std::vector<Literal> init() const = 0;                // in the order in which they are made true
+  // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
+  virtual std::optional<Formula> where() const { return std::nullopt; }
   virtual Formula goal() const = 0;
   virtual std::vector<Formula> stages() const { return {}; }  // in_order { … }; goal() is their conjunction
   virtual std::optional<std::vector<PlanStep>> steps() const { return std::nullopt; }  // action or skill, arguments

@@ -159,10 +159,11 @@ class StartMaker {
   bool choose_literals(const Draft& draft, RandomKey key) {
     literals_ = task_.init();
     replaced_.clear();
-    if (!options_.where) return true;
+    where_ = task_.where();
+    if (!where_) return true;
     FactTracker tracker(symbols_, draft.view());
     tracker.begin({});
-    where_ = checked_formula(*options_.where, symbols_.domain(), tracker.objects(), "--where");
+    where_ = checked_formula(*where_, symbols_.domain(), tracker.objects(), options_.where ? "--where" : "init");
     const auto drawn = draw_literals(*where_, symbols_, tracker.objects(), tracker.facts(), key);
     if (!drawn) return refuse(contradiction(tracker));
     const std::vector<std::string> waiting = task_.unplaced();

@@ -139,7 +139,10 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
   bool init_sound = true;
   if (init != fields.end()) {
     init_sound = guarded([&] {
-      for (const Literal& literal : literals_from(init->second, where)) {
+      const Beginning beginning = beginning_from(init->second, where);
+      if (beginning.constraint)
+        check_arguments(definition, *beginning.constraint, objects, line_of(definition.lines, "init"));
+      for (const Literal& literal : beginning.literals) {
         std::vector<Term> terms;
         for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
         check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "init"));

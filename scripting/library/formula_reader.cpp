@@ -76,20 +76,21 @@ class Reader {
     }
   }
 
-  void literals(const Node& node, std::vector<Literal>& result) {
+  // Literals in order; what is none goes to `others`.
+  void beginning(const Node& node, std::vector<Literal>& result, std::vector<Formula>& others) {
     const Line line(*this, node);
     const std::string tag = node.tag();
     if (node.is_table() && (tag.empty() || tag == "all_of")) {
-      for (const Node& item : node.items) literals(item, result);
+      for (const Node& item : node.items) beginning(item, result, others);
       return;
     }
     if (tag == "not" && one_item(node).tag() == "literal" && !one_item(node)["negated"].boolean) {
       Node inner = one_item(node);
       inner.fields["negated"].boolean = true;
-      return literals(inner, result);
+      return beginning(inner, result, others);
     }
-    if (tag != "literal")
-      fail("only is and is_not stand here, this is " + node.type_name(), "formulas belong to the goal");
+    if (tag == "in_order") fail("nothing comes in an order before the start", "in_order belongs to the goal");
+    if (tag != "literal") return others.push_back(formula(node));
     check_predicate(node);
     for (const std::vector<Term>& terms : expanded(node)) {
       Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
@@ -444,9 +445,11 @@ std::vector<Effect> effects_from(const Node& node, const FormulaContext& context
   return result;
 }
 
-std::vector<Literal> literals_from(const Node& node, const FormulaContext& context) {
-  std::vector<Literal> result;
-  Reader(context).literals(node, result);
+Beginning beginning_from(const Node& node, const FormulaContext& context) {
+  Beginning result;
+  std::vector<Formula> others;
+  Reader(context).beginning(node, result.literals, others);
+  if (!others.empty()) result.constraint = conjunction(std::move(others));
   return result;
 }
 

@@ -29,8 +29,12 @@ struct FormulaContext {
 Formula formula_from(const Node& node, const FormulaContext& context);
 std::vector<Formula> stages_from(const Node& node, const FormulaContext& context);  // in_order at the top; else empty
 std::vector<Effect> effects_from(const Node& node, const FormulaContext& context);
-// A list of is and is_not, groups expanded, in the author's order.
-std::vector<Literal> literals_from(const Node& node, const FormulaContext& context);
+// What holds at the start: is and is_not, groups expanded, in the author's order; and other formulas, as one.
+struct Beginning {
+  std::vector<Literal> literals;
+  std::optional<Formula> constraint;
+};
+Beginning beginning_from(const Node& node, const FormulaContext& context);
 
 // `name: type & trait & trait`; a word that is neither is an Error.
 Parameter parameter_from(const std::string& text, const Domain& domain, const std::string& place);

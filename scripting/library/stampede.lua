@@ -78,7 +78,7 @@ function world_view:facts(predicate) end
 ---@field variations? table|table[]  axes (their product) or an explicit list of variations (default {})
 ---@field where? fun(...): any  function(v): false leaves a combination of the axes out
 ---@field objects? table<string, stampede.entry>|fun(v: table): any  the objects by name; count = n makes name1 … namen (default {})
----@field init? stampede.formula[]|stampede.formula|fun(v: table): any  what holds at the start, in the order in which it is made true (default {})
+---@field init? stampede.formula[]|stampede.formula|fun(v: table): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table): any  what must hold at the end
 ---@field steps? stampede.call[]|stampede.call|fun(v: table): any  the skills to execute, instead of a plan
 ---@field also? fun(...): any  function(w): a further test beside the goal

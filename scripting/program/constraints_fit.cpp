@@ -42,7 +42,8 @@ Formula formula_option(const std::string& text, const std::string& place) {
 std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options) {
   EpisodeScripts scripts(library, job.task, job.variation, job.seed);
   const AlteredTask altered(scripts.task(), scripts.symbols(), options);
-  if (!options.where) return {};
+  const std::optional<Formula> asked = altered.where();
+  if (!asked) return {};
   const Domain& domain = scripts.symbols().domain();
   std::set<Facts> seen;
   std::map<std::string, int> failures;  // draws in which a part failed
@@ -51,7 +52,7 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
     const WorldView view(world);
     FactTracker tracker(scripts.symbols(), view);
     tracker.begin({});  // what never changes is known, the rest open
-    const Formula where = checked_formula(*options.where, domain, tracker.objects(), "--where");
+    const Formula where = checked_formula(*asked, domain, tracker.objects(), "--where");
     const std::vector<std::string> failed = contradictions(where, scripts.symbols(), tracker);
     if (failed.empty()) return {};
     for (const std::string& part : failed) ++failures[part];

@@ -25,6 +25,7 @@ class LuaTask : public Task {
   ObservationChoice observation() const override { return drawn_.observation; }
   std::vector<std::string> unplaced() const override { return drawn_.unplaced; }
   std::vector<Literal> init() const override { return drawn_.init; }
+  std::optional<Formula> where() const override { return drawn_.where; }
   Formula goal() const override { return drawn_.goal; }
   std::vector<Formula> stages() const override { return drawn_.stages; }
   std::optional<std::vector<PlanStep>> steps() const override { return drawn_.steps; }
@@ -48,6 +49,7 @@ class LuaTask : public Task {
     std::map<std::string, std::vector<std::string>> groups;  // `block` -> block1 …
     std::vector<std::string> unplaced;
     std::vector<Literal> init;
+    std::optional<Formula> where;
     Formula goal;
     std::vector<Formula> stages;
     std::optional<std::vector<PlanStep>> steps;

@@ -35,7 +35,9 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
 
 void TaskReader::read_init() {
   if (!push_field("init")) return;
-  drawn_.init = literals_from(read_node(state_, -1, file_.shown_path + ": init"), context_of("init"));
+  Beginning beginning = beginning_from(read_node(state_, -1, file_.shown_path + ": init"), context_of("init"));
+  drawn_.init = std::move(beginning.literals);
+  drawn_.where = std::move(beginning.constraint);
   lua_pop(state_, 1);
 }
 
