@@ -103,7 +103,7 @@ bool EpisodeRunner::try_again(Undo& undo, const SkillResult& failed) {
   if (!undo.detours.empty()) {
     const Undo::Detour failed_detour = std::move(undo.detours.back());
     undo.detours.pop_back();
-    i = failed_detour.index;
+    i = std::min(i, failed_detour.index);  // it may have been left backwards
     plan_ = failed_detour.before;
     obstructions_.resize(std::min(obstructions_.size(), failed_detour.obstructions));
     undo.failures.assign(plan_.size() + 1, 0);
