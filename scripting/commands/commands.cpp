@@ -22,6 +22,12 @@ Roots roots_of(const Arguments& arguments) {
   return make_roots(arguments.text("--root"), paths);
 }
 
+void make_own_folder(const Arguments& arguments) {
+  const std::vector<std::string> paths = arguments.list("--path");
+  std::error_code error;  // roots_of says what is wrong
+  if (!paths.empty()) std::filesystem::create_directories(paths.back(), error);
+}
+
 std::int64_t in_range(const Arguments& arguments, const char* option, std::int64_t least, std::int64_t most) {
   const std::int64_t value = *arguments.integer(option);
   if (value < least) throw UsageError(fmt::format("{} is at least {}, not {}", option, least, value));

@@ -30,6 +30,8 @@ std::int64_t episode_number(const std::string& text);  // throws UsageError
 // What --root and --path name. Throws LibraryError with every mistake.
 std::shared_ptr<const Library> load_library(const Arguments& arguments);
 Roots roots_of(const Arguments& arguments);
+// For commands that write a file: the last --path is made when it is not there.
+void make_own_folder(const Arguments& arguments);
 
 // The number that an option was given. Throws UsageError outside [least, most].
 std::int64_t in_range(const Arguments& arguments, const char* option, std::int64_t least, std::int64_t most);

@@ -6,7 +6,7 @@ _stampede() {
     check) words="--physics --episodes --seed --randomise --workers --root --path --json --help" ;;
     run) words="--episodes --variation --seed --split --workers --out --on-failure --controller --randomise --where --goal --behaviour --skills --planner --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
-    plan) words="--variation --seed --pddl --task-sized --where --goal --k --expansions --planner --root --path --json --help" ;;
+    plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --hash --root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;

@@ -148,6 +148,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const Source source = read_source(arguments);
   for (const std::string& warning : source.reading.warnings) console.err << warning << "\n";
   const std::string name = task_name(arguments, source), world = arguments.text("--world");
+  make_own_folder(arguments);
   const fs::path path = roots_of(arguments).folders.back() / "tasks" / (name + ".lua");
   std::vector<Error> complaints;  // of other files: no reason not to write this one
   const auto before = Library::load(roots_of(arguments), complaints);

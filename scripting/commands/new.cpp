@@ -50,6 +50,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
                      "it is one of task, skill, predicate, object, world");
   }
   check_name(name);
+  make_own_folder(arguments);
   std::vector<Error> complaints;  // of other files: no reason not to write this one
   check_unused(*Library::load(roots_of(arguments), complaints), name);
   const fs::path root = roots_of(arguments).folders.back();

@@ -10,6 +10,7 @@
 #include "scripting/commands/plan_output.h"
 #include "scripting/commands/symbol_options.h"
 #include "scripting/program/constraints_fit.h"
+#include "scripting/program/stored_symbols.h"
 #include "scripting/program/text_file.h"
 
 namespace stampede::program {
@@ -19,6 +20,7 @@ struct Answer {
   Start start;
   PlanningTask asked;  // with the goal's order
   Problem plain;       // of the world's own domain
+  AbstractState state;
   std::string beside_goal;
   FoundPlans found;
 };
@@ -37,6 +39,9 @@ Answer answer_of(const Arguments& arguments, EpisodeScripts& scripts, const RunO
   facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
   answer.asked = planning_task(task, scripts.symbols().domain(), facts, 0);
   answer.plain = world_problem(task, facts);
+  answer.state.facts = answer.state.observed = facts.facts();
+  for (const Object& thing : view.scene().objects)
+    if (thing.kind == ObjectKind::body) answer.state.poses[thing.name] = to_pose(view.world_from(thing.name));
   answer.beside_goal = beside_goal(task);
   if (const auto steps = task.steps()) {
     answer.found.from_steps = answer.found.outcome.solved = true;
@@ -63,6 +68,18 @@ PddlTexts pddl_of(const Answer& answer, const Domain& own, bool task_size) {
   return {to_pddl(sized), to_pddl(restricted(answer.asked.problem, sized), sized, answer.beside_goal)};
 }
 
+// The start in the words of a BDDL dialect. Throws Error where the dialect cannot say it.
+std::string bddl_of(const Arguments& arguments, const Answer& answer, const Domain& own, const Task& task) {
+  EpisodeRecord record;
+  record.task = task.name();
+  record.language = {{"task", task.instructions().front(), -1}};
+  std::string refusals;
+  std::string text = bddl_text(record, *answer.start.scene, {own, answer.plain}, answer.state, arguments.text("--bddl"),
+                               arguments.list("--leave-out"), refusals);
+  if (!refusals.empty()) throw Error(task.name(), refusals.substr(0, refusals.size() - 1));
+  return text;
+}
+
 EpisodeJob job_of(const Arguments& arguments, const std::shared_ptr<const Library>& library,
                   const RunOptions& options) {
   const Library::TaskInfo& task = task_info(*library, arguments.text("TASK"));
@@ -85,6 +102,11 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
                                answer.start.detail);
     return kNo;
   }
+  if (arguments.has("--bddl")) {
+    AlteredTask task(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options());
+    console.out << bddl_of(arguments, answer, prepared.scripts().symbols().domain(), task);
+    return kDone;
+  }
   const bool pddl = arguments.flag("--pddl") || arguments.flag("--task-sized");
   PddlTexts texts;
   if (pddl) texts = pddl_of(answer, prepared.scripts().symbols().domain(), arguments.flag("--task-sized"));
@@ -104,7 +126,7 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
 }
 
 ExitCode plan_files(const Arguments& arguments, Console& console) {
-  for (const char* option : {"--variation", "--seed", "--where", "--goal"})
+  for (const char* option : {"--variation", "--seed", "--where", "--goal", "--bddl", "--leave-out"})
     if (arguments.has(option))
       throw UsageError(std::string(option) + " is for tasks, not for PDDL files", "leave it out, or name a task");
   const std::string domain_file = arguments.text("TASK"), problem_file = arguments.text("PROBLEM");
@@ -162,9 +184,18 @@ CommandRow plan_command() {
         Takes::flag,
         "",
         {},
-        false}},
+        false},
+       {"--bddl",
+        "DIALECT",
+        "print the start and the goal as a BDDL problem instead",
+        Takes::text,
+        "",
+        {"libero", "behavior"},
+        false},
+       {"--leave-out", "PREDICATE", "not in the goal of a BDDL problem", Takes::text, "", {}, true}},
       {"stampede plan stack_blocks --variation colour=red,height=3", "stampede plan put_item_in_drawer --pddl",
        "stampede plan pick_and_lift --where '(on block1 table)' --goal '(holding block1)' --task-sized",
+       "stampede plan put_item_in_drawer --bddl libero --leave-out hand_empty",
        "stampede plan domain.pddl problem.pddl --k 3"},
       run};
   add_options(row.options, constraint_options());

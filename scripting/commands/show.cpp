@@ -71,18 +71,7 @@ std::string moment_text(const StoredEpisode& stored, const AbstractState& state,
   if (form == "pddl")
     return unknown_facts(state, symbols.domain) +
            to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
-  std::string text;
-  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
-    if (form != "bddl" && form != dialect_name(dialect)) continue;
-    const BddlMapping mapping = dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
-    const BddlExport result = bddl_at(stored.episode, *stored.scene, symbols, state, mapping, leave_out);
-    if (result.refusal.empty()) {
-      text += (text.empty() ? "" : "\n") + with_notes(result);
-    } else {
-      refusals += std::string(to_string(dialect)) + " cannot say it: " + result.refusal + "\n";
-    }
-  }
-  return text;
+  return bddl_text(stored.episode, *stored.scene, symbols, state, form, leave_out, refusals);
 }
 
 ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Console& console) {

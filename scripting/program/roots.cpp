@@ -27,7 +27,8 @@ Roots make_roots(const fs::path& root, const std::vector<fs::path>& paths) {
   for (std::size_t i = 0; i < roots.folders.size(); ++i) {
     std::error_code error;
     if (fs::is_directory(roots.folders[i], error)) continue;
-    throw Error(i == 0 ? "--root" : "--path", "'" + roots.folders[i].string() + "' is not a folder");
+    throw Error(i == 0 ? "--root" : "--path", "'" + roots.folders[i].string() + "' is not a folder",
+                "make it, or name another");
   }
   return roots;
 }

@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/model/scene.h"
 #include "engine/symbolic/pddl.h"
+#include "scripting/program/bddl_mapping_file.h"
 
 namespace stampede {
 namespace {
@@ -74,7 +75,10 @@ std::optional<BddlPlacement> placement_of(const Fact& fact, const Scene& scene, 
   const double y = rounded(below_from_object.translation().y());
   const Matrix3 turn = below_from_object.linear();
   const double yaw = rounded(std::atan2(turn(1, 0), turn(0, 0)));
-  return BddlPlacement{fact.arguments[0], below->name, {{x - kSpot, y - kSpot, x + kSpot, y + kSpot}}, {yaw, yaw}};
+  return BddlPlacement{fact.arguments[0],
+                       below->name,
+                       {{rounded(x - kSpot), rounded(y - kSpot), rounded(x + kSpot), rounded(y + kSpot)}},
+                       {yaw, yaw}};
 }
 
 void collect_names(const Formula& formula, std::vector<std::string>& names) {
@@ -179,6 +183,23 @@ std::string with_notes(const BddlExport& result) {
   for (const BddlNote& note : result.notes) text += "; " + to_text(note) + "\n";
   for (const std::string& remark : result.remarks) text += "; remark: " + remark + "\n";
   return text + result.text;
+}
+
+std::string bddl_text(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
+                      const AbstractState& state, const std::string& form, const std::vector<std::string>& leave_out,
+                      std::string& refusals) {
+  std::string text;
+  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
+    if (form != "bddl" && form != dialect_name(dialect)) continue;
+    const BddlMapping mapping = dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
+    const BddlExport result = bddl_at(episode, scene, symbols, state, mapping, leave_out);
+    if (result.refusal.empty()) {
+      text += (text.empty() ? "" : "\n") + with_notes(result);
+    } else {
+      refusals += std::string(to_string(dialect)) + " cannot say it: " + result.refusal + "\n";
+    }
+  }
+  return text;
 }
 
 std::vector<Boundary> skill_boundaries(const EpisodeRecord& episode, const Domain& domain) {

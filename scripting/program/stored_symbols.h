@@ -34,6 +34,11 @@ BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const Store
                    const AbstractState& state, const BddlMapping& mapping, const std::vector<std::string>& leave_out);
 // With comments before the text: what its words mean compared to ours, and what is not in it.
 std::string with_notes(const BddlExport& result);
+// The same by the mappings that are built in. `form`: libero, behavior, or bddl for both. What a dialect cannot say
+// goes to `refusals`, a line each.
+std::string bddl_text(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
+                      const AbstractState& state, const std::string& form, const std::vector<std::string>& leave_out,
+                      std::string& refusals);
 
 // Frames at which skills begin and end, in order: 0, each boundary, the last one.
 struct Boundary {

@@ -208,6 +208,30 @@ TEST_CASE("variations that contradict --where are left out") {
                   Error);
 }
 
+TEST_CASE(
+    "a task's start is a BDDL problem before anything has run, which imports as a task; or refused with the cure") {
+  const Folder mine;
+  const std::vector<std::string> plan = {"plan", "put_item_in_drawer", "--root", STAMPEDE_SOURCE_DIR, "--bddl"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plan.begin(), plan.end());
+    return say(more);
+  };
+  const Said libero = with({"libero", "--leave-out", "hand_empty"});
+  REQUIRE(libero.code == kDone);
+  CHECK(says(libero.out, "(in item chest_bottom_region)"));
+  CHECK(says(libero.out, "; ours `on`, theirs `on`: weaker than theirs"));
+  put(mine / "p.bddl", libero.out);
+  const Said imported =
+      say({"import", mine / "p.bddl", "--task", "mine", "--path", mine / "my", "--root", STAMPEDE_SOURCE_DIR});
+  INFO(imported.err);
+  CHECK(imported.code == kDone);
+  CHECK(std::filesystem::exists(mine / "my/tasks/mine.lua"));
+  CHECK(says(with({"behavior", "--leave-out", "hand_empty"}).out, "(inside ?block.n.01_1 ?cabinet.n.01_1)"));
+  const Said refused = with({"libero"});
+  CHECK(refused.code == kBadInput);
+  CHECK(says(refused.err, "leave it out of the goal"));
+}
+
 TEST_CASE("a --where that predicates themselves rule out is refused before anything is placed, in our names") {
   const Folder mine;
   const Said said = say({"run", "put_item_in_drawer", "--root", STAMPEDE_SOURCE_DIR, "--out", mine / "o.db", "--where",
