@@ -22,3 +22,5 @@ install(FILES engine/base/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stampe
 install(DIRECTORY tasks skills worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/stampede
   FILES_MATCHING PATTERN "*.lua" PATTERN "*.urdf" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.stl"
   PATTERN "*.dae" PATTERN "*.glb" PATTERN "*.ply" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.json")
+install(FILES scripting/commands/completion.bash
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stampede)

@@ -1,37 +1,27 @@
 #include <filesystem>
-#include <fstream>
 #include <ostream>
 
 #include "scripting/commands/commands.h"
-#include "scripting/library/fields.h"
+#include "scripting/library/annotations.h"
+#include "scripting/program/editor_files.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
+#include "scripting/program/text_file.h"
 
 namespace stampede::program {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Document {
-  fs::path path;
-  std::string text;
-};
-
-void write(const Document& document) {
-  fs::create_directories(document.path.parent_path());
-  std::ofstream file(document.path, std::ios::binary);
-  file << document.text;
-  file.close();
-  if (!file) throw Error(document.path.string(), "it could not be written");
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<Document> documents(const fs::path& root) {
-  return {{root / "scripting/library/stampede.lua", luals_annotations()},
+// Of the last --path, or of the project.
+std::vector<TextFile> documents(const Arguments& arguments) {
+  const Roots roots = roots_of(arguments);
+  std::vector<Error> complaints;  // `stampede check` tells of them
+  const auto library = Library::load(roots, complaints);
+  if (roots.folders.size() > 1) return editor_files(roots.folders.back(), *library);
+  const fs::path& root = roots.folders.front();
+  return {{root / "scripting/library/stampede.lua", word_annotations()},
+          {root / "scripting/library/names.lua", name_annotations(*library)},
           {root / "scripting/commands/reference.md", command_reference(all_commands())},
           {root / "scripting/commands/completion.bash", bash_completion(all_commands())}};
 }
@@ -41,10 +31,10 @@ ExitCode run(const Arguments& arguments, Console& console) {
   bool fresh = true;
   JsonText json;
   json.object().key("documents").array();
-  for (const Document& document : documents(roots_of(arguments).folders.front())) {
-    const bool same = read(document.path) == document.text;
+  for (const TextFile& document : documents(arguments)) {
+    const bool same = holds_text(document.path, document.text);
     fresh = fresh && same;
-    if (!check && !same) write(document);
+    if (!check && !same) write_text_file(document.path, document.text);
     const char* state = same ? "fresh" : check ? "stale" : "written";
     json.object().field("path", document.path.string()).field("state", state).end();
     if (!arguments.flag("--json")) console.out << document.path.string() << ": " << state << "\n";
@@ -58,11 +48,12 @@ ExitCode run(const Arguments& arguments, Console& console) {
 CommandRow doc_command() {
   return {"doc",
           "Write the reference, the editor annotations and the shell completion anew",
-          "All are generated from the tables that the program itself uses. With --check nothing is written, and the "
-          "exit code is 1 when one is stale.",
+          "All are generated from the tables that the program itself uses. With --path only what an editor's Lua "
+          "language server (LuaLS) needs in that folder is written: .luarc.json, unless there is one, and .stampede/; "
+          "`stampede new` does so too. With --check nothing is written, and the exit code is 1 when one is stale.",
           {},
           {{"--check", "", "only say whether they are fresh", Takes::flag, "", {}, false}},
-          {"stampede doc", "stampede doc --check"},
+          {"stampede doc", "stampede doc --check", "stampede doc --path ~/my_tasks"},
           run};
 }
 

@@ -9,6 +9,7 @@
 #include "scripting/library/naming.h"
 #include "scripting/program/bddl_mapping_file.h"
 #include "scripting/program/bddl_task_file.h"
+#include "scripting/program/editor_files.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
@@ -162,6 +163,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
     return kNo;
   }
   const auto library = library_with(arguments, path, imported.text);
+  if (!arguments.list("--path").empty()) write_editor_files(roots_of(arguments).folders.back(), *library);
   bool interrupted = false;
   const std::vector<Judged> judged = run_task(arguments, library, name, console, interrupted);
   print(judged, path, imported, arguments.flag("--json"), console);

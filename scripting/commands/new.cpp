@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <ostream>
-#include <sstream>
 
 #include "scripting/commands/commands.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
+#include "scripting/program/editor_files.h"
 #include "scripting/program/json_text.h"
+#include "scripting/program/text_file.h"
 
 namespace stampede::program {
 namespace {
@@ -56,11 +56,10 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const fs::path root = roots_of(arguments).folders.back();
   const fs::path path = root / kind->folder / (name + ".lua");
   if (fs::exists(path)) throw UsageError("'" + path.string() + "' exists already", "take another name");
-  fs::create_directories(path.parent_path());
-  std::ofstream file(path, std::ios::binary);
-  file << new_file(kind->kind, name);
-  file.close();
-  if (!file) throw Error(path.string(), "it could not be written");
+  write_text_file(path, new_file(kind->kind, name));
+  if (!arguments.list("--path").empty()) {
+    write_editor_files(root, *Library::load(roots_of(arguments), complaints));
+  }
   if (arguments.flag("--json")) {
     console.out << JsonText().object().field("path", path.string()).end().text();
   } else {
@@ -72,14 +71,16 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow new_command() {
-  return {"new",
-          "Write the smallest file of a kind that passes `stampede check`",
-          "The file goes to its place under the last --path, or under --root where there is none. Names that are "
-          "taken, are words of Lua or PDDL, or do not match [a-z][a-z0-9_]* are refused, with a proposal.",
-          {{"KIND", "task, skill, predicate, object or world", true, false}, {"NAME", "its name", true, false}},
-          {},
-          {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks"},
-          run};
+  return {
+      "new",
+      "Write the smallest file of a kind that passes `stampede check`",
+      "The file goes to its place under the last --path, or under --root where there is none. Names that are "
+      "taken, are words of Lua or PDDL, or do not match [a-z][a-z0-9_]* are refused, with a proposal. Under a --path, "
+      "what editors read (LuaLS: .luarc.json, .stampede/) is kept current as `stampede doc --path` does.",
+      {{"KIND", "task, skill, predicate, object or world", true, false}, {"NAME", "its name", true, false}},
+      {},
+      {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks"},
+      run};
 }
 
 }  // namespace stampede::program

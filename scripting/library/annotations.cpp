@@ -1,7 +1,12 @@
-// The editor's definition file (LuaLS), made from the field tables.
-#include <algorithm>
-#include <string>
+#include "scripting/library/annotations.h"
 
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "scripting/library/embedded.h"
 #include "scripting/library/fields.h"
 
 namespace stampede {
@@ -15,7 +20,6 @@ std::string one_type(std::string_view type) {
   if (type == "vector" || type == "range" || type == "size" || type == "numbers") return "number[]";
   if (type == "colour") return "string|number[]";
   if (type == "cover") return "string|" + class_name("texture");
-  if (type == "function") return "fun(...): any";
   if (type == "literal" || type == "formula" || type == "effect" || type == "call") return class_name(type);
   return record(type) != nullptr ? class_name(type) : std::string(type);
 }
@@ -30,9 +34,43 @@ std::string lua_type(std::string_view type) {
   return result;
 }
 
+// A function's parameters are those that its description begins with: "function(w, …): does it hold".
+std::string signature(std::string_view description) {
+  static const std::map<std::string_view, std::string_view> kTypes = {{"v", "table<string, any>"},
+                                                                      {"w", "stampede.world_view"},
+                                                                      {"robot", "stampede.robot_view"},
+                                                                      {"p", "table<string, any>"},
+                                                                      {"c", "table<string, any>"}};
+  constexpr std::string_view kHead = "function(";
+  if (!description.starts_with(kHead)) return "fun(...: any): any";
+  description = description.substr(kHead.size(), description.find(')') - kHead.size());
+  std::string text = "fun(";
+  while (!description.empty()) {
+    const std::string_view name = description.substr(0, description.find(", "));
+    const auto type = kTypes.find(name);
+    if (type == kTypes.end()) return text + "...: any): any";  // names of objects, perhaps a random stream
+    text += std::string(name) + ": " + std::string(type->second);
+    description.remove_prefix(std::min(name.size() + 2, description.size()));
+    if (!description.empty()) text += ", ";
+  }
+  return text + "): any";
+}
+
+// Texts that names.lua knows all of. Others are no error: a file may be about to be written.
+std::string type_of(const Field& field) {
+  const std::string_view name = field.name;
+  if (name == "world") return "stampede.world_name|string";
+  if (name == "type") return "stampede.type_name|string";
+  if (name == "traits") return "(stampede.trait_name|string)[]";
+  std::string type = lua_type(field.type);
+  const std::size_t function = type.find("function");
+  if (function == std::string::npos) return type;
+  return type.replace(function, 8, "(" + signature(field.description) + ")");
+}
+
 std::string annotation(const Field& field) {
-  std::string text = "---@field " + std::string(field.name) + (field.required ? " " : "? ") + lua_type(field.type);
-  if (field.of_variation) text += "|fun(v: table): any";
+  std::string text = "---@field " + std::string(field.name) + (field.required ? " " : "? ") + type_of(field);
+  if (field.of_variation) text += "|fun(v: table<string, any>): any";
   text += "  ";
   text += field.description;
   if (*field.unit != 0) text += std::string(" [") + field.unit + "]";
@@ -40,90 +78,54 @@ std::string annotation(const Field& field) {
   return text + "\n";
 }
 
-constexpr const char kWords[] = R"lua(
----@class stampede.draw
----@class stampede.literal: stampede.formula, stampede.effect
----@class stampede.formula
----@class stampede.effect
----@class stampede.call
+std::string class_of(const Record& one) {
+  const std::string_view name = one.name;
+  std::string text = "\n-- " + std::string(one.description) + "\n---@class " + class_name(name);
+  if (name == "entry") text += ": stampede.object";  // its fields go before those of the file
+  text += "\n";
+  if (*one.head != 0) {
+    text += "---@field [integer] " + (name == "entry" ? "stampede.object_name|string" : lua_type(one.head)) + "\n";
+  }
+  for (const Field& field : one.fields) text += annotation(field);
+  return text;
+}
 
----@type table<string, fun(...: string): stampede.literal>
-is = {}
----@type table<string, fun(...: string): stampede.literal>|fun(part: stampede.formula): stampede.formula
-is_not = {}
----@type table<string, fun(...: string): stampede.call>
-act = {}
+std::string alias(std::string_view name, const std::set<std::string>& values) {
+  std::string text = "\n---@alias " + class_name(name) + "\n";
+  for (const std::string& value : values) text += "---| \"" + value + "\"\n";
+  return text;
+}
 
----@return stampede.formula
-function all_of(...) end
----@return stampede.formula
-function any_of(...) end
----@return stampede.formula
-function in_order(...) end
----@param group string
----@param n integer
----@param f fun(b: string[], i: integer): stampede.formula
----@return stampede.formula
-function any_order(group, n, f) end
----@return stampede.formula
-function forall(...) end
----@return stampede.formula
-function exists(...) end
----@return stampede.formula
-function equal(a, b) end
----@param text string
----@return stampede.formula
-function pddl(text) end
----@return stampede.effect
-function when(condition, effects) end
-function stream(source, object) end
----@return stampede.draw
-function one_of(...) end
----@return stampede.draw
-function sample_of(values, n) end
----@param low number
----@param high number
----@return stampede.draw
-function between(low, high) end
----@param degrees number
----@return number
-function deg(degrees) end
-function mm(x) end
-function cm(x) end
-function each(list, f) end
-function range(first, last, step) end
----@type { names: string[], except: (fun(...): string[]), rgb: fun(name: string): number[] }
-colours = {}
--- The world, as tests and skills read it; scripting/runtime/README.md lists the other methods.
----@class stampede.world_view
-local world_view = {}
--- Does it hold now (debounced, as verdicts and catalogues have it)? Not in predicates.
----@param predicate string
----@param ... string
----@return boolean
-function world_view:fact(predicate, ...) end
--- Is it known to hold: what can be hidden as it was when it was last seen. Not in predicates.
----@param predicate string
----@param ... string
----@return boolean
-function world_view:observed(predicate, ...) end
--- All facts, or those of one predicate: { { "on", "cup", "table" }, … }. Not in predicates.
----@param predicate? string
----@return string[][]
-function world_view:facts(predicate) end
-)lua";
+std::set<std::string> names(const std::vector<const ScriptFile*>& files) {
+  std::set<std::string> result;
+  for (const ScriptFile* file : files) result.insert(file->name);
+  return result;
+}
+
+// A field of `is`, `is_not` or `act`: its name, its parameters but for the hand, what it is in words.
+std::string symbol(std::string_view name, const std::vector<Parameter>& parameters, bool call, std::string_view label) {
+  std::string arguments, types;
+  for (const Parameter& one : parameters) {
+    if (one.type == "hand") continue;
+    const bool first = arguments.empty();
+    // A call may name its arguments instead, act.place { "cup", to = "shelf" }, and leave some to be found.
+    arguments += (first ? "" : ", ") + one.name + (!call ? ": string" : first ? ": string|table" : "?: string");
+    std::string type = one.type;
+    for (const std::string& trait : one.traits) type += (type.empty() ? "" : " & ") + trait;
+    types += (first ? "" : ", ") + one.name + ": " + (type.empty() ? "anything" : type);
+  }
+  return "---@field " + std::string(name) + " fun(" + arguments +
+         "): " + (call ? "stampede.call" : "stampede.literal") + "  " + std::string(label) +
+         (types.empty() ? "" : " (" + types + ")") + "\n";
+}
 
 }  // namespace
 
-std::string luals_annotations() {
+std::string word_annotations() {
   std::string text =
-      "---@meta\n-- Made by `stampede doc` from the field tables of scripting/library/fields.cpp: do not edit.\n";
-  text += kWords;
-  for (const Record& one : records()) {
-    text += "\n-- " + std::string(one.description) + "\n---@class " + class_name(one.name) + "\n";
-    if (*one.head != 0) text += "---@field [integer] " + lua_type(one.head) + "\n";
-    for (const Field& field : one.fields) text += annotation(field);
-  }
+      "---@meta\n-- Made by `stampede doc` from words.lua and fields.cpp of scripting/library: do not edit.\n\n";
+  text += kWordsSource;
+  for (const Record& one : records()) text += class_of(one);
   for (const char* kind : {"task", "skill", "predicate", "object", "world", "robot"}) {
     text += "\n---@param fields " + class_name(kind) + "\n---@return " + class_name(kind) + "\nfunction " + kind +
             "(fields) end\n";
@@ -135,6 +137,28 @@ std::string luals_annotations() {
     text += "\n---@return " + class_name("texture") + "\nfunction " + texture + "(fields) end\n";
   }
   return text;
+}
+
+std::string name_annotations(const Library& library) {
+  const Domain& domain = library.domain();
+  std::set<std::string> predicates, types, traits(domain.traits.begin(), domain.traits.end());
+  std::string literals, calls;
+  for (const Predicate& one : domain.predicates) {
+    predicates.insert(one.name);
+    literals += symbol(one.name, one.parameters, false, one.label);
+  }
+  for (const ScriptFile* file : library.files(DefinitionKind::skill)) {
+    const SkillInfo* skill = library.skill(file->name);
+    if (skill != nullptr) calls += symbol(file->name, skill->parameters, true, skill->label);
+  }
+  for (const auto& [name, parent] : domain.types) types.insert(name);
+
+  std::string text = "---@meta\n-- Made by `stampede doc` from the Lua files: do not edit.\n";
+  text += "\n---@class stampede.is\n" + literals + "\n---@class stampede.is_not\n" + literals;
+  text += "\n---@class stampede.act\n" + calls;
+  text += alias("predicate_name", predicates) + alias("type_name", types) + alias("trait_name", traits);
+  text += alias("world_name", names(library.files(DefinitionKind::world)));
+  return text + alias("object_name", names(library.files(DefinitionKind::object)));
 }
 
 }  // namespace stampede

@@ -3,9 +3,9 @@
 
 #include "engine/base/error.h"
 #include "scripting/library/definitions.h"
+#include "scripting/library/embedded.h"
 #include "scripting/library/formula_reader.h"
 #include "scripting/library/node.h"
-#include "scripting/library/prelude.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {

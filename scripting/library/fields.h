@@ -44,7 +44,6 @@ void check_record(const Record& record, const Node& table, const std::string& pa
                   const std::vector<std::string>& also_known = {});
 bool has_type(const Node& node, std::string_view type);
 
-std::string luals_annotations();               // the editor's definition file, scripting/library/stampede.lua
 std::string field_help(const Record& record);  // for people: one line a field
 
 }  // namespace stampede

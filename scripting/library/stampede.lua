@@ -1,94 +1,453 @@
 ---@meta
--- Made by `stampede doc` from the field tables of scripting/library/fields.cpp: do not edit.
+-- Made by `stampede doc` from words.lua and fields.cpp of scripting/library: do not edit.
 
 ---@class stampede.draw
----@class stampede.literal: stampede.formula, stampede.effect
 ---@class stampede.formula
 ---@class stampede.effect
+---@class stampede.literal: stampede.formula, stampede.effect
 ---@class stampede.call
 
----@type table<string, fun(...: string): stampede.literal>
+-- Facts: is.on("cup", "table"). names.lua has the predicates
+---@class stampede.is
+---@field [string] fun(...: string): stampede.literal
 is = {}
----@type table<string, fun(...: string): stampede.literal>|fun(part: stampede.formula): stampede.formula
+
+-- Negated: is_not.on("cup", "table"), or is_not(any_of(…))
+---@class stampede.is_not
+---@field [string] fun(...: string): stampede.literal
+---@overload fun(part: stampede.formula): stampede.formula
 is_not = {}
----@type table<string, fun(...: string): stampede.call>
+
+-- Skills with their arguments: act.pick("cup"). names.lua has the skills
+---@class stampede.act
+---@field [string] fun(...: string): stampede.call
 act = {}
 
+---@param ... stampede.formula|stampede.formula[]
 ---@return stampede.formula
 function all_of(...) end
+
+---@param ... stampede.formula|stampede.formula[]
 ---@return stampede.formula
 function any_of(...) end
+
+-- One after the other, each when those before it have held
+---@param ... stampede.formula|stampede.formula[]
 ---@return stampede.formula
 function in_order(...) end
----@param group string
+
+-- n distinct members of the group such that f(b, i) holds for i = 1 … n; literals that name b[0] are left out
+---@param group string  such as "block*"
 ---@param n integer
 ---@param f fun(b: string[], i: integer): stampede.formula
 ---@return stampede.formula
 function any_order(group, n, f) end
+
+-- forall("?x: block", is.on("?x", "table")): variables, then a formula or a function of the variables
+---@param ... string|stampede.formula|fun(...: string): stampede.formula
 ---@return stampede.formula
 function forall(...) end
+
+-- exists("?x: block", is.on("?x", "table")): variables, then a formula or a function of the variables
+---@param ... string|stampede.formula|fun(...: string): stampede.formula
 ---@return stampede.formula
 function exists(...) end
+
+---@param a string
+---@param b string
 ---@return stampede.formula
 function equal(a, b) end
+
+-- A formula as PDDL writes it
 ---@param text string
 ---@return stampede.formula
 function pddl(text) end
+
+-- A conditional effect
+---@param condition stampede.formula
+---@param effects stampede.effect|stampede.effect[]
 ---@return stampede.effect
 function when(condition, effects) end
+
+-- Candidates of a continuous parameter: stream("grasps"), stream("grasps", "part") or stream(is.on("obj", "to"))
+---@param source "grasps"|stampede.literal
+---@param object? string  the parameter that is grasped
 function stream(source, object) end
----@return stampede.draw
+
+-- One of the values, drawn per episode
+---@return any
 function one_of(...) end
----@return stampede.draw
+
+-- n of the values, drawn per episode
+---@param values any[]
+---@param n integer
+---@return any
 function sample_of(values, n) end
+
+-- A number, drawn per episode
 ---@param low number
 ---@param high number
----@return stampede.draw
+---@return any
 function between(low, high) end
+
+-- Degrees in radians
 ---@param degrees number
 ---@return number
 function deg(degrees) end
+
+-- Millimetres in metres
+---@param x number
+---@return number
 function mm(x) end
+
+-- Centimetres in metres
+---@param x number
+---@return number
 function cm(x) end
+
+-- { f(value, index), … }
+---@param list any[]
+---@param f fun(value: any, index: integer): any
+---@return any[]
 function each(list, f) end
+
+-- { first, …, last }
+---@param first number
+---@param last number
+---@param step? number
+---@return number[]
 function range(first, last, step) end
----@type { names: string[], except: (fun(...): string[]), rgb: fun(name: string): number[] }
+
+-- The colours of worlds/colours.lua, by name
+---@class stampede.colours
+---@field names string[]  in alphabetical order
+---@field except fun(...: string|string[]): string[]  all others
+---@field rgb fun(name: string): number[]  sRGB, 0 … 1
 colours = {}
--- The world, as tests and skills read it; scripting/runtime/README.md lists the other methods.
+
+-- A position [m] and an orientation. `p * q`: q in the frame p
+---@class stampede.pose
+---@operator mul(stampede.pose): stampede.pose
+local stampede_pose = {}
+
+-- pose(x, y, z, roll, pitch, yaw) or pose { at = …, rpy = …, yaw = …, quaternion = … } [m, rad]
+---@param x number|table
+---@param y? number
+---@param z? number
+---@param roll? number
+---@param pitch? number
+---@param yaw? number
+---@return stampede.pose
+function pose(x, y, z, roll, pitch, yaw) end
+
+---@return number x, number y, number z
+function stampede_pose:position() end
+---@return number roll, number pitch, number yaw  about fixed axes [rad]
+function stampede_pose:rpy() end
+---@return number x, number y, number z, number w
+function stampede_pose:quaternion() end
+-- Moved along the world's axes
+---@param x number
+---@param y? number
+---@param z? number
+---@return stampede.pose
+function stampede_pose:offset(x, y, z) end
+-- Moved along its own axes
+---@param x number
+---@param y? number
+---@param z? number
+---@return stampede.pose
+function stampede_pose:along(x, y, z) end
+-- Turned about its own axes
+---@param roll number
+---@param pitch? number
+---@param yaw? number
+---@return stampede.pose
+function stampede_pose:rotated(roll, pitch, yaw) end
+-- Turned on the spot about the world's vertical
+---@param yaw number
+---@return stampede.pose
+function stampede_pose:turned(yaw) end
+---@param other stampede.pose
+---@return stampede.pose
+function stampede_pose:times(other) end
+---@return stampede.pose
+function stampede_pose:inverse() end
+---@param x number
+---@param y? number
+---@param z? number
+---@return stampede.pose
+function stampede_pose:with_position(x, y, z) end
+
+-- Seeded random draws
+---@class stampede.random
+local stampede_random = {}
+---@return number  0 … 1
+function stampede_random:uniform() end
+---@param low number
+---@param high number
+---@return number
+function stampede_random:between(low, high) end
+---@param low integer
+---@param high integer
+---@return integer  both ends included
+function stampede_random:integer(low, high) end
+---@return number  of mean 0 and deviation 1
+function stampede_random:normal() end
+---@generic T
+---@param list T[]
+---@return T
+function stampede_random:pick(list) end
+
+-- The world, as tests, predicates and skills read it; things are named by text [m, rad, s, N]
 ---@class stampede.world_view
-local world_view = {}
--- Does it hold now (debounced, as verdicts and catalogues have it)? Not in predicates.
----@param predicate string
+local stampede_world_view = {}
+
+-- Of a body, part, region's centre, or the hand's tip
+---@param thing string
+---@return number x, number y, number z
+function stampede_world_view:position(thing) end
+---@param thing string
+---@return stampede.pose
+function stampede_world_view:pose(thing) end
+---@param thing string
+---@return number x, number y, number z
+function stampede_world_view:velocity(thing) end
+---@param thing string
+---@return number
+function stampede_world_view:speed(thing) end
+-- Edge lengths of its box
+---@param thing string
+---@return number x, number y, number z
+function stampede_world_view:size(thing) end
+-- Height of its lowest point
+---@param thing string
+---@return number
+function stampede_world_view:bottom(thing) end
+-- Height of its highest point
+---@param thing string
+---@return number
+function stampede_world_view:top(thing) end
+---@param a string
+---@param b string
+---@return number
+function stampede_world_view:distance(a, b) end
+---@param part string
+---@return number
+function stampede_world_view:joint(part) end
+-- 0 at the lower limit, 1 at the upper
+---@param part string
+---@return number
+function stampede_world_view:joint_fraction(part) end
+---@param part string
+---@return number
+function stampede_world_view:joint_velocity(part) end
+---@param part string
+---@return number lower, number upper
+function stampede_world_view:joint_range(part) end
+-- Where the part would be if its joint were there
+---@param part string
+---@param position number
+---@return stampede.pose
+function stampede_world_view:part_at(part, position) end
+---@param a string
+---@param b string
+---@return boolean
+function stampede_world_view:touching(a, b) end
+-- Between the two, over the last step
+---@param a string
+---@param b string
+---@return number
+function stampede_world_view:force(a, b) end
+-- Does the surface carry it from below?
+---@param surface string
+---@param thing string
+---@return boolean
+function stampede_world_view:supports(surface, thing) end
+---@param thing string
+---@return boolean
+function stampede_world_view:at_rest(thing) end
+-- Between the pads of the hand?
+---@param thing string
+---@return boolean
+function stampede_world_view:grasped(thing) end
+---@return string|nil
+function stampede_world_view:grasped_object() end
+-- Of the hand
+---@return number
+function stampede_world_view:opening() end
+-- Its centre in the region; `whole`: all of it
+---@param region string
+---@param thing string
+---@param whole? boolean
+---@return boolean
+function stampede_world_view:inside(region, thing, whole) end
+-- From the region's nearest face to a thing, pose or point: negative inside
+---@param region string
+---@param x string|stampede.pose|number
+---@param y? number
+---@param z? number
+---@return number
+function stampede_world_view:region_distance(region, x, y, z) end
+-- A number of its file
+---@param thing string
+---@param name string
+---@param otherwise? number  where it has none of that name
+---@return number
+function stampede_world_view:number(thing, name, otherwise) end
+---@param thing string
+---@param name string
+---@return string|nil
+function stampede_world_view:attribute(thing, name) end
+---@param thing string
+---@return string
+function stampede_world_view:type(thing) end
+---@param thing string
+---@param trait string
+---@return boolean
+function stampede_world_view:has_trait(thing, trait) end
+---@param thing string
+---@return boolean
+function stampede_world_view:exists(thing) end
+-- Names in order: all, or those with the trait
+---@param trait? string
+---@return string[]
+function stampede_world_view:objects(trait) end
+---@return string
+function stampede_world_view:hand() end
+-- The tool centre point
+---@return stampede.pose
+function stampede_world_view:tip() end
+-- Since the episode began
+---@return number
+function stampede_world_view:time() end
+-- Does it hold now (debounced, as verdicts and catalogues have it)? Not in predicates
+---@param predicate stampede.predicate_name
 ---@param ... string
 ---@return boolean
-function world_view:fact(predicate, ...) end
--- Is it known to hold: what can be hidden as it was when it was last seen. Not in predicates.
----@param predicate string
+function stampede_world_view:fact(predicate, ...) end
+-- Is it known to hold: what can be hidden as it was when it was last seen. Not in predicates
+---@param predicate stampede.predicate_name
 ---@param ... string
 ---@return boolean
-function world_view:observed(predicate, ...) end
--- All facts, or those of one predicate: { { "on", "cup", "table" }, … }. Not in predicates.
----@param predicate? string
+function stampede_world_view:observed(predicate, ...) end
+-- All facts, or those of one predicate: { { "on", "cup", "table" }, … }. Not in predicates
+---@param predicate? stampede.predicate_name
 ---@return string[][]
-function world_view:facts(predicate) end
+function stampede_world_view:facts(predicate) end
+-- In `sample`: poses of the thing where it would rest on the surface, free of others
+---@param surface string
+---@param thing string
+---@param rng stampede.random
+---@return stampede.pose[]
+function stampede_world_view:free_spots(surface, thing, rng) end
+-- In `sample`: poses of the thing on top of another
+---@param below string
+---@param thing string
+---@param rng stampede.random
+---@return stampede.pose[]
+function stampede_world_view:stack_spots(below, thing, rng) end
+-- In `sample`: poses of the thing within the region; `floating`: of a region
+---@param region string
+---@param thing string
+---@param rng stampede.random
+---@param floating? boolean
+---@return stampede.pose[]
+function stampede_world_view:region_spots(region, thing, rng, floating) end
+-- In `sample`: the part's joint at a position
+---@param part string
+---@param position number
+function stampede_world_view:joint_at(part, position) end
+-- In `sample`: the part's joint anywhere between two positions
+---@param part string
+---@param low number
+---@param high number
+---@param rng stampede.random
+function stampede_world_view:joint_between(part, low, high, rng) end
+-- In `sample`: another thing than the literal's first argument at a pose
+---@param thing string
+---@param at stampede.pose
+function stampede_world_view:place(thing, at) end
+
+---@class stampede.line_options
+---@field speed? number  [m/s]
+---@field force? number  ends the motion [N]
+---@field stop_on_contact? boolean
+---@field tolerate? boolean  an end that is not reached is no failure
+---@field collide? boolean  contact is meant
+
+-- The arm and its hand, in a skill's `run`
+---@class stampede.robot_view
+local stampede_robot_view = {}
+---@param opening? number  [m] (default as far as it goes)
+function stampede_robot_view:open_hand(opening) end
+-- With an object, it must end up held
+---@param object? string
+---@param options? { force: number }
+function stampede_robot_view:close_hand(object, options) end
+-- { approach = pose, grasp = pose }: approach first, then others by name, last grasp, goal, place or target. Or
+-- { { "name", pose }, … } in the order written. All but the last are passed without a stop
+---@param targets table<string, stampede.pose>|any[][]
+function stampede_robot_view:move_through(targets) end
+---@param target stampede.pose
+function stampede_robot_view:move_to(target) end
+-- Straight, to a pose or by an offset along the world's axes
+---@param target stampede.pose|number[]
+---@param options? stampede.line_options
+function stampede_robot_view:move_line(target, options) end
+-- Straight up
+---@param height number
+---@param options? stampede.line_options
+function stampede_robot_view:lift(height, options) end
+-- Straight back, out of the hand's direction
+---@param distance number
+---@param options? stampede.line_options
+function stampede_robot_view:retreat(distance, options) end
+function stampede_robot_view:move_home() end
+---@param positions number[]
+function stampede_robot_view:move_joints(positions) end
+-- The held handle along its joint
+---@param part string
+---@param position number
+---@param options? { speed: number }
+function stampede_robot_view:move_part(part, position, options) end
+---@param seconds number
+function stampede_robot_view:wait(seconds) end
+-- Another skill as a part of this one, with all its arguments but the hand
+---@param call stampede.call
+function stampede_robot_view:run(call) end
+-- Gives up: a reason of the list in engine/include/stampede/reason.h, or any text
+---@param reason string
+---@param detail? string
+function stampede_robot_view:fail(reason, detail) end
+-- The tool centre point
+---@return stampede.pose
+function stampede_robot_view:tip() end
+-- Where the tip must be for the held object to be at a pose
+---@param object string
+---@param at stampede.pose
+---@return stampede.pose
+function stampede_robot_view:tip_for(object, at) end
+---@return stampede.world_view
+function stampede_robot_view:view() end
 
 -- What is to be done: objects, how they start, what must be true at the end
 ---@class stampede.task
----@field world string  the world file it takes place in
+---@field world stampede.world_name|string  the world file it takes place in
 ---@field variations? table|table[]  axes (their product) or an explicit list of variations (default {})
----@field where? fun(...): any  function(v): false leaves a combination of the axes out
----@field objects? table<string, stampede.entry>|fun(v: table): any  the objects by name; count = n makes name1 … namen (default {})
----@field init? stampede.formula[]|stampede.formula|fun(v: table): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
----@field goal stampede.formula|stampede.formula[]|fun(v: table): any  what must hold at the end
----@field steps? stampede.call[]|stampede.call|fun(v: table): any  the skills to execute, instead of a plan
----@field also? fun(...): any  function(w): a further test beside the goal
----@field fails? fun(...): any  function(w): true ends the episode as failed
----@field reward? fun(...): any  function(w): a shaped reward, added to 1 at success
----@field subgoals? table|fun(v: table): any  formulas by name, or a list of { "name", formula } in order (default {})
----@field horizon? number|fun(v: table): any  the longest an episode may take [s] (default 120)
+---@field where? (fun(v: table<string, any>): any)  function(v): false leaves a combination of the axes out
+---@field objects? table<string, stampede.entry>|fun(v: table<string, any>): any  the objects by name; count = n makes name1 … namen (default {})
+---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
+---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
+---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
+---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal
+---@field fails? (fun(w: stampede.world_view): any)  function(w): true ends the episode as failed
+---@field reward? (fun(w: stampede.world_view): any)  function(w): a shaped reward, added to 1 at success
+---@field subgoals? table|fun(v: table<string, any>): any  formulas by name, or a list of { "name", formula } in order (default {})
+---@field horizon? number|fun(v: table<string, any>): any  the longest an episode may take [s] (default 120)
 ---@field observe? stampede.observe  pictures and sensors to record; goes before the world's, field by field (default {})
----@field hold? number|fun(v: table): any  for how long the goal must stay true at the end [s] (default 1.0)
----@field instructions string[]|string|fun(v: table): any  sentences; {axis} is the variation's value
+---@field hold? number|fun(v: table<string, any>): any  for how long the goal must stay true at the end [s] (default 1.0)
+---@field instructions string[]|string|fun(v: table<string, any>): any  sentences; {axis} is the variation's value
 
 -- A parameterised action: when it may be done, what it brings about, and how
 ---@class stampede.skill
@@ -100,7 +459,7 @@ function world_view:facts(predicate) end
 ---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
 ---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
 ---@field label string  what it does in words, with {params}
----@field run fun(...): any  function(robot, p, c): p parameters, c continuous parameters
+---@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
 ---@field cost? integer  of the action in a plan (default 1)
 ---@field may_equal? string[][]  pairs of parameters that may be one object (default {})
@@ -109,9 +468,9 @@ function world_view:facts(predicate) end
 ---@class stampede.predicate
 ---@field params string[]  "name: type & trait"; one of type hand may be left out in literals
 ---@field label string  the fact in words, with {params}
----@field holds? fun(...): any  function(w, …): does it hold, and a signed margin if there is one
+---@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one
 ---@field derived? stampede.formula  the formula that it stands for, instead of holds
----@field sample? fun(...): any  function(w, …, rng): poses or joint positions that make it true
+---@field sample? (fun(w: stampede.world_view, ...: any): any)  function(w, …, rng): poses or joint positions that make it true
 ---@field static? boolean  read once, at the start (default false)
 ---@field settle? number  a shorter change is noise [s] (default 0)
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
@@ -119,13 +478,13 @@ function world_view:facts(predicate) end
 ---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
 ---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)
----@field observable? fun(...): any|boolean  function(w, …): can one see now whether it holds; false: never (default true)
+---@field observable? (fun(w: stampede.world_view, ...: any): any)|boolean  function(w, …): can one see now whether it holds; false: never (default true)
 ---@field margin_unit? string  unit of the margin
 
 -- A thing: shape, mass, type, traits, parts, grasps
 ---@class stampede.object
----@field type? string  its class in the type tree of worlds/types.lua
----@field traits? string[]  what can be done with it (default {})
+---@field type? stampede.type_name|string  its class in the type tree of worlds/types.lua
+---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})
 ---@field visual? stampede.shape|stampede.shape[]  what is drawn instead of shapes, which then only collide
@@ -188,8 +547,8 @@ function world_view:facts(predicate) end
 ---@field colours? table  colours by link (default {})
 
 -- One line of a task's objects or a world's fixtures: a class and what differs from its file
----@class stampede.entry
----@field [integer] string
+---@class stampede.entry: stampede.object
+---@field [integer] stampede.object_name|string
 ---@field count? integer  makes a group name1 … namen (0: an empty one)
 ---@field at? number[]  fixed position of the body in the world [m]
 ---@field yaw? number  turn about the vertical [rad] (default 0)
@@ -205,8 +564,8 @@ function world_view:facts(predicate) end
 
 -- A moving part of an object
 ---@class stampede.part
----@field type? string  its class in the type tree of worlds/types.lua
----@field traits? string[]  what can be done with it (default {})
+---@field type? stampede.type_name|string  its class in the type tree of worlds/types.lua
+---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})
 ---@field visual? stampede.shape|stampede.shape[]  what is drawn instead of shapes, which then only collide
@@ -255,8 +614,8 @@ function world_view:facts(predicate) end
 ---@field rpy? number[]  its orientation [rad] (default { 0, 0, 0 })
 ---@field yaw? number  instead of rpy [rad] (default 0)
 ---@field size number[]  full edge lengths [m]
----@field type? string  its class in the type tree (default "region")
----@field traits? string[]  what can be done with it (default {})
+---@field type? stampede.type_name|string  its class in the type tree (default "region")
+---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field attributes? table  static facts (default {})
 ---@field numbers? table  numbers by name (default {})
 ---@field visible? boolean  drawn in pictures (default false)

@@ -17,6 +17,11 @@ std::string read_text_file(const std::filesystem::path& path) {
   return text;
 }
 
+bool holds_text(const std::filesystem::path& path, const std::string& text) {
+  std::error_code code;
+  return std::filesystem::is_regular_file(path, code) && read_text_file(path) == text;
+}
+
 void write_text_file(const std::filesystem::path& path, const std::string& text) {
   std::error_code code;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), code);

@@ -37,8 +37,6 @@ Said ran(const Folder& mine) {
   return say({"run", "t", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text(), "--out", mine / "o.db"});
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `run` alike, and nothing is written") {

@@ -14,8 +14,6 @@ namespace {
 
 constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("options about pictures that make no sense are usage errors with a cure, and nothing is written") {

@@ -53,8 +53,6 @@ void check_subset(const std::map<std::string, std::vector<std::uint8_t>>& some,
   }
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 // Presses Ctrl-C when the first episode has been told, while another thread draws the next.
 class StopAtFlush : public std::stringbuf {
  public:

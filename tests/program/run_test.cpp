@@ -65,4 +65,22 @@ TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends wi
   CHECK(wrong.out.find("did you mean 'objects'?") != std::string::npos);
 }
 
+TEST_CASE("new keeps what editors read in an own folder current, and leaves their settings alone") {
+  const Folder mine;
+  const auto make = [&](const char* name) {
+    return say({"new", "predicate", name, "--root", kRoot, "--path", mine.text()}).code;
+  };
+  REQUIRE(make("tilted") == kDone);
+  CHECK(says(file_text(mine / ".luarc.json"), ".stampede"));
+  std::ofstream(mine / ".luarc.json") << "{}";
+  REQUIRE(make("upright") == kDone);
+  CHECK(file_text(mine / ".luarc.json") == "{}");
+  const std::string names = file_text(mine / ".stampede/names.lua");
+  for (const char* name : {"field tilted fun(", "field upright fun(", "field inside fun("}) CHECK(says(names, name));
+  const auto check = [&] { return say({"doc", "--check", "--root", kRoot, "--path", mine.text()}).code; };
+  CHECK(check() == kDone);
+  std::filesystem::remove(mine / "worlds/predicates/tilted.lua");
+  CHECK(check() == kNo);
+}
+
 }  // namespace stampede::program

@@ -27,6 +27,8 @@ inline Said say(std::vector<std::string> words) {
   return said;
 }
 
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 // A folder of its own that goes when the test ends.
 class Folder {
  public:

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "scripting/library/annotations.h"
 #include "scripting/library/fields.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
@@ -13,10 +14,19 @@
 using namespace stampede;
 namespace fs = std::filesystem;
 
-TEST_CASE("the editor's file is what the field tables say (run stampede doc)") {
-  std::ifstream file(STAMPEDE_SOURCE_DIR "/scripting/library/stampede.lua");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  CHECK(text == luals_annotations());
+namespace {
+
+std::string file_text(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("the editor's files are what field tables and Lua files say (run stampede doc)") {
+  const fs::path folder = STAMPEDE_SOURCE_DIR "/scripting/library";
+  CHECK(file_text(folder / "stampede.lua") == word_annotations());
+  CHECK(file_text(folder / "names.lua") == name_annotations(*Library::load({{STAMPEDE_SOURCE_DIR}})));
 }
 
 TEST_CASE("each field has a type that something has, and a sentence") {

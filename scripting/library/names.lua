@@ -1,0 +1,215 @@
+---@meta
+-- Made by `stampede doc` from the Lua files: do not edit.
+
+---@class stampede.is
+---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
+---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
+---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
+---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
+---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
+---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: movable, obj: movable)
+---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
+---@field hand_empty fun(): stampede.literal  the hand is empty
+---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
+---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
+---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
+---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
+---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
+---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
+---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
+---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
+---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
+---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+
+---@class stampede.is_not
+---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
+---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
+---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
+---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
+---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
+---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: movable, obj: movable)
+---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
+---@field hand_empty fun(): stampede.literal  the hand is empty
+---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
+---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
+---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
+---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
+---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
+---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
+---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
+---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
+---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
+---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+
+---@class stampede.act
+---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
+---@field drop fun(obj: string|table, box?: string): stampede.call  drop the {obj} into the {box} (obj: movable, box: container & hollow)
+---@field extract fun(obj: string|table, slot?: string): stampede.call  pull the {obj} out of the {slot} (obj: movable & graspable, slot: slot)
+---@field insert fun(obj: string|table, slot?: string): stampede.call  put the {obj} into the {slot} (obj: movable, slot: slot)
+---@field lay fun(obj: string|table, to?: string): stampede.call  lay the {obj} on the {to} (obj: movable & flat, to: surface)
+---@field lift fun(obj: string|table, zone?: string): stampede.call  lift the {obj} into the {zone} (obj: movable, zone: floating)
+---@field open fun(part: string|table): stampede.call  open the {part} (part: openable)
+---@field pick fun(obj: string|table, from?: string): stampede.call  pick up the {obj} (obj: movable & graspable, from: support)
+---@field place fun(obj: string|table, to?: string): stampede.call  put the {obj} on the {to} (obj: movable, to: surface)
+---@field press fun(button: string|table): stampede.call  press the {button} (button: pressable)
+---@field push fun(obj: string|table, area?: string, top?: string): stampede.call  push the {obj} into the {area} (obj: movable, area: marked & container, top: surface)
+---@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & openable)
+---@field put_on_shelf fun(obj: string|table, shelf?: string): stampede.call  put the {obj} on the {shelf} (obj: movable, shelf: container & shelf)
+---@field reach fun(place: string|table): stampede.call  reach the {place} (place: target)
+---@field stack fun(obj: string|table, below?: string): stampede.call  stack the {obj} on the {below} (obj: movable, below: stackable)
+---@field take_from_shelf fun(obj: string|table, shelf?: string): stampede.call  take the {obj} off the {shelf} (obj: movable & graspable, shelf: container & shelf)
+---@field take_out fun(obj: string|table, box?: string): stampede.call  take the {obj} out of the {box} (obj: movable & graspable, box: container & openable)
+---@field unhang fun(obj: string|table, hook?: string): stampede.call  take the {obj} off the {hook} (obj: movable & graspable, hook: hook)
+
+---@alias stampede.predicate_name
+---| "apart"
+---| "at"
+---| "clear"
+---| "closed"
+---| "colour"
+---| "crowds"
+---| "digit"
+---| "hand_empty"
+---| "hanging"
+---| "holding"
+---| "in_slot"
+---| "inside"
+---| "leaning"
+---| "lifted"
+---| "on"
+---| "open"
+---| "outside"
+---| "over"
+---| "pressed"
+
+---@alias stampede.type_name
+---| "area"
+---| "ball"
+---| "bin"
+---| "block"
+---| "button"
+---| "charger"
+---| "chopping_board"
+---| "colour_name"
+---| "computer"
+---| "cube"
+---| "cup"
+---| "cylinder"
+---| "dish_rack"
+---| "drawer"
+---| "fixture"
+---| "food"
+---| "furniture"
+---| "grill"
+---| "hand"
+---| "knife"
+---| "knife_block"
+---| "level"
+---| "lid"
+---| "meat"
+---| "money"
+---| "moon"
+---| "outlet"
+---| "pan"
+---| "phone"
+---| "phone_cradle"
+---| "picture"
+---| "plate"
+---| "prism"
+---| "region"
+---| "stand"
+---| "star"
+---| "thing"
+---| "tin"
+---| "toilet_roll"
+---| "tray"
+---| "umbrella"
+---| "usb_stick"
+---| "value"
+
+---@alias stampede.trait_name
+---| "container"
+---| "flat"
+---| "floating"
+---| "graspable"
+---| "hollow"
+---| "hook"
+---| "marked"
+---| "movable"
+---| "openable"
+---| "pressable"
+---| "shelf"
+---| "slot"
+---| "stackable"
+---| "support"
+---| "surface"
+---| "target"
+
+---@alias stampede.world_name
+---| "tabletop"
+
+---@alias stampede.object_name
+---| "air_zone"
+---| "basketball"
+---| "basketball_hoop"
+---| "bin"
+---| "charger"
+---| "chest"
+---| "chicken"
+---| "chocolate_jelly"
+---| "chopping_board"
+---| "coffee"
+---| "crackers_box"
+---| "cube"
+---| "cup"
+---| "cupboard"
+---| "desktop_computer"
+---| "dish_rack"
+---| "floating_target"
+---| "floor"
+---| "frame_hanger"
+---| "grill"
+---| "knife"
+---| "knife_block"
+---| "money"
+---| "mustard"
+---| "numbered_block_1"
+---| "numbered_block_2"
+---| "numbered_block_3"
+---| "outlet"
+---| "pedestal"
+---| "phone"
+---| "phone_cradle"
+---| "picture_frame"
+---| "plate"
+---| "push_button"
+---| "raised_space"
+---| "rubbish"
+---| "safe"
+---| "saucepan"
+---| "saucepan_lid"
+---| "small_cube"
+---| "small_cylinder"
+---| "small_moon"
+---| "small_prism"
+---| "small_star"
+---| "sorting_block"
+---| "soup_can"
+---| "spam_can"
+---| "steak"
+---| "strawberry_jelly"
+---| "sugar_box"
+---| "target_area"
+---| "tin"
+---| "toilet_roll"
+---| "toilet_roll_stand"
+---| "tomato"
+---| "tray"
+---| "tuna_can"
+---| "umbrella"
+---| "umbrella_stand"
+---| "usb_stick"
+---| "wide_block"
+---| "work_table"
