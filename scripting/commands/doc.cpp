@@ -20,7 +20,7 @@ std::vector<TextFile> documents(const Arguments& arguments) {
   const auto library = Library::load(roots, complaints);
   if (roots.folders.size() > 1) return editor_files(roots.folders.back(), *library);
   const fs::path& root = roots.folders.front();
-  return {{root / "scripting/library/stampede.lua", word_annotations()},
+  return {{root / "scripting/library/stampede.lua", field_annotations()},
           {root / "scripting/library/names.lua", name_annotations(*library)},
           {root / "scripting/commands/reference.md", command_reference(all_commands())},
           {root / "scripting/commands/completion.bash", bash_completion(all_commands())}};

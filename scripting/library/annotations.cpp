@@ -121,10 +121,11 @@ std::string symbol(std::string_view name, const std::vector<Parameter>& paramete
 
 }  // namespace
 
-std::string word_annotations() {
+std::string word_annotations() { return kWordsSource; }
+
+std::string field_annotations() {
   std::string text =
-      "---@meta\n-- Made by `stampede doc` from words.lua and fields.cpp of scripting/library: do not edit.\n\n";
-  text += kWordsSource;
+      "---@meta\n-- Made by `stampede doc` from the field tables of scripting/library/fields.cpp: do not edit.\n";
   for (const Record& one : records()) text += class_of(one);
   for (const char* kind : {"task", "skill", "predicate", "object", "world", "robot"}) {
     text += "\n---@param fields " + class_name(kind) + "\n---@return " + class_name(kind) + "\nfunction " + kind +

@@ -1,4 +1,4 @@
-// What an editor's Lua language server (LuaLS) reads to complete and check files: made, never written by hand.
+// What an editor's Lua language server (LuaLS) reads to complete and check files: three files.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace stampede {
 
-std::string word_annotations();                        // stampede.lua: words.lua and the field tables
+std::string word_annotations();                        // words.lua, embedded: the one that is written by hand
+std::string field_annotations();                       // stampede.lua: what each kind of file may say
 std::string name_annotations(const Library& library);  // names.lua: its predicates, skills, worlds, objects …
 
 }  // namespace stampede

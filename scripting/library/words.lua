@@ -1,3 +1,7 @@
+---@meta
+-- The words of the authoring language and the methods of w, robot, rng and poses, for editors (LuaLS). stampede.lua has
+-- the fields of each kind of file, names.lua the predicates, skills, types … that there are.
+
 ---@class stampede.draw
 ---@class stampede.formula
 ---@class stampede.effect

@@ -20,7 +20,8 @@ constexpr const char* kSettings = R"({
 }  // namespace
 
 std::vector<TextFile> editor_files(const std::filesystem::path& folder, const Library& library) {
-  std::vector<TextFile> files = {{folder / ".stampede/stampede.lua", word_annotations()},
+  std::vector<TextFile> files = {{folder / ".stampede/words.lua", word_annotations()},
+                                 {folder / ".stampede/stampede.lua", field_annotations()},
                                  {folder / ".stampede/names.lua", name_annotations(library)}};
   const std::filesystem::path settings = folder / ".luarc.json";
   if (!std::filesystem::exists(settings)) files.push_back({settings, kSettings});

@@ -20,7 +20,7 @@ using Names = std::set<std::string>;
 
 // The first group of each match of a pattern, line by line.
 Names declared(const std::string& pattern) {
-  const std::string text = word_annotations();
+  const std::string text = word_annotations() + field_annotations();
   const std::regex regex(pattern, std::regex::multiline);
   Names names;
   for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at) names.insert(at->str(1));
@@ -79,7 +79,8 @@ TEST_CASE_METHOD(Script, "editors know the words of the language") {
 }
 
 TEST_CASE("a function's parameters have types that editors complete") {
-  const std::string text = word_annotations();
+  CHECK_NOTHROW(Sandbox::compile(word_annotations(), "words.lua"));
+  const std::string text = field_annotations();
   CHECK_NOTHROW(Sandbox::compile(text, "stampede.lua"));
   CHECK(text.find("---@field holds? (fun(w: stampede.world_view, ...: any): any)") != std::string::npos);
   CHECK(text.find("---@field run (fun(robot: stampede.robot_view, p: ") != std::string::npos);
