@@ -1,9 +1,14 @@
 #include "db/query.h"
 
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "db/catalogue_impl.h"
 #include "db/embedded_sql.h"
+#include "engine/base/nearest.h"
 
 namespace stampede {
 namespace {
@@ -50,16 +55,54 @@ struct Finalizer {
 };
 using Prepared = std::unique_ptr<sqlite3_stmt, Finalizer>;
 
-[[noreturn]] void refuse(int code, const std::string& message) {
+[[noreturn]] void refuse(int code, const std::string& message, const std::string& hint = "") {
   if ((code & 0xff) == SQLITE_AUTH || (code & 0xff) == SQLITE_READONLY)
     throw Error("query", "a query only reads: " + message, "use SELECT; the views are described in db/README.md");
   if ((code & 0xff) == SQLITE_INTERRUPT) throw Error("query", "interrupted");
-  std::string hint;
-  if (message.starts_with("no such table") || message.starts_with("no such column")) {
-    hint = "the views are";
-    for (const SqlFile& view : embedded_views()) hint += " " + view.name;
-  }
   throw Error("query", message, hint);
+}
+
+// All tables and views with their columns.
+std::map<std::string, std::vector<std::string>> columns_of_all(sqlite3* handle) {
+  constexpr const char* kAll =
+      "SELECT m.name, p.name FROM sqlite_master m, pragma_table_info(m.name) p WHERE m.type IN ('table', 'view')";
+  sqlite3_stmt* statement = nullptr;
+  sqlite3_prepare_v2(handle, kAll, -1, &statement, nullptr);
+  const Prepared prepared(statement);
+  std::map<std::string, std::vector<std::string>> all;
+  while (sqlite3_step(statement) == SQLITE_ROW) {
+    const auto text = [&](int i) { return reinterpret_cast<const char*>(sqlite3_column_text(statement, i)); };
+    all[text(0)].emplace_back(text(1));
+  }
+  return all;
+}
+
+// What there is instead of a name that is not there: the views, or the columns of the tables that the text names.
+std::string what_there_is(sqlite3* handle, const std::string& message, const std::string& sql) {
+  constexpr std::string_view kTable = "no such table: ", kColumn = "no such column: ";
+  const auto all = columns_of_all(handle);
+  if (message.starts_with(kTable)) {
+    std::vector<std::string> names;
+    for (const auto& [name, columns] : all) names.push_back(name);
+    const auto meant = nearest(message.substr(kTable.size()), names);
+    std::string hint = (meant ? "did you mean '" + *meant + "'? " : "") + "the views are";
+    for (const SqlFile& view : embedded_views()) hint += " " + view.name;
+    return hint;
+  }
+  if (!message.starts_with(kColumn)) return "";
+  std::string hint, word;
+  std::set<std::string> told;
+  for (const char c : sql + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+      word += c;
+      continue;
+    }
+    const auto found = all.find(std::exchange(word, ""));
+    if (found == all.end() || !told.insert(found->first).second) continue;
+    hint += (hint.empty() ? "" : "\n    ") + found->first + " has";
+    for (const std::string& column : found->second) hint += " " + column;
+  }
+  return hint;
 }
 
 bool only_space(const char* text) {
@@ -72,7 +115,10 @@ Prepared prepare(sqlite3* handle, const std::string& text) {
   const char* rest = nullptr;
   const int code = sqlite3_prepare_v2(handle, text.c_str(), -1, &statement, &rest);
   Prepared prepared(statement);
-  if (code != SQLITE_OK) refuse(code, sqlite3_errmsg(handle));
+  if (code != SQLITE_OK) {
+    const std::string message = sqlite3_errmsg(handle);
+    refuse(code, message, what_there_is(handle, message, text));
+  }
   if (!prepared) throw Error("query", "there is no statement in this text", "write a SELECT, or name a query");
   if (!sqlite3_stmt_readonly(prepared.get())) refuse(SQLITE_AUTH, "this statement would write");
   if (!only_space(rest)) {

@@ -114,7 +114,10 @@ TEST_CASE("a query may ask what columns there are") {
 
 TEST_CASE("mistakes in SQL are told with what there is") {
   const Filled filled;
-  CHECK_THROWS_WITH(filled.catalogue.query("SELECT * FROM episods"), Contains("no such table") && Contains("episodes"));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT * FROM episods"),
+                    Contains("no such table") && Contains("did you mean 'episode'?") && Contains("transitions"));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT sed FROM episodes"),
+                    Contains("no such column") && Contains("episodes has") && Contains(" seed"));
   CHECK_THROWS_WITH(filled.catalogue.query("SELECT 1; SELECT 2"), Contains("more than one"));
   CHECK_THROWS_AS(filled.catalogue.query("-- nothing"), Error);
   CHECK_NOTHROW(filled.catalogue.query("SELECT 1; -- and a comment"));
