@@ -30,6 +30,7 @@ struct SceneObject {
   std::vector<std::string> traits;
   bool free = false;        // must be placed
   bool positioned = false;  // its entry says where it is
+  bool known = true;        // its file has been read
 };
 using SceneObjects = std::map<std::string, SceneObject>;
 

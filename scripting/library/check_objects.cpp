@@ -105,8 +105,10 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
     if (library_->file(kind, class_name) != nullptr) return;  // its own file has complaints
     std::vector<std::string> known;
     for (const auto& [name, unused] : classes) known.push_back(name);
-    return complain(definition, path, std::string("there is no ") + what + " '" + class_name + "'",
-                    did_you_mean(class_name, known));
+    std::string hint = did_you_mean(class_name, known);
+    if (hint.empty() && !robot)
+      hint = "`stampede list objects` names those that there are, `stampede new object` makes one";
+    return complain(definition, path, std::string("there is no ") + what + " '" + class_name + "'", hint);
   }
   std::vector<std::string> known = field_names(*record(robot ? "robot" : "object"));
   for (const char* table : {"numbers", "attributes"}) {
@@ -135,6 +137,7 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
     const auto at = kind->second.find(class_name);
     if (at != kind->second.end()) found = &at->second;
   }
+  object.known = found != nullptr;
   static const Node kEmpty;
   const Node& node = found == nullptr ? kEmpty : found->node;
   const auto either = [&](const char* field) -> const Node& {

@@ -214,7 +214,7 @@ void LibraryBuilder::check_arguments(const Definition& definition, const Formula
   if (predicate == nullptr || predicate->parameters.size() != formula.terms.size()) return;
   for (std::size_t i = 0; i < formula.terms.size(); ++i) {
     const auto object = objects.find(formula.terms[i].name);
-    if (formula.terms[i].variable || object == objects.end()) continue;
+    if (formula.terms[i].variable || object == objects.end() || !object->second.known) continue;
     const Parameter& parameter = predicate->parameters[i];
     const std::string place = definition.file->shown_path + ":" + std::to_string(line);
     const std::string what = "is." + formula.predicate + ": '" + object->first + "' ";

@@ -174,6 +174,7 @@
 ---| "knife"
 ---| "knife_block"
 ---| "money"
+---| "mug"
 ---| "mustard"
 ---| "numbered_block_1"
 ---| "numbered_block_2"

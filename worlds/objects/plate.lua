@@ -1,4 +1,4 @@
--- A dinner plate, 17 cm across, its face towards +z; it is taken by its rim.
+-- A flat plate, 17 cm across, its face towards +z; it is taken by its rim, and a cup stands in its middle.
 local radius = 0.085
 
 -- The hand comes from outside towards the middle, one finger on either side.
@@ -14,12 +14,12 @@ for _, angle in ipairs { 0, 20, -20, 40, -40 } do
 end
 
 return object {
-  type = "plate", traits = { "movable", "graspable", "flat" }, mass = 0.25,
+  type = "plate", traits = { "movable", "graspable", "flat", "support", "stackable" }, mass = 0.25,
   shape = cylinder { radius, 0.012 },
   visual = {
-    lathe { { 0.001, -0.006 }, { 0.050, -0.006 }, { 0.060, -0.003 }, { radius, 0.003 }, { radius, 0.006 }, { 0.058, 0.000 },
-      { 0.048, -0.002 }, { 0.001, -0.002 }, colour = { 0.96, 0.96, 0.94 }, segments = 32 },
-    lathe { { 0.072, 0.0040 }, { 0.080, 0.0058 }, wall = 0.001, colour = { 0.15, 0.30, 0.65 }, segments = 32 }, -- a blue ring
+    lathe { { 0.001, -0.006 }, { 0.050, -0.006 }, { 0.060, -0.003 }, { radius, 0.003 }, { radius, 0.006 }, { 0.058, 0.0055 },
+      { 0.052, 0.0045 }, { 0.001, 0.0045 }, colour = { 0.96, 0.96, 0.94 }, segments = 32 },
+    lathe { { 0.072, 0.0058 }, { 0.080, 0.0064 }, wall = 0.001, colour = { 0.15, 0.30, 0.65 }, segments = 32 }, -- a blue ring
   },
   regions = { seat = { at = { -radius, 0, 0 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.002, 0.002, 0.002 } } },
   grasps = grasps,
