@@ -66,6 +66,16 @@ const std::string* BddlMapping::class_of(const std::string& category) const {
   return nullptr;
 }
 
+void BddlMapping::add_namesakes(const BddlProblem& problem, const std::function<bool(const std::string&)>& is_ours) {
+  for (const auto* groups : {&problem.fixtures, &problem.objects}) {
+    for (const BddlGroup& group : *groups) {
+      if (class_of(group.category) == nullptr && is_ours(group.category)) {
+        categories.push_back({group.category, group.category});
+      }
+    }
+  }
+}
+
 BddlMapping default_libero_mapping() {
   using enum BddlMeaning;
   BddlMapping mapping;
@@ -75,7 +85,10 @@ BddlMapping default_libero_mapping() {
                         {"study_table", "work_table"},   {"coffee_table", "work_table"},
                         {"wooden_cabinet", "chest"},     {"white_cabinet", "chest"},
                         {"flat_stove", "push_button"},   {"floor", "floor"},
-                        {"wooden_block", "cube"}};
+                        {"wooden_block", "cube"},        {"porcelain_mug", "mug"},
+                        {"red_coffee_mug", "mug"},       {"white_yellow_mug", "mug"},
+                        {"alphabet_soup", "soup_can"},   {"chocolate_pudding", "chocolate_jelly"},
+                        {"wooden_tray", "tray"}};
   mapping.sites = {{"top_region", "top_drawer"},
                    {"middle_region", "middle_drawer"},
                    {"bottom_region", "bottom_drawer"},
@@ -126,6 +139,13 @@ BddlMapping default_behavior_mapping() {
                         {"push_button.n.01", "push_button"},
                         {"floor.n.01", "floor"},
                         {"block.n.01", "cube"},
+                        {"mug.n.04", "mug"},
+                        {"plate.n.04", "plate"},
+                        {"saucepan.n.01", "saucepan"},
+                        {"chopping_board.n.01", "chopping_board"},
+                        {"umbrella.n.01", "umbrella"},
+                        {"tray.n.01", "tray"},
+                        {"ashcan.n.01", "bin"},
                         {"agent.n.01", "hand"}};
   mapping.parts = {{"chest", {"bottom_drawer", "middle_drawer", "top_drawer"}}};
   mapping.predicates = {

@@ -1,6 +1,7 @@
 // Which of our words stand for which of theirs, and how far they mean the same.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -49,6 +50,8 @@ struct BddlMapping {
   const BddlPredicateRule* from_ours(const std::string& predicate, bool negated) const;
   const std::string* category(const std::string& class_name, const std::string& type) const;  // theirs, or null
   const std::string* class_of(const std::string& category) const;                             // ours, or null
+  // Categories of the problem that the mapping does not have, but that we have a class of: they stand for themselves.
+  void add_namesakes(const BddlProblem& problem, const std::function<bool(const std::string& class_name)>& is_ours);
 };
 
 BddlMapping default_libero_mapping();

@@ -146,13 +146,16 @@ void print(const std::vector<Judged>& judged, const fs::path& path, const Import
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
-  const Source source = read_source(arguments);
+  Source source = read_source(arguments);
   for (const std::string& warning : source.reading.warnings) console.err << warning << "\n";
   const std::string name = task_name(arguments, source), world = arguments.text("--world");
   make_own_folder(arguments);
   const fs::path path = roots_of(arguments).folders.back() / "tasks" / (name + ".lua");
   std::vector<Error> complaints;  // of other files: no reason not to write this one
   const auto before = Library::load(roots_of(arguments), complaints);
+  source.mapping.add_namesakes(source.reading.problem, [&](const std::string& class_name) {
+    return before->file(DefinitionKind::object, class_name) != nullptr;
+  });
   const ImportedTask imported =
       task_file_from(source.reading.problem, source.mapping, source.mapping_source, world,
                      scene_of_world(before, world), fs::path(arguments.text("FILE")).filename().string());

@@ -268,6 +268,7 @@ std::optional<ImportedProblem> imported_problem(const std::string& task_source, 
   imported.mapping =
       imported.problem.dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
   if (const auto mapping = block_in(task_source, "mapping")) imported.mapping = bddl_mapping_from_lua(*mapping, place);
+  imported.mapping.add_namesakes(imported.problem, [](const std::string&) { return true; });  // import has looked
   std::map<std::string, std::string> names;
   std::istringstream lines(block_in(task_source, "names").value_or(""));
   for (std::string theirs, ours; lines >> theirs >> ours;) names[theirs] = ours;

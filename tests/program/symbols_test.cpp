@@ -417,6 +417,25 @@ TEST_CASE("where LIBERO's rule and ours differ, both verdicts are kept and the d
   CHECK(says(verdicts[0].disagreements[0], "(on mug_1 desk)"));
 }
 
+TEST_CASE("categories that are named like an object of ours need no mapping, and LIBERO's mugs are mugs") {
+  const Folder mine;
+  put(mine / "mugs.bddl",
+      "(define (problem LIBERO_Tabletop_Manipulation) (:domain robosuite) (:language put the mug on the plate)\n"
+      "(:regions (left (:target desk) (:ranges ((-0.03 -0.3 0.03 -0.27)))) (middle (:target desk) (:ranges ((0 -0.03 "
+      "0.1 "
+      "0.03)))))\n(:fixtures desk - table)\n(:objects porcelain_mug_1 - porcelain_mug plate_1 - plate)\n"
+      "(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On porcelain_mug_1 desk_middle))\n"
+      "(:goal (And (On porcelain_mug_1 plate_1))))\n");
+  const Said said = say({"import", mine / "mugs.bddl", "--task", "mug_on_plate", "--root", STAMPEDE_SOURCE_DIR,
+                         "--path", mine / "own", "--out", mine / "o.db"});
+  INFO(said.err << said.out);
+  CHECK(said.code == kDone);
+  const std::vector<VerdictRecord> verdicts = Catalogue::open(mine / "o.db").read_episode(1).verdicts;
+  REQUIRE(verdicts.size() == 1);
+  CHECK(verdicts[0].ours);
+  CHECK(verdicts[0].theirs);
+}
+
 TEST_CASE("what cannot be imported is refused with the reason") {
   const Folder mine;
   put(mine / "p.bddl",
