@@ -3,79 +3,37 @@
 #include <ostream>
 
 #include "engine/episode/altered_task.h"
-#include "engine/episode/planning.h"
-#include "engine/episode/start.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/plan_output.h"
 #include "scripting/commands/symbol_options.h"
 #include "scripting/program/constraints_fit.h"
+#include "scripting/program/start_question.h"
 #include "scripting/program/stored_symbols.h"
 #include "scripting/program/text_file.h"
 
 namespace stampede::program {
 namespace {
 
-struct Answer {
-  Start start;
-  PlanningTask asked;  // with the goal's order
-  Problem plain;       // of the world's own domain
-  AbstractState state;
-  std::string beside_goal;
+// The task's own steps, or what the planner finds.
+FoundPlans plans_for(const Arguments& arguments, const StartQuestion& question) {
+  if (!question.steps) return ask_for_plans(arguments, question.asked.domain, question.asked.problem);
   FoundPlans found;
-};
-
-Answer answer_of(const Arguments& arguments, EpisodeScripts& scripts, const RunOptions& options,
-                 const std::atomic<bool>* stop) {
-  Answer answer;
-  AlteredTask task(scripts.task(), scripts.symbols(), options);
-  const PreparedStart start = prepare_start(task, scripts.symbols(), options, stop);
-  answer.start = start;
-  if (answer.start.reason != Reason::none) return answer;
-  World world(answer.start.scene);
-  WorldView view(world);
-  view.restore(start.history);
-  FactTracker facts(scripts.symbols(), view);
-  facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
-  answer.asked = planning_task(task, scripts.symbols().domain(), facts, 0);
-  answer.plain = world_problem(task, facts);
-  answer.state.facts = answer.state.observed = facts.facts();
-  for (const Object& thing : view.scene().objects)
-    if (thing.kind == ObjectKind::body) answer.state.poses[thing.name] = to_pose(view.world_from(thing.name));
-  answer.beside_goal = beside_goal(task);
-  if (const auto steps = task.steps()) {
-    answer.found.from_steps = answer.found.outcome.solved = true;
-    answer.found.outcome.end = PlanEnd::solved;
-    answer.found.outcome.plan = *steps;
-    answer.found.plans = {*steps};
-  } else {
-    answer.found = ask_for_plans(arguments, answer.asked.domain, answer.asked.problem);
-  }
-  return answer;
-}
-
-struct PddlTexts {
-  std::string domain, problem;
-};
-
-// What catalogues keep: the world's own domain; or, cut to size, what the planner was asked.
-PddlTexts pddl_of(const Answer& answer, const Domain& own, bool task_size) {
-  if (!task_size) {
-    const Domain domain = named_by_content(own);
-    return {to_pddl(domain), to_pddl(answer.plain, domain, answer.beside_goal)};
-  }
-  const Domain sized = named_by_content(task_sized(answer.asked.domain, answer.asked.problem));
-  return {to_pddl(sized), to_pddl(restricted(answer.asked.problem, sized), sized, answer.beside_goal)};
+  found.from_steps = found.outcome.solved = true;
+  found.outcome.end = PlanEnd::solved;
+  found.outcome.plan = *question.steps;
+  found.plans = {*question.steps};
+  return found;
 }
 
 // The start in the words of a BDDL dialect. Throws Error where the dialect cannot say it.
-std::string bddl_of(const Arguments& arguments, const Answer& answer, const Domain& own, const Task& task) {
+std::string bddl_of(const Arguments& arguments, const StartQuestion& question, const Domain& own, const Task& task) {
   EpisodeRecord record;
   record.task = task.name();
   record.language = {{"task", task.instructions().front(), -1}};
   std::string refusals;
-  std::string text = bddl_text(record, *answer.start.scene, {own, answer.plain}, answer.state, arguments.text("--bddl"),
-                               arguments.list("--leave-out"), refusals);
+  std::string text = bddl_text(record, *question.start.scene, {own, question.plain}, question.state,
+                               arguments.text("--bddl"), arguments.list("--leave-out"), refusals);
   if (!refusals.empty()) throw Error(task.name(), refusals.substr(0, refusals.size() - 1));
   return text;
 }
@@ -96,33 +54,34 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
   const EpisodeJob job = job_of(arguments, library, options);
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);
-  const Answer answer = answer_of(arguments, prepared.scripts(), prepared.options(), console.stop);
-  if (answer.start.reason != Reason::none) {
-    console.err << fmt::format("{} {}: no start: {}\n    {}\n", job.task, job.variation, to_string(answer.start.reason),
-                               answer.start.detail);
+  const StartQuestion question = question_at_start(prepared.scripts(), prepared.options(), console.stop);
+  if (question.start.reason != Reason::none) {
+    console.err << fmt::format("{} {}: no start: {}\n    {}\n", job.task, job.variation,
+                               to_string(question.start.reason), question.start.detail);
     return kNo;
   }
   if (arguments.has("--bddl")) {
     AlteredTask task(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options());
-    console.out << bddl_of(arguments, answer, prepared.scripts().symbols().domain(), task);
+    console.out << bddl_of(arguments, question, prepared.scripts().symbols().domain(), task);
     return kDone;
   }
+  const FoundPlans found = plans_for(arguments, question);
   const bool pddl = arguments.flag("--pddl") || arguments.flag("--task-sized");
   PddlTexts texts;
-  if (pddl) texts = pddl_of(answer, prepared.scripts().symbols().domain(), arguments.flag("--task-sized"));
+  if (pddl) texts = pddl_of(question, prepared.scripts().symbols().domain(), arguments.flag("--task-sized"));
   if (arguments.flag("--json")) {
     JsonText json;
     json.object().field("task", job.task).field("variation", job.variation).field("seed", job.seed);
-    write_plans(answer.found, answer.asked.domain, answer.asked.problem, json);
-    json.field("beside_goal", answer.beside_goal);
+    write_plans(found, question.asked.domain, question.asked.problem, json);
+    json.field("beside_goal", question.beside_goal);
     if (pddl) json.field("domain", texts.domain).field("problem", texts.problem);
     console.out << json.end().text();
   } else {
     if (pddl) console.out << texts.domain << "\n" << texts.problem << "\n; plan\n";
-    write_plans(answer.found, answer.asked.domain, answer.asked.problem, console.out);
+    write_plans(found, question.asked.domain, question.asked.problem, console.out);
   }
-  console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(answer.found);
-  return plan_code(answer.found);
+  console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(found);
+  return plan_code(found);
 }
 
 ExitCode plan_files(const Arguments& arguments, Console& console) {

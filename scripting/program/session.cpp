@@ -36,6 +36,10 @@ std::vector<std::string> Session::variations(const std::string& task) const { re
 
 Episode Session::run(const std::string& task, const EpisodeRequest& request) { return impl_->core.run(task, request); }
 
+TaskPlan Session::plan(const std::string& task, const EpisodeRequest& request) const {
+  return impl_->core.plan(task, request);
+}
+
 CameraPicture Session::picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request) const {
   return impl_->core.picture(episode, frame, request);
 }
@@ -55,5 +59,7 @@ Rows Session::query(std::string_view question) const {
   }
   return rows;
 }
+
+TaskPlan plan_pddl(const std::string& domain, const std::string& problem) { return plan_of_texts(domain, problem); }
 
 }  // namespace stampede

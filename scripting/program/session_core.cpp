@@ -2,10 +2,13 @@
 
 #include "db/catalogue_writer.h"
 #include "engine/episode/abstract_state.h"
+#include "engine/symbolic/pddl.h"
+#include "engine/symbolic/task_planner.h"
 #include "scripting/program/constraints_fit.h"
 #include "scripting/program/episode_job.h"
 #include "scripting/program/numerics.h"
 #include "scripting/program/roots.h"
+#include "scripting/program/start_question.h"
 
 namespace stampede {
 namespace {
@@ -53,6 +56,31 @@ WorldState world_state(const AbstractState& state, double frame_hz) {
   return result;
 }
 
+RunOptions options_of(const EpisodeRequest& request) {
+  RunOptions options;
+  if (!request.where.empty()) options.where = formula_option(request.where, "EpisodeRequest::where");
+  if (!request.goal.empty()) options.goal = formula_option(request.goal, "EpisodeRequest::goal");
+  if (request.skills < 1) throw Error("EpisodeRequest::skills", "it is at least 1");
+  options.behaviour = request.behaviour;
+  options.skills = request.skills;
+  options.on_failure = request.on_failure;
+  options.controller = request.controller;
+  if (request.pictures) options.observation = choice_of(*request.pictures);
+  if (request.randomise) options.randomise = default_randomisation();
+  options.split = request.seed >= kFirstTestSeed ? "test" : "train";
+  check_split(options.split, request.seed, request.seed);
+  return options;
+}
+
+TaskPlan told(const PlanOutcome& outcome) {
+  TaskPlan plan;
+  plan.found = outcome.solved;
+  plan.end = to_text(outcome.end);
+  plan.explanation = outcome.explanation;
+  for (const PlanStep& step : outcome.plan) plan.steps.push_back({step.action, step.arguments});
+  return plan;
+}
+
 }  // namespace
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
@@ -90,22 +118,15 @@ std::optional<Episode> SessionCore::stored(const std::string& key) const {
   return episode;
 }
 
+PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
+  RunOptions options = options_of(request);
+  const std::vector<std::string> variations = fitting_variations(
+      library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
+  return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};
+}
+
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) const {
-  std::vector<std::string> variations = matching_variations(task_info(*library_, task_name), request.variation);
-  RunOptions options;
-  if (!request.where.empty()) options.where = formula_option(request.where, "EpisodeRequest::where");
-  if (!request.goal.empty()) options.goal = formula_option(request.goal, "EpisodeRequest::goal");
-  if (request.skills < 1) throw Error("EpisodeRequest::skills", "it is at least 1");
-  options.behaviour = request.behaviour;
-  options.skills = request.skills;
-  options.on_failure = request.on_failure;
-  options.controller = request.controller;
-  if (request.pictures) options.observation = choice_of(*request.pictures);
-  if (request.randomise) options.randomise = default_randomisation();
-  options.split = request.seed >= kFirstTestSeed ? "test" : "train";
-  check_split(options.split, request.seed, request.seed);
-  variations = fitting_variations(library_, task_name, variations, request.seed, options);
-  PreparedEpisode prepared(library_, {task_name, variations.empty() ? "" : variations.front(), request.seed}, options);
+  PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
   EpisodeRecord record = prepared.run(nullptr);
   Episode episode{0,
@@ -124,6 +145,39 @@ Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& req
   episode.id = catalogue.add(record, {STAMPEDE_VERSION, numerics_probe()});
   catalogue.close();
   return episode;
+}
+
+TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& request) const {
+  PreparedEpisode prepared = prepare(task, request);
+  const StartQuestion question = question_at_start(prepared.scripts(), prepared.options(), nullptr);
+  TaskPlan plan;
+  if (question.start.reason != Reason::none) {
+    plan.end = "no start: " + std::string(to_string(question.start.reason));
+    plan.explanation = question.start.detail;
+    return plan;
+  }
+  PlanOutcome outcome;
+  if (question.steps) {
+    outcome.solved = true;
+    outcome.end = PlanEnd::solved;
+    outcome.plan = *question.steps;
+  } else {
+    outcome = solve(question.asked.domain, question.asked.problem);
+  }
+  plan = told(outcome);
+  PddlTexts texts = pddl_of(question, prepared.scripts().symbols().domain(), false);
+  plan.domain = std::move(texts.domain);
+  plan.problem = std::move(texts.problem);
+  return plan;
+}
+
+TaskPlan plan_of_texts(const std::string& domain_text, const std::string& problem_text) {
+  const Domain domain = domain_from_pddl(domain_text, "domain");
+  const Problem problem = problem_from_pddl(problem_text, "problem", domain);
+  TaskPlan plan = told(solve(domain, problem));
+  plan.domain = domain_text;
+  plan.problem = problem_text;
+  return plan;
 }
 
 const std::filesystem::path& SessionCore::catalogue() const {

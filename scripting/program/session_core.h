@@ -12,6 +12,7 @@
 #include "engine/episode/record.h"
 #include "scripting/program/studio.h"
 #include "stampede/episode.h"
+#include "stampede/task_plan.h"
 #include "stampede/world_state.h"
 
 namespace stampede {
@@ -23,12 +24,14 @@ class SessionCore {
   std::vector<std::string> tasks() const;
   std::vector<std::string> variations(const std::string& task) const;
   Episode run(const std::string& task, const EpisodeRequest& request) const;
+  TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
   QueryResult query(std::string_view question) const;
   CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
   CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
   WorldState state(std::int64_t episode, std::int64_t frame);
 
  private:
+  class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request) const;
   std::optional<Episode> stored(const std::string& key) const;
   const std::filesystem::path& catalogue() const;  // throws Error when there is none
   std::shared_ptr<const class Library> library_;
@@ -38,5 +41,7 @@ class SessionCore {
   std::int64_t record_id_ = 0;
   EpisodeRecord record_;
 };
+
+TaskPlan plan_of_texts(const std::string& domain, const std::string& problem);
 
 }  // namespace stampede

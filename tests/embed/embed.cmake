@@ -36,7 +36,7 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 
-foreach(program pictures states)
+foreach(program pictures states plans)
   execute_process(COMMAND ${WORK}/build/${program} WORKING_DIRECTORY ${prefix}/share/stampede
     RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT code EQUAL 0)

@@ -59,4 +59,25 @@ TEST_CASE("a state that is not there is an error with the cure") {
   CHECK_THROWS_WITH(SessionCore(STAMPEDE_SOURCE_DIR, {}, {}).state(1, 0), Catch::Contains("SessionOptions::catalogue"));
 }
 
+TEST_CASE("a program asks for the plan of a start without executing it, and gets what the run then does") {
+  const SessionCore session(STAMPEDE_SOURCE_DIR, {}, {});
+  const TaskPlan plan = session.plan("put_item_in_drawer", {.variation = "level=top", .seed = 3});
+  REQUIRE(plan.found);
+  CHECK(plan.end == "solved");
+  REQUIRE(plan.steps.size() == 3);
+  CHECK(plan.steps[0].action == "open");
+  CHECK(plan.steps[0].arguments.at(0) == "chest.top_drawer");
+  const TaskPlan again = plan_of_texts(plan.domain, plan.problem);
+  CHECK(again.found);
+  CHECK(again.steps.size() == 3);
+
+  const TaskPlan other =
+      session.plan("put_item_in_drawer", {.variation = "level=top", .seed = 3, .where = "(open chest.top_drawer)"});
+  CHECK(other.steps.size() == 2);
+  const TaskPlan none = session.plan("put_item_in_drawer", {.goal = "(inside chest.top_drawer chest.bottom_drawer)"});
+  CHECK_FALSE(none.found);
+  CHECK(says(none.explanation, "inside"));
+  CHECK_THROWS_WITH(plan_of_texts("(define (domain d)", "(define (problem p)"), Catch::Contains("domain:1"));
+}
+
 }  // namespace stampede::program

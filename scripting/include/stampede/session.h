@@ -11,6 +11,7 @@
 #include "stampede/error.h"
 #include "stampede/outcome.h"
 #include "stampede/picture.h"
+#include "stampede/task_plan.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
@@ -44,6 +45,10 @@ class STAMPEDE_EXPORT Session {
   // Repeatable: the same episode, bit for bit, in any session of the same scripts.
   Episode run(const std::string& task, const EpisodeRequest& request = {});
 
+  // Makes the start that `run` would make for the same request, reads its facts and plans, without executing anything.
+  // Of the request only variation, seed, where and goal matter. Repeatable.
+  TaskPlan plan(const std::string& task, const EpisodeRequest& request = {}) const;
+
   // One SELECT, or the name of a ready question, over the catalogue's views.
   Rows query(std::string_view question) const;
 
@@ -60,5 +65,8 @@ class STAMPEDE_EXPORT Session {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Plans for the PDDL domain and problem of any author. Throws Error with line and column for what is no PDDL.
+STAMPEDE_EXPORT TaskPlan plan_pddl(const std::string& domain, const std::string& problem);
 
 }  // namespace stampede

@@ -1,0 +1,38 @@
+#include "scripting/program/start_question.h"
+
+#include "engine/episode/altered_task.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+
+StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop) {
+  StartQuestion question;
+  AlteredTask task(scripts.task(), scripts.symbols(), options);
+  const PreparedStart start = prepare_start(task, scripts.symbols(), options, stop);
+  question.start = start;
+  if (question.start.reason != Reason::none) return question;
+  World world(question.start.scene);
+  WorldView view(world);
+  view.restore(start.history);
+  FactTracker facts(scripts.symbols(), view);
+  facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
+  question.asked = planning_task(task, scripts.symbols().domain(), facts, 0);
+  question.plain = world_problem(task, facts);
+  question.state.facts = question.state.observed = facts.facts();
+  for (const Object& thing : view.scene().objects)
+    if (thing.kind == ObjectKind::body) question.state.poses[thing.name] = to_pose(view.world_from(thing.name));
+  question.beside_goal = beside_goal(task);
+  question.steps = task.steps();
+  return question;
+}
+
+PddlTexts pddl_of(const StartQuestion& question, const Domain& own, bool sized) {
+  if (!sized) {
+    const Domain domain = named_by_content(own);
+    return {to_pddl(domain), to_pddl(question.plain, domain, question.beside_goal)};
+  }
+  const Domain domain = named_by_content(task_sized(question.asked.domain, question.asked.problem));
+  return {to_pddl(domain), to_pddl(restricted(question.asked.problem, domain), domain, question.beside_goal)};
+}
+
+}  // namespace stampede

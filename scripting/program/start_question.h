@@ -1,0 +1,31 @@
+// What the task planner is asked at the start of one episode.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "engine/episode/abstract_state.h"
+#include "engine/episode/planning.h"
+#include "engine/episode/start.h"
+#include "scripting/runtime/episode_scripts.h"
+
+namespace stampede {
+
+struct StartQuestion {
+  Start start;         // nothing else is filled where none was found
+  PlanningTask asked;  // with the goal's order
+  Problem plain;       // of the world's own domain
+  AbstractState state;
+  std::string beside_goal;
+  std::optional<Plan> steps;  // of a task that says them itself
+};
+StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop);
+
+// The PDDL that catalogues keep: of the world's own domain; or, `sized`, cut to what the planner is asked.
+struct PddlTexts {
+  std::string domain, problem;
+};
+PddlTexts pddl_of(const StartQuestion& question, const Domain& own, bool sized);
+
+}  // namespace stampede
