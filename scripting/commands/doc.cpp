@@ -20,6 +20,10 @@ std::vector<TextFile> documents(const Arguments& arguments) {
   const auto library = Library::load(roots, complaints);
   if (roots.folders.size() > 1) return editor_files(roots.folders.back(), *library);
   const fs::path& root = roots.folders.front();
+  if (!fs::is_directory(root / "scripting")) {
+    throw UsageError("'" + root.string() + "' is not the project's own folder",
+                     "for a folder of your tasks: stampede doc --path FOLDER");
+  }
   return {{root / "scripting/library/stampede.lua", field_annotations()},
           {root / "scripting/library/names.lua", name_annotations(*library)},
           {root / "scripting/commands/reference.md", command_reference(all_commands())},

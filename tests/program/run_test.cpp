@@ -81,6 +81,9 @@ TEST_CASE("new keeps what editors read in an own folder current, and leaves thei
   CHECK(check() == kDone);
   std::filesystem::remove(mine / "worlds/predicates/tilted.lua");
   CHECK(check() == kNo);
+  const Said elsewhere = say({"doc", "--root", mine.text()});
+  CHECK(elsewhere.code == kUsage);
+  CHECK(says(elsewhere.err, "--path"));
 }
 
 }  // namespace stampede::program
