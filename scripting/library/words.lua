@@ -143,7 +143,7 @@ function pose(x, y, z, roll, pitch, yaw) end
 
 ---@return number x, number y, number z
 function stampede_pose:position() end
----@return number roll, number pitch, number yaw  about fixed axes [rad]
+---@return number roll, number pitch, number yaw # about fixed axes [rad]
 function stampede_pose:rpy() end
 ---@return number x, number y, number z, number w
 function stampede_pose:quaternion() end
@@ -183,7 +183,7 @@ function stampede_pose:with_position(x, y, z) end
 -- Seeded random draws
 ---@class stampede.random
 local stampede_random = {}
----@return number  0 … 1
+---@return number # 0 … 1
 function stampede_random:uniform() end
 ---@param low number
 ---@param high number
@@ -191,9 +191,9 @@ function stampede_random:uniform() end
 function stampede_random:between(low, high) end
 ---@param low integer
 ---@param high integer
----@return integer  both ends included
+---@return integer # both ends included
 function stampede_random:integer(low, high) end
----@return number  of mean 0 and deviation 1
+---@return number # of mean 0 and deviation 1
 function stampede_random:normal() end
 ---@generic T
 ---@param list T[]
