@@ -80,6 +80,7 @@ std::map<std::string, std::vector<std::string>> columns_of_all(sqlite3* handle) 
 // What there is instead of a name that is not there: the views, or the columns of the tables that the text names.
 std::string what_there_is(sqlite3* handle, const std::string& message, const std::string& sql) {
   constexpr std::string_view kTable = "no such table: ", kColumn = "no such column: ";
+  if (!message.starts_with(kTable) && !message.starts_with(kColumn)) return "";
   const auto all = columns_of_all(handle);
   if (message.starts_with(kTable)) {
     std::vector<std::string> names;
@@ -89,7 +90,6 @@ std::string what_there_is(sqlite3* handle, const std::string& message, const std
     for (const SqlFile& view : embedded_views()) hint += " " + view.name;
     return hint;
   }
-  if (!message.starts_with(kColumn)) return "";
   std::string hint, word;
   std::set<std::string> told;
   for (const char c : sql + " ") {
@@ -110,24 +110,23 @@ bool only_space(const char* text) {
                      [](unsigned char c) { return std::isspace(c) || c == ';'; });
 }
 
-Prepared prepare(sqlite3* handle, const std::string& text) {
+// The first statement of the text, or null; `rest` is what follows it.
+Prepared prepare_first(sqlite3* handle, const char* text, const char** rest) {
   sqlite3_stmt* statement = nullptr;
-  const char* rest = nullptr;
-  const int code = sqlite3_prepare_v2(handle, text.c_str(), -1, &statement, &rest);
+  const int code = sqlite3_prepare_v2(handle, text, -1, &statement, rest);
   Prepared prepared(statement);
-  if (code != SQLITE_OK) {
-    const std::string message = sqlite3_errmsg(handle);
-    refuse(code, message, what_there_is(handle, message, text));
-  }
+  if (code == SQLITE_OK) return prepared;
+  const std::string message = sqlite3_errmsg(handle);
+  refuse(code, message, what_there_is(handle, message, text));
+}
+
+Prepared prepare(sqlite3* handle, const std::string& text) {
+  const char* rest = nullptr;
+  Prepared prepared = prepare_first(handle, text.c_str(), &rest);
   if (!prepared) throw Error("query", "there is no statement in this text", "write a SELECT, or name a query");
   if (!sqlite3_stmt_readonly(prepared.get())) refuse(SQLITE_AUTH, "this statement would write");
-  if (!only_space(rest)) {
-    sqlite3_stmt* second = nullptr;
-    const int next = sqlite3_prepare_v2(handle, rest, -1, &second, nullptr);
-    const Prepared further(second);
-    if (next != SQLITE_OK) refuse(next, sqlite3_errmsg(handle));
-    if (further) throw Error("query", "there is more than one statement", "ask one question at a time");
-  }
+  if (!only_space(rest) && prepare_first(handle, rest, nullptr))
+    throw Error("query", "there is more than one statement", "ask one question at a time");
   return prepared;
 }
 

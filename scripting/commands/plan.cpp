@@ -17,13 +17,8 @@ namespace {
 
 // The task's own steps, or what the planner finds.
 FoundPlans plans_for(const Arguments& arguments, const StartQuestion& question) {
-  if (!question.steps) return ask_for_plans(arguments, question.asked.domain, question.asked.problem);
-  FoundPlans found;
-  found.from_steps = found.outcome.solved = true;
-  found.outcome.end = PlanEnd::solved;
-  found.outcome.plan = *question.steps;
-  found.plans = {*question.steps};
-  return found;
+  if (!question.said) return ask_for_plans(arguments, question.asked.domain, question.asked.problem);
+  return {{question.said->plan}, *question.said, true};
 }
 
 // The start in the words of a BDDL dialect. Throws Error where the dialect cannot say it.

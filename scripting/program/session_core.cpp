@@ -156,15 +156,7 @@ TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& reques
     plan.explanation = question.start.detail;
     return plan;
   }
-  PlanOutcome outcome;
-  if (question.steps) {
-    outcome.solved = true;
-    outcome.end = PlanEnd::solved;
-    outcome.plan = *question.steps;
-  } else {
-    outcome = solve(question.asked.domain, question.asked.problem);
-  }
-  plan = told(outcome);
+  plan = told(question.said ? *question.said : solve(question.asked.domain, question.asked.problem));
   PddlTexts texts = pddl_of(question, prepared.scripts().symbols().domain(), false);
   plan.domain = std::move(texts.domain);
   plan.problem = std::move(texts.problem);

@@ -22,7 +22,12 @@ StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& optio
   for (const Object& thing : view.scene().objects)
     if (thing.kind == ObjectKind::body) question.state.poses[thing.name] = to_pose(view.world_from(thing.name));
   question.beside_goal = beside_goal(task);
-  question.steps = task.steps();
+  if (const auto steps = task.steps()) {
+    question.said.emplace();
+    question.said->solved = true;
+    question.said->end = PlanEnd::solved;
+    question.said->plan = *steps;
+  }
   return question;
 }
 

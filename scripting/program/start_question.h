@@ -8,6 +8,7 @@
 #include "engine/episode/abstract_state.h"
 #include "engine/episode/planning.h"
 #include "engine/episode/start.h"
+#include "engine/symbolic/task_planner.h"
 #include "scripting/runtime/episode_scripts.h"
 
 namespace stampede {
@@ -18,7 +19,7 @@ struct StartQuestion {
   Problem plain;       // of the world's own domain
   AbstractState state;
   std::string beside_goal;
-  std::optional<Plan> steps;  // of a task that says them itself
+  std::optional<PlanOutcome> said;  // the steps of a task that says them itself: nothing is to be planned
 };
 StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop);
 

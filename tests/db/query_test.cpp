@@ -119,6 +119,7 @@ TEST_CASE("mistakes in SQL are told with what there is") {
   CHECK_THROWS_WITH(filled.catalogue.query("SELECT sed FROM episodes"),
                     Contains("no such column") && Contains("episodes has") && Contains(" seed"));
   CHECK_THROWS_WITH(filled.catalogue.query("SELECT 1; SELECT 2"), Contains("more than one"));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 1; SELECT * FROM episods"), Contains("did you mean 'episode'?"));
   CHECK_THROWS_AS(filled.catalogue.query("-- nothing"), Error);
   CHECK_NOTHROW(filled.catalogue.query("SELECT 1; -- and a comment"));
   CHECK_THROWS_WITH(filled.catalogue.query("SELECT ?1"), Contains("takes 1 parameter"));
