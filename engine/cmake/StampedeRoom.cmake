@@ -1,7 +1,9 @@
 # How every folder is compiled, and stampede_room(): a folder is one static library whose link line is the rule.
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # Precompiled headers are what ccache has to be told of; paths are hashed as seen from the source folder.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE})
 endif()
 find_program(LLD ld.lld)
 if(LLD)
@@ -37,9 +39,18 @@ if(STAMPEDE_SANITIZE)
   add_compile_options(-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
 endif()
 
+# The headers that nearly every file includes, compiled once. They belong to nobody: of our own there is none among them.
+set(stampede_common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
+  <optional> <set> <sstream> <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Dense>)
+add_library(stampede_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
+target_link_libraries(stampede_precompiled PRIVATE stampede_options Eigen3::Eigen)
+target_compile_options(stampede_options INTERFACE -fpch-preprocess)  # for ccache
+target_precompile_headers(stampede_precompiled PRIVATE ${stampede_common_headers})
+
 # stampede_room(base SOURCES a.cpp … USES rooms and packages its headers need … INSIDE those only its sources need …)
 function(stampede_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;USES;INSIDE" ${ARGN})
   add_library(stampede_${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(stampede_${name} PUBLIC stampede_options ${ROOM_USES} PRIVATE ${ROOM_INSIDE})
+  target_precompile_headers(stampede_${name} REUSE_FROM stampede_precompiled)
 endfunction()

@@ -1,0 +1,1 @@
+// Nothing: CMake compiles the headers of StampedeRoom.cmake with it, once for all rooms.
