@@ -76,9 +76,10 @@ std::string EpisodeWriter::mount_link(const Camera& camera) {
 
 int EpisodeWriter::place_camera(const CameraTrack& track, std::int64_t frames) {
   const std::string where = "episode " + std::to_string(id_) + ", camera " + track.camera.name;
-  sql::Statement find(database_, std::string("SELECT ") + kCameraColumns +
-                                     ", ordinal FROM camera "
-                                     "WHERE episode = ?1 AND name = ?2");
+  std::string question = "SELECT ";  // piece by piece: GCC 12 warns of a sum of these where there is nothing wrong
+  question += kCameraColumns;
+  question += ", ordinal FROM camera WHERE episode = ?1 AND name = ?2";
+  sql::Statement find(database_, question);
   if (find.start(id_, track.camera.name).step()) {
     Camera known;
     read_camera(find, known);
