@@ -39,16 +39,19 @@ void read_segment(const sql::Database& database, sql::Statement& row, SegmentRec
 }  // namespace
 
 void EpisodeReader::read_segments() {
-  each(std::string("ordinal, ") + kSegmentColumns, "segment", "ordinal", [&](sql::Statement& row) {
+  std::string columns = "ordinal, ";
+  columns += kSegmentColumns;
+  each(columns, "segment", "ordinal", [&](sql::Statement& row) {
     SegmentRecord& segment = record_.segments.emplace_back();
     read_segment(database_, row, segment, segment.ordinal);
     segment_at_[segment.ordinal] = record_.segments.size() - 1;
   });
-  each(std::string("segment_ordinal, before_segment, try_number, ") + kSegmentColumns, "attempt", "ordinal",
-       [&](sql::Statement& row) {
-         AttemptRecord& a = record_.attempts.emplace_back();
-         read_segment(database_, row, a.segment, a.segment.ordinal, a.before_segment, a.try_number);
-       });
+  columns = "segment_ordinal, before_segment, try_number, ";
+  columns += kSegmentColumns;
+  each(columns, "attempt", "ordinal", [&](sql::Statement& row) {
+    AttemptRecord& a = record_.attempts.emplace_back();
+    read_segment(database_, row, a.segment, a.segment.ordinal, a.before_segment, a.try_number);
+  });
   read_segment_details();
 }
 
