@@ -100,8 +100,10 @@ int Node::line() const { return static_cast<int>((*this)["line"].number); }
 namespace {
 
 std::string quoted(const std::string& text) {
+  const bool long_one = text.size() > 40;
   std::string said = "the text \"";  // piece by piece: GCC 12 warns of a sum where there is nothing wrong
-  said += text;
+  said.append(text, 0, long_one ? 37 : text.size());
+  if (long_one) said += "...";
   said += '"';
   return said;
 }
@@ -117,7 +119,7 @@ std::string Node::type_name() const {
     case Kind::number:
       return "the number " + plain_text(*this);
     case Kind::text:
-      return quoted(text.size() > 40 ? text.substr(0, 37) + "..." : text);
+      return quoted(text);
     case Kind::table:
       return tag().empty() ? "a table" : "a " + tag();
     case Kind::function:
