@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/symbolic/bddl_mapping.h"
+#include "engine/bddl/mapping.h"
 
 namespace stampede {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/bddl/import.h"
 #include "engine/episode/record.h"
-#include "engine/symbolic/bddl_import.h"
 
 namespace stampede {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/bddl/export.h"
 #include "engine/episode/abstract_state.h"
 #include "engine/episode/record.h"
-#include "engine/symbolic/bddl_export.h"
 #include "engine/symbolic/task_planner.h"
 
 namespace stampede {

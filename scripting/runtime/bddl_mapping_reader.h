@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/symbolic/bddl_mapping.h"
+#include "engine/bddl/mapping.h"
 #include "scripting/library/library.h"
 
 namespace stampede {

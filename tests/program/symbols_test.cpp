@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "db/catalogue.h"
+#include "engine/bddl/bddl.h"
 #include "engine/episode/abstract_state.h"
-#include "engine/symbolic/bddl.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/program/constraints_fit.h"
 #include "scripting/program/roots.h"

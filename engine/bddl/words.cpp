@@ -1,4 +1,4 @@
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/words.h"
 
 #include <algorithm>
 #include <cmath>

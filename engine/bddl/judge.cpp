@@ -1,10 +1,10 @@
-#include "engine/symbolic/bddl_judge.h"
+#include "engine/bddl/judge.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/words.h"
 
 namespace stampede {
 namespace {

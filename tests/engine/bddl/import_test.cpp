@@ -1,12 +1,12 @@
 // BDDL problems in our words, and the two verdicts.
-#include "engine/symbolic/bddl_import.h"
+#include "engine/bddl/import.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "bddl_texts.h"
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
+#include "texts.h"
 
 using namespace stampede;
 using Catch::Matchers::Contains;

@@ -1,9 +1,9 @@
-#include "engine/symbolic/bddl_mapping.h"
+#include "engine/bddl/mapping.h"
 
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/words.h"
 #include "engine/symbolic/pddl_text.h"
 
 namespace stampede {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/words.h"
 #include "engine/symbolic/pddl_tokens.h"
 
 namespace stampede::symbolic {

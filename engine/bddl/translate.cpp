@@ -1,4 +1,4 @@
-#include "engine/symbolic/bddl_translate.h"
+#include "engine/bddl/translate.h"
 
 #include <algorithm>
 

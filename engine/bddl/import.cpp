@@ -1,10 +1,10 @@
-#include "engine/symbolic/bddl_import.h"
+#include "engine/bddl/import.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_translate.h"
+#include "engine/bddl/translate.h"
 #include "engine/symbolic/pddl_text.h"
 
 namespace stampede {

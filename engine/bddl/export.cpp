@@ -1,10 +1,10 @@
-#include "engine/symbolic/bddl_export.h"
+#include "engine/bddl/export.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_express.h"
+#include "engine/bddl/express.h"
 
 namespace stampede {
 namespace symbolic {

@@ -2,7 +2,7 @@
 #include <charconv>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/words.h"
 
 namespace stampede {
 namespace {

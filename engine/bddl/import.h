@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "engine/symbolic/bddl_judge.h"
-#include "engine/symbolic/bddl_mapping.h"
+#include "engine/bddl/judge.h"
+#include "engine/bddl/mapping.h"
 
 namespace stampede {
 

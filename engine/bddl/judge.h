@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "engine/symbolic/bddl.h"
+#include "engine/bddl/bddl.h"
 
 namespace stampede {
 

@@ -2,7 +2,7 @@
 #include <cctype>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl_express.h"
+#include "engine/bddl/express.h"
 
 namespace stampede::symbolic {
 namespace {

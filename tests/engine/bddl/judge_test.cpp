@@ -1,13 +1,13 @@
 // Their verdicts: the counting and pairing of BEHAVIOR, the geometry of LIBERO.
-#include "engine/symbolic/bddl_judge.h"
+#include "engine/bddl/judge.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 
-#include "bddl_texts.h"
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "texts.h"
 
 using namespace stampede;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/symbolic/bddl.h"
+#include "engine/bddl/bddl.h"
 
 namespace stampede {
 

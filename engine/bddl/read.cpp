@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "engine/symbolic/bddl_goal.h"
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/goal.h"
+#include "engine/bddl/words.h"
 #include "engine/symbolic/pddl_formula.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/pddl_tokens.h"

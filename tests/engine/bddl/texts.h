@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/symbolic/bddl.h"
+#include "engine/bddl/bddl.h"
 
 constexpr const char* kTidyDesk = R"((define (problem LIBERO_Tabletop_Manipulation)
   (:domain robosuite)

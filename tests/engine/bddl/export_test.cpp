@@ -1,12 +1,12 @@
 // Scenes and goals of ours as BDDL: what is said, what it means there, and what is refused.
-#include "engine/symbolic/bddl_export.h"
+#include "engine/bddl/export.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/symbolic/bddl_import.h"
+#include "engine/bddl/import.h"
 #include "engine/symbolic/pddl.h"
 
 using namespace stampede;

@@ -1,4 +1,4 @@
-#include "engine/symbolic/bddl_goal.h"
+#include "engine/bddl/goal.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "bddl_texts.h"
-#include "bddl_their_parser.h"
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/symbolic/bddl.h"
+#include "engine/bddl/bddl.h"
+#include "texts.h"
+#include "their_parser.h"
 
 using namespace stampede;
 using Catch::Matchers::Contains;

@@ -1,10 +1,9 @@
 // Reading and writing BDDL: the traps of its lexer and of both parsers.
-#include "engine/symbolic/bddl.h"
-
 #include <catch2/catch.hpp>
 
-#include "bddl_texts.h"
 #include "engine/base/error.h"
+#include "engine/bddl/bddl.h"
+#include "texts.h"
 
 using namespace stampede;
 using Catch::Matchers::Contains;

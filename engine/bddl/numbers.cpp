@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "engine/symbolic/bddl_goal.h"
+#include "engine/bddl/goal.h"
 #include "engine/symbolic/pddl_formula.h"
 
 namespace stampede::symbolic {

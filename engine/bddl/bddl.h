@@ -52,7 +52,7 @@ struct BddlFormula {
     forall,
     exists,
     forn,       // exactly `count` values of the variable
-    forpairs,   // see judge() in bddl_judge.h
+    forpairs,   // see judge() in judge.h
     fornpairs,  // the same with `count` pairs
   };
   Kind kind = Kind::atom;

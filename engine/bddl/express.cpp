@@ -1,4 +1,4 @@
-#include "engine/symbolic/bddl_express.h"
+#include "engine/bddl/express.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "engine/symbolic/bddl_import.h"
-#include "engine/symbolic/bddl_words.h"
+#include "engine/bddl/import.h"
+#include "engine/bddl/words.h"
 
 namespace stampede::symbolic {
 

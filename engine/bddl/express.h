@@ -1,8 +1,8 @@
 // Names, literals and goals of ours in the words of a dialect.
 #pragma once
 
-#include "engine/symbolic/bddl_export.h"
-#include "engine/symbolic/bddl_translate.h"
+#include "engine/bddl/export.h"
+#include "engine/bddl/translate.h"
 #include "engine/symbolic/evaluation.h"
 
 namespace stampede::symbolic {
