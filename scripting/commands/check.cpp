@@ -10,8 +10,8 @@
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
-#include "scripting/program/run_job.h"
 #include "scripting/runtime/episode_scripts.h"
+#include "scripting/session/run_job.h"
 
 namespace stampede::program {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scripting/program/roots.h"
+#include "scripting/session/roots.h"
 
 namespace stampede::program {
 

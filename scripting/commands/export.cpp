@@ -73,7 +73,7 @@ CommandRow export_command() {
            {"--mapping",
             "FILE",
             "bddl: a Lua file with their words for ours, instead of the one built in; see "
-            "scripting/program/README.md",
+            "scripting/session/README.md",
             Takes::path,
             "",
             {},

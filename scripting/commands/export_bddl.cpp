@@ -4,10 +4,10 @@
 #include <set>
 
 #include "scripting/commands/export_kinds.h"
-#include "scripting/program/bddl_mapping_file.h"
-#include "scripting/program/stored_episode.h"
-#include "scripting/program/stored_symbols.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/bddl_mapping_file.h"
+#include "scripting/session/stored_episode.h"
+#include "scripting/session/stored_symbols.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

@@ -6,8 +6,8 @@
 #include "db/table_text.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/export_kinds.h"
-#include "scripting/program/stored_symbols.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/stored_symbols.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 

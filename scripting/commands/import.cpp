@@ -7,14 +7,14 @@
 #include "db/catalogue_writer.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/naming.h"
-#include "scripting/program/bddl_mapping_file.h"
-#include "scripting/program/bddl_task_file.h"
-#include "scripting/program/editor_files.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
-#include "scripting/program/run_job.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/bddl_mapping_file.h"
+#include "scripting/session/bddl_task_file.h"
+#include "scripting/session/editor_files.h"
+#include "scripting/session/numerics.h"
+#include "scripting/session/run_job.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {
@@ -190,7 +190,7 @@ CommandRow import_command() {
            {"--world", "NAME", "where it takes place", Takes::text, "tabletop", {}, false},
            {"--mapping",
             "FILE",
-            "a Lua file with our words for theirs, instead of the one built in; see scripting/program/README.md",
+            "a Lua file with our words for theirs, instead of the one built in; see scripting/session/README.md",
             Takes::path,
             "",
             {},

@@ -7,7 +7,7 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/object_sheet.h"
 #include "scripting/library/naming.h"
-#include "scripting/program/episode_job.h"
+#include "scripting/session/episode_job.h"
 
 namespace stampede::program {
 namespace {

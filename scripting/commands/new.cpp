@@ -5,9 +5,9 @@
 #include "scripting/commands/commands.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
-#include "scripting/program/editor_files.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/editor_files.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

@@ -7,10 +7,10 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/plan_output.h"
 #include "scripting/commands/symbol_options.h"
-#include "scripting/program/constraints_fit.h"
-#include "scripting/program/start_question.h"
-#include "scripting/program/stored_symbols.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/constraints_fit.h"
+#include "scripting/session/start_question.h"
+#include "scripting/session/stored_symbols.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

@@ -11,7 +11,7 @@
 #include "db/catalogue.h"
 #include "engine/render/canvas.h"
 #include "engine/render/renderer.h"
-#include "scripting/program/stored_episode.h"
+#include "scripting/session/stored_episode.h"
 
 namespace stampede::program {
 

@@ -6,7 +6,7 @@
 #include "engine/episode/runner.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/numerics.h"
+#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 

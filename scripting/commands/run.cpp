@@ -7,11 +7,11 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/symbol_options.h"
-#include "scripting/program/constraints_fit.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
-#include "scripting/program/run_job.h"
+#include "scripting/session/constraints_fit.h"
+#include "scripting/session/numerics.h"
+#include "scripting/session/run_job.h"
 
 namespace stampede::program {
 namespace {

@@ -8,9 +8,9 @@
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/stored_episode.h"
-#include "scripting/program/stored_symbols.h"
 #include "scripting/program/timeline.h"
+#include "scripting/session/stored_episode.h"
+#include "scripting/session/stored_symbols.h"
 
 namespace stampede::program {
 

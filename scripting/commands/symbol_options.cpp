@@ -4,7 +4,7 @@
 
 #include "engine/symbolic/external_planner.h"
 #include "scripting/commands/commands.h"
-#include "scripting/program/constraints_fit.h"
+#include "scripting/session/constraints_fit.h"
 
 namespace stampede::program {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

@@ -7,7 +7,6 @@
 #include <ostream>
 
 #include "engine/base/error.h"
-#include "scripting/commands/commands.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/help.h"
@@ -145,10 +144,10 @@ ExitCode complain(const std::string& kind, const std::string& message, ExitCode 
   return code;
 }
 
-ExitCode dispatch(const std::vector<std::string>& words, Console& console) {
+ExitCode dispatch(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
   if (words.empty()) throw Usage{"which command?", "see stampede --help"};
   if (words[0] == "--help" || words[0] == "help" || words[0] == "-h") {
-    console.out << program_help(all_commands());
+    console.out << program_help(commands);
     return kDone;
   }
   if (words[0] == "--version") {
@@ -156,7 +155,7 @@ ExitCode dispatch(const std::vector<std::string>& words, Console& console) {
     return kDone;
   }
   std::vector<std::string> names;
-  for (const CommandRow& command : all_commands()) {
+  for (const CommandRow& command : commands) {
     names.push_back(command.name);
     if (command.name != words[0]) continue;
     const Arguments arguments = parse(command, {words.begin() + 1, words.end()});
@@ -172,9 +171,9 @@ ExitCode dispatch(const std::vector<std::string>& words, Console& console) {
 
 }  // namespace
 
-ExitCode run_program(const std::vector<std::string>& words, Console& console) {
+ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
   try {
-    const ExitCode code = dispatch(words, console);
+    const ExitCode code = dispatch(commands, words, console);
     console.out.flush();
     if (!console.out) return complain("stampede: ", "the answer could not be written", kBadInput, console);
     return code;

@@ -103,7 +103,8 @@ std::string command_help(const CommandRow& command) {
 
 std::string command_reference(const std::vector<CommandRow>& commands) {
   std::string text = "# The commands of `stampede`\n\nWritten by `stampede doc` from the table of commands.\n\n";
-  text += std::string(kExitCodes) + "\n";
+  text += kExitCodes;
+  text += "\n";
   for (const CommandRow& command : commands) {
     text += "## " + command.name + "\n\n```\n" + command_help(command) + "```\n\n";
   }

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "scripting/program/episode_job.h"
-#include "scripting/program/roots.h"
+#include "scripting/session/episode_job.h"
+#include "scripting/session/roots.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scripting/commands/commands.h"
 #include "scripting/program/command_line.h"
 
 namespace stampede::program {
@@ -21,7 +22,7 @@ inline Said say(std::vector<std::string> words) {
   std::ostringstream out, err;
   Console console{out, err, false, false, 100, nullptr};
   Said said;
-  said.code = run_program(words, console);
+  said.code = run_program(all_commands(), words, console);
   said.out = out.str();
   said.err = err.str();
   return said;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "scripting/program/session_core.h"
+#include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {

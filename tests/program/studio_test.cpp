@@ -1,5 +1,5 @@
 // Pictures for programs: those of the catalogue, as arrays.
-#include "scripting/program/studio.h"
+#include "scripting/session/studio.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include "engine/bddl/bddl.h"
 #include "engine/episode/abstract_state.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/program/constraints_fit.h"
-#include "scripting/program/roots.h"
-#include "scripting/program/session_core.h"
+#include "scripting/session/constraints_fit.h"
+#include "scripting/session/roots.h"
+#include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {

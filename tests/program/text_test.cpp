@@ -3,8 +3,8 @@
 
 #include "scripting/program/console.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/numerics.h"
 #include "scripting/program/progress.h"
+#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 

@@ -1,14 +1,14 @@
-#include "scripting/program/session_core.h"
+#include "scripting/session/session_core.h"
 
 #include "db/catalogue_writer.h"
 #include "engine/episode/abstract_state.h"
 #include "engine/symbolic/pddl.h"
 #include "engine/symbolic/task_planner.h"
-#include "scripting/program/constraints_fit.h"
-#include "scripting/program/episode_job.h"
-#include "scripting/program/numerics.h"
-#include "scripting/program/roots.h"
-#include "scripting/program/start_question.h"
+#include "scripting/session/constraints_fit.h"
+#include "scripting/session/episode_job.h"
+#include "scripting/session/numerics.h"
+#include "scripting/session/roots.h"
+#include "scripting/session/start_question.h"
 
 namespace stampede {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "scripting/program/session_core.h"
+#include "scripting/session/session_core.h"
 
 namespace stampede {
 namespace {

@@ -1,4 +1,4 @@
-#include "scripting/program/text_file.h"
+#include "scripting/session/text_file.h"
 
 #include <fstream>
 #include <iterator>

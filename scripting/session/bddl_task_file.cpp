@@ -1,4 +1,4 @@
-#include "scripting/program/bddl_task_file.h"
+#include "scripting/session/bddl_task_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/program/bddl_mapping_file.h"
+#include "scripting/session/bddl_mapping_file.h"
 
 namespace stampede {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/program/episode_job.h"
+#include "scripting/session/episode_job.h"
 
 namespace stampede {
 

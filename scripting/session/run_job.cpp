@@ -1,4 +1,4 @@
-#include "scripting/program/run_job.h"
+#include "scripting/session/run_job.h"
 
 #include <algorithm>
 #include <exception>

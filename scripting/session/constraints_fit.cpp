@@ -1,4 +1,4 @@
-#include "scripting/program/constraints_fit.h"
+#include "scripting/session/constraints_fit.h"
 
 #include <algorithm>
 #include <map>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "db/catalogue_writer.h"
-#include "scripting/program/episode_job.h"
+#include "scripting/session/episode_job.h"
 
 namespace stampede {
 

@@ -1,10 +1,10 @@
-#include "scripting/program/studio.h"
+#include "scripting/session/studio.h"
 
 #include <optional>
 
 #include "engine/render/point_cloud.h"
-#include "scripting/program/render_thread.h"
-#include "scripting/program/stored_episode.h"
+#include "scripting/session/render_thread.h"
+#include "scripting/session/stored_episode.h"
 
 namespace stampede {
 namespace {

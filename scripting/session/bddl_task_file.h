@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/program/bddl_verdict.h"
+#include "scripting/session/bddl_verdict.h"
 
 namespace stampede {
 

@@ -10,7 +10,7 @@
 
 #include "db/query.h"
 #include "engine/episode/record.h"
-#include "scripting/program/studio.h"
+#include "scripting/session/studio.h"
 #include "stampede/episode.h"
 #include "stampede/task_plan.h"
 #include "stampede/world_state.h"

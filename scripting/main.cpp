@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "scripting/commands/commands.h"
 #include "scripting/program/command_line.h"
 
 namespace {
@@ -34,9 +35,10 @@ int terminal_width() {
 
 }  // namespace
 
+// The `stampede` program: signals and the terminal; all else is in commands/ and program/.
 int main(int count, char** words) {
   handle_signals();
   stampede::program::Console console{
       std::cout, std::cerr, isatty(STDOUT_FILENO) == 1, isatty(STDERR_FILENO) == 1, terminal_width(), &stop_requested};
-  return stampede::program::run_program({words + 1, words + count}, console);
+  return stampede::program::run_program(stampede::program::all_commands(), {words + 1, words + count}, console);
 }

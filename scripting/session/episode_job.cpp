@@ -1,4 +1,4 @@
-#include "scripting/program/episode_job.h"
+#include "scripting/session/episode_job.h"
 
 #include <algorithm>
 #include <set>
@@ -6,7 +6,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
 #include "scripting/library/naming.h"
-#include "scripting/program/bddl_task_file.h"
+#include "scripting/session/bddl_task_file.h"
 
 namespace stampede {
 namespace {

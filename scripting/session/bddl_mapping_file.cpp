@@ -1,12 +1,12 @@
-#include "scripting/program/bddl_mapping_file.h"
+#include "scripting/session/bddl_mapping_file.h"
 
 #include <algorithm>
 
 #include "engine/base/nearest.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/sandbox.h"
-#include "scripting/program/text_file.h"
 #include "scripting/runtime/evaluate.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

@@ -1,4 +1,4 @@
-#include "scripting/program/stored_episode.h"
+#include "scripting/session/stored_episode.h"
 
 #include <algorithm>
 #include <fstream>

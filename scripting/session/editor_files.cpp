@@ -1,7 +1,7 @@
-#include "scripting/program/editor_files.h"
+#include "scripting/session/editor_files.h"
 
 #include "scripting/library/annotations.h"
-#include "scripting/program/text_file.h"
+#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

@@ -1,11 +1,11 @@
-#include "scripting/program/bddl_verdict.h"
+#include "scripting/session/bddl_verdict.h"
 
 #include <algorithm>
 
 #include "engine/base/error.h"
 #include "engine/episode/observation.h"
 #include "engine/model/scene_poses.h"
-#include "scripting/program/stored_symbols.h"
+#include "scripting/session/stored_symbols.h"
 
 namespace stampede {
 namespace {

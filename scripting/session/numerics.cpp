@@ -1,4 +1,4 @@
-#include "scripting/program/numerics.h"
+#include "scripting/session/numerics.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "scripting/program/start_question.h"
+#include "scripting/session/start_question.h"
 
 #include "engine/episode/altered_task.h"
 #include "engine/symbolic/pddl.h"

@@ -1,4 +1,4 @@
-#include "scripting/program/roots.h"
+#include "scripting/session/roots.h"
 
 #include <dlfcn.h>
 
