@@ -100,6 +100,9 @@ bool has_log(const fs::path& path) {  // pages that are not in the file itself y
 
 void check_path(const fs::path& path, bool writing) {
   std::error_code ignored;
+  if (path == ":memory:")
+    throw CatalogueError(path.string(), "a catalogue is a file, and is never kept in memory",
+                         "name a file, such as demos.db");
   if (fs::is_directory(path, ignored))
     throw CatalogueError(path.string(), "this is a folder", "name a file, such as demos.db");
   if (!writing && !fs::exists(path, ignored))

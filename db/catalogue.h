@@ -12,6 +12,7 @@
 #include "db/query.h"
 #include "engine/base/error.h"
 #include "engine/episode/record.h"
+#include "stampede/arrays.h"
 
 namespace stampede {
 
@@ -71,6 +72,8 @@ class Catalogue {
   // Negative zero comes back as zero: SQLite knows one zero. Definitions are sorted by kind, name and hash. Throws
   // Error for an unknown id.
   EpisodeRecord read_episode(std::int64_t id) const;
+  // The same values as episode_arrays() makes of that record, without making it.
+  EpisodeArrays read_arrays(std::int64_t id, const ArrayRequest& request = {}) const;
 
   // One transaction; all or nothing. Result: its id, one above the greatest. Throws CatalogueError when the key is
   // there already, and Error when the record contradicts itself.

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "db/episode_writer.h"
@@ -47,27 +48,27 @@ struct CatalogueWriter::Impl {
   }
 
   // What can be committed now; all calls hold the mutex.
-  std::map<std::size_t, Waiting>::iterator next_ready() {
-    while (next < order.size() && gone.contains(next)) ++next;
+  std::map<std::int64_t, Waiting>::iterator next_ready() {
+    while (!gone.empty() && *gone.begin() == next) {
+      gone.erase(gone.begin());
+      ++next;
+    }
     if (waiting.empty()) return waiting.end();
     const auto first = waiting.begin();
-    return ending || first->first <= next ? first : waiting.end();
+    return ending || first->first == next ? first : waiting.end();
   }
 
   void write_all();
-  void write_one(std::unique_lock<std::mutex>& lock, std::map<std::size_t, Waiting>::iterator ready);
+  void write_one(std::unique_lock<std::mutex>& lock, std::map<std::int64_t, Waiting>::iterator ready);
 
   CatalogueWriterOptions options;
   Catalogue catalogue;  // of the writing thread once that runs
   mutable std::mutex mutex;
   std::condition_variable changed;
-  std::set<std::string, std::less<>> known;               // keys that are stored or received
-  std::vector<EpisodeIdentity> order;                     // announced, in order of commits
-  std::map<std::string, std::size_t, std::less<>> place;  // key -> index in order
-  std::set<std::size_t> gone;                             // abandoned or committed
-  std::map<std::size_t, Waiting> waiting;                 // by place
-  std::vector<Waiting> unannounced;
-  std::size_t next = 0;  // first place that is neither committed nor abandoned
+  std::set<std::string, std::less<>> known;  // keys that are stored or received
+  std::set<std::int64_t> gone;               // places from `next` on that were abandoned or committed
+  std::map<std::int64_t, Waiting> waiting;   // by place
+  std::int64_t next = 0;  // first place that is neither committed nor abandoned
   std::int64_t queued = 0;
   bool ending = false;
   std::exception_ptr failure;
@@ -75,16 +76,10 @@ struct CatalogueWriter::Impl {
 };
 
 void CatalogueWriter::Impl::write_one(std::unique_lock<std::mutex>& lock,
-                                      std::map<std::size_t, Waiting>::iterator ready) {
-  Waiting item;
-  if (!unannounced.empty()) {
-    item = std::move(unannounced.front());
-    unannounced.erase(unannounced.begin());
-  } else {
-    gone.insert(ready->first);
-    item = std::move(ready->second);
-    waiting.erase(ready);
-  }
+                                      std::map<std::int64_t, Waiting>::iterator ready) {
+  gone.insert(ready->first);
+  const Waiting item = std::move(ready->second);
+  waiting.erase(ready);
   lock.unlock();
   const std::int64_t id = catalogue.add(item.episode, options.engine);
   if (options.committed) options.committed(id, item.episode);
@@ -97,9 +92,9 @@ void CatalogueWriter::Impl::write_all() {
   std::unique_lock lock(mutex);
   try {
     while (true) {
-      changed.wait(lock, [&] { return ending || !unannounced.empty() || next_ready() != waiting.end(); });
+      changed.wait(lock, [&] { return ending || next_ready() != waiting.end(); });
       const auto ready = next_ready();
-      if (ready == waiting.end() && unannounced.empty()) return;  // ending
+      if (ready == waiting.end()) return;  // ending
       write_one(lock, ready);
     }
   } catch (...) {
@@ -126,48 +121,30 @@ bool CatalogueWriter::has(std::string_view key) const {
   return impl_->known.contains(key);
 }
 
-std::vector<EpisodeIdentity> CatalogueWriter::expect(std::vector<EpisodeIdentity> episodes) {
-  const std::lock_guard lock(impl_->mutex);
-  std::sort(episodes.begin(), episodes.end());
-  episodes.erase(std::unique(episodes.begin(), episodes.end()), episodes.end());
-  std::erase_if(episodes,
-                [&](const EpisodeIdentity& e) { return impl_->known.contains(e.key) || impl_->place.contains(e.key); });
-  for (const EpisodeIdentity& episode : episodes) {
-    impl_->place.emplace(episode.key, impl_->order.size());
-    impl_->order.push_back(episode);
-  }
-  return episodes;
-}
-
-void CatalogueWriter::finished(EpisodeRecord episode) {
-  if (episode.reason == Reason::interrupted) return abandon(episode.key);
+void CatalogueWriter::finished(std::int64_t place, EpisodeRecord episode) {
+  if (episode.reason == Reason::interrupted) return abandon(place);
   check_record(episode);  // here, where the fault is, not in the writing thread
   const std::int64_t bytes = bytes_of(episode);
   std::unique_lock lock(impl_->mutex);
-  if (!impl_->known.insert(episode.key).second) return;
-  const auto place = impl_->place.find(episode.key);
-  const bool announced = place != impl_->place.end();
+  if (!impl_->known.insert(episode.key).second) {
+    impl_->gone.insert(place);
+    return impl_->changed.notify_all();
+  }
   impl_->changed.wait(lock, [&] {
     impl_->next_ready();
-    const bool next_in_line = announced && place->second <= impl_->next;
-    return impl_->failure || next_in_line || impl_->queued == 0 || impl_->queued + bytes <= impl_->options.queue_bytes;
+    return impl_->failure || place == impl_->next || impl_->queued == 0 ||
+           impl_->queued + bytes <= impl_->options.queue_bytes;
   });
   if (impl_->failure) std::rethrow_exception(impl_->failure);
   impl_->queued += bytes;
-  Impl::Waiting item{std::move(episode), bytes};
-  if (announced) {
-    impl_->waiting.emplace(place->second, std::move(item));
-  } else {
-    impl_->unannounced.push_back(std::move(item));
-  }
+  impl_->waiting.emplace(place, Impl::Waiting{std::move(episode), bytes});
   impl_->changed.notify_all();
 }
 
-void CatalogueWriter::abandon(std::string_view key) {
+void CatalogueWriter::abandon(std::int64_t place) {
   const std::lock_guard lock(impl_->mutex);
-  const auto place = impl_->place.find(key);
-  if (place == impl_->place.end() || impl_->waiting.contains(place->second)) return;
-  impl_->gone.insert(place->second);
+  if (place < impl_->next || impl_->waiting.contains(place)) return;
+  impl_->gone.insert(place);
   impl_->changed.notify_all();
 }
 

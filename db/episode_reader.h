@@ -33,7 +33,7 @@ class EpisodeReader {
     return std::move(record_);
   }
 
- private:
+ protected:  // read_arrays.cpp reads some of it
   // Rows of this episode, in the order of their key.
   template <typename Row>
   void each(const std::string& columns, const std::string& table, const std::string& order, const Row& row) {

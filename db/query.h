@@ -4,22 +4,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
+
+#include "stampede/rows.h"
 
 namespace stampede {
 
-struct SqlBlob {
-  std::string bytes;
-  friend bool operator==(const SqlBlob&, const SqlBlob&) = default;
-};
-using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string, SqlBlob>;  // monostate: NULL
-
-struct QueryResult {
-  std::vector<std::string> columns;
-  std::vector<std::vector<SqlValue>> rows;
-  bool cut = false;  // there were more rows than asked for
-};
+using QueryResult = Rows;
 
 struct QueryOptions {
   std::vector<SqlValue> parameters;  // for ?1, ?2 …

@@ -1,13 +1,13 @@
-# `cmake --install`: the program, the shared library with its headers and CMake package, and the Lua homes.
+# `cmake --install`, after either command of the README: the program, the shared library with its headers and CMake package, and the Lua homes.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/stampede)
 
-set_target_properties(stampede PROPERTIES EXPORT_NAME stampede)
-target_include_directories(stampede INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_compile_features(stampede INTERFACE cxx_std_20)
+set_target_properties(stampede_shared PROPERTIES EXPORT_NAME stampede)
+target_include_directories(stampede_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(stampede_shared INTERFACE cxx_std_20)
 
 install(TARGETS stampede_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS stampede EXPORT stampede LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS stampede_shared EXPORT stampede LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT stampede NAMESPACE stampede:: FILE stampede-targets.cmake DESTINATION ${package_folder})
 
 file(WRITE ${PROJECT_BINARY_DIR}/stampede-config.cmake "include(\${CMAKE_CURRENT_LIST_DIR}/stampede-targets.cmake)\n")

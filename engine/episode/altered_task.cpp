@@ -1,24 +1,11 @@
 #include "engine/episode/altered_task.h"
 
-#include <set>
-
 #include "engine/episode/constraints.h"
-#include "engine/episode/fact_tracker.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
-
-// The scene's objects, and the values of attributes that predicates speak of.
-std::vector<TypedObject> objects_of(const Scene& scene, const Domain& domain) {
-  std::vector<TypedObject> objects;
-  for (const Object& thing : scene.objects) objects.push_back({thing.name, thing.type});
-  std::set<std::string> values;
-  for (const auto& [fact, type] : attribute_facts(scene, domain))
-    if (values.insert(fact.arguments[1]).second) objects.push_back({fact.arguments[1], type});
-  return objects;
-}
 
 // `the red block is on the table and the hand is empty`; nothing for what templates cannot say.
 std::string sentence(const Formula& formula, const Domain& domain, const Scene& scene) {
@@ -51,7 +38,7 @@ AlteredTask::AlteredTask(Task& task, const Symbols& symbols, const RunOptions& o
   if (options.where) where_ = where_ ? conjunction({*options.where, *where_}) : *options.where;
   if (!options.goal) return;
   const Scene scene = task.scene(0);
-  goal_ = checked_formula(*options.goal, symbols.domain(), objects_of(scene, symbols.domain()), "--goal");
+  goal_ = checked_formula(*options.goal, symbols.domain(), static_facts(scene, symbols.domain()).objects, "--goal");
   const std::string text = sentence(*goal_, symbols.domain(), scene);
   instructions_ = {text.empty() ? "make this true: " + to_text(*goal_) : "make sure that " + text};
 }

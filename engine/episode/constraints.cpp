@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/episode/fact_tracker.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl.h"
 
@@ -202,6 +203,22 @@ class Checker {
 };
 
 }  // namespace
+
+StaticFacts static_facts(const Scene& scene, const Domain& domain) {
+  StaticFacts known;
+  for (const Object& thing : scene.objects) {
+    known.objects.push_back({thing.name, thing.type});
+    for (const std::string& trait : thing.traits) known.facts.insert({trait, {thing.name}});
+  }
+  std::set<std::string> values;
+  for (const auto& [fact, type] : attribute_facts(scene, domain)) {
+    known.facts.insert(fact);
+    if (values.insert(fact.arguments[1]).second) known.objects.push_back({fact.arguments[1], type});
+  }
+  std::sort(known.objects.begin(), known.objects.end());
+  known.facts = with_derived(known.facts, domain, known.objects);
+  return known;
+}
 
 std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Symbols& symbols,
                                                   const std::vector<TypedObject>& objects, const Facts& known,

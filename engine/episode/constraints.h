@@ -9,6 +9,14 @@
 
 namespace stampede {
 
+// What is known of a scene without simulating it: its objects and the values of their attributes, by name; traits,
+// attributes and what derives from these alone.
+struct StaticFacts {
+  std::vector<TypedObject> objects;
+  Facts facts;
+};
+StaticFacts static_facts(const Scene& scene, const Domain& domain);
+
 // Draws bindings and alternatives until what is known does not contradict: quantifiers over objects of the types and
 // traits, disjunctions by one of their parts. `known` holds all traits and attributes; a literal of these is decided
 // at once and not in the result. Result: what else has to be true, each once, in the formula's order; nothing when

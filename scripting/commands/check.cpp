@@ -149,7 +149,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
     if (!good) failures.push_back(line + (episode.detail.empty() ? "" : ": " + episode.detail));
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, line);
   };
-  const RunTally tally = run_jobs(library, plan_jobs(*library, request), settings, nullptr);
+  const RunTally tally = run_jobs(library, JobList(*library, request), settings, nullptr);
   progress.finish();
   for (const std::string& failure : failures) console.err << failure << "\n";
   console.out << (arguments.flag("--json") ? to_json(table_of(seen)) : to_table(table_of(seen)));

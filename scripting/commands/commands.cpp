@@ -37,4 +37,8 @@ std::int64_t in_range(const Arguments& arguments, const char* option, std::int64
 
 std::shared_ptr<const Library> load_library(const Arguments& arguments) { return Library::load(roots_of(arguments)); }
 
+std::shared_ptr<const Library> load_usable_library(const Arguments& arguments) {
+  return Library::load_usable(roots_of(arguments));
+}
+
 }  // namespace stampede::program

@@ -97,7 +97,7 @@ std::vector<Judged> run_task(const Arguments& arguments, const std::shared_ptr<c
   const std::string out = arguments.text("--out");
   {
     CatalogueWriter writer(out, std::move(writing));
-    const RunTally tally = run_jobs(library, plan_jobs(*library, request), settings, &writer);
+    const RunTally tally = run_jobs(library, JobList(*library, request), settings, &writer);
     writer.finish();
     interrupted = tally.interrupted;
   }

@@ -35,6 +35,7 @@ JobRequest job_request(const Arguments& arguments, const std::string& split) {
   if (request.first_seed > kLargestSeed) throw UsageError(fmt::format("--seed is at most {}", kLargestSeed));
   request.variation = arguments.text("--variation");
   try {
+    if (arguments.has("--shard")) request.shard = shard_from(arguments.text("--shard"));
     check_split(split, request.first_seed, request.first_seed + request.episodes - 1);
   } catch (const Error& error) {
     throw UsageError(error.where() + ": " + error.message(), error.hint());
@@ -59,18 +60,15 @@ void leave_out_misfits(const std::shared_ptr<const Library>& library, const RunO
 
 // A camera may be mounted on what is in the scene, so each task's is asked, and before anything runs.
 std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr<const Library>& library,
-                                                           const std::vector<EpisodeJob>& jobs,
-                                                           const Arguments& arguments) {
+                                                           const JobList& jobs, const Arguments& arguments) {
   std::map<std::string, std::vector<Camera>> cameras;
   const auto given = [&](const char* option) { return arguments.has(option); };
   if (!given("--camera") && !given("--camera-file") && !given("--add-camera") && !given("--channels")) return cameras;
   const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
-  for (const EpisodeJob& job : jobs) {
-    const auto [entry, fresh] = cameras.try_emplace(job.task);
-    if (!fresh) continue;
+  for (const EpisodeJob& job : jobs.first_of_each_task()) {
     Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task().scene(0);
-    entry->second = further_cameras(arguments, scene);
-    put_cameras(scene, entry->second);
+    const std::vector<Camera> further = cameras[job.task] = further_cameras(arguments, scene);
+    put_cameras(scene, further);
     check_choice(choice, scene);
   }
   return cameras;
@@ -113,9 +111,9 @@ ExitCode run(const Arguments& arguments, Console& console) {
   JobRequest request = job_request(arguments, settings.options.split);
   settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
-  const auto library = load_library(arguments);
+  const auto library = load_usable_library(arguments);
   leave_out_misfits(library, settings.options, request, console);
-  const std::vector<EpisodeJob> jobs = plan_jobs(*library, request);
+  const JobList jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
@@ -164,6 +162,13 @@ CommandRow run_command() {
         false},
        {"--workers", "W", "threads; they do not change the data", Takes::integer, "1", {}, false},
        {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
+       {"--shard",
+        "I/N",
+        "only the I-th of N parts of this run, each into a file of its own; merged they are the whole",
+        Takes::text,
+        "",
+        {},
+        false},
        {"--on-failure", "WAY", "after a failed skill", Takes::text, "undo", {"undo", "stop", "recover"}, false},
        {"--controller",
         "NAME",
@@ -181,6 +186,7 @@ CommandRow run_command() {
         false}},
       {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
        "stampede run stack_blocks --variation colour=red --seed 7",
+       "stampede run stack_blocks --episodes 100000 --shard 3/100 --out part3.db",
        "stampede run put_item_in_drawer --where '(open chest.top_drawer)' --goal '(closed chest.top_drawer)'",
        "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",
        "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},

@@ -62,6 +62,38 @@ std::string facts_text(const AbstractState& state) {
   return text;
 }
 
+void collect_predicates(const Formula& formula, std::set<std::string>& names) {
+  if (formula.kind == Formula::Kind::atom) names.insert(formula.predicate);
+  for (const Formula& part : formula.parts) collect_predicates(part, names);
+}
+
+// In one dialect. What its goal cannot say (that the hand is empty, for one) is left out with a remark, unless the
+// caller chose what to leave out: a moment is shown to be looked at.
+std::string bddl_moment(const StoredEpisode& stored, const StoredSymbols& symbols, const AbstractState& state,
+                        const std::string& dialect, const std::vector<std::string>& leave_out, std::string& refusals) {
+  std::string complaint;
+  const auto text_without = [&](const std::vector<std::string>& predicates) {
+    complaint.clear();
+    return bddl_text(stored.episode, *stored.scene, symbols, state, dialect, predicates, complaint);
+  };
+  std::string text = text_without(leave_out);
+  const std::string first_complaint = complaint;
+  if (text.empty() && leave_out.empty()) {
+    std::set<std::string> names;
+    collect_predicates(symbols.problem.goal, names);
+    std::vector<std::string> unsayable;
+    for (const std::string& one : names) {
+      std::vector<std::string> others;
+      for (const std::string& name : names)
+        if (name != one) others.push_back(name);
+      if (text_without(others).empty()) unsayable.push_back(one);
+    }
+    if (unsayable.size() < names.size()) text = text_without(unsayable);
+  }
+  if (text.empty()) refusals += first_complaint;
+  return text;
+}
+
 // One moment in the form that was asked for. `refusals`: what a dialect cannot say.
 std::string moment_text(const StoredEpisode& stored, const AbstractState& state, const std::string& form,
                         const std::vector<std::string>& leave_out, std::string& refusals) {
@@ -71,7 +103,13 @@ std::string moment_text(const StoredEpisode& stored, const AbstractState& state,
   if (form == "pddl")
     return unknown_facts(state, symbols.domain) +
            to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
-  return bddl_text(stored.episode, *stored.scene, symbols, state, form, leave_out, refusals);
+  std::string text;
+  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
+    const std::string name = dialect_name(dialect);
+    if (form == "bddl" || form == name)
+      text += (text.empty() ? "" : "\n") + bddl_moment(stored, symbols, state, name, leave_out, refusals);
+  }
+  return text;
 }
 
 ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Console& console) {
@@ -148,7 +186,13 @@ CommandRow show_command() {
             "sentences",
             {"sentences", "facts", "pddl", "bddl", "libero", "behavior"},
             false},
-           {"--leave-out", "PREDICATE", "not in the goal of a BDDL problem", Takes::text, "", {}, true}},
+           {"--leave-out",
+            "PREDICATE",
+            "not in the goal of a BDDL problem; default: what the dialect cannot say",
+            Takes::text,
+            "",
+            {},
+            true}},
           {"stampede show demos.db 1", "stampede show demos.db 1 --frame 40 --as pddl"},
           run};
 }

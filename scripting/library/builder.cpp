@@ -24,7 +24,7 @@ LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaint
   library_->roots_ = roots;
 }
 
-std::shared_ptr<const Library> LibraryBuilder::build() {
+std::shared_ptr<Library> LibraryBuilder::build() {
   library_->files_ = find_files(library_->roots_, complaints_);
   check_names();
   read_types();

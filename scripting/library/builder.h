@@ -37,7 +37,7 @@ using SceneObjects = std::map<std::string, SceneObject>;
 class LibraryBuilder {
  public:
   LibraryBuilder(const Roots& roots, std::vector<Error>& complaints);
-  std::shared_ptr<const Library> build();
+  std::shared_ptr<Library> build();
 
  private:
   using Definitions = std::map<std::string, Definition>;

@@ -14,6 +14,12 @@ std::string all_texts(const std::vector<Error>& errors) {
   return text;
 }
 
+// Its place is the file, or a line of it.
+bool is_about(const Error& error, const ScriptFile& file) {
+  return error.where().starts_with(file.shown_path) &&
+         (error.where().size() == file.shown_path.size() || error.where()[file.shown_path.size()] == ':');
+}
+
 }  // namespace
 
 LibraryError::LibraryError(std::vector<Error> errors) : Error({}, all_texts(errors)), errors_(std::move(errors)) {}
@@ -27,6 +33,32 @@ std::shared_ptr<const Library> Library::load(const Roots& roots) {
 
 std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints) {
   return LibraryBuilder(roots, complaints).build();
+}
+
+std::shared_ptr<const Library> Library::load_usable(const Roots& roots) {
+  std::vector<Error> complaints;
+  const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints).build();
+  const auto own = [&](const Error& error) {  // of a file that a task may do without
+    for (const ScriptFile& file : library->files_) {
+      const bool shared = file.kind == DefinitionKind::skill || file.kind == DefinitionKind::predicate ||
+                          file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours ||
+                          file.kind == DefinitionKind::module;
+      if (!shared && is_about(error, file)) return true;
+    }
+    return false;
+  };
+  if (!std::all_of(complaints.begin(), complaints.end(), own)) throw LibraryError(std::move(complaints));
+  library->complaints_ = std::move(complaints);
+  return library;
+}
+
+void Library::require_sound(const std::vector<const ScriptFile*>& files) const {
+  std::vector<Error> found;
+  for (const Error& error : complaints_) {
+    const auto about = [&](const ScriptFile* file) { return is_about(error, *file); };
+    if (std::any_of(files.begin(), files.end(), about)) found.push_back(error);
+  }
+  if (!found.empty()) throw LibraryError(std::move(found));
 }
 
 const ScriptFile* Library::file(DefinitionKind kind, std::string_view name) const {

@@ -54,6 +54,12 @@ class Library {
   // As load, but complaints are returned and the sound files kept (for `stampede check`).
   static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints);
 
+  // As load, but a complaint about a task, world, object or robot is only thrown at those who use that file: see
+  // require_sound. What every task shares (skills, predicates, types, colours, modules) must be right.
+  static std::shared_ptr<const Library> load_usable(const Roots& roots);
+  // Throws LibraryError with the complaints about these files, if there are any.
+  void require_sound(const std::vector<const ScriptFile*>& files) const;
+
   const Roots& roots() const { return roots_; }
   const ScriptFile* file(DefinitionKind kind, std::string_view name) const;
   std::vector<const ScriptFile*> files(DefinitionKind kind) const;  // by name
@@ -82,6 +88,7 @@ class Library {
   friend class LibraryBuilder;
   Roots roots_;
   std::vector<ScriptFile> files_;
+  std::vector<Error> complaints_;  // about files that not every task uses
   Domain domain_;
   std::map<std::string, PredicateTraits> predicate_traits_;
   std::set<std::string> hiding_;

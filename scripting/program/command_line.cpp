@@ -1,6 +1,9 @@
 // The only file that includes CLI11.
 #include "scripting/program/command_line.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -169,12 +172,19 @@ ExitCode dispatch(const std::vector<CommandRow>& commands, const std::vector<std
   throw Usage{"there is no command '" + words[0] + "'", near ? "did you mean '" + *near + "'?" : "see stampede --help"};
 }
 
+// Standard output is a pipe that nobody reads any more.
+bool reader_has_left() {
+  pollfd output{STDOUT_FILENO, 0, 0};
+  return ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
+
 }  // namespace
 
 ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
   try {
     const ExitCode code = dispatch(commands, words, console);
     console.out.flush();
+    if (!console.out && reader_has_left()) return code;  // `| head`: it has what it wanted
     if (!console.out) return complain("stampede: ", "the answer could not be written", kBadInput, console);
     return code;
   } catch (const Usage& usage) {

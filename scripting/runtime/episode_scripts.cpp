@@ -18,9 +18,21 @@ struct EpisodeScripts::Impl {
   LuaSkills skills;
 };
 
+// What a script that is used says wrongly is told by its own complaint, not by what comes of it.
 EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task,
-                               std::string_view variation, std::int64_t seed)
-    : impl_(std::make_unique<Impl>(std::move(library), task, variation, seed)) {}
+                               std::string_view variation, std::int64_t seed) {
+  try {
+    impl_ = std::make_unique<Impl>(library, task, variation, seed);
+  } catch (const Error&) {
+    std::vector<const ScriptFile*> files = {library->file(DefinitionKind::task, task)};
+    for (const DefinitionKind kind : {DefinitionKind::object, DefinitionKind::world, DefinitionKind::robot})
+      for (const ScriptFile* file : library->files(kind)) files.push_back(file);
+    std::erase(files, nullptr);
+    library->require_sound(files);
+    throw;
+  }
+  library->require_sound(impl_->task.files());
+}
 
 EpisodeScripts::~EpisodeScripts() = default;
 

@@ -7,7 +7,6 @@
 
 #include "engine/episode/altered_task.h"
 #include "engine/episode/constraints.h"
-#include "engine/episode/fact_tracker.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -16,13 +15,13 @@ namespace {
 constexpr int kEqualDraws = 5;  // when so many draws differ in nothing static, none will
 
 // The parts that cannot be met by themselves, or the whole where only together they cannot; nothing when they can.
-std::vector<std::string> contradictions(const Formula& where, const Symbols& symbols, const FactTracker& tracker) {
+std::vector<std::string> contradictions(const Formula& where, const Symbols& symbols, const StaticFacts& known) {
   const RandomKey key("where");
   std::vector<std::string> texts;
-  if (draw_literals(where, symbols, tracker.objects(), tracker.facts(), key)) return texts;
+  if (draw_literals(where, symbols, known.objects, known.facts, key)) return texts;
   if (where.kind == Formula::Kind::conjunction)
     for (const Formula& part : where.parts)
-      if (!draw_literals(part, symbols, tracker.objects(), tracker.facts(), key)) texts.push_back(to_text(part));
+      if (!draw_literals(part, symbols, known.objects, known.facts, key)) texts.push_back(to_text(part));
   if (texts.empty()) texts.push_back(to_text(where));
   return texts;
 }
@@ -48,15 +47,12 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
   std::set<Facts> seen;
   std::map<std::string, int> failures;  // draws in which a part failed
   for (int draw = 0; draw < options.draws && (draw < kEqualDraws || seen.size() > 1); ++draw) {
-    World world(std::make_shared<const Scene>(scripts.task().scene(draw)));
-    const WorldView view(world);
-    FactTracker tracker(scripts.symbols(), view);
-    tracker.begin({});  // what never changes is known, the rest open
-    const Formula where = checked_formula(*asked, domain, tracker.objects(), "--where");
-    const std::vector<std::string> failed = contradictions(where, scripts.symbols(), tracker);
+    const StaticFacts known = static_facts(scripts.task().scene(draw), domain);  // the rest is open: no world is needed
+    const Formula where = checked_formula(*asked, domain, known.objects, "--where");
+    const std::vector<std::string> failed = contradictions(where, scripts.symbols(), known);
     if (failed.empty()) return {};
     for (const std::string& part : failed) ++failures[part];
-    seen.insert(tracker.facts());
+    seen.insert(known.facts);
   }
   return std::max_element(failures.begin(), failures.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })

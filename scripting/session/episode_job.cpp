@@ -1,7 +1,9 @@
 #include "scripting/session/episode_job.h"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
+#include <tuple>
 
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
@@ -29,6 +31,7 @@ bool agrees(const std::map<std::string, std::string>& axes, const std::vector<st
 }  // namespace
 
 const Library::TaskInfo& task_info(const Library& library, const std::string& name) {
+  if (const ScriptFile* file = library.file(DefinitionKind::task, name)) library.require_sound({file});
   if (const Library::TaskInfo* task = library.task(name)) return *task;
   std::vector<std::string> names;
   for (const ScriptFile* file : library.files(DefinitionKind::task)) names.push_back(file->name);
@@ -47,8 +50,26 @@ std::vector<std::string> matching_variations(const Library::TaskInfo& task, cons
               did_you_mean(text, task.variation_texts));
 }
 
-std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& request) {
-  std::vector<EpisodeJob> jobs;
+Shard shard_from(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = text.find('/');
+  const auto number = [&](std::string_view part, std::int64_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && !part.empty() && end == part.data() + part.size();
+  };
+  const std::string_view all = text;
+  if (slash == std::string::npos || !number(all.substr(0, slash), shard.index) ||
+      !number(all.substr(slash + 1), shard.count))
+    throw Error("--shard", "'" + text + "' is no shard", "write I/N, such as 2/8: the second of eight parts");
+  if (shard.count < 1) throw Error("--shard", "a run has at least one part, not " + std::to_string(shard.count));
+  if (shard.index < 1 || shard.index > shard.count)
+    throw Error("--shard", "there is no part " + text,
+                "parts count from 1/" + std::to_string(shard.count) + " to " + std::to_string(shard.count) + "/" +
+                    std::to_string(shard.count));
+  return shard;
+}
+
+JobList::JobList(const Library& library, const JobRequest& request) : shard_(request.shard) {
   for (const std::string& name : std::set<std::string>(request.tasks.begin(), request.tasks.end())) {
     const Library::TaskInfo& task = task_info(library, name);
     std::vector<std::string> variations = shuffled(task.variation_texts, name);
@@ -57,12 +78,39 @@ std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& requ
           request.variations ? request.variations->at(name) : matching_variations(task, request.variation);
       std::erase_if(variations, [&](const std::string& v) { return std::ranges::find(wanted, v) == wanted.end(); });
     }
-    for (std::int64_t i = 0; i < request.episodes; ++i) {
-      const auto index = static_cast<std::size_t>(i) % variations.size();
-      jobs.push_back({name, variations[index], request.first_seed + i});
-    }
+    const auto stride = static_cast<std::int64_t>(variations.size());
+    for (std::int64_t i = 0; i < std::min(stride, request.episodes); ++i)
+      strands_.push_back({name, variations[static_cast<std::size_t>(i)], request.first_seed + i, stride});
   }
-  std::sort(jobs.begin(), jobs.end());
+  std::sort(strands_.begin(), strands_.end(), [](const Strand& a, const Strand& b) {
+    return std::tie(a.task, a.variation) < std::tie(b.task, b.variation);
+  });
+  for (Strand& strand : strands_) {
+    strand.begin = whole_;
+    const std::int64_t left = request.episodes - (strand.first_seed - request.first_seed);
+    whole_ += (left + strand.stride - 1) / strand.stride;
+  }
+}
+
+std::int64_t JobList::size() const { return (whole_ - shard_.index + shard_.count) / shard_.count; }
+
+const JobList::Strand& JobList::strand_at(std::int64_t place) const {
+  const auto after = std::upper_bound(strands_.begin(), strands_.end(), place,
+                                      [](std::int64_t value, const Strand& strand) { return value < strand.begin; });
+  return *std::prev(after);
+}
+
+EpisodeJob JobList::operator[](std::int64_t index) const {
+  const std::int64_t place = shard_.index - 1 + index * shard_.count;
+  const Strand& strand = strand_at(place);
+  return {strand.task, strand.variation, strand.first_seed + (place - strand.begin) * strand.stride};
+}
+
+std::vector<EpisodeJob> JobList::first_of_each_task() const {
+  std::vector<EpisodeJob> jobs;
+  for (const Strand& strand : strands_)
+    if (jobs.empty() || jobs.back().task != strand.task)
+      jobs.push_back({strand.task, strand.variation, strand.first_seed});
   return jobs;
 }
 

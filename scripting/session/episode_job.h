@@ -24,24 +24,50 @@ struct EpisodeJob {
   friend auto operator<=>(const EpisodeJob&, const EpisodeJob&) = default;
 };
 
+// The `index`-th of `count` parts of a run: every `count`-th episode.
+struct Shard {
+  std::int64_t index = 1, count = 1;
+};
+// Of a text such as `2/8`. Throws Error when it is none, or names a part that is not there.
+Shard shard_from(const std::string& text);
+
 struct JobRequest {
   std::vector<std::string> tasks;
   std::int64_t episodes = 1;  // per task, good or bad
   std::int64_t first_seed = 0;
-  std::string variation;  // canonical text or a part of one (`colour=red`); empty: all
+  std::string variation = {};  // canonical text or a part of one (`colour=red`); empty: all
   // Which variations are used, in place of all that match.
   std::optional<std::map<std::string, std::vector<std::string>>> variations = {};  // by task
+  Shard shard = {};
 };
 
-// Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone.
-// Result: sorted by task, variation, seed: the order in which they are stored. A task named twice counts once.
-// Throws Error for unknown tasks and for a variation that no task's axes have, with the nearest as cure.
-std::vector<EpisodeJob> plan_jobs(const Library& library, const JobRequest& request);
+// Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone. The
+// list is sorted by task, variation, seed: the order in which they are stored. A task named twice counts once.
+// Each job is worked out when it is asked for, so a list of a million takes the memory of its variations.
+class JobList {
+ public:
+  // Throws Error for unknown tasks and for a variation that no task's axes have, with the nearest as cure.
+  JobList(const Library& library, const JobRequest& request);
+  std::int64_t size() const;
+  EpisodeJob operator[](std::int64_t index) const;
+  std::vector<EpisodeJob> first_of_each_task() const;
+
+ private:
+  struct Strand {  // the episodes of one variation: seeds first_seed, first_seed + stride …
+    std::string task, variation;
+    std::int64_t first_seed = 0, stride = 1;
+    std::int64_t begin = 0;  // place of the first in the whole run
+  };
+  const Strand& strand_at(std::int64_t place) const;
+  std::vector<Strand> strands_;
+  std::int64_t whole_ = 0;  // episodes of all shards
+  Shard shard_;
+};
 
 // The variations of a task that agree with every `axis=value` of the text.
 std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text);
 
-// Throws Error with the nearest name as cure.
+// Throws Error with the nearest name as cure, and the complaints about the task's own file.
 const Library::TaskInfo& task_info(const Library& library, const std::string& name);
 
 // Throws Error when the seed does not belong to the split.

@@ -75,13 +75,11 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
 
 }  // namespace
 
-RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<EpisodeJob>& jobs,
-                  const RunSettings& settings, CatalogueWriter* writer) {
+RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, const RunSettings& settings,
+                  CatalogueWriter* writer) {
   RunTally tally;
-  tally.total = static_cast<std::int64_t>(jobs.size());
-  for (const EpisodeJob& job : jobs) ++tally.tasks[job.task].existing;
+  tally.total = jobs.size();
   const std::atomic<bool>* stop = settings.stop;
-  std::vector<EpisodeIdentity> wanted(jobs.size());
   const auto options_for = [&](const std::string& task, Renderer& renderer) {
     RunOptions options = settings.options;
     options.renderer = &renderer;
@@ -89,26 +87,22 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
       options.cameras = found->second;
     return options;
   };
-  in_parallel(jobs.size(), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
-    const PreparedEpisode prepared(library, jobs[i], options_for(jobs[i].task, renderer));
-    wanted[i] = {jobs[i].task, jobs[i].variation, jobs[i].seed, prepared.key()};
-  });
-  if (stop && stop->load()) {  // how many are there already is not known
-    tally.tasks.clear();
-    tally.interrupted = true;
-    return tally;
-  }
-  if (writer) wanted = writer->expect(std::move(wanted));
-  for (const EpisodeIdentity& one : wanted) --tally.tasks[one.task].existing;
-  tally.existing = tally.total - static_cast<std::int64_t>(wanted.size());
   std::mutex mutex;
-  in_parallel(wanted.size(), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
-    const EpisodeIdentity& one = wanted[i];
+  in_parallel(static_cast<std::size_t>(jobs.size()), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
+    const auto place = static_cast<std::int64_t>(i);
     try {
-      EpisodeRecord episode =
-          PreparedEpisode(library, {one.task, one.variation, one.seed}, options_for(one.task, renderer)).run(stop);
+      const EpisodeJob job = jobs[place];
+      PreparedEpisode prepared(library, job, options_for(job.task, renderer));
+      if (writer && writer->has(prepared.key())) {
+        writer->abandon(place);
+        const std::lock_guard lock(mutex);
+        ++tally.existing;
+        ++tally.tasks[job.task].existing;
+        return;
+      }
+      EpisodeRecord episode = prepared.run(stop);
       if (episode.reason == Reason::interrupted) {
-        if (writer) writer->abandon(one.key);
+        if (writer) writer->abandon(place);
         return;
       }
       {
@@ -116,9 +110,9 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<Epis
         count_episode(episode, tally);
         if (settings.progress) settings.progress(episode, tally);
       }
-      if (writer) writer->finished(std::move(episode));
+      if (writer) writer->finished(place, std::move(episode));
     } catch (const std::exception&) {
-      if (writer) writer->abandon(one.key);  // the others must not wait for it
+      if (writer) writer->abandon(place);  // the others must not wait for it
       throw;
     }
   });

@@ -40,9 +40,10 @@ struct RunSettings {
 };
 
 // Runs the episodes that `writer` does not have yet and hands it each finished one; without a writer all are run and
-// nothing is kept. Interrupted ones leave no trace.
+// nothing is kept. Interrupted ones leave no trace. An episode's scripts are loaded, and its key known, when its turn
+// comes.
 // Throws: what a worker threw first, after the others have ended.
-RunTally run_jobs(std::shared_ptr<const Library> library, const std::vector<EpisodeJob>& jobs,
-                  const RunSettings& settings, CatalogueWriter* writer);
+RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, const RunSettings& settings,
+                  CatalogueWriter* writer);
 
 }  // namespace stampede

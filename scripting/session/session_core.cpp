@@ -1,7 +1,7 @@
 #include "scripting/session/session_core.h"
 
-#include "db/catalogue_writer.h"
 #include "engine/episode/abstract_state.h"
+#include "engine/episode/arrays.h"
 #include "engine/symbolic/pddl.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/session/constraints_fit.h"
@@ -72,6 +72,21 @@ RunOptions options_of(const EpisodeRequest& request) {
   return options;
 }
 
+Episode told(const EpisodeRecord& record) {
+  Episode episode;
+  episode.key = record.key;
+  episode.task = record.task;
+  episode.variation = record.variation;
+  episode.seed = record.seed;
+  episode.outcome = record.outcome;
+  episode.reason = to_string(record.reason);
+  episode.detail = record.detail;
+  episode.frames = static_cast<std::int64_t>(record.frames.size());
+  episode.duration_s = record.duration_s();
+  episode.undone = static_cast<int>(record.attempts.size());
+  return episode;
+}
+
 TaskPlan told(const PlanOutcome& outcome) {
   TaskPlan plan;
   plan.found = outcome.solved;
@@ -85,7 +100,11 @@ TaskPlan told(const PlanOutcome& outcome) {
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
                          std::filesystem::path catalogue)
-    : library_(Library::load(make_roots(root, paths))), catalogue_(std::move(catalogue)) {}
+    : library_(Library::load_usable(make_roots(root, paths))), path_(std::move(catalogue)) {
+  if (path_ == ":memory:")
+    throw Error("SessionOptions::catalogue", "a catalogue is a file",
+                "leave it empty: what `run` gives then holds the whole episode");
+}
 
 std::vector<std::string> SessionCore::tasks() const {
   std::vector<std::string> names;
@@ -97,24 +116,12 @@ std::vector<std::string> SessionCore::variations(const std::string& task) const 
   return task_info(*library_, task).variation_texts;
 }
 
-std::optional<Episode> SessionCore::stored(const std::string& key) const {
-  if (catalogue_.empty() || !std::filesystem::exists(catalogue_)) return std::nullopt;
-  const Catalogue catalogue = Catalogue::open(catalogue_);
-  const std::optional<std::int64_t> id = catalogue.find(key);
+std::optional<Episode> SessionCore::stored(const std::string& key) {
+  if (path_.empty() || (!catalogue_ && !std::filesystem::exists(path_))) return std::nullopt;
+  const std::optional<std::int64_t> id = catalogue_to_write().find(key);
   if (!id) return std::nullopt;
-  const EpisodeRecord record = catalogue.read_episode(*id);
-  Episode episode;
+  Episode episode = told(catalogue().read_episode(*id));
   episode.id = *id;
-  episode.key = key;
-  episode.task = record.task;
-  episode.variation = record.variation;
-  episode.seed = record.seed;
-  episode.outcome = record.outcome;
-  episode.reason = to_string(record.reason);
-  episode.detail = record.detail;
-  episode.frames = static_cast<std::int64_t>(record.frames.size());
-  episode.duration_s = record.duration_s();
-  episode.undone = static_cast<int>(record.attempts.size());
   return episode;
 }
 
@@ -125,25 +132,15 @@ PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeReque
   return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};
 }
 
-Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) const {
+Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
   PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
-  EpisodeRecord record = prepared.run(nullptr);
-  Episode episode{0,
-                  record.key,
-                  record.task,
-                  record.variation,
-                  record.seed,
-                  record.outcome,
-                  std::string(to_string(record.reason)),
-                  record.detail,
-                  static_cast<std::int64_t>(record.frames.size()),
-                  record.duration_s(),
-                  static_cast<int>(record.attempts.size())};
-  if (catalogue_.empty()) return episode;
-  Catalogue catalogue = Catalogue::write(catalogue_);
-  episode.id = catalogue.add(record, {STAMPEDE_VERSION, numerics_probe()});
-  catalogue.close();
+  auto record = std::make_shared<const EpisodeRecord>(prepared.run(nullptr));
+  Episode episode = told(*record);
+  if (path_.empty())
+    episode.record = std::move(record);
+  else
+    episode.id = catalogue_to_write().add(*record, {STAMPEDE_VERSION, numerics_probe()});
   return episode;
 }
 
@@ -172,29 +169,51 @@ TaskPlan plan_of_texts(const std::string& domain_text, const std::string& proble
   return plan;
 }
 
-const std::filesystem::path& SessionCore::catalogue() const {
-  if (catalogue_.empty()) throw Error("Session", "it has no catalogue to ask", "set SessionOptions::catalogue");
-  return catalogue_;
+Catalogue& SessionCore::catalogue() {
+  if (path_.empty())
+    throw Error("Session", "it has no catalogue to ask",
+                "set SessionOptions::catalogue, or name the episode by what `run` gave");
+  if (!catalogue_) catalogue_.emplace(Catalogue::open(path_));
+  return *catalogue_;
 }
 
-QueryResult SessionCore::query(std::string_view question) const { return Catalogue::open(catalogue()).query(question); }
-
-CameraPicture SessionCore::picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
-  if (!studio_) studio_.emplace();
-  return studio_->picture(Catalogue::open(catalogue()), episode, frame, request);
-}
-
-CameraPoints SessionCore::points(std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
-  if (!studio_) studio_.emplace();
-  return studio_->points(Catalogue::open(catalogue()), episode, frame, request);
-}
-
-WorldState SessionCore::state(std::int64_t episode, std::int64_t frame) {
-  if (record_id_ != episode) {
-    record_ = Catalogue::open(catalogue()).read_episode(episode);
-    record_id_ = episode;
+Catalogue& SessionCore::catalogue_to_write() {
+  if (!writable_) {
+    catalogue_.reset();
+    catalogue_.emplace(Catalogue::write(path_));
+    writable_ = true;
   }
-  return world_state(abstract_state(record_, frame), record_.frame_hz);
+  return *catalogue_;
+}
+
+Rows SessionCore::query(std::string_view question) { return catalogue().query(question); }
+
+std::shared_ptr<const EpisodeRecord> SessionCore::record_of(const Episode& episode) {
+  if (episode.record) return episode.record;
+  if (record_id_ != episode.id) {
+    record_ = std::make_shared<const EpisodeRecord>(catalogue().read_episode(episode.id));
+    record_id_ = episode.id;
+  }
+  return record_;
+}
+
+CameraPicture SessionCore::picture(const Episode& episode, std::int64_t frame, const PictureRequest& request) {
+  if (!studio_) studio_.emplace();
+  return studio_->picture(record_of(episode), frame, request);
+}
+
+CameraPoints SessionCore::points(const Episode& episode, std::int64_t frame, const PictureRequest& request) {
+  if (!studio_) studio_.emplace();
+  return studio_->points(record_of(episode), frame, request);
+}
+
+WorldState SessionCore::state(const Episode& episode, std::int64_t frame) {
+  const std::shared_ptr<const EpisodeRecord> record = record_of(episode);
+  return world_state(abstract_state(*record, frame), record->frame_hz);
+}
+
+EpisodeArrays SessionCore::arrays(const Episode& episode, const ArrayRequest& request) {
+  return episode.record ? episode_arrays(*episode.record, request) : catalogue().read_arrays(episode.id, request);
 }
 
 }  // namespace stampede

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "db/query.h"
-#include "engine/episode/record.h"
+#include "db/catalogue.h"
 #include "scripting/session/studio.h"
+#include "stampede/arrays.h"
 #include "stampede/episode.h"
 #include "stampede/task_plan.h"
 #include "stampede/world_state.h"
@@ -23,23 +23,28 @@ class SessionCore {
               std::filesystem::path catalogue);
   std::vector<std::string> tasks() const;
   std::vector<std::string> variations(const std::string& task) const;
-  Episode run(const std::string& task, const EpisodeRequest& request) const;
+  Episode run(const std::string& task, const EpisodeRequest& request);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
-  QueryResult query(std::string_view question) const;
-  CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
-  CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request);
-  WorldState state(std::int64_t episode, std::int64_t frame);
+  Rows query(std::string_view question);
+  CameraPicture picture(const Episode& episode, std::int64_t frame, const PictureRequest& request);
+  CameraPoints points(const Episode& episode, std::int64_t frame, const PictureRequest& request);
+  WorldState state(const Episode& episode, std::int64_t frame);
+  EpisodeArrays arrays(const Episode& episode, const ArrayRequest& request);
 
  private:
   class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request) const;
-  std::optional<Episode> stored(const std::string& key) const;
-  const std::filesystem::path& catalogue() const;  // throws Error when there is none
+  std::optional<Episode> stored(const std::string& key);
+  std::shared_ptr<const EpisodeRecord> record_of(const Episode& episode);
+  Catalogue& catalogue();  // opened to be read; throws Error when there is none
+  Catalogue& catalogue_to_write();
   std::shared_ptr<const class Library> library_;
-  std::filesystem::path catalogue_;
+  std::filesystem::path path_;  // of the catalogue; empty: none
+  std::optional<Catalogue> catalogue_;
+  bool writable_ = false;
   std::optional<Studio> studio_;  // from the first picture on
   // Of the last state asked for: the next one is mostly of the same episode.
-  std::int64_t record_id_ = 0;
-  EpisodeRecord record_;
+  std::int64_t record_id_ = -1;
+  std::shared_ptr<const EpisodeRecord> record_;
 };
 
 TaskPlan plan_of_texts(const std::string& domain, const std::string& problem);

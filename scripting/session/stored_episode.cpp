@@ -21,8 +21,8 @@ std::filesystem::path file_in(const Roots& roots, const std::string& shown_path)
 
 }  // namespace
 
-StoredEpisode read_stored(const Catalogue& catalogue, std::int64_t id) {
-  StoredEpisode stored{id, catalogue.read_episode(id), nullptr, {}};
+StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id) {
+  StoredEpisode stored{id, std::move(episode), nullptr, {}};
   if (stored.episode.scene_document.empty()) {
     stored.why_not = "it has no scene: it is a real one, or no start was found";
   } else if (stored.episode.frames.empty()) {
@@ -31,6 +31,10 @@ StoredEpisode read_stored(const Catalogue& catalogue, std::int64_t id) {
     stored.scene = std::make_shared<const Scene>(scene_from_document(stored.episode.scene_document));
   }
   return stored;
+}
+
+StoredEpisode read_stored(const Catalogue& catalogue, std::int64_t id) {
+  return stored_of(catalogue.read_episode(id), id);
 }
 
 std::shared_ptr<const Scene> with_cameras(const StoredEpisode& stored, const std::vector<Camera>& further,

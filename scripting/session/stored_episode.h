@@ -19,6 +19,7 @@ struct StoredEpisode {
   std::string why_not;                 // then in words
 };
 
+StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id = 0);
 // Without scripts: from the catalogue alone. Throws Error for an unknown id.
 StoredEpisode read_stored(const Catalogue& catalogue, std::int64_t id);
 

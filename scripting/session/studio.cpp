@@ -23,17 +23,21 @@ Observation observation_for(const PictureRequest& request) {
 
 struct Studio::Impl {
   RenderThread thread;
-  std::optional<StoredEpisode> stored;
-  std::vector<Picture> pictures;  // of the last request: one
+  std::shared_ptr<const EpisodeRecord> episode;  // of the last request
+  std::optional<StoredEpisode> stored;           // the same with its scene
+  std::vector<Picture> pictures;                 // of the last request: one
 
   // The view of the picture that is then the first in `pictures`.
-  View draw(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame, const PictureRequest& request);
+  View draw(const std::shared_ptr<const EpisodeRecord>& wanted, std::int64_t frame, const PictureRequest& request);
 };
 
-View Studio::Impl::draw(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+View Studio::Impl::draw(const std::shared_ptr<const EpisodeRecord>& wanted, std::int64_t frame,
                         const PictureRequest& request) {
-  if (!stored || stored->id != episode) stored = read_stored(catalogue, episode);
-  const std::string where = "episode " + std::to_string(episode);
+  if (episode != wanted) {
+    stored = stored_of(*wanted);
+    episode = wanted;
+  }
+  const std::string where = "episode of " + episode->task;
   if (!stored->scene) throw Error(where, "it cannot be drawn: " + stored->why_not);
   const auto frames = static_cast<std::int64_t>(stored->episode.frames.size());
   if (frame < 0 || frame >= frames)
@@ -56,9 +60,9 @@ Studio::~Studio() = default;
 Studio::Studio(Studio&&) noexcept = default;
 Studio& Studio::operator=(Studio&&) noexcept = default;
 
-CameraPicture Studio::picture(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+CameraPicture Studio::picture(const std::shared_ptr<const EpisodeRecord>& episode, std::int64_t frame,
                               const PictureRequest& request) {
-  const View view = impl_->draw(catalogue, episode, frame, request);
+  const View view = impl_->draw(episode, frame, request);
   Picture& drawn = impl_->pictures.front();
   CameraPicture result;
   result.width = drawn.width;
@@ -78,11 +82,11 @@ CameraPicture Studio::picture(const Catalogue& catalogue, std::int64_t episode, 
   return result;
 }
 
-CameraPoints Studio::points(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+CameraPoints Studio::points(const std::shared_ptr<const EpisodeRecord>& episode, std::int64_t frame,
                             const PictureRequest& request) {
   PictureRequest with_depth = request;
   with_depth.depth = true;
-  const View view = impl_->draw(catalogue, episode, frame, with_depth);
+  const View view = impl_->draw(episode, frame, with_depth);
   PointCloud cloud = point_cloud(impl_->pictures.front(), view);
   return {std::move(cloud.positions), std::move(cloud.colours), std::move(cloud.instance), std::move(cloud.semantic)};
 }

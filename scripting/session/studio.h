@@ -1,10 +1,10 @@
-// Pictures of stored episodes on request, for programs that embed the engine.
+// Pictures of finished episodes on request, for programs that embed the engine.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "db/catalogue.h"
+#include "engine/episode/record.h"
 #include "stampede/picture.h"
 
 namespace stampede {
@@ -18,10 +18,10 @@ class Studio {
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
 
-  // Throws Error for unknown episodes, frames and cameras, and for sizes that cannot be drawn.
-  CameraPicture picture(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+  // Throws Error for unknown frames and cameras, and for sizes that cannot be drawn.
+  CameraPicture picture(const std::shared_ptr<const EpisodeRecord>& episode, std::int64_t frame,
                         const PictureRequest& request);
-  CameraPoints points(const Catalogue& catalogue, std::int64_t episode, std::int64_t frame,
+  CameraPoints points(const std::shared_ptr<const EpisodeRecord>& episode, std::int64_t frame,
                       const PictureRequest& request);
 
  private:

@@ -21,6 +21,17 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/tests/embed/project -B ${WORK}/build -DCMAKE_P
   -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 
+# What the README's first command builds is all that is installed.
+file(READ ${SOURCE}/.ci/demo demo)
+file(READ ${SOURCE}/engine/cmake/StampedeInstall.cmake installed)
+string(REGEX MATCHALL "install\\(TARGETS [a-z_]+" targets "${installed}")
+foreach(target ${targets})
+  string(REPLACE "install(TARGETS " "" target ${target})
+  if(NOT demo MATCHES "--target[^\n]* ${target}( |\n)")
+    message(FATAL_ERROR ".ci/demo does not build ${target}, which is installed")
+  endif()
+endforeach()
+
 # No header of another library may be needed, or leak in, through ours.
 file(GLOB headers ${prefix}/include/stampede/*.h)
 list(LENGTH headers count)
@@ -36,8 +47,9 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 
-foreach(program pictures states plans)
-  execute_process(COMMAND ${WORK}/build/${program} WORKING_DIRECTORY ${prefix}/share/stampede
+file(MAKE_DIRECTORY ${WORK}/anywhere)
+foreach(program pictures states arrays plans)
+  execute_process(COMMAND ${WORK}/build/${program} WORKING_DIRECTORY ${WORK}/anywhere
     RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT code EQUAL 0)
     message(FATAL_ERROR "${program}: ${code}\n${said}")
@@ -45,7 +57,7 @@ foreach(program pictures states plans)
   message("${said}")
 endforeach()
 
-execute_process(COMMAND ${WORK}/build/embed WORKING_DIRECTORY ${prefix}/share/stampede
+execute_process(COMMAND ${WORK}/build/embed WORKING_DIRECTORY ${WORK}/anywhere
   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
 string(REGEX MATCHALL "success [0-9]+\\.[0-9] s" successes "${said}")
 string(REGEX MATCHALL "[^\n]+\n" lines "${said}")

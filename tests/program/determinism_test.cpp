@@ -49,4 +49,19 @@ TEST_CASE("two workers write what one writes; a second run adds nothing; replay 
   CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
 }
 
+TEST_CASE("the shards of a run, in one file or put together from several, are the undivided run") {
+  const Folder folder;
+  REQUIRE(say(run_words(folder / "whole.db", {"--episodes", "5"})).code == kDone);
+  REQUIRE(say(run_words(folder / "parts.db", {"--episodes", "5", "--shard", "2/3"})).code == kDone);
+  const Said first = say(run_words(folder / "parts.db", {"--episodes", "5", "--shard", "1/3"}));
+  CHECK(says(first.out, "2 episodes"));
+  REQUIRE(say(run_words(folder / "other.db", {"--episodes", "5", "--shard", "3/3"})).code == kDone);
+  CHECK(hash_of(folder / "parts.db") != hash_of(folder / "whole.db"));
+  REQUIRE(say(run_words(folder / "parts.db", {"--episodes", "5", "--shard", "3/3"})).code == kDone);
+  CHECK(hash_of(folder / "parts.db") == hash_of(folder / "whole.db"));
+  CHECK(says(say(run_words(folder / "parts.db", {"--episodes", "5", "--shard", "3/3"})).out, "1 were there already"));
+  // More parts than episodes: some are empty, and that is no failure.
+  CHECK(say(run_words(folder / "none.db", {"--episodes", "1", "--shard", "2/2"})).code == kDone);
+}
+
 }  // namespace stampede::program

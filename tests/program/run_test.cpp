@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <map>
+#include <set>
 
 #include "scripting/session/episode_job.h"
 #include "scripting/session/roots.h"
@@ -9,12 +11,19 @@ namespace {
 
 constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
 
+std::vector<EpisodeJob> all_of(const JobList& list) {
+  std::vector<EpisodeJob> jobs;
+  for (std::int64_t i = 0; i < list.size(); ++i) jobs.push_back(list[i]);
+  return jobs;
+}
+
 }  // namespace
 
 TEST_CASE("episode i has seed S+i, and the first V episodes meet each of V variations once") {
   const auto library = Library::load(make_roots(kRoot, {}));
   const auto count = static_cast<std::int64_t>(task_info(*library, "reach_target").variation_texts.size());
-  const std::vector<EpisodeJob> jobs = plan_jobs(*library, {{"reach_target"}, count, 50, ""});
+  const JobList list(*library, {{"reach_target"}, count, 50, ""});
+  const std::vector<EpisodeJob> jobs = all_of(list);
   std::set<std::string> variations;
   std::set<std::int64_t> seeds;
   for (const EpisodeJob& job : jobs) {
@@ -25,11 +34,56 @@ TEST_CASE("episode i has seed S+i, and the first V episodes meet each of V varia
   CHECK(static_cast<std::int64_t>(variations.size()) == count);
   CHECK(*seeds.begin() == 50);
   CHECK(*seeds.rbegin() == 50 + count - 1);
-  for (const EpisodeJob& job : plan_jobs(*library, {{"reach_target"}, 5, 0, "colour=red"})) {
+  for (const EpisodeJob& job : all_of({*library, {{"reach_target"}, 5, 0, "colour=red"}})) {
     CHECK(job.variation.find("colour=red") != std::string::npos);
   }
-  CHECK_THROWS_AS(plan_jobs(*library, {{"reach_targett"}, 1, 0, ""}), Error);
-  CHECK_THROWS_AS(plan_jobs(*library, {{"reach_target"}, 1, 0, "colour=rde"}), Error);
+  CHECK_THROWS_AS(JobList(*library, {{"reach_targett"}, 1, 0, ""}), Error);
+  CHECK_THROWS_AS(JobList(*library, {{"reach_target"}, 1, 0, "colour=rde"}), Error);
+}
+
+TEST_CASE("episodes of several tasks and more episodes than variations: in order, each seed once") {
+  const auto library = Library::load(make_roots(kRoot, {}));
+  for (const std::int64_t count : {1, 2, 7, 500}) {
+    const std::vector<EpisodeJob> jobs = all_of({*library, {{"reach_target", "close_drawer", "reach_target"}, count}});
+    CHECK(static_cast<std::int64_t>(jobs.size()) == 2 * count);
+    CHECK(std::is_sorted(jobs.begin(), jobs.end()));
+    std::map<std::string, std::set<std::int64_t>> seeds;
+    for (const EpisodeJob& job : jobs) seeds[job.task].insert(job.seed);
+    for (const auto& [task, own] : seeds) CHECK(static_cast<std::int64_t>(own.size()) == count);
+  }
+}
+
+TEST_CASE("the shards of a run are the run, each job once") {
+  const auto library = Library::load(make_roots(kRoot, {}));
+  JobRequest request{{"reach_target", "close_drawer"}, 11};
+  const std::vector<EpisodeJob> whole = all_of({*library, request});
+  for (const std::int64_t count : {1, 2, 5, 40}) {
+    std::vector<EpisodeJob> together;
+    for (std::int64_t i = 1; i <= count; ++i) {
+      request.shard = {i, count};
+      const std::vector<EpisodeJob> part = all_of({*library, request});
+      CHECK(part.size() <= whole.size() / static_cast<std::size_t>(count) + 1);
+      together.insert(together.end(), part.begin(), part.end());
+    }
+    std::sort(together.begin(), together.end());
+    CHECK(together == whole);
+  }
+}
+
+TEST_CASE("a list of a million jobs is made at once") {
+  const auto library = Library::load(make_roots(kRoot, {}));
+  const JobList list(*library, {{"reach_target"}, 1'000'000});
+  REQUIRE(list.size() == 1'000'000);
+  CHECK(list[0] < list[1]);
+  CHECK(list[499'999] < list[999'999]);
+}
+
+TEST_CASE("a shard that is not there is a mistake of usage") {
+  for (const char* wrong : {"0/4", "5/4", "1/0", "-1/4", "1", "a/b", "1/", "/2", "1/2/3", "1.5/2", ""}) {
+    INFO(wrong);
+    CHECK(say({"run", "reach_target", "--root", kRoot, "--shard", wrong}).code == kUsage);
+  }
+  CHECK(says(say({"run", "reach_target", "--root", kRoot, "--shard", "5/4"}).err, "from 1/4 to 4/4"));
 }
 
 TEST_CASE("a key tells apart seed, variation, options and definitions, and nothing else") {
@@ -63,6 +117,46 @@ TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends wi
   const Said wrong = say({"check", "my_task", "--root", kRoot, "--path", mine.text()});
   CHECK(wrong.code == kBadInput);
   CHECK(wrong.out.find("did you mean 'objects'?") != std::string::npos);
+}
+
+TEST_CASE("a mistake in a file stops the tasks that use it, and no other; check tells all") {
+  const Folder mine;
+  std::filesystem::create_directories(mine / "tasks");
+  std::filesystem::create_directories(mine / "worlds/objects");
+  std::ofstream(mine / "tasks/broken.lua") << "-- Wrong.\nreturn task {\n  object = {},\n}\n";
+  std::ofstream(mine / "tasks/unfinished.lua") << "-- Not yet.\nreturn task {\n  world =\n";
+  std::ofstream(mine / "worlds/objects/thingy.lua")
+      << "-- A thing.\nreturn object {\n  type = \"cube\", traits = { \"movable\", \"graspable\" },\n"
+         "  shape = box { 0.04, 0.04, 0.04 }, mas = 0.1,\n}\n";
+  std::ofstream(mine / "tasks/with_thingy.lua")
+      << "-- Lift it.\nreturn task {\n  world = \"tabletop\",\n  objects = { a = { \"thingy\" }, b = { \"cube\" } },\n"
+         "  init = { is.on(\"a\", \"table\"), is.on(\"b\", \"table\") },\n  goal = is.lifted(\"b\"),\n"
+         "  instructions = { \"lift it\" },\n}\n";
+  const auto with_mine = [&](std::vector<std::string> words) {
+    for (const std::string& word : {std::string("--root"), std::string(kRoot), std::string("--path"), mine.text()})
+      words.push_back(word);
+    return say(words);
+  };
+  const Said ran = with_mine({"run", "reach_target", "--out", mine / "d.db"});
+  INFO(ran.err);
+  CHECK(ran.code == kDone);
+  CHECK(with_mine({"plan", "reach_target"}).code == kDone);
+  const Said all = with_mine({"check"});
+  CHECK(all.code == kBadInput);
+  for (const char* file : {"tasks/broken.lua", "tasks/unfinished.lua", "worlds/objects/thingy.lua"})
+    CHECK(says(all.out, file));
+
+  for (const char* task : {"broken", "unfinished", "with_thingy"}) {
+    const Said refused = with_mine({"run", task, "--out", mine / "d.db"});
+    INFO(task << ": " << refused.err);
+    CHECK(refused.code == kBadInput);
+    CHECK(says(refused.err, std::string(task) == "with_thingy" ? "worlds/objects/thingy.lua" : task));
+    CHECK_FALSE(says(refused.err, std::string(task) == "broken" ? "unfinished" : "broken"));
+  }
+  // What every task shares must be right.
+  std::filesystem::create_directories(mine / "skills");
+  std::ofstream(mine / "skills/mine.lua") << "-- Wrong.\nreturn skill { param = {} }\n";
+  CHECK(with_mine({"run", "reach_target", "--out", mine / "d.db"}).code == kBadInput);
 }
 
 TEST_CASE("new keeps what editors read in an own folder current, and leaves their settings alone") {

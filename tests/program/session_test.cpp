@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "engine/episode/arrays.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 
@@ -29,7 +30,7 @@ TEST_CASE("the state of any frame is that of the views, and an item in a closed 
   REQUIRE(episode.outcome == Outcome::success);
   int hidden_at_first = 0;
   for (const std::int64_t frame : {std::int64_t{0}, episode.frames / 2, episode.frames - 1}) {
-    const WorldState state = session.state(episode.id, frame);
+    const WorldState state = session.state(episode, frame);
     CHECK(state.frame == frame);
     CHECK(state.time_s == Approx(static_cast<double>(frame) / 20));
     std::set<std::string> holding;
@@ -44,7 +45,7 @@ TEST_CASE("the state of any frame is that of the views, and an item in a closed 
     CHECK(state.hands.size() == 1);
   }
   CHECK(hidden_at_first > 0);
-  for (const StateFact& fact : session.state(episode.id, episode.frames - 1).facts)
+  for (const StateFact& fact : session.state(episode, episode.frames - 1).facts)
     if (fact.predicate == "on" && fact.arguments.at(0) == "item") CHECK((fact.holds && fact.known));
 }
 
@@ -52,11 +53,58 @@ TEST_CASE("a state that is not there is an error with the cure") {
   const Folder folder;
   SessionCore session(STAMPEDE_SOURCE_DIR, {}, folder / "d.db");
   const Episode episode = session.run("reach_target", {.seed = 7});
-  CHECK_THROWS_WITH(session.state(episode.id, episode.frames),
+  CHECK_THROWS_WITH(session.state(episode, episode.frames),
                     Catch::Contains("choose 0 to " + std::to_string(episode.frames - 1)));
-  CHECK_THROWS_WITH(session.state(episode.id + 1, 0), Catch::Contains(std::to_string(episode.id + 1)));
-  CHECK(session.state(episode.id, 0).frame == 0);  // and it still works
-  CHECK_THROWS_WITH(SessionCore(STAMPEDE_SOURCE_DIR, {}, {}).state(1, 0), Catch::Contains("SessionOptions::catalogue"));
+  CHECK_THROWS_WITH(session.state({.id = episode.id + 1}, 0), Catch::Contains(std::to_string(episode.id + 1)));
+  CHECK(session.state({.id = episode.id}, 0).frame == 0);  // and it still works
+  CHECK_THROWS_WITH(SessionCore(STAMPEDE_SOURCE_DIR, {}, {}).state({.id = 1}, 0),
+                    Catch::Contains("SessionOptions::catalogue"));
+}
+
+TEST_CASE("an episode of a session without a catalogue holds what happened, and says what a stored one says") {
+  const Folder folder;
+  SessionCore memory(STAMPEDE_SOURCE_DIR, {}, {}), stored(STAMPEDE_SOURCE_DIR, {}, folder / "d.db");
+  const Episode here = memory.run("reach_target", {.seed = 7}), there = stored.run("reach_target", {.seed = 7});
+  REQUIRE(here.record);
+  CHECK_FALSE(there.record);
+  CHECK(here.key == there.key);
+  const WorldState a = memory.state(here, here.frames - 1), b = stored.state(there, there.frames - 1);
+  REQUIRE(a.objects.size() == b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) CHECK(a.objects[i].position == b.objects[i].position);
+  CHECK(memory.picture(here, 3, {.width = 48, .height = 32}).rgb ==
+        stored.picture(there, 3, {.width = 48, .height = 32}).rgb);
+  CHECK_FALSE(memory.points(here, 3, {.width = 48, .height = 32}).positions.empty());
+  const EpisodeArrays x = memory.arrays(here, {}), y = stored.arrays(there, {});
+  CHECK(first_difference(x, y).empty());
+  CHECK(first_difference(y, x).empty());
+  EpisodeArrays changed = x;
+  std::get<std::vector<double>>(changed.columns.at(4).data).at(5) += 1e-9;
+  CHECK(says(first_difference(changed, x), "frame"));
+  CHECK_THROWS_WITH(memory.query("SELECT 1"), Catch::Contains("SessionOptions::catalogue"));
+  CHECK_THROWS_WITH(SessionCore(STAMPEDE_SOURCE_DIR, {}, ":memory:"), Catch::Contains("leave it empty"));
+  CHECK(says(say({"run", "reach_target", "--root", STAMPEDE_SOURCE_DIR, "--out", ":memory:"}).err, "name a file"));
+}
+
+TEST_CASE("a session keeps one catalogue open; answers are typed, and others may read meanwhile") {
+  const Folder folder;
+  SessionCore session(STAMPEDE_SOURCE_DIR, {}, folder / "d.db");
+  CHECK_THROWS_AS(session.query("SELECT 1"), CatalogueError);  // no file yet, and none is made by asking
+  const Episode first = session.run("reach_target", {.seed = 7});
+  const Episode again = session.run("reach_target", {.seed = 7});
+  CHECK(again.id == first.id);
+  session.run("reach_target", {.seed = 8});
+  CHECK(Catalogue::open(folder / "d.db").episodes().size() == 2);
+  const Rows rows = session.query("SELECT task, seed, duration_s, NULL AS nothing, x'0041' AS bytes FROM episodes");
+  REQUIRE(rows.size() == 2);
+  CHECK(rows.text(0, "task") == "reach_target");
+  CHECK(rows.integer(1, "seed") == 8);
+  CHECK(rows.real(0, "duration_s") == first.duration_s);
+  CHECK(rows.real(0, "seed") == 7);
+  CHECK(rows.is_null(0, "nothing"));
+  CHECK(rows.blob(0, "bytes") == std::string("\0A", 2));
+  CHECK_THROWS_WITH(rows.integer(0, "task"), Catch::Contains("text, not an integer"));
+  CHECK_THROWS_WITH(rows.text(0, "tsk"), Catch::Contains("did you mean 'task'"));
+  CHECK_THROWS_WITH(rows.text(2, "task"), Catch::Contains("2 rows"));
 }
 
 TEST_CASE("a program asks for the plan of a start without executing it, and gets what the run then does") {

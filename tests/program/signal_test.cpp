@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -55,6 +56,31 @@ TEST_CASE("kill -9 during a run leaves whole episodes only") {
   const Said replayed = say({"replay", folder / "demos.db"});
   INFO(replayed.out + replayed.err);
   CHECK(replayed.code == kDone);
+}
+
+TEST_CASE("a reader that has seen enough, such as head, is no error; a full disk is") {
+  const Folder folder;
+  const auto code_of = [&](int output) {
+    const pid_t child = fork();
+    if (child == 0) {
+      if (dup2(output, STDOUT_FILENO) < 0 || !std::freopen((folder / "story.txt").c_str(), "w", stderr)) _exit(126);
+      execl(STAMPEDE_PROGRAM, "stampede", "--help", nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  int ends[2] = {};
+  REQUIRE(pipe(ends) == 0);
+  close(ends[0]);  // nobody reads
+  CHECK(code_of(ends[1]) == kDone);
+  CHECK(file_text(folder / "story.txt").empty());
+  close(ends[1]);
+  const int full = open("/dev/full", O_WRONLY);
+  CHECK(code_of(full) == kBadInput);
+  CHECK(says(file_text(folder / "story.txt"), "could not be written"));
+  close(full);
 }
 
 }  // namespace stampede::program

@@ -15,7 +15,8 @@ namespace {
 struct Stored {
   Folder folder;
   Catalogue catalogue;
-  Stored() : catalogue(make(folder)) {}
+  std::shared_ptr<const EpisodeRecord> episode;
+  Stored() : catalogue(make(folder)), episode(std::make_shared<const EpisodeRecord>(catalogue.read_episode(1))) {}
   static Catalogue make(const Folder& folder) {
     REQUIRE(say({"run", "reach_target", "--root", STAMPEDE_SOURCE_DIR, "--out", folder / "d.db", "--images",
                  "keyframes", "--size", "64x48"})
@@ -45,7 +46,7 @@ TEST_CASE("pictures for programs are those of the catalogue; depth is exact ther
   REQUIRE(moments.size() > 2);
   for (const auto& [frame, camera] : moments) {
     const Picture wanted = stored.picture(frame, camera);
-    const CameraPicture drawn = studio.picture(stored.catalogue, 1, frame, all_kinds(camera));
+    const CameraPicture drawn = studio.picture(stored.episode, frame, all_kinds(camera));
     CHECK(drawn.rgb == wanted.rgb);
     CHECK(drawn.instance == wanted.instance);
     CHECK(drawn.semantic == wanted.semantic);
@@ -60,11 +61,11 @@ TEST_CASE("pictures for programs are those of the catalogue; depth is exact ther
 TEST_CASE("what was not asked for is empty, and points carry what was") {
   const Stored stored;
   Studio studio;
-  const CameraPicture picture = studio.picture(stored.catalogue, 1, 0, {.camera = "front", .width = 32, .height = 32});
+  const CameraPicture picture = studio.picture(stored.episode, 0, {.camera = "front", .width = 32, .height = 32});
   CHECK(picture.rgb.size() == 32 * 32 * 3);
   CHECK((picture.depth.empty() && picture.instance.empty() && picture.semantic.empty()));
-  const CameraPoints points = studio.points(
-      stored.catalogue, 1, 0, {.camera = "front", .width = 32, .height = 32, .rgb = false, .instance = true});
+  const CameraPoints points =
+      studio.points(stored.episode, 0, {.camera = "front", .width = 32, .height = 32, .rgb = false, .instance = true});
   CHECK(points.colours.empty());
   CHECK(points.instance.size() == points.positions.size());
   CHECK_FALSE(points.positions.empty());
@@ -73,31 +74,30 @@ TEST_CASE("what was not asked for is empty, and points carry what was") {
 TEST_CASE("another thread gets the same pixels") {
   const Stored stored;
   Studio studio;
-  const CameraPicture here = studio.picture(stored.catalogue, 1, 0, all_kinds("front"));
+  const CameraPicture here = studio.picture(stored.episode, 0, all_kinds("front"));
   CameraPicture there;
-  std::thread([&] { there = studio.picture(stored.catalogue, 1, 0, all_kinds("front")); }).join();
+  std::thread([&] { there = studio.picture(stored.episode, 0, all_kinds("front")); }).join();
   CHECK(here.rgb == there.rgb);
   CHECK(here.depth == there.depth);
 }
 
-TEST_CASE("unknown episodes, frames, cameras and sizes are errors that say so") {
+TEST_CASE("unknown frames, cameras and sizes are errors that say so") {
   const Stored stored;
   Studio studio;
-  const auto complaint = [&](std::int64_t episode, std::int64_t frame, const PictureRequest& request) {
+  const auto complaint = [&](std::int64_t frame, const PictureRequest& request) {
     try {
-      studio.picture(stored.catalogue, episode, frame, request);
+      studio.picture(stored.episode, frame, request);
     } catch (const Error& error) {
       return std::string(error.what());
     }
     return std::string();
   };
-  CHECK(complaint(9, 0, {}).find("9") != std::string::npos);
-  CHECK(complaint(1, 100000, {}).find("it has no frame 100000") != std::string::npos);
-  CHECK(complaint(1, -1, {}).find("it has no frame -1") != std::string::npos);
-  CHECK(complaint(1, 0, {.camera = "frnt"}).find("did you mean 'front'?") != std::string::npos);
-  CHECK_FALSE(complaint(1, 0, {.width = 5000, .height = 10}).empty());
-  CHECK_FALSE(complaint(1, 0, {.width = 0, .height = 10}).empty());
-  CHECK(complaint(1, 0, {}).empty());  // and it still works
+  CHECK(complaint(100000, {}).find("it has no frame 100000") != std::string::npos);
+  CHECK(complaint(-1, {}).find("it has no frame -1") != std::string::npos);
+  CHECK(complaint(0, {.camera = "frnt"}).find("did you mean 'front'?") != std::string::npos);
+  CHECK_FALSE(complaint(0, {.width = 5000, .height = 10}).empty());
+  CHECK_FALSE(complaint(0, {.width = 0, .height = 10}).empty());
+  CHECK(complaint(0, {}).empty());  // and it still works
 }
 
 }  // namespace stampede::program

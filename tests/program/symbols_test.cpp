@@ -325,6 +325,14 @@ TEST_CASE("`show --frame` says a moment as facts, sentences, PDDL and BDDL, and 
   const Said libero = show("libero");
   REQUIRE(libero.code == kDone);
   CHECK(read_bddl(libero.out, "libero").problem.dialect == BddlDialect::libero);
+  // What a dialect cannot say of the goal is left out by itself, and said.
+  for (const char* form : {"libero", "behavior"}) {
+    const Said plain = say({"show", stored(), "1", "--frame", "0", "--as", form});
+    INFO(plain.err);
+    CHECK(plain.code == kDone);
+    CHECK(says(plain.out, "hand_empty panda--hand) is left out"));
+    CHECK(plain.out == show(form).out);
+  }
   CHECK(show("facts", "100000").code == kBadInput);
   CHECK(say({"show", stored(), "1", "--as", "pddl"}).code == kUsage);
   CHECK(says(say({"show", stored(), "1", "--frame", "0", "--json"}).out, "\"joint_fractions\""));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -24,17 +25,22 @@ struct EpisodeRequest {
   bool randomise = false;  // looks, light, cameras and dynamics, where the world has no ranges of its own
 };
 
+struct EpisodeRecord;  // the engine's own
+
 struct Episode {
-  std::int64_t id = 0;  // in the catalogue; 0 when there is none
-  std::string key;      // of definitions, task, variation, seed and options
-  std::string task, variation;
+  std::int64_t id = 0;   // in the catalogue; 0 when there is none
+  std::string key = {};  // of definitions, task, variation, seed and options
+  std::string task = {}, variation = {};
   std::int64_t seed = 0;
   Outcome outcome = Outcome::failure;
-  std::string reason;  // `none`, or why it failed, as in the catalogue
-  std::string detail;  // for people
+  std::string reason = {};  // `none`, or why it failed, as in the catalogue
+  std::string detail = {};  // for people
   std::int64_t frames = 0;
   double duration_s = 0;  // simulated
   int undone = 0;         // tries that were taken back
+  // The whole episode, of a session without a catalogue: Session::state, picture, points and arrays read it. Lifetime:
+  // shared by copies, gone with the last.
+  std::shared_ptr<const EpisodeRecord> record = {};
 };
 
 }  // namespace stampede

@@ -7,10 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "stampede/arrays.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
 #include "stampede/outcome.h"
 #include "stampede/picture.h"
+#include "stampede/rows.h"
 #include "stampede/task_plan.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
@@ -20,15 +22,11 @@ namespace stampede {
 struct SessionOptions {
   std::filesystem::path root = {};  // holds tasks/, skills/, worlds/; empty: those that came with the library
   std::vector<std::filesystem::path> paths = {};  // further folders of the same shape, whose files win
-  std::filesystem::path catalogue = {};           // where episodes go; empty: nowhere
+  std::filesystem::path catalogue = {};  // where episodes go, a file; empty: each is kept by the Episode that run gives
 };
 
-struct Rows {
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> values;  // NULL is empty
-};
-
-// Lifetime: movable; one thread at a time. Two sessions never meet, but two must not write one catalogue.
+// Lifetime: movable; one thread at a time. Two sessions never meet, but two must not write one catalogue. The file is
+// opened when it is first needed and stays open until the session goes.
 // Throws: Error for bad scripts, unknown names and unusable catalogues. Bad luck in physics is an Episode with a
 // reason.
 class STAMPEDE_EXPORT Session {
@@ -41,7 +39,7 @@ class STAMPEDE_EXPORT Session {
   std::vector<std::string> tasks() const;                              // by name
   std::vector<std::string> variations(const std::string& task) const;  // canonical texts, in the task's order
 
-  // Runs one episode and commits it. What the catalogue has already is returned without running.
+  // Runs one episode and commits it, where there is a catalogue. What that has already is returned without running.
   // Repeatable: the same episode, bit for bit, in any session of the same scripts.
   Episode run(const std::string& task, const EpisodeRequest& request = {});
 
@@ -52,14 +50,24 @@ class STAMPEDE_EXPORT Session {
   // One SELECT, or the name of a ready question, over the catalogue's views.
   Rows query(std::string_view question) const;
 
-  // What a camera saw at a frame of a stored episode, drawn now: no noise is added, and no scripts are needed.
+  // An episode is named by what `run` gave, or by its number in the catalogue.
+
+  // What a camera saw at a frame, drawn now: no noise is added, and no scripts are needed.
   // Throws Error for unknown episodes, frames and cameras. Repeatable: the same pixels in any session.
+  CameraPicture picture(const Episode& episode, std::int64_t frame, const PictureRequest& request = {}) const;
   CameraPicture picture(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
+  CameraPoints points(const Episode& episode, std::int64_t frame, const PictureRequest& request = {}) const;
   CameraPoints points(std::int64_t episode, std::int64_t frame, const PictureRequest& request = {}) const;
 
   // The same frame in symbols and numbers: what holds, what is known to hold, joints, poses.
   // Throws Error for unknown episodes and frames.
+  WorldState state(const Episode& episode, std::int64_t frame) const;
   WorldState state(std::int64_t episode, std::int64_t frame) const;
+
+  // All frames as named arrays: states, actions, facts, segments, references to pictures.
+  // Throws Error for unknown episodes and columns. Repeatable: the same values from memory and from a catalogue.
+  EpisodeArrays arrays(const Episode& episode, const ArrayRequest& request = {}) const;
+  EpisodeArrays arrays(std::int64_t episode, const ArrayRequest& request = {}) const;
 
  private:
   struct Impl;

@@ -4,7 +4,7 @@
 #include <stampede/session.h>
 
 int main() {
-  stampede::Session session({.root = ".", .catalogue = "pictures.db"});
+  stampede::Session session({.catalogue = "pictures.db"});
   const stampede::PictureStorage storage = {.frames = stampede::PicturesOf::keyframes, .cameras = {"front"}};
   const stampede::Episode e = session.run("reach_target", {.seed = 7, .pictures = storage});
   const stampede::PictureRequest request = {
@@ -28,7 +28,7 @@ int main() {
       }
       ++next;
     }
-  const auto stored = session.query("SELECT count(*) FROM images WHERE camera = 'front'").values.at(0).at(0);
-  std::printf("%zu points, %.6f m, %s pictures\n", next, worst, stored.c_str());
-  return next == points.positions.size() && next > 1000 && worst < 1e-5 && stored != "0" ? 0 : 2;
+  const auto stored = session.query("SELECT count(*) AS n FROM images WHERE camera = 'front'").integer(0, "n");
+  std::printf("%zu points, %.6f m, %d pictures\n", next, worst, static_cast<int>(stored));
+  return next == points.positions.size() && next > 1000 && worst < 1e-5 && stored > 0 ? 0 : 2;
 }

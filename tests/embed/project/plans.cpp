@@ -4,7 +4,7 @@
 #include <cstdio>
 
 int main() {
-  const stampede::Session session({.root = "."});
+  const stampede::Session session({});
   const stampede::TaskPlan plan = session.plan("put_item_in_drawer", {.seed = 7, .where = "(open chest.top_drawer)"});
   for (const stampede::TaskPlanStep& step : plan.steps) {
     std::printf("(%s", step.action.c_str());

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 int main() {
-  stampede::Session session({.root = ".", .catalogue = "states.db"});
+  stampede::Session session({.catalogue = "states.db"});
   const stampede::Episode e = session.run("find_item_in_drawer", {.seed = 7});
   const auto hidden = [&](std::int64_t frame) {
     int count = 0;

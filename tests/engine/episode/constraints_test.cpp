@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/episode/fact_tracker.h"
 #include "engine/symbolic/pddl.h"
 #include "tests/engine/episode/plain_task.h"
 
@@ -34,6 +35,18 @@ Start start_where(const char* text, std::int64_t seed = 1) {
 }
 
 }  // namespace
+
+TEST_CASE("what is known of a scene without a world is what a tracker knows before it looks") {
+  StackTask task;
+  PlainSymbols symbols;
+  const Scene scene = task.scene(0);
+  World world(std::make_shared<const Scene>(scene));
+  FactTracker tracker(symbols, WorldView(world));
+  tracker.begin({});
+  const StaticFacts known = static_facts(scene, symbols.domain());
+  CHECK(known.facts == tracker.facts());
+  CHECK(known.objects == tracker.objects());
+}
 
 TEST_CASE("literals that make a formula true: what is known is decided, the rest is to be made") {
   const auto drawn = draw("(and (on a t) (not (on b t)) (movable a))");

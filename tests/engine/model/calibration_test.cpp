@@ -151,3 +151,15 @@ TEST_CASE("mounts that do not exist and matrices that are no rotations are refus
   CHECK_THAT(complaint(with("1.25], [0, 0, 0, 1]", "1.25], [0, 0, 1, 1]")), Contains("last row"));
   CHECK_THAT(complaint(with("1.25], [0, 0, 0, 1]", "1.25]")), Contains("it has 3 entries, not 4"));
 }
+
+TEST_CASE("the camera file that the README shows is one") {
+  std::ifstream file(std::string(STAMPEDE_SOURCE_DIR) + "/scripting/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t begin = readme.find("```json\n") + 8;
+  const CalibrationFile shown(readme.substr(begin, readme.find("```", begin) - begin));
+  const std::vector<Camera> cameras = load_calibration(shown.path(), table_scene(1));
+  REQUIRE(cameras.size() == 1);
+  CHECK(cameras[0].name == "front");
+  CHECK(cameras[0].focal_x == 601.2);
+  CHECK(cameras[0].centre_x == Approx(318.9 + 0.5));
+}

@@ -1,0 +1,201 @@
+// An episode as arrays, straight from the tables: each is read once, in the order of its key, and only where a wanted
+// column needs it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "db/episode_reader.h"
+#include "engine/episode/arrays.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Columns of a row from `first` on.
+void take(const sql::Statement& row, int first, std::size_t count, double* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] = sqlite3_column_double(row.handle(), first + static_cast<int>(i));
+}
+
+class ArrayReader : private EpisodeReader {
+ public:
+  using EpisodeReader::EpisodeReader;
+  EpisodeArrays read(const ArrayRequest& request);
+
+ private:
+  [[noreturn]] void damaged(const std::string& table) const {
+    throw CatalogueError(
+        database_.path(),
+        "the rows of " + table + " of episode " + std::to_string(id_) + " contradict what else the file says",
+        "the file is damaged: generate it again");
+  }
+  double* slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items, std::size_t width,
+               const char* name) const;
+  void read_head();
+  void read_frame_rows();
+  void read_joint_rows();
+  void read_hand_rows();
+  void read_pose_rows(const std::string& which, const char* table, std::size_t items, std::vector<double>& poses);
+  void read_action_rows();
+  void read_segment_heads();
+  void read_documents();
+  void read_stored_pictures(EpisodeArrays& arrays);
+  FrameTables tables_;
+};
+
+// Place of (frame, which) in a table of `which` items a frame, each `width` wide.
+double* ArrayReader::slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items,
+                          std::size_t width, const char* name) const {
+  const std::size_t index = (static_cast<std::size_t>(frame) * items + static_cast<std::size_t>(which)) * width;
+  if (frame < 0 || which < 0 || which >= static_cast<std::int64_t>(items) || index + width > table.size())
+    damaged(name);
+  return &table[index];
+}
+
+void ArrayReader::read_head() {
+  sql::Statement row(database_,
+                     "SELECT task, coalesce(variation, ''), coalesce(seed, 0), physics_hz, frame_hz, frames, "
+                     "(SELECT count(*) FROM action_channel a WHERE a.episode = e.id AND a.space = 'joint_position') "
+                     "FROM episode e WHERE id = ?1");
+  if (!row.start(id_).step()) throw_no_episode(database_, id_);
+  std::int64_t frames = 0, commanded = 0;
+  row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, commanded);
+  if (frames < 0 || record_.physics_hz < 1 || record_.frame_hz < 1) damaged("episode");
+  tables_.frames = static_cast<std::size_t>(frames);
+  tables_.commanded = static_cast<std::size_t>(commanded);
+}
+
+void ArrayReader::read_frame_rows() {
+  each("step, reward, done", "frame", "frame", [&](sql::Statement& row) {
+    double reward = 0;
+    bool done = false;
+    row.read(tables_.step.emplace_back(), reward, done);
+    tables_.reward.push_back(reward);
+    tables_.done.push_back(done ? 1 : 0);
+  });
+  if (tables_.step.size() != tables_.frames) damaged("frame");
+}
+
+void ArrayReader::read_joint_rows() {
+  const std::size_t joints = record_.joints.size();
+  for (auto* table : {&tables_.joint_position, &tables_.joint_velocity, &tables_.joint_effort})
+    table->assign(tables_.frames * joints, kUnknown);
+  each("frame, joint, position, velocity, effort", "joint_state", "frame, joint", [&](sql::Statement& row) {
+    const std::int64_t frame = sqlite3_column_int64(row.handle(), 0), joint = sqlite3_column_int64(row.handle(), 1);
+    take(row, 2, 1, slot(tables_.joint_position, frame, joint, joints, 1, "joint_state"));
+    take(row, 3, 1, slot(tables_.joint_velocity, frame, joint, joints, 1, "joint_state"));
+    take(row, 4, 1, slot(tables_.joint_effort, frame, joint, joints, 1, "joint_state"));
+  });
+}
+
+void ArrayReader::read_hand_rows() {
+  constexpr std::size_t kWidth = FrameTables::kHand;
+  const std::size_t hands = record_.hands.size();
+  tables_.hand.assign(tables_.frames * hands * kWidth, kUnknown);
+  each("frame, hand, " + std::string(kPoseColumns) +
+           ", linear_x, linear_y, linear_z, angular_x, angular_y, angular_z, opening, touch_1, touch_2",
+       "hand_state", "frame, hand", [&](sql::Statement& row) {
+         const std::int64_t frame = sqlite3_column_int64(row.handle(), 0), hand = sqlite3_column_int64(row.handle(), 1);
+         take(row, 2, kWidth, slot(tables_.hand, frame, hand, hands, kWidth, "hand_state"));
+       });
+}
+
+// Rows are there where a pose changed: what lies between two of them is filled once.
+void ArrayReader::read_pose_rows(const std::string& which, const char* table, std::size_t items,
+                                 std::vector<double>& poses) {
+  constexpr std::size_t kWidth = FrameTables::kPose;
+  poses.assign(tables_.frames * items * kWidth, kUnknown);
+  each(which + ", frame, " + kPoseColumns, table, which + ", frame", [&](sql::Statement& row) {
+    const std::int64_t item = sqlite3_column_int64(row.handle(), 0), frame = sqlite3_column_int64(row.handle(), 1);
+    take(row, 2, kWidth, slot(poses, frame, item, items, kWidth, table));
+  });
+  const std::size_t stride = items * kWidth;
+  for (std::size_t i = stride; i < poses.size(); i += kWidth)
+    if (std::isnan(poses[i])) std::copy_n(&poses[i - stride], kWidth, &poses[i]);
+}
+
+void ArrayReader::read_action_rows() {
+  constexpr std::size_t kWidth = FrameTables::kPose;
+  const std::size_t joints = tables_.commanded, width = joints + kWidth + 1;
+  tables_.action_joint_position.assign(tables_.frames * joints, kUnknown);
+  tables_.action_tool_pose.assign(tables_.frames * kWidth, kUnknown);
+  tables_.action_gripper.assign(tables_.frames, kUnknown);
+  std::vector<std::pair<std::vector<double>*, std::pair<std::size_t, std::size_t>>> places;  // table, width, component
+  each("space, component", "action_channel", "ordinal", [&](sql::Statement& row) {
+    std::string space;
+    int component = 0;
+    row.read(space, component);
+    const auto at = static_cast<std::size_t>(component);
+    if (space == "joint_position") places.push_back({&tables_.action_joint_position, {joints, at}});
+    if (space == "tool_pose") places.push_back({&tables_.action_tool_pose, {kWidth, at}});
+    if (space == "gripper") places.push_back({&tables_.action_gripper, {1, at}});
+  });
+  if (places.size() > width) damaged("action_channel");
+  each("frame, channel, value", "action", "frame, channel", [&](sql::Statement& row) {
+    const std::int64_t frame = sqlite3_column_int64(row.handle(), 0);
+    const auto& [table, shape] = at(places, sqlite3_column_int64(row.handle(), 1), "action");
+    take(row, 2, 1, slot(*table, frame, static_cast<std::int64_t>(shape.second), shape.first, 1, "action"));
+  });
+}
+
+void ArrayReader::read_segment_heads() {
+  each(
+      "ordinal, coalesce(parent, -1), kind, skill, case_name, arguments, first_frame, end_frame, outcome, reason, "
+      "label",
+      "segment", "ordinal", [&](sql::Statement& row) {
+        SegmentRecord& s = record_.segments.emplace_back();
+        std::string arguments, outcome, reason;
+        row.read(s.ordinal, s.parent, s.kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
+                 outcome, reason, s.label);
+        s.arguments = from_json_list(database_, arguments);
+        s.outcome = outcome_from(outcome);
+        s.reason = reason_from(reason).value_or(Reason::none);
+      });
+}
+
+void ArrayReader::read_documents() {
+  each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
+       [&](sql::Statement& row) {
+         DocumentRecord& d = record_.documents.emplace_back();
+         row.read(d.kind, d.text);
+       });
+}
+
+void ArrayReader::read_stored_pictures(EpisodeArrays& arrays) {
+  std::map<std::pair<std::string, std::string>, std::vector<std::int64_t>> stored;
+  each("camera, kind, frame", "image", "frame", [&](sql::Statement& row) {
+    std::int64_t camera = 0, frame = 0;
+    std::string kind;
+    row.read(camera, kind, frame);
+    stored[{at(record_.cameras, camera, "image").name, kind}].push_back(frame);
+  });
+  for (auto& [which, frames] : stored) set_stored(arrays, which.first, which.second, std::move(frames));
+}
+
+EpisodeArrays ArrayReader::read(const ArrayRequest& request) {
+  const ArrayNeeds needs = needs_of(request);
+  read_head();
+  read_names();
+  read_cameras();
+  if (needs.samples) read_channels();
+  if (needs.frames) read_frame_rows();
+  if (needs.joints) read_joint_rows();
+  if (needs.hands) read_hand_rows();
+  if (needs.objects) read_pose_rows("posed", "object_state", record_.posed.size(), tables_.object_pose);
+  if (needs.cameras) read_pose_rows("camera", "camera_pose", record_.cameras.size(), tables_.camera_pose);
+  if (needs.actions) read_action_rows();
+  if (needs.segments) read_segment_heads();
+  if (needs.facts) read_facts();
+  if (needs.documents) read_documents();
+  EpisodeArrays arrays = arrays_of(record_, tables_, request);
+  if (needs.pictures) read_stored_pictures(arrays);
+  return arrays;
+}
+
+}  // namespace
+
+EpisodeArrays Catalogue::read_arrays(std::int64_t id, const ArrayRequest& request) const {
+  return ArrayReader(impl_->database, id).read(request);
+}
+
+}  // namespace stampede
