@@ -7,9 +7,11 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/geometry/bytes.h"
 #include "engine/geometry/drawn_mesh.h"
 #include "engine/geometry/image.h"
 #include "engine/geometry/import.h"
+#include "engine/geometry/mesh.h"
 #include "engine/geometry/smooth.h"
 
 namespace stampede {
@@ -39,11 +41,11 @@ Image raw_picture(const aiTexture& texture) {
 
 class Loader {
  public:
-  Loader(const std::filesystem::path& file, const Vector3& scale)
-      : file_(file), scale_(scale), is_gltf_(has_ending(file, {".glb", ".gltf"})) {
+  Loader(const ImportContext& context, const Vector3& scale)
+      : context_(context), file_(context.file), scale_(scale), is_gltf_(has_ending(file_, {".glb", ".gltf"})) {
     // An STL's normals are of its facets: they would make every curve an array of plates.
-    const unsigned normals = has_ending(file, {".stl"}) ? unsigned{aiComponent_NORMALS} : 0U;
-    scene_ = &import_scene(importer_, file, scale,
+    const unsigned normals = has_ending(file_, {".stl"}) ? unsigned{aiComponent_NORMALS} : 0U;
+    scene_ = &import_scene(importer_, context, scale,
                            normals | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS,
                            aiProcess_Triangulate | aiProcess_FlipUVs);
@@ -162,11 +164,14 @@ class Loader {
     std::replace(plain.begin(), plain.end(), '\\', '/');  // written on Windows
     const std::filesystem::path beside = file_.parent_path() / plain;
     std::error_code ignored;
+    context_.scope.check(beside);
     if (!std::filesystem::is_regular_file(beside, ignored))
       throw Error(file_.string(), "its picture '" + name + "' is missing", "put it at " + beside.string());
+    context_.companions.push_back(beside);
     return load_image(beside);
   }
 
+  const ImportContext& context_;
   const std::filesystem::path& file_;
   const Vector3& scale_;
   bool is_gltf_;
@@ -176,10 +181,60 @@ class Loader {
   std::vector<DrawnMaterial> drawn_;
 };
 
+// Pictures are written once, though many materials may share one.
+std::string packed(const std::vector<DrawnMaterial>& drawn) {
+  ByteWriter out;
+  std::vector<const Image*> pictures;
+  out.put(static_cast<std::uint64_t>(drawn.size()));
+  for (const DrawnMaterial& material : drawn) {
+    out.put(std::string_view(to_bytes(material.mesh)));
+    out.put(material.colour.has_value());
+    out.put(material.colour.value_or(std::array<double, 4>{}));
+    out.put(material.image != nullptr);
+    if (material.image == nullptr) continue;
+    const auto known = std::find(pictures.begin(), pictures.end(), material.image.get());
+    out.put(static_cast<std::uint64_t>(known - pictures.begin()));
+    if (known != pictures.end()) continue;
+    pictures.push_back(material.image.get());
+    out.put(material.image->width);
+    out.put(material.image->height);
+    out.put_all(material.image->rgba);
+  }
+  return out.take();
+}
+
+std::vector<DrawnMaterial> unpacked(const std::string& bytes) {
+  ByteReader in(bytes);
+  std::vector<Picture> pictures;
+  std::vector<DrawnMaterial> drawn(in.get<std::uint64_t>());
+  for (DrawnMaterial& material : drawn) {
+    material.mesh = mesh_from_bytes(in.text());
+    const bool coloured = in.get<bool>();
+    const auto colour = in.get<std::array<double, 4>>();
+    if (coloured) material.colour = colour;
+    if (!in.get<bool>()) continue;
+    const auto number = static_cast<std::size_t>(in.get<std::uint64_t>());
+    if (number == pictures.size()) {
+      Image image{in.get<int>(), in.get<int>(), {}};
+      image.rgba = in.all<std::uint8_t>();
+      pictures.push_back(std::make_shared<const Image>(std::move(image)));
+    }
+    material.image = pictures.at(number);
+  }
+  return drawn;
+}
+
 }  // namespace
 
 std::vector<DrawnMaterial> load_drawn(const std::filesystem::path& file, const Vector3& scale) {
-  return Loader(file, scale).load();
+  return load_drawn(file, scale, stampede::beside(file));
+}
+
+std::vector<DrawnMaterial> load_drawn(const std::filesystem::path& file, const Vector3& scale, const FileScope& scope) {
+  return unpacked(*read_carefully(file, "drawn" + exact(scale), scope, [&](Companions& companions) {
+    const ImportContext context{file, scope, companions};
+    return packed(Loader(context, scale).load());
+  }));
 }
 
 }  // namespace stampede

@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 
 #include "engine/base/error.h"
+#include "engine/geometry/bytes.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/import.h"
 
@@ -41,31 +42,78 @@ void check_finite(const std::filesystem::path& file, const Mesh& mesh) {
       throw Error(file.string(), "node '" + mesh.node + "' has a coordinate that is not a finite number", kMeshCure);
 }
 
-}  // namespace
-
-std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale) {
+std::vector<Mesh> read_meshes(const ImportContext& context, const Vector3& scale) {
   Assimp::Importer importer;
   // Normals and texture coordinates go first: they would keep equal corners apart.
-  const aiScene& scene = import_scene(importer, file, scale,
+  const aiScene& scene = import_scene(importer, context, scale,
                                       aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS,
                                       aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   std::vector<Mesh> meshes;
   walk(scene, *scene.mRootNode, aiMatrix4x4(), scale, meshes);
-  if (meshes.empty()) throw Error(file.string(), "the mesh has no triangles", kMeshCure);
-  for (const Mesh& mesh : meshes) check_finite(file, mesh);
+  if (meshes.empty()) throw Error(context.file.string(), "the mesh has no triangles", kMeshCure);
+  for (const Mesh& mesh : meshes) check_finite(context.file, mesh);
   return meshes;
 }
 
-std::vector<std::vector<Vector3>> load_hulls(const std::filesystem::path& file, const Vector3& scale, int most_points) {
-  std::vector<std::vector<Vector3>> hulls;
-  for (const Mesh& mesh : load_meshes(file, scale)) {
+using Hulls = std::vector<std::vector<Vector3>>;
+
+Hulls read_hulls(const ImportContext& context, const Vector3& scale, int most_points) {
+  Hulls hulls;
+  for (const Mesh& mesh : read_meshes(context, scale)) {
     std::optional<Hull> hull = convex_hull(mesh.vertices, most_points);
     if (!hull)
-      throw Error(file.string(), "node '" + mesh.node + "' is flat: it spans no volume",
+      throw Error(context.file.string(), "node '" + mesh.node + "' is flat: it spans no volume",
                   "give the node thickness, or remove it");
     hulls.push_back(std::move(hull->points));
   }
+  return hulls;
+}
+
+}  // namespace
+
+std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale) {
+  return load_meshes(file, scale, beside(file));
+}
+
+std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale, const FileScope& scope) {
+  const auto bytes = read_carefully(file, "meshes" + exact(scale), scope, [&](Companions& companions) {
+    ByteWriter out;
+    const std::vector<Mesh> meshes = read_meshes({file, scope, companions}, scale);
+    out.put(static_cast<std::uint64_t>(meshes.size()));
+    for (const Mesh& mesh : meshes) {
+      out.put(std::string_view(mesh.node));
+      out.put_all(mesh.vertices);
+      out.put_all(mesh.triangles);
+    }
+    return out.take();
+  });
+  ByteReader in(*bytes);
+  std::vector<Mesh> meshes(in.get<std::uint64_t>());
+  for (Mesh& mesh : meshes) {
+    mesh.node = in.text();
+    mesh.vertices = in.all<Vector3>();
+    mesh.triangles = in.all<std::array<int, 3>>();
+  }
+  return meshes;
+}
+
+Hulls load_hulls(const std::filesystem::path& file, const Vector3& scale, int most_points) {
+  return load_hulls(file, scale, most_points, beside(file));
+}
+
+Hulls load_hulls(const std::filesystem::path& file, const Vector3& scale, int most_points, const FileScope& scope) {
+  const std::string question = "hulls " + std::to_string(most_points) + exact(scale);
+  const auto bytes = read_carefully(file, question, scope, [&](Companions& companions) {
+    ByteWriter out;
+    const Hulls hulls = read_hulls({file, scope, companions}, scale, most_points);
+    out.put(static_cast<std::uint64_t>(hulls.size()));
+    for (const auto& points : hulls) out.put_all(points);
+    return out.take();
+  });
+  ByteReader in(*bytes);
+  Hulls hulls(in.get<std::uint64_t>());
+  for (auto& points : hulls) points = in.all<Vector3>();
   return hulls;
 }
 

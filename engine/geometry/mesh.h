@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/file_scope.h"
+#include "engine/geometry/drawn_mesh.h"
 #include "engine/geometry/transform.h"
 
 namespace stampede {
@@ -17,13 +19,22 @@ struct Mesh {
 };
 
 // One mesh for each node that has triangles, depth first. A DAE file's up axis is ignored, its unit is applied.
-// Units: `scale` turns the file's units into m. Throws Error for a missing, unreadable or empty file and for
-// coordinates that are not finite. Repeatable.
+// Units: `scale` turns the file's units into m. Files are read in a child process with limits of time and memory, once
+// each for a process. Threads: any. Repeatable. Throws Error for a missing, unreadable, malicious or empty file, for
+// coordinates that are not finite, and for what lies outside of the scope: by default the file's folder.
 std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale = Vector3::Ones());
+std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale, const FileScope& scope);
+
+// As load_drawn of drawn_mesh.h, for files that may name what lies in the scope.
+std::vector<DrawnMaterial> load_drawn(const std::filesystem::path& file, const Vector3& scale, const FileScope& scope);
+
+inline constexpr int kHullPoints = 64;  // of a hull, where nobody asks for more
 
 // The corners of each node's convex hull, at most `most_points` of them. Throws Error as load_meshes does, and for a
 // node that spans no volume.
 std::vector<std::vector<Vector3>> load_hulls(const std::filesystem::path& file, const Vector3& scale = Vector3::Ones(),
-                                             int most_points = 64);
+                                             int most_points = kHullPoints);
+std::vector<std::vector<Vector3>> load_hulls(const std::filesystem::path& file, const Vector3& scale, int most_points,
+                                             const FileScope& scope);
 
 }  // namespace stampede

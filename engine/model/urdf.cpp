@@ -5,6 +5,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <mutex>
 #include <numbers>
@@ -50,23 +51,82 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 };
 
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20;  // bytes
+constexpr int kMostElements = 10'000;  // both readers call themselves for what lies inside of what: this bounds it
+constexpr int kMostLinks = 1'000;
+
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code ignored;
   if (!stream || !std::filesystem::is_regular_file(file, ignored))
     throw Error(file.string(), "this URDF file cannot be read", "check its name and permissions");
+  if (std::filesystem::file_size(file, ignored) > kLargestFile)
+    throw Error(file.string(), "this URDF file is larger than 16 MiB", "meshes belong into files of their own");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
 }
 
+// Every `<` before a letter, in comments and values too: no reader sees more elements than that.
+void check_count(const std::filesystem::path& file, const std::string& text) {
+  int count = 0;
+  for (std::size_t at = text.find('<'); at + 1 < text.size(); at = text.find('<', at + 1))
+    count += text[at + 1] != '/' && text[at + 1] != '!' && text[at + 1] != '?' ? 1 : 0;
+  if (count > kMostElements)
+    throw Error(
+        file.string(),
+        "it has " + std::to_string(count) + " XML elements; at most " + std::to_string(kMostElements) + " are read",
+        "split the model");
+}
+
+// urdfdom hands what it reads to printf as the format when it complains of it.
+void refuse_format(const std::filesystem::path& file, const TiXmlNode& node, const char* text) {
+  if (text != nullptr && std::strchr(text, '%') != nullptr)
+    throw Error(file.string() + ":" + std::to_string(node.Row()),
+                "'" + std::string(text).substr(0, 60) + "' has a '%', which names and numbers of a URDF cannot have",
+                "choose another name");
+}
+
+void check_texts(const std::filesystem::path& file, const TiXmlNode& node) {
+  if (node.Type() == TiXmlNode::TINYXML_COMMENT) return;
+  refuse_format(file, node, node.Value());
+  if (const TiXmlElement* element = node.ToElement(); element != nullptr) {
+    for (const TiXmlAttribute* one = element->FirstAttribute(); one != nullptr; one = one->Next()) {
+      refuse_format(file, node, one->Name());
+      refuse_format(file, node, one->Value());
+    }
+  }
+  for (const TiXmlNode* child = node.FirstChild(); child != nullptr; child = child->NextSibling())
+    check_texts(file, *child);
+}
+
+void check_document(const std::filesystem::path& file, const TiXmlDocument& xml) {
+  int links = 0;
+  for (const TiXmlElement* root = xml.FirstChildElement(); root != nullptr; root = root->NextSiblingElement()) {
+    for (const TiXmlElement* one = root->FirstChildElement(); one != nullptr; one = one->NextSiblingElement()) {
+      const std::string kind = one->Value();
+      links += kind == "link" ? 1 : 0;
+      // What other programs keep in a URDF, urdfdom does not look at.
+      if (kind == "link" || kind == "joint" || kind == "material") check_texts(file, *one);
+    }
+    for (const TiXmlAttribute* one = root->FirstAttribute(); one != nullptr; one = one->Next())
+      refuse_format(file, *root, one->Value());
+  }
+  if (links > kMostLinks)
+    throw Error(file.string(),
+                "it has " + std::to_string(links) + " links; at most " + std::to_string(kMostLinks) + " are simulated",
+                "join links that fixed joints connect");
+}
+
 urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& file) {
   const std::string text = read_text(file);
+  check_count(file, text);
   TiXmlDocument xml;  // urdfdom reads it again, but does not tell the line of a mistake
   xml.Parse(text.c_str());
   if (xml.Error())
     throw Error(file.string() + ":" + std::to_string(xml.ErrorRow()), std::string("malformed XML: ") + xml.ErrorDesc(),
                 "close every element and quote every attribute");
+  check_document(file, xml);
   std::string messages;
   urdf::ModelInterfaceSharedPtr model;
   {
@@ -90,7 +150,8 @@ Transform from(const urdf::Pose& pose) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const urdf::ModelInterface& model) : file_(file), model_(model) {}
+  Reader(const std::filesystem::path& file, const FileScope& scope, const urdf::ModelInterface& model)
+      : file_(file), scope_(scope), model_(model) {}
 
   UrdfBody read() {
     body_.name = model_.getName();
@@ -224,7 +285,9 @@ class Reader {
     if (c.r == 0 && c.g == 0 && c.b == 0) looks.colour = {1, 1, 1, 1};  // what urdfdom says for no colour at all
     guarded(element, "texture", [&] {
       Texture texture;
-      texture.image = std::make_shared<const Image>(load_image(resolve(name)));
+      const std::filesystem::path picture = resolve(name);
+      scope_.check(picture);
+      texture.image = std::make_shared<const Image>(load_image(picture));
       looks.texture = drawn_.add(std::filesystem::path(name).filename().string(), texture);
     });
     return looks;
@@ -274,13 +337,13 @@ class Reader {
       if (shape.collides) {
         shape.kind = ShapeKind::hull;
         shape.visible = false;
-        for (auto& points : load_hulls(file, scale)) {
+        for (auto& points : load_hulls(file, scale, kHullPoints, scope_)) {
           shape.points = std::move(points);
           part.shapes.push_back(shape);
         }
       }
       if (!seen) return;
-      const auto pieces = add_drawn(drawn_, file.filename().string(), load_drawn(file, scale));
+      const auto pieces = add_drawn(drawn_, file.filename().string(), load_drawn(file, scale, scope_));
       for (Shape& drawn : drawn_shapes(pieces, shape, looks)) part.shapes.push_back(std::move(drawn));
     });
   }
@@ -296,6 +359,7 @@ class Reader {
   }
 
   const std::filesystem::path& file_;
+  const FileScope& scope_;
   const urdf::ModelInterface& model_;
   Body body_;
   DrawnAssets drawn_;
@@ -304,9 +368,12 @@ class Reader {
 
 }  // namespace
 
-UrdfBody read_urdf(const std::filesystem::path& file) {
+UrdfBody read_urdf(const std::filesystem::path& file) { return read_urdf(file, beside(file)); }
+
+UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope) {
+  scope.check(file);
   const urdf::ModelInterfaceSharedPtr model = parse(file);
-  return Reader(file, *model).read();
+  return Reader(file, scope, *model).read();
 }
 
 Body body_from_urdf(const std::filesystem::path& file) {

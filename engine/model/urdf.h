@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/base/file_scope.h"
 #include "engine/model/drawn_assets.h"
 
 namespace stampede {
@@ -16,8 +17,9 @@ struct UrdfBody {
 // Collision shapes collide, visual shapes are seen; a link without visuals shows its collision shapes.
 // Mesh and texture file names resolve beside the URDF; each mesh collides as one hull per node, and is drawn as it is,
 // in the colour and texture of the visual's material or else of its file. Mimic joints are kept by name.
-// Throws Error with the file, the element and the cure.
+// Files that it names lie in the scope: by default in its folder. Throws Error with the file, the element and the cure.
 UrdfBody read_urdf(const std::filesystem::path& file);
+UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope);
 
 // The body for physics: as read_urdf, without drawn meshes and textures.
 Body body_from_urdf(const std::filesystem::path& file);

@@ -7,11 +7,35 @@
 #include <mutex>
 
 #include "engine/base/error.h"
+#include "engine/base/late_library.h"
 
 namespace stampede {
 namespace {
 
 constexpr int kDummy = 16;  // pixels: OSMesa wants a picture of its own, though only framebuffer objects are drawn
+
+// OSMesa brings LLVM, which takes longer to load than most commands run.
+struct OsMesa {
+  decltype(&::OSMesaCreateContextAttribs) create = nullptr;
+  decltype(&::OSMesaDestroyContext) destroy = nullptr;
+  decltype(&::OSMesaMakeCurrent) make_current = nullptr;
+  decltype(&::OSMesaGetCurrentContext) current = nullptr;
+  decltype(&::OSMesaGetProcAddress) address = nullptr;
+
+  OsMesa() {
+    const LateLibrary library("libOSMesa.so.8", "renderer", "install libosmesa6 22 or later");
+    library.find("OSMesaCreateContextAttribs", create);
+    library.find("OSMesaDestroyContext", destroy);
+    library.find("OSMesaMakeCurrent", make_current);
+    library.find("OSMesaGetCurrentContext", current);
+    library.find("OSMesaGetProcAddress", address);
+  }
+};
+
+const OsMesa& osmesa() {
+  static const OsMesa functions;
+  return functions;
+}
 
 // llvmpipe reads this when the first context of the process is made. 0: it draws in the thread that calls.
 void settle_environment() {
@@ -23,8 +47,8 @@ void settle_environment() {
 
 GlFunctions load_gl_functions() {
   GlFunctions gl;
-#define STAMPEDE_GL_LOAD(type, name)                                  \
-  gl.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
+#define STAMPEDE_GL_LOAD(type, name)                              \
+  gl.name = reinterpret_cast<type>(osmesa().address("gl" #name)); \
   if (gl.name == nullptr) throw Error("renderer", "OSMesa has no gl" #name, "install libosmesa6 22 or later");
   STAMPEDE_GL_FUNCTIONS(STAMPEDE_GL_LOAD)
 #undef STAMPEDE_GL_LOAD
@@ -54,7 +78,7 @@ GlContext::GlContext() : inside_(std::make_unique<Inside>()) {
   {
     static std::mutex mutex;  // workers start together, and the first context makes what all of them share
     const std::lock_guard lock(mutex);
-    inside_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+    inside_->context = osmesa().create(attributes.data(), nullptr);
   }
   if (inside_->context == nullptr)
     throw Error("renderer", "OSMesa gives no OpenGL 4.5 core context", "install libosmesa6 22 or later");
@@ -63,13 +87,13 @@ GlContext::GlContext() : inside_(std::make_unique<Inside>()) {
 }
 
 GlContext::~GlContext() {
-  if (OSMesaGetCurrentContext() == inside_->context) OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
-  OSMesaDestroyContext(inside_->context);
+  if (osmesa().current() == inside_->context) osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+  osmesa().destroy(inside_->context);
 }
 
 void GlContext::make_current() {
-  if (OSMesaGetCurrentContext() == inside_->context) return;
-  if (OSMesaMakeCurrent(inside_->context, inside_->dummy.data(), GL_UNSIGNED_BYTE, kDummy, kDummy) != GL_TRUE)
+  if (osmesa().current() == inside_->context) return;
+  if (osmesa().make_current(inside_->context, inside_->dummy.data(), GL_UNSIGNED_BYTE, kDummy, kDummy) != GL_TRUE)
     throw Error("renderer", "the OpenGL context cannot be made current", "use a renderer in the thread that made it");
 }
 

@@ -87,7 +87,7 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
   if (!json) {
     for (const auto& [name, task] : tally.tasks) {
       console.out << fmt::format("{}: {} episodes, {} succeeded, {:.1f} s simulated", name, task.episodes,
-                                 task.succeeded, task.simulated_s);
+                                 task.succeeded, 1e-6 * static_cast<double>(task.simulated_us));
       if (task.existing > 0) console.out << fmt::format(", {} were there already", task.existing);
       for (const auto& [reason, count] : task.reasons) console.out << fmt::format(", {} {}", count, reason);
       console.out << "\n";
@@ -98,7 +98,10 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
   text.object().field("out", out).field("interrupted", tally.interrupted).key("tasks").array();
   for (const auto& [name, task] : tally.tasks) {
     text.object().field("task", name).field("episodes", task.episodes).field("succeeded", task.succeeded);
-    text.field("existing", task.existing).field("simulated_s", task.simulated_s).key("reasons").object();
+    text.field("existing", task.existing)
+        .field("simulated_s", 1e-6 * static_cast<double>(task.simulated_us))
+        .key("reasons")
+        .object();
     for (const auto& [reason, count] : task.reasons) text.field(reason, count);
     text.end().end();
   }

@@ -91,6 +91,9 @@ class LibraryBuilder {
   void check_body(const Definition& definition, const Node& body, const std::string& path);
   std::string hand_of(const std::string& world) const;
 
+  // check_assets.cpp
+  void check_assets(const Definition& definition);
+
   // check_worlds.cpp
   void check_worlds();
   void check_rates(const Definition& definition);

@@ -63,6 +63,7 @@ void LibraryBuilder::check_objects() {
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
     const Node& node = definition.node;
     check_body(definition, node, {});
+    check_assets(definition);
     if (!node["region"].present() && !node["type"].is_text()) {
       complain(definition, {}, "an object needs the field 'type'", "one of worlds/types.lua");
     }

@@ -72,6 +72,12 @@ void LibraryBuilder::check_worlds() {
 
 void LibraryBuilder::check_rates(const Definition& definition) {
   const int physics = rate_or(definition.node["physics_hz"], 240), frames = rate_or(definition.node["frame_hz"], 20);
+  if (physics > kFastestPhysics) {
+    return complain(
+        definition, "physics_hz",
+        std::to_string(physics) + " Hz is beyond what is simulated, " + std::to_string(kFastestPhysics) + " Hz at most",
+        "240 Hz serve most scenes");
+  }
   if (physics > 0 && frames > 0 && physics % frames == 0) return;
   complain(definition, "frame_hz", std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz",
            divisors_of(physics));

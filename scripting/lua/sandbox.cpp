@@ -1,8 +1,12 @@
 #include "scripting/lua/sandbox.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +24,18 @@ struct Sandbox::Impl {
   std::int64_t used = 0;
   int depth = 0;  // nested calls share the outermost one's budget
   bool limited = false;
-  bool spent = false;  // for good
+  bool spent = false;                             // for good
+  std::map<const void*, std::size_t> long_texts;  // alive
+  std::size_t longest = 0;                        // of them
+  int hooks = 0;
+  std::optional<double> started_s;  // of this thread's processor
 
   void begin() {
     if (spent) throw Error({}, "this script's instruction budget is spent", "it ran before and did not end");
-    if (depth++ == 0) used = 0;
+    if (depth++ > 0) return;
+    used = 0;
+    hooks = 0;
+    started_s.reset();
   }
   void end() { --depth; }
 };
@@ -33,12 +44,25 @@ namespace {
 
 constexpr int kHookEvery = 1000;  // instructions; the cost of the hook does not depend on it
 constexpr std::int64_t kBytesPerInstruction = 64;
+// One instruction compares whole texts. As long as there is a long one, all instructions are charged as if they did.
+constexpr std::size_t kLongText = 2048;
+constexpr int kHooksPerClock = 16;  // the clock is read too seldom to be felt
 constexpr const char kSpent[] = "the script ran for too long: its instruction budget is spent";
 constexpr const char kEnvironmentKey[] = "stampede.environment";
 constexpr const char kModulesKey[] = "stampede.modules";
 
 Sandbox::Impl& impl_of(lua_State* state) {
   return **static_cast<Sandbox::Impl**>(lua_getextraspace(state));  // new threads copy the main thread's
+}
+
+void forget_text(Sandbox::Impl& impl, const void* block) {
+  const auto found = impl.long_texts.find(block);
+  if (found == impl.long_texts.end()) return;  // a table, perhaps
+  const bool was_longest = found->second == impl.longest;
+  impl.long_texts.erase(found);
+  if (!was_longest) return;
+  impl.longest = 0;
+  for (const auto& [text, size] : impl.long_texts) impl.longest = std::max(impl.longest, size);
 }
 
 // When no block is given, `old_size` is the kind of value: so strings alone are bounded in length. What is allocated
@@ -49,6 +73,7 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
   const std::size_t held = fresh ? 0 : old_size;
   if (new_size == 0) {
     impl.memory -= held;
+    if (held > kLongText) forget_text(impl, block);
     std::free(block);
     return nullptr;
   }
@@ -63,16 +88,29 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
   }
   void* result = std::realloc(block, new_size);
   if (result != nullptr) impl.memory += new_size - held;
+  if (result != nullptr && fresh && old_size == LUA_TSTRING && new_size > kLongText) {
+    impl.long_texts[result] = new_size;
+    impl.longest = std::max(impl.longest, new_size);
+  }
   return result;
 }
 
 // An error outside every protected call (a push that found no memory): leave by an exception before Lua aborts.
 int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
 
+bool out_of_time(Sandbox::Impl& impl) {
+  if (++impl.hooks % kHooksPerClock != 0) return false;
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  if (!impl.started_s) impl.started_s = seconds;
+  return seconds - *impl.started_s > impl.limits.seconds;
+}
+
 void on_count(lua_State* state, lua_Debug* where) {
   Sandbox::Impl& impl = impl_of(state);
-  impl.used += lua_gethookcount(state);
-  if (impl.used < impl.limits.instructions && !impl.spent) return;
+  impl.used += lua_gethookcount(state) * static_cast<std::int64_t>(1 + impl.longest / kLongText);
+  if (impl.used < impl.limits.instructions && !impl.spent && !out_of_time(impl)) return;
   impl.spent = true;
   lua_sethook(state, on_count, LUA_MASKCOUNT, 1);
   lua_getinfo(state, "Sl", where);  // luaL_error would name the caller
@@ -298,7 +336,33 @@ bool Sandbox::resume(lua_State* coroutine, int arguments, int& results) {
   throw error_from(std::move(message), std::move(trace));
 }
 
+// Where a source has a zero byte in a text, or an escape that makes one: the first line that does, or 0.
+namespace {
+
+int line_of_zero(std::string_view source) {
+  int line = 1;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (source[i] == '\n') ++line;
+    if (source[i] == '\0') return line;
+    if (source[i] != '\\' || i + 1 >= source.size()) continue;
+    const std::string_view after = source.substr(++i);
+    std::size_t digits = 0;
+    while (digits < 3 && digits < after.size() && after[digits] >= '0' && after[digits] <= '9') ++digits;
+    const bool decimal = digits > 0 && after.substr(0, digits).find_first_not_of('0') == std::string_view::npos;
+    const bool unicode = after.starts_with("u{0") && after.find_first_not_of('0', 2) == after.find('}');
+    if (decimal || after.starts_with("x00") || unicode) return line;
+    if (source[i] == '\n') ++line;
+  }
+  return 0;
+}
+
+}  // namespace
+
 std::string Sandbox::compile(std::string_view source, std::string_view chunk_name) {
+  // Comparing texts with zero bytes takes a call for each of them: nothing here needs one.
+  if (const int line = line_of_zero(source); line > 0)
+    throw Error(std::string(chunk_name) + ":" + std::to_string(line), "a text with a zero byte",
+                "leave out \\0: texts are for people");
   const std::unique_ptr<lua_State, void (*)(lua_State*)> state(luaL_newstate(), lua_close);
   if (!state) throw Error(std::string(chunk_name), "no memory for a Lua state");
   const std::string name = "@" + std::string(chunk_name);

@@ -15,6 +15,8 @@ namespace stampede {
 struct SandboxLimits {
   std::int64_t instructions = 50'000'000;  // per call into Lua, all its coroutines together; a spent budget stays spent
   std::size_t memory_bytes = 64u << 20;
+  // Of processor time per call: a net under the budgets, for what they do not foresee. No honest script gets there.
+  double seconds = 8;
 };
 
 // One fresh state. Globals: the whitelist of design (arithmetic, bounded string/table/math, sorted pairs, ipairs,

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kLongestRep = kLongestString - 64;  // room for the header of a string
 constexpr std::size_t kLongestNeedle = 256;               // find is quadratic at worst: this and the charge bound it
 constexpr lua_Integer kMostUnpacked = 10'000;
+constexpr std::size_t kLongestNumber = 200;  // bytes; Lua's own limit for what it writes
+constexpr const char* kArithmetic[] = {"__add", "__sub", "__mul", "__mod", "__pow", "__div", "__idiv", "__unm"};
 
 // tostring without addresses: two runs must print the same.
 void push_plain_text(lua_State* state, int index) {
@@ -39,6 +41,7 @@ int plain_format(lua_State* state) {
     if (format[i] != '%') continue;
     const std::size_t kind = format.find_first_not_of("0123456789.-+# ", i + 1);
     if (kind == std::string_view::npos) break;
+    if (format[kind] == 'c') return luaL_error(state, "format has no %%c: write string.char");
     if (format[kind] == 'p') return luaL_error(state, "format has no %%p: addresses differ from run to run");
     i = kind;
   }
@@ -93,6 +96,64 @@ int plain_find(lua_State* state) {
   lua_pushinteger(state, static_cast<lua_Integer>(at) + 1);
   lua_pushinteger(state, static_cast<lua_Integer>(at + needle.size()));
   return 2;
+}
+
+// Reading a number takes time for each digit, and an operator asks nobody: so long ones are none.
+bool too_long_for_number(lua_State* state, int index) {
+  if (lua_type(state, index) != LUA_TSTRING) return false;
+  charge(state, static_cast<std::int64_t>(std::min(kLongestNumber, std::size_t{lua_rawlen(state, index)})));
+  return lua_rawlen(state, index) > kLongestNumber;
+}
+
+// Upvalue 1: the stock tonumber.
+int plain_tonumber(lua_State* state) {
+  if (too_long_for_number(state, 1)) {
+    lua_pushnil(state);
+    return 1;
+  }
+  lua_pushvalue(state, lua_upvalueindex(1));
+  lua_insert(state, 1);
+  lua_call(state, lua_gettop(state) - 1, 1);
+  return 1;
+}
+
+// `"1" + 2`. Upvalue 1: the stock operator.
+int text_arithmetic(lua_State* state) {
+  if (too_long_for_number(state, 1) || too_long_for_number(state, 2))
+    return luaL_error(state, "a text of more than %d bytes is no number", static_cast<int>(kLongestNumber));
+  lua_pushvalue(state, lua_upvalueindex(1));
+  lua_insert(state, 1);
+  lua_call(state, lua_gettop(state) - 1, 1);
+  return 1;
+}
+
+// Upvalue 1: the stock byte.
+int bounded_byte(lua_State* state) {
+  const auto length = static_cast<lua_Integer>(check_text(state, 1).size());
+  lua_Integer first = luaL_optinteger(state, 2, 1);
+  if (first < 0) first = std::max<lua_Integer>(1, first + length + 1);
+  lua_Integer last = luaL_optinteger(state, 3, first);
+  if (last < 0) last += length + 1;
+  last = std::min(last, length);
+  if (last >= first && last - first >= kMostUnpacked)
+    return luaL_error(state, "string.byte gives at most 10000 values");
+  charge(state, std::max<lua_Integer>(1, last - first));
+  lua_pushvalue(state, lua_upvalueindex(1));
+  lua_insert(state, 1);
+  lua_call(state, lua_gettop(state) - 1, LUA_MULTRET);
+  return lua_gettop(state);
+}
+
+// Upvalue 1: the stock char.
+int char_without_zero(lua_State* state) {
+  const int count = lua_gettop(state);
+  for (int i = 1; i <= count; ++i)
+    luaL_argcheck(state, luaL_checkinteger(state, i) != 0, i, "texts hold no zero bytes");
+  charge(state, count);
+  lua_pushvalue(state, lua_upvalueindex(1));
+  lua_insert(state, 1);
+  lua_call(state, count, 1);
+  return 1;
 }
 
 // A stock function of one string whose cost is its length. Upvalue 1: the function.
@@ -204,6 +265,9 @@ std::vector<Key> sorted_keys(lua_State* state, int index) {
       luaL_error(state, "pairs: keys are names and whole numbers, this table has a %s", luaL_typename(state, -1));
     }
   }
+  std::int64_t bytes = 0;
+  for (const Key& key : keys) bytes += static_cast<std::int64_t>(key.text.size());
+  charge(state, bytes);  // compared a few times each
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -271,7 +335,9 @@ void install_string(lua_State* state, int globals) {
   lua_newtable(state);
   const int text = lua_gettop(state);
   luaL_requiref(state, "string", luaopen_string, 0);
-  for (const char* name : {"byte", "char", "len", "sub"}) copy_function(state, text, name);
+  for (const char* name : {"len", "sub"}) copy_function(state, text, name);
+  copy_function(state, text, "byte", lua_function<bounded_byte>);
+  copy_function(state, text, "char", lua_function<char_without_zero>);
   for (const char* name : {"lower", "upper", "reverse"}) copy_function(state, text, name, lua_function<charged_text>);
   copy_function(state, text, "format", lua_function<plain_format>);
   lua_pop(state, 1);
@@ -282,6 +348,7 @@ void install_string(lua_State* state, int globals) {
   lua_getmetatable(state, -1);
   lua_pushvalue(state, -3);
   lua_setfield(state, -2, "__index");  // ("x"):rep(3) finds ours too
+  for (const char* name : kArithmetic) copy_function(state, lua_gettop(state), name, lua_function<text_arithmetic>);
   lua_pop(state, 2);
   lua_setfield(state, globals, "string");
 }
@@ -344,9 +411,8 @@ void install_whitelist(lua_State* state) {
   lua_newtable(state);
   const int globals = lua_gettop(state);
   luaL_requiref(state, "_G", luaopen_base, 0);
-  for (const char* name : {"ipairs", "select", "type", "tonumber", "error", "assert"}) {
-    copy_function(state, globals, name);
-  }
+  for (const char* name : {"ipairs", "select", "type", "error", "assert"}) copy_function(state, globals, name);
+  copy_function(state, globals, "tonumber", lua_function<plain_tonumber>);
   lua_pop(state, 1);
   lua_pushcfunction(state, lua_function<sorted_pairs>);
   lua_setfield(state, globals, "pairs");

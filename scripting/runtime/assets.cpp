@@ -30,22 +30,25 @@ const Kept& kept(std::map<Key, Kept>& map, const Key& key, const Value& where, c
 const Assets::Drawn& Assets::drawn(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
   return kept(drawn_, key_of(file, scale), where, [&] {
     Drawn drawn;
-    drawn.pieces = add_drawn(drawn.assets, file.filename().string(), load_drawn(file, scale));
+    drawn.pieces = add_drawn(drawn.assets, file.filename().string(), load_drawn(file, scale, scope_));
     return drawn;
   });
 }
 
 const Assets::Hulls& Assets::hulls(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
-  return kept(hulls_, key_of(file, scale), where, [&] { return load_hulls(file, scale); });
+  return kept(hulls_, key_of(file, scale), where, [&] { return load_hulls(file, scale, kHullPoints, scope_); });
 }
 
 std::shared_ptr<const Image> Assets::image(const std::filesystem::path& file, const Value& where) {
-  return kept(images_, file, where, [&] { return std::make_shared<const Image>(load_image(file)); });
+  return kept(images_, file, where, [&] {
+    scope_.check(file);
+    return std::make_shared<const Image>(load_image(file));
+  });
 }
 
 const UrdfBody& Assets::urdf(const std::filesystem::path& file) {
   const auto found = urdfs_.find(file);
-  return found != urdfs_.end() ? found->second : urdfs_.emplace(file, read_urdf(file)).first->second;
+  return found != urdfs_.end() ? found->second : urdfs_.emplace(file, read_urdf(file, scope_)).first->second;
 }
 
 }  // namespace stampede

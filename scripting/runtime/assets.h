@@ -12,9 +12,12 @@
 
 namespace stampede {
 
-// Lifetime: one thread. All throw Error that names the author's place, the file and the cure.
+// Lifetime: one thread. All throw Error that names the author's place, the file and the cure; for files outside of the
+// scope too.
 class Assets {
  public:
+  explicit Assets(FileScope scope) : scope_(std::move(scope)) {}
+
   struct Drawn {
     std::vector<DrawnPiece> pieces;
     DrawnAssets assets;  // that the pieces name
@@ -27,6 +30,7 @@ class Assets {
   const UrdfBody& urdf(const std::filesystem::path& file);  // its own errors name place enough
 
  private:
+  FileScope scope_;
   std::map<std::string, Drawn> drawn_;  // by file and scale
   std::map<std::string, Hulls> hulls_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;

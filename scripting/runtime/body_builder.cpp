@@ -69,6 +69,7 @@ class Builder {
   Builder(const ObjectSource& source, const Colours& colours)
       : source_(source),
         colours_(colours),
+        own_assets_(FileScope({source.folder})),
         assets_(source.assets != nullptr ? *source.assets : own_assets_),
         context_{colours, source.folder, assets_, result_.drawn} {}
 

@@ -1,8 +1,10 @@
 #include "scripting/runtime/lua_task.h"
 
 #include <algorithm>
+#include <cmath>
 #include <lua.hpp>
 
+#include "scripting/runtime/script_error.h"
 #include "scripting/runtime/task_reader.h"
 #include "scripting/runtime/variation.h"
 
@@ -34,6 +36,7 @@ LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view varia
       variation_(variation),
       seed_(seed),
       axes_(axes_of(info_of(*tests.library(), name), variation)),
+      assets_(FileScope(tests.library()->roots().folders)),
       drawn_(make(0)) {
   tests_.set_hand(drawn_.hand);
 }
@@ -95,7 +98,11 @@ bool LuaTask::call_test(const char* field, const WorldView& view) {
   scripts.push_kept(found->second);
   scripts.push_kept(scripts.view_reference());
   scripts.push_kept(v_);
-  scripts.sandbox().call(2, 1);
+  try {
+    scripts.sandbox().call(2, 1);
+  } catch (const Error& error) {
+    throw ScriptError(error.where(), error.message(), error.hint());
+  }
   return true;
 }
 
@@ -118,9 +125,15 @@ bool LuaTask::fails(const WorldView& view) {
 double LuaTask::reward(const WorldView& view) {
   if (!call_test("reward", view)) return 0;
   lua_State* const state = tests_.get().lua();
+  const bool number = lua_type(state, -1) == LUA_TNUMBER;
   const double result = lua_tonumber(state, -1);
+  const std::string found = number ? "" : luaL_typename(state, -1);
   lua_pop(state, 1);
-  return result;
+  if (number && std::isfinite(result)) return result;
+  throw ScriptError(drawn_.files.front()->shown_path,
+                    "reward gives " + (number ? "a number that is not finite" : "a " + found) + " at " +
+                        std::to_string(view.time_s()) + " s",
+                    "return a number; look for divisions by 0");
 }
 
 }  // namespace stampede

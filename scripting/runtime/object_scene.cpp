@@ -15,7 +15,7 @@ Scene object_scene(std::shared_ptr<const Library> library, const std::string& ob
   const ScriptFile* file = library->file(DefinitionKind::object, object);
   if (file == nullptr) throw Error("object '" + object + "'", "there is no such object file");
   ScriptState scripts(library, "");
-  Assets assets;
+  Assets assets(FileScope(library->roots().folders));
   const RandomKey key("portrait");
   Scene scene;
   scripts.protect([&](lua_State* state) {

@@ -21,10 +21,20 @@ int between(lua_State* state) {
   return 1;
 }
 
+// Any range of whole numbers, the whole of them too: differences are taken without sign, where they cannot overflow.
 int integer(lua_State* state) {
   const lua_Integer low = luaL_checkinteger(state, 2), high = luaL_checkinteger(state, 3);
-  luaL_argcheck(state, low <= high && high - low >= 0 && high - low < (lua_Integer{1} << 53), 3, "empty or huge range");
-  lua_pushinteger(state, low + check_random(state, 1).below(high - low + 1));
+  luaL_argcheck(state, low <= high, 3, "empty range");
+  Random& random = check_random(state, 1);
+  const std::uint64_t span = static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
+  std::uint64_t above = 0;
+  if (span < static_cast<std::uint64_t>(LUA_MAXINTEGER)) {
+    above = static_cast<std::uint64_t>(random.below(static_cast<std::int64_t>(span) + 1));
+  } else {
+    do above = random.bits();  // at least every second is one of the range
+    while (above > span);
+  }
+  lua_pushinteger(state, static_cast<lua_Integer>(static_cast<std::uint64_t>(low) + above));
   return 1;
 }
 

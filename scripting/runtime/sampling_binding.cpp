@@ -5,10 +5,13 @@
 #include "engine/base/error.h"
 #include "engine/motion/candidates.h"
 #include "scripting/lua/binding.h"
+#include "scripting/lua/whitelist.h"
 #include "scripting/runtime/pose_binding.h"
 
 namespace stampede {
 namespace {
+
+constexpr std::int64_t kSpotsCost = 200'000;  // instructions that take as long as testing places for collisions
 
 const ViewContext& sampling_context(lua_State* state) {
   const ViewContext& context = check_context(state);
@@ -32,6 +35,7 @@ int push_poses(lua_State* state, const std::vector<Transform>& poses) {
 template <auto spots>
 int spots_on(lua_State* state) {
   const ViewContext& context = sampling_context(state);
+  charge(state, kSpotsCost);
   const std::string_view below = check_text(state, 2), object = check_text(state, 3);
   const RandomKey key = spots_key(check_random(state, 4));
   const WorldView& view = *context.view;
@@ -60,6 +64,7 @@ std::vector<Transform> region_in_region(const WorldView& view, const Region& out
 
 int spots_in_region(lua_State* state) {
   const ViewContext& context = sampling_context(state);
+  charge(state, kSpotsCost);
   const std::string_view name = check_text(state, 2), object_name = check_text(state, 3);
   const RandomKey key = spots_key(check_random(state, 4));
   const bool floating = lua_toboolean(state, 5) != 0;

@@ -75,6 +75,9 @@ void SceneBuilder::add(BuiltObject built, std::vector<Body>& bodies) {
   }
   std::move(built.regions.begin(), built.regions.end(), std::back_inserter(scene_.regions));
   if (built.body) bodies.push_back(std::move(*built.body));
+  if (bodies_.size() + fixtures_.size() > kMostBodies)
+    throw Error(bodies.back().name, "a scene of more than " + std::to_string(kMostBodies) + " things",
+                "lower the counts: each is simulated, and plans speak of each");
   drawn_.join(built.drawn);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scripting/library/rates.h"
 #include "scripting/runtime/body_builder.h"
 
 namespace stampede {
@@ -60,7 +61,8 @@ std::vector<Ring> rings_from(const Value& list) {
     if (numbers.size() != 2) item.expected("{ radius, z }");
     rings.push_back({numbers[0], wall > 0 ? std::max(0.0, numbers[0] - wall) : 0.0, numbers[1]});
   }
-  if (rings.size() < 2) list.expected("a profile of at least two { radius, z }");
+  if (rings.size() < 2 || rings.size() > kMostRings)
+    list.expected("a profile of 2 to " + std::to_string(kMostRings) + " { radius, z }");
   return rings;
 }
 
@@ -297,8 +299,13 @@ std::vector<Shape> shapes_from(const Value& fields, const std::optional<Looks>& 
     const std::optional<Looks> looks = looks_from(sized, own, context);
     ShapeReader(sized, looks, context, drawn_only).append(shapes, !drawn_only && !visual.empty());
   };
-  for (const Value* shape : written) append(shape, false);
-  for (const Value* shape : visual) append(shape, true);
+  const auto checked = [&](const Value* shape) {
+    if (shapes.size() > kMostShapes)
+      throw Error(shape->place, "a body of more than " + std::to_string(kMostShapes) + " shapes",
+                  "join them; a hollow lathe has one for each segment of each ring");
+  };
+  for (const Value* shape : written) append(shape, false), checked(shape);
+  for (const Value* shape : visual) append(shape, true), checked(shape);
   return shapes;
 }
 

@@ -69,10 +69,36 @@ void push_choices(lua_State* state, const SkillCall& call) {
   }
 }
 
+constexpr int kDeepest = 16;  // skills that run within each other
+
+// Counts who is alive: a skill lives as long as those that it runs.
+class Nesting {
+ public:
+  explicit Nesting(std::shared_ptr<int> depth) : depth_(std::move(depth)) { ++*depth_; }
+  ~Nesting() { --*depth_; }
+  Nesting(const Nesting&) = delete;
+  Nesting& operator=(const Nesting&) = delete;
+
+ private:
+  std::shared_ptr<int> depth_;
+};
+
+class TooDeep : public SkillRun {
+ public:
+  explicit TooDeep(std::string skill) : skill_(std::move(skill)) {}
+  RobotCall next(const WorldView&) override {
+    return robot_call::Fail{Reason::script_error, "skill '" + skill_ + "' is run inside " + std::to_string(kDeepest) +
+                                                      " others: does it run itself?"};
+  }
+
+ private:
+  std::string skill_;
+};
+
 class LuaRun : public SkillRun {
  public:
-  LuaRun(TestState& tests, const SkillInfo& info, const SkillCall& call)
-      : tests_(tests), scripts_(tests.library(), tests.hand()) {
+  LuaRun(TestState& tests, const SkillInfo& info, const SkillCall& call, std::shared_ptr<int> depth)
+      : nesting_(std::move(depth)), tests_(tests), scripts_(tests.library(), tests.hand()) {
     tests_.drop();
     const int run = scripts_.function_of(DefinitionKind::skill, call.skill, "run");
     if (run == 0) throw Error(call.skill, "has no function 'run'");
@@ -112,6 +138,7 @@ class LuaRun : public SkillRun {
     }
   }
 
+  Nesting nesting_;
   TestState& tests_;
   ScriptState scripts_;
   lua_State* coroutine_ = nullptr;
@@ -129,7 +156,8 @@ std::unique_ptr<SkillRun> LuaSkills::start(const SkillCall& call, const WorldVie
     throw Error(call.skill, "takes " + std::to_string(info->parameters.size()) + " arguments, was given " +
                                 std::to_string(call.arguments.size()));
   }
-  return std::make_unique<LuaRun>(tests_, *info, call);
+  if (*depth_ >= kDeepest) return std::make_unique<TooDeep>(call.skill);
+  return std::make_unique<LuaRun>(tests_, *info, call, depth_);
 }
 
 }  // namespace stampede

@@ -165,6 +165,7 @@ void TaskReader::read_looks(const Value& world, const std::filesystem::path& fol
 
 void TaskReader::read_calibration(const Value& file, const std::filesystem::path& folder) {
   try {
+    FileScope(scripts_.library().roots().folders).check(folder / file.as_text());
     put_cameras(drawn_.scene, load_calibration(folder / file.as_text(), drawn_.scene));
   } catch (const Error& error) {
     throw Error(file.place, (error.where().empty() ? "" : error.where() + ": ") + error.message(), error.hint());

@@ -14,7 +14,12 @@
 
 namespace stampede {
 
+namespace {
+constexpr std::int64_t kCallCost = 100;  // instructions that take as long as looking something up
+}
+
 const ViewContext& check_context(lua_State* state) {
+  charge(state, kCallCost);
   auto** stored = static_cast<ViewContext**>(luaL_checkudata(state, 1, kViewType));
   if ((*stored)->view == nullptr) luaL_error(state, "w is kept beyond its call: use the w that is handed in");
   return **stored;

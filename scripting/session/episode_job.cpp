@@ -8,6 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
 #include "scripting/library/naming.h"
+#include "scripting/runtime/script_error.h"
 #include "scripting/session/bddl_task_file.h"
 
 namespace stampede {
@@ -160,7 +161,15 @@ PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, Episode
 }
 
 EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
-  EpisodeRecord record = run_episode(scripts_.task(), scripts_.symbols(), scripts_.skills(), options_, stop);
+  EpisodeRecord record;
+  try {
+    record = run_episode(scripts_.task(), scripts_.symbols(), scripts_.skills(), options_, stop);
+  } catch (const ScriptError& error) {
+    record.axes = scripts_.task().axes();
+    record.options = options_.as_text();
+    record.reason = Reason::script_error;
+    record.detail = error.what();
+  }
   record.key = key_;
   record.task = job_.task;
   record.variation = job_.variation;

@@ -1,6 +1,7 @@
 #include "scripting/session/run_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -63,7 +64,7 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
   ++tally.finished;
   ++task.episodes;
   ++variation_episodes;
-  task.simulated_s += episode.duration_s();
+  task.simulated_us += std::llround(1e6 * episode.duration_s());
   if (success) {
     ++tally.succeeded;
     ++task.succeeded;

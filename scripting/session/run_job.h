@@ -18,7 +18,7 @@ struct TaskTally {
   std::int64_t episodes = 0, succeeded = 0, existing = 0;
   std::map<std::string, std::int64_t> reasons;                              // of the failed ones
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> variations;  // succeeded, episodes
-  double simulated_s = 0;
+  std::int64_t simulated_us = 0;  // whole numbers: their sum does not depend on who is done first
 };
 
 struct RunTally {

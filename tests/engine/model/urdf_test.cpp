@@ -196,3 +196,44 @@ TEST_CASE("bad URDF files say where and what") {
       Contains("joint 'j'") && Contains("lower limit"));
   CHECK_THROWS_AS(body_from_urdf("/nowhere/arm.urdf"), Error);
 }
+
+TEST_CASE("a URDF is no format, and has its limits") {
+  using Catch::Contains;
+  const std::string format = "%s%s%s%s%n";
+  for (const std::string& text :
+       {robot(link_of("a", "<inertial><mass value='" + format + "'/></inertial>")), robot(link_of(format)),
+        robot(link_of("a", "<inertial><mass value='&#37;n&#x25;n'/></inertial>")),
+        robot(link_of("a", "<visual><geometry><" + format + "/></geometry></visual>")),
+        "<robot name='" + format + "'>" + link_of("a") + "</robot>"})
+    CHECK_THAT(complaint(text), Contains("'%'") || Contains("malformed"));
+  CHECK(complaint(robot("<!-- 100 % --><gazebo>50 %s</gazebo>" + link_of("a"))) == "accepted");
+  CHECK(complaint(robot(link_of("a"))) == "accepted");
+
+  std::string many = link_of("l0"), deep;
+  for (int i = 1; i <= 1000; ++i)
+    many += link_of("l" + std::to_string(i)) +
+            joint_of("j" + std::to_string(i), "l" + std::to_string(i - 1), "l" + std::to_string(i));
+  CHECK_THAT(complaint(robot(many)), Contains("1001 links") && Contains("1000"));
+  for (int i = 0; i < 60'000; ++i) deep += "<a>";
+  CHECK_THAT(complaint(deep), Contains("60000 XML elements"));
+  CHECK_THAT(complaint(deep.substr(0, 3 * 9'999)), Contains("malformed"));  // deep, but not too deep to say so
+}
+
+TEST_CASE("what a URDF names lies in its folder, or in the scope") {
+  using Catch::Contains;
+  const TemporaryFolder folder, elsewhere;
+  const auto mesh =
+      elsewhere.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto named = [&](const std::string& name) {
+    return folder.write("arm.urdf", robot(link_of("a", kMass + "<collision><geometry><mesh filename='" + name +
+                                                           "'/></geometry></collision>")));
+  };
+  for (const std::string& name : {mesh.string(), "file://" + mesh.string(),
+                                  "package://arm/../" + mesh.parent_path().filename().string() + "/m.obj",
+                                  "../" + mesh.parent_path().filename().string() + "/m.obj"}) {
+    CAPTURE(name);
+    const auto file = named(name);
+    CHECK_THROWS_WITH(read_urdf(file), Contains("link 'a'") && Contains("outside the roots") && Contains("--path"));
+    CHECK(read_urdf(file, FileScope({folder.write("x", "").parent_path(), mesh.parent_path()})).body.parts.size() == 1);
+  }
+}

@@ -2,6 +2,7 @@
 #include "scripting/lua/sandbox.h"
 
 #include <catch2/catch.hpp>
+#include <ctime>
 #include <lua.hpp>
 
 #include "engine/base/error.h"
@@ -10,6 +11,12 @@
 using namespace stampede;
 
 namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
 
 constexpr SandboxLimits kSmall{200'000, 4u << 20};
 
@@ -127,6 +134,56 @@ TEST_CASE("a runaway script is an error with its place, never a hang") {
   Fixture fixture;
   CHECK_THAT(fixture.fault("local x = 1\nwhile true do end"),
              Catch::StartsWith("test.lua:2: the script ran for too long"));
+}
+
+// A tenth of the usual budget must be spent within a tenth of the 10 s that nothing may take.
+TEST_CASE("what costs time is charged for, whatever it is") {
+  const char* const sources[] = {
+      "local a, b = ('x'):rep(65000) .. 1, ('x'):rep(65000) .. 2 while true do local x = a < b end",
+      "local a, b = ('x'):rep(65000) .. 1, ('x'):rep(65000) .. 1 while true do local x = a == b end",
+      "local a, b = ('x'):rep(2000) .. 1, ('x'):rep(2000) .. 2 while true do local x = a < b end",
+      "local s = ('9'):rep(200) while true do local x = tonumber(s) end",
+      "local s = ('9'):rep(60000) while true do local x = tonumber(s) end",
+      "local s = ('9'):rep(190) while true do local x = s + s end",
+      "local s = ' ' .. ('0'):rep(60000) .. '5' while true do local x = s | 0 end",
+      "local s = ('x'):rep(10000) while true do local x = s:byte(1, -1) end",
+      "local t = {} for i = 1, 50 do t[('k'):rep(2000) .. i] = i end while true do for k in pairs(t) do end end",
+  };
+  for (const char* source : sources) {
+    INFO(source);
+    Sandbox sandbox({5'000'000, 64u << 20}, {});
+    const std::clock_t start = std::clock();
+    CHECK_THROWS_AS(sandbox.run(Sandbox::compile(source, "test.lua"), "test.lua", 0), Error);
+    CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < (kSanitized ? 10.0 : 1.0));
+  }
+}
+
+TEST_CASE("a net of processor time lies under the budgets") {
+  Sandbox sandbox({std::int64_t{1} << 50, 64u << 20, 0.2}, {});
+  CHECK_THROWS_WITH(sandbox.run(Sandbox::compile("local x = 1\nwhile true do end", "test.lua"), "test.lua", 0),
+                    Catch::StartsWith("test.lua:2: the script ran for too long"));
+}
+
+TEST_CASE("texts have no zero bytes, and long ones are no numbers") {
+  Fixture fixture;
+  for (const std::string& source :
+       {std::string(R"(return "\0")"), std::string(R"(return 'a\000b')"), std::string(R"(return "\x00")"),
+        std::string(R"(return "\u{000}")"), std::string("return 'a\0b'", 12)}) {
+    INFO(source);
+    CHECK_THAT(fixture.fault("\n" + source), Catch::StartsWith("test.lua:2: a text with a zero byte"));
+  }
+  CHECK(fixture.run(R"(return "\\0" .. "\10\u{00e9}" == "")") == "false");
+  CHECK_THAT(fixture.fault("return string.char(65, 0)"), Catch::Contains("zero bytes"));
+  CHECK_THAT(fixture.fault("return ('%c'):format(0)"), Catch::Contains("string.char"));
+  CHECK(fixture.run("return string.char(72, 105)") == "Hi");
+  CHECK(fixture.run("return table.concat({ ('abc'):byte(1, -1) }, ' ')") == "97 98 99");
+  CHECK(fixture.run("return ('abc'):byte() .. ' ' .. ('abc'):byte(-1) .. ' ' .. select('#', ('abc'):byte(4))") ==
+        "97 99 0");
+  CHECK_THAT(fixture.fault("return ('x'):rep(20000):byte(1, -1)"), Catch::Contains("10000"));
+  CHECK(fixture.run("return '10' + 5") == "15");
+  CHECK(fixture.run("return -'10' .. ' ' .. tonumber('0x10') .. ' ' .. tonumber('z', 36)") == "-10 16 35");
+  CHECK_THAT(fixture.fault("return ('1'):rep(300) + 1"), Catch::Contains("is no number"));
+  CHECK(fixture.run("return tonumber(('1'):rep(300)) == nil") == "true");
 }
 
 TEST_CASE("a spent budget stays spent") {

@@ -1,0 +1,87 @@
+// Whatever lies in tasks/ and skills/ is run: a file that is added is tested without a word here. The tasks are dealt
+// out to several test cases, so that they run beside each other.
+#include <catch2/catch.hpp>
+
+#include "engine/symbolic/pddl.h"
+#include "tests/tasks/run_task.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+constexpr std::int64_t kSeed = 11;
+
+const Library& shipped() {
+  static const std::shared_ptr<const Library> library = Library::load(Roots{{STAMPEDE_SOURCE_DIR}});
+  return *library;
+}
+
+EpisodeRecord run_shipped(const std::string& task) {
+  RunOptions options;
+  options.seed = kSeed;
+  return run_task(task, first_variation(task), options);
+}
+
+std::string document(const EpisodeRecord& episode, const std::string& kind) {
+  for (const DocumentRecord& one : episode.documents)
+    if (one.kind == kind) return one.text;
+  return {};
+}
+
+// Motions, skills and subgoals each cover every frame once.
+void check_tiling(const EpisodeRecord& episode) {
+  for (const std::string kind : {"subgoal", "skill", "motion"}) {
+    std::vector<int> covered(episode.frames.size(), 0);
+    for (const SegmentRecord& segment : episode.segments)
+      if (segment.kind == kind)
+        for (std::int64_t frame = segment.span.first_frame; frame < segment.span.end_frame; ++frame)
+          ++covered.at(static_cast<std::size_t>(frame));
+    INFO(kind);
+    CHECK(covered == std::vector<int>(episode.frames.size(), 1));
+  }
+}
+
+void check_plan(const EpisodeRecord& episode) {
+  const Domain domain = domain_from_pddl(document(episode, "pddl_domain"), "domain");
+  const Problem problem = problem_from_pddl(document(episode, "pddl_problem"), "problem", domain);
+  const Validation verdict = validate(domain, problem, plan_from_text(document(episode, "plan"), "plan"));
+  INFO(verdict.explanation);
+  CHECK(verdict.valid);
+}
+
+// Every `of`-th task, from `first` on.
+void check_share(std::size_t first, std::size_t of) {
+  const std::vector<const ScriptFile*> files = shipped().files(DefinitionKind::task);
+  for (std::size_t i = first; i < files.size(); i += of) {
+    const EpisodeRecord episode = run_shipped(files[i]->name);
+    INFO(files[i]->name << " " << episode.variation << " seed " << kSeed << ": " << verdict(episode));
+    CHECK(episode.outcome == Outcome::success);
+    CHECK_FALSE(skills_of(episode).empty());
+    check_tiling(episode);
+    check_plan(episode);
+    CHECK(replay_episode(episode) == "");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("each task that ships succeeds, and its labels, plan and replay are sound (1 of 4)") { check_share(0, 4); }
+TEST_CASE("each task that ships succeeds, and its labels, plan and replay are sound (2 of 4)") { check_share(1, 4); }
+TEST_CASE("each task that ships succeeds, and its labels, plan and replay are sound (3 of 4)") { check_share(2, 4); }
+TEST_CASE("each task that ships succeeds, and its labels, plan and replay are sound (4 of 4)") { check_share(3, 4); }
+
+TEST_CASE("each skill that ships is run by a task that ships") {
+  std::set<std::string> unused;
+  for (const ScriptFile* file : shipped().files(DefinitionKind::skill)) unused.insert(file->name);
+  CHECK_FALSE(unused.empty());
+  for (const ScriptFile* file : shipped().files(DefinitionKind::task)) {
+    if (unused.empty()) break;
+    for (const SegmentRecord& segment : run_shipped(file->name).segments)
+      if (segment.kind == "skill" && segment.outcome == Outcome::success) unused.erase(segment.skill);
+  }
+  std::string names;
+  for (const std::string& name : unused) names += name + " ";
+  INFO("no task runs " << names << "to its end: add a task that needs it, or to tests/tasks/data");
+  CHECK(unused.empty());
+}
