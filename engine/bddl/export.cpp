@@ -66,6 +66,7 @@ class Exporter {
         problem.interest.push_back(result_.names.at(name));
       }
     }
+    remark_half_open();
     if (!unsaid_.empty()) {
       std::string list;
       for (const std::string& predicate : unsaid_) list += (list.empty() ? "" : " ") + predicate;
@@ -251,6 +252,27 @@ class Exporter {
   void add_init(const BddlLiteral& literal) {
     auto& init = result_.problem.init;
     if (std::find(init.begin(), init.end(), literal) == init.end()) init.push_back(literal);
+  }
+
+  // A drawer between the two words is lost there: open and close are all they say of a joint.
+  void remark_half_open() {
+    for (const BddlThing& thing : scene_.things) {
+      const auto parts = mapping_.parts.find(thing.class_name);
+      const std::string last = thing.name.substr(thing.name.rfind('.') + 1);
+      if (thing.kind != BddlThing::Kind::part || parts == mapping_.parts.end() ||
+          std::find(parts->second.begin(), parts->second.end(), last) == parts->second.end())
+        continue;
+      bool can_say = false, says = false;
+      for (const BddlPredicateRule& rule : mapping_.predicates) {
+        if (rule.theirs != "open" && rule.theirs != "close") continue;
+        can_say = true;
+        says = says || scene_.facts.count({rule.ours, {thing.name}}) > 0;
+      }
+      if (can_say && !says)
+        result_.remarks.push_back("`" + thing.name + "` is neither open nor closed, which " +
+                                  std::string(to_string(mapping_.dialect)) +
+                                  " cannot say: it starts there as their model has it");
+    }
   }
 
   void remark_unplaced(const BddlThing& thing) {

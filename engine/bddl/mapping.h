@@ -1,6 +1,7 @@
 // Which of our words stand for which of theirs, and how far they mean the same.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -27,22 +28,34 @@ struct BddlPair {
   std::string theirs, ours;
 };
 
+// Where imported furniture stands: drawn from these ranges.
+struct BddlStand {
+  std::array<double, 2> x_m = {0, 0}, y_m = {0, 0};
+  double z_m = 0;
+};
+
+// All words of both sides come from files (worlds/bddl): none is built in here.
 struct BddlMapping {
   BddlDialect dialect = BddlDialect::libero;
-  std::string domain = "robosuite";
+  std::string domain;        // robosuite
   std::string problem_name;  // LIBERO: the Python class of the arena; BEHAVIOR: empty, the task's name serves
   // Their category or synset, and our class or type of objects. The first that fits is taken, in either direction.
   std::vector<BddlPair> categories;
+  std::map<std::string, std::string> instances;  // LIBERO: category -> the name of the only thing of it
+  std::vector<std::string> unsaid;               // our classes that are not written: their arena has them anyway
+  std::vector<std::string> unknown;              // categories that their own library of objects lacks
   // LIBERO: sites of fixtures by the end of their name (`top_region`), and our parts (`top_drawer`), for classes that
   // have them in `parts`; ours empty: the fixture itself (`top_side`).
   std::vector<BddlPair> sites;
   // Our class -> its parts with a joint. Of such a thing as a whole, theirs `open` and `in` are any part, `close` all.
   std::map<std::string, std::vector<std::string>> parts;
   std::vector<BddlPredicateRule> predicates;  // the first that fits is taken
-  std::string support = "on";                 // ours; with a LIBERO region of a surface it becomes `within` as well
-  std::string within = "inside";
-  std::string hand = "panda.hand";           // BEHAVIOR: what their agent is here
-  std::string room = "kitchen";              // BEHAVIOR: where scene objects stand, unless `rooms` says otherwise
+  std::string support;                        // ours; with a LIBERO region of a surface it becomes `within` as well
+  std::string within;
+  std::string hand;                          // BEHAVIOR: what their agent is here
+  std::string zone;                          // our class of regions that are made
+  std::map<std::string, BddlStand> stands;   // our class -> where it stands
+  std::string room;                          // BEHAVIOR: where scene objects stand, unless `rooms` says otherwise
   std::map<std::string, std::string> rooms;  // our class or type -> room
 
   // The first rule for a literal of theirs (ours) whose counterpart is not negated, else the first rule; or null.
@@ -53,9 +66,6 @@ struct BddlMapping {
   // Categories of the problem that the mapping does not have, but that we have a class of: they stand for themselves.
   void add_namesakes(const BddlProblem& problem, const std::function<bool(const std::string& class_name)>& is_ours);
 };
-
-BddlMapping default_libero_mapping();
-BddlMapping default_behavior_mapping();
 
 // Throws Error for predicates that the dialect does not have and orders that are no permutation of its arguments.
 // `where`: the file it comes from.

@@ -64,20 +64,27 @@ void BddlNaming::name_all() {
 void BddlNaming::name_libero(const BddlThing& thing) {
   if (thing.kind == Kind::hand) return;
   if (thing.kind == Kind::object || thing.kind == Kind::fixture) {
+    const auto has = [](const std::vector<std::string>& list, const std::string& word) {
+      return std::find(list.begin(), list.end(), word) != list.end();
+    };
+    if (has(mapping_.unsaid, thing.class_name)) return;  // stands in their arena
     const std::string* category = mapping_.category(thing.class_name, thing.type);
     if (category == nullptr && thing.kind == Kind::fixture) {
       result_.remarks.push_back("`" + thing.name + "` is left out: the mapping has no category for `" +
                                 thing.class_name + "`");
       return;
     }
-    if (category == nullptr) {
-      result_.remarks.push_back("`" + thing.name + "` keeps the category `" + small_word(thing.class_name) +
-                                "`, which LIBERO has to be taught");
+    const std::string written = category == nullptr ? small_word(thing.class_name) : *category;
+    if (category == nullptr || has(mapping_.unknown, written)) {
+      remark("LIBERO has no object `" + written + "` (`" + thing.name +
+             "`): register one of that name before the problem is loaded, or map its category to one that it has");
     }
-    const std::string name = unique(small_word(thing.name));
+    const auto fixed = mapping_.instances.find(written);
+    const std::string name = unique(fixed == mapping_.instances.end() ? small_word(thing.name) : fixed->second);
+    if (fixed != mapping_.instances.end() && name != fixed->second)
+      remark("`" + thing.name + "` is a second `" + written + "`: their arena has one only");
     result_.names[thing.name] = name;
-    add(thing.kind == Kind::fixture ? result_.problem.fixtures : result_.problem.objects,
-        category == nullptr ? small_word(thing.class_name) : *category, name);
+    add(thing.kind == Kind::fixture ? result_.problem.fixtures : result_.problem.objects, written, name);
     return;
   }
   const auto owner = result_.names.find(thing.owner);

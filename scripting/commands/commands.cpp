@@ -35,6 +35,11 @@ std::int64_t in_range(const Arguments& arguments, const char* option, std::int64
   return value;
 }
 
+std::shared_ptr<const Library> words_of(const Arguments& arguments) {
+  std::vector<Error> mistakes;
+  return Library::load(roots_of(arguments), mistakes);
+}
+
 std::shared_ptr<const Library> load_library(const Arguments& arguments) { return Library::load(roots_of(arguments)); }
 
 std::shared_ptr<const Library> load_usable_library(const Arguments& arguments) {

@@ -31,6 +31,8 @@ std::int64_t episode_number(const std::string& text);  // throws UsageError
 std::shared_ptr<const Library> load_library(const Arguments& arguments);
 // The same for commands that run some tasks: only what those use must be right.
 std::shared_ptr<const Library> load_usable_library(const Arguments& arguments);
+// The same, whatever mistakes other files have: for commands that ask only for words of it.
+std::shared_ptr<const Library> words_of(const Arguments& arguments);
 Roots roots_of(const Arguments& arguments);
 // For commands that write a file: the last --path is made when it is not there.
 void make_own_folder(const Arguments& arguments);

@@ -72,8 +72,8 @@ CommandRow export_command() {
            {"--dialect", "NAME", "bddl: whose", Takes::text, "both", {"both", "libero", "behavior"}, false},
            {"--mapping",
             "FILE",
-            "bddl: a Lua file with their words for ours, instead of the one built in; see "
-            "scripting/session/README.md",
+            "bddl: a Lua file with their words for ours, which go before those of worlds/bddl; see "
+            "worlds/bddl/README.md",
             Takes::path,
             "",
             {},

@@ -3,8 +3,9 @@
 #include <ostream>
 #include <set>
 
+#include "scripting/commands/commands.h"
 #include "scripting/commands/export_kinds.h"
-#include "scripting/session/bddl_mapping_file.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/stored_episode.h"
 #include "scripting/session/stored_symbols.h"
 #include "scripting/session/text_file.h"
@@ -14,17 +15,15 @@ namespace {
 
 std::vector<BddlMapping> chosen_mappings(const Arguments& arguments) {
   const std::string dialect = arguments.text("--dialect");
-  std::vector<BddlMapping> mappings;
+  const auto library = words_of(arguments);
   if (arguments.has("--mapping")) {
-    mappings = {read_bddl_mapping(arguments.text("--mapping"))};
+    std::vector<BddlMapping> mappings = {read_bddl_mapping(*library, arguments.text("--mapping"))};
     if (dialect != "both" && dialect != dialect_name(mappings[0].dialect))
       throw UsageError("--mapping is for " + dialect_name(mappings[0].dialect) + ", not for " + dialect,
                        "leave --dialect out");
     return mappings;
   }
-  if (dialect != "behavior") mappings.push_back(default_libero_mapping());
-  if (dialect != "libero") mappings.push_back(default_behavior_mapping());
-  return mappings;
+  return bddl_mappings_of(*library, dialect);
 }
 
 class BddlExporter {

@@ -1,15 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <ostream>
+#include <sstream>
 
 #include "db/catalogue_writer.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
-#include "scripting/session/bddl_mapping_file.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/bddl_task_file.h"
 #include "scripting/session/editor_files.h"
 #include "scripting/session/numerics.h"
@@ -39,44 +41,110 @@ Scene scene_of_world(const std::shared_ptr<const Library>& library, const std::s
   throw Error("--world", "no task takes place in a world '" + world + "'", did_you_mean(world, names));
 }
 
-struct Source {
-  BddlReading reading;
-  BddlMapping mapping;
-  std::string mapping_source;
+struct NewFile {
+  fs::path inside;  // its root
+  std::string text;
 };
 
-Source read_source(const Arguments& arguments) {
-  Source source;
-  const std::string file = arguments.text("FILE");
-  source.reading = read_bddl(read_text_file(file), file);
-  const bool libero = source.reading.problem.dialect == BddlDialect::libero;
-  source.mapping = libero ? default_libero_mapping() : default_behavior_mapping();
-  if (arguments.has("--mapping")) {
-    source.mapping_source = read_text_file(arguments.text("--mapping"));
-    source.mapping = bddl_mapping_from_lua(source.mapping_source, arguments.text("--mapping"));
-  }
-  return source;
-}
+struct Source {
+  BddlReading reading;
+  NamedMapping mapping;
+  std::vector<NewFile> files;  // of a mapping that is in no root yet
+};
 
-std::string task_name(const Arguments& arguments, const Source& source) {
-  if (!arguments.has("--task")) return proposed_name(source.reading.problem.name);
+std::string task_name(const Arguments& arguments, const BddlProblem& problem) {
+  if (!arguments.has("--task")) return proposed_name(problem.name);
   const std::string name = arguments.text("--task");
   if (const auto fault = name_fault(name))
     throw UsageError("'" + name + "' cannot be a name: it " + *fault, "take " + proposed_name(name));
   return name;
 }
 
-// Loads the library with the new file; a file that has mistakes does not stay.
-std::shared_ptr<const Library> library_with(const Arguments& arguments, const fs::path& path, const std::string& text) {
+// A mapping from elsewhere goes to worlds/bddl beside the task, under the task's name.
+Source read_source(const Arguments& arguments, BddlReading reading, const Library& library, const std::string& name) {
+  Source source{std::move(reading), {}, {}};
+  if (arguments.has("--mapping")) {
+    const std::string file = arguments.text("--mapping");
+    source.mapping.mapping = read_bddl_mapping(library, file);
+    source.mapping.file = file;
+    if (library.module("worlds.bddl." + file) == nullptr) {
+      source.mapping.file = name;
+      source.files.push_back({fs::path("worlds/bddl") / (name + ".lua"), read_text_file(file)});
+    }
+  } else {
+    source.mapping.mapping = bddl_mapping_of(library, source.reading.problem.dialect);
+  }
+  source.mapping.mapping.add_namesakes(source.reading.problem, [&](const std::string& class_name) {
+    return library.file(DefinitionKind::object, class_name) != nullptr;
+  });
+  return source;
+}
+
+// A folder that goes when this does.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "stampede_import_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "is there room in the temporary folder?");
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code code;
+    fs::remove_all(path_, code);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string line_at(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int i = 0; i < line && std::getline(lines, found); ++i) {
+  }
+  found.erase(0, found.find_first_not_of(' '));
+  return found.size() > 100 ? found.substr(0, 100) + "…" : found;
+}
+
+// What `stampede check` would say of the task beside all other files, before any of them is written.
+std::string checker_says(const Arguments& arguments, const std::vector<NewFile>& files) {
+  const Scratch scratch;
+  Roots roots = roots_of(arguments);
+  roots.folders.push_back(scratch.path());
+  for (const NewFile& file : files) write_text_file(scratch.path() / file.inside, file.text);
+  std::vector<Error> mistakes;
+  Library::load(roots, mistakes);
+  for (const Error& mistake : mistakes)
+    for (const NewFile& file : files) {
+      if (!mistake.where().starts_with(file.inside.generic_string())) continue;
+      const std::string line = mistake.where().substr(file.inside.generic_string().size());
+      const std::string text = line.empty() ? "" : line_at(file.text, std::atoi(line.c_str() + 1));
+      return mistake.message() + (text.empty() ? "" : ", in `" + text + "`") +
+             (mistake.hint().empty() ? "" : "; " + mistake.hint());
+    }
+  return {};
+}
+
+// Writes the files and loads the library with them; where it cannot be loaded they do not stay.
+std::shared_ptr<const Library> library_with(const Arguments& arguments, const fs::path& root,
+                                            const std::vector<NewFile>& files) {
   std::error_code code;
-  const bool there = fs::exists(path, code);
-  if (there && read_text_file(path) != text)
-    throw UsageError("'" + path.string() + "' exists already and is another task", "take another --task");
-  if (!there) write_text_file(path, text);
+  for (const NewFile& file : files)
+    if (fs::exists(root / file.inside, code) && !holds_text(root / file.inside, file.text))
+      throw UsageError("'" + (root / file.inside).string() + "' exists already and is another", "take another --task");
+  std::vector<fs::path> written;
+  for (const NewFile& file : files) {
+    if (fs::exists(root / file.inside, code)) continue;
+    write_text_file(root / file.inside, file.text);
+    written.push_back(root / file.inside);
+  }
   try {
     return load_library(arguments);
   } catch (const Error&) {
-    if (!there) fs::remove(path, code);
+    for (const fs::path& path : written) fs::remove(path, code);
     throw;
   }
 }
@@ -146,27 +214,26 @@ void print(const std::vector<Judged>& judged, const fs::path& path, const Import
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
-  Source source = read_source(arguments);
-  for (const std::string& warning : source.reading.warnings) console.err << warning << "\n";
-  const std::string name = task_name(arguments, source), world = arguments.text("--world");
+  const std::string file = arguments.text("FILE"), world = arguments.text("--world");
+  BddlReading reading = read_bddl(read_text_file(file), file);
+  for (const std::string& warning : reading.warnings) console.err << warning << "\n";
+  const std::string name = task_name(arguments, reading.problem);
   make_own_folder(arguments);
-  const fs::path path = roots_of(arguments).folders.back() / "tasks" / (name + ".lua");
-  std::vector<Error> complaints;  // of other files: no reason not to write this one
-  const auto before = Library::load(roots_of(arguments), complaints);
-  source.mapping.add_namesakes(source.reading.problem, [&](const std::string& class_name) {
-    return before->file(DefinitionKind::object, class_name) != nullptr;
-  });
-  const ImportedTask imported =
-      task_file_from(source.reading.problem, source.mapping, source.mapping_source, world,
-                     scene_of_world(before, world), fs::path(arguments.text("FILE")).filename().string());
+  const fs::path root = roots_of(arguments).folders.back(), path = root / "tasks" / (name + ".lua");
+  const auto before = words_of(arguments);  // mistakes of other files are no reason not to write this one
+  Source source = read_source(arguments, std::move(reading), *before, name);
+  ImportedTask imported = task_file_from(before, source.reading.problem, source.mapping, world,
+                                         scene_of_world(before, world), fs::path(file).filename().string());
   for (const std::string& warning : imported.warnings) console.err << warning << "\n";
   for (const BddlNote& note : imported.notes) console.err << to_text(note) << "\n";
+  source.files.push_back({fs::path("tasks") / (name + ".lua"), imported.text});
+  if (imported.refusal.empty()) imported.refusal = checker_says(arguments, source.files);
   if (!imported.refusal.empty()) {
-    console.err << arguments.text("FILE") << " cannot be a task here: " << imported.refusal << "\n";
+    console.err << file << " cannot be a task here: " << imported.refusal << "\n";
     return kNo;
   }
-  const auto library = library_with(arguments, path, imported.text);
-  if (!arguments.list("--path").empty()) write_editor_files(roots_of(arguments).folders.back(), *library);
+  const auto library = library_with(arguments, root, source.files);
+  if (!arguments.list("--path").empty()) write_editor_files(root, *library);
   bool interrupted = false;
   const std::vector<Judged> judged = run_task(arguments, library, name, console, interrupted);
   print(judged, path, imported, arguments.flag("--json"), console);
@@ -190,7 +257,7 @@ CommandRow import_command() {
            {"--world", "NAME", "where it takes place", Takes::text, "tabletop", {}, false},
            {"--mapping",
             "FILE",
-            "a Lua file with our words for theirs, instead of the one built in; see scripting/session/README.md",
+            "a Lua file with our words for theirs, which go before those of worlds/bddl; see worlds/bddl/README.md",
             Takes::path,
             "",
             {},

@@ -7,6 +7,7 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/plan_output.h"
 #include "scripting/commands/symbol_options.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/constraints_fit.h"
 #include "scripting/session/start_question.h"
 #include "scripting/session/stored_symbols.h"
@@ -22,13 +23,15 @@ FoundPlans plans_for(const Arguments& arguments, const StartQuestion& question) 
 }
 
 // The start in the words of a BDDL dialect. Throws Error where the dialect cannot say it.
-std::string bddl_of(const Arguments& arguments, const StartQuestion& question, const Domain& own, const Task& task) {
+std::string bddl_of(const Arguments& arguments, const Library& library, const StartQuestion& question,
+                    const Domain& own, const Task& task) {
   EpisodeRecord record;
   record.task = task.name();
   record.language = {{"task", task.instructions().front(), -1}};
   std::string refusals;
-  std::string text = bddl_text(record, *question.start.scene, {own, question.plain}, question.state,
-                               arguments.text("--bddl"), arguments.list("--leave-out"), refusals);
+  std::string text =
+      bddl_text(record, *question.start.scene, {own, question.plain}, question.state,
+                bddl_mappings_of(library, arguments.text("--bddl")), arguments.list("--leave-out"), refusals);
   if (!refusals.empty()) throw Error(task.name(), refusals.substr(0, refusals.size() - 1));
   return text;
 }
@@ -57,7 +60,7 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
   }
   if (arguments.has("--bddl")) {
     AlteredTask task(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options());
-    console.out << bddl_of(arguments, question, prepared.scripts().symbols().domain(), task);
+    console.out << bddl_of(arguments, *library, question, prepared.scripts().symbols().domain(), task);
     return kDone;
   }
   const FoundPlans found = plans_for(arguments, question);
@@ -120,7 +123,7 @@ CommandRow plan_command() {
       "task's own steps); with --pddl it prints the domain of the world, the same for all its tasks, and the problem. "
       "Of two files: the PDDL domain and problem of any author. Without a plan it says which goal literal cannot be "
       "made true and which action or fact is missing. The exit code is 0 with a plan, 1 where none exists (proved), 5 "
-      "where the planner gave up at a limit, 3 for files that are no PDDL.",
+      "where the planner gave up at a limit, 3 for files that are no PDDL and for a --planner that failed.",
       {{"TASK", "the task's name, or the file of a PDDL domain", true, false},
        {"PROBLEM", "the file of a PDDL problem, with a domain file before it", false, false}},
       {{"--variation",
@@ -148,7 +151,7 @@ CommandRow plan_command() {
         false},
        {"--leave-out", "PREDICATE", "not in the goal of a BDDL problem", Takes::text, "", {}, true}},
       {"stampede plan stack_blocks --variation colour=red,height=3", "stampede plan put_item_in_drawer --pddl",
-       "stampede plan pick_and_lift --where '(on block1 table)' --goal '(holding block1)' --task-sized",
+       "stampede plan pick_and_lift --where '(on target table)' --goal '(holding target)' --task-sized",
        "stampede plan put_item_in_drawer --bddl libero --leave-out hand_empty",
        "stampede plan domain.pddl problem.pddl --k 3"},
       run};

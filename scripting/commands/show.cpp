@@ -9,6 +9,7 @@
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/timeline.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/stored_episode.h"
 #include "scripting/session/stored_symbols.h"
 
@@ -70,11 +71,11 @@ void collect_predicates(const Formula& formula, std::set<std::string>& names) {
 // In one dialect. What its goal cannot say (that the hand is empty, for one) is left out with a remark, unless the
 // caller chose what to leave out: a moment is shown to be looked at.
 std::string bddl_moment(const StoredEpisode& stored, const StoredSymbols& symbols, const AbstractState& state,
-                        const std::string& dialect, const std::vector<std::string>& leave_out, std::string& refusals) {
+                        const BddlMapping& mapping, const std::vector<std::string>& leave_out, std::string& refusals) {
   std::string complaint;
   const auto text_without = [&](const std::vector<std::string>& predicates) {
     complaint.clear();
-    return bddl_text(stored.episode, *stored.scene, symbols, state, dialect, predicates, complaint);
+    return bddl_text(stored.episode, *stored.scene, symbols, state, {mapping}, predicates, complaint);
   };
   std::string text = text_without(leave_out);
   const std::string first_complaint = complaint;
@@ -95,8 +96,9 @@ std::string bddl_moment(const StoredEpisode& stored, const StoredSymbols& symbol
 }
 
 // One moment in the form that was asked for. `refusals`: what a dialect cannot say.
-std::string moment_text(const StoredEpisode& stored, const AbstractState& state, const std::string& form,
-                        const std::vector<std::string>& leave_out, std::string& refusals) {
+std::string moment_text(const Arguments& arguments, const StoredEpisode& stored, const AbstractState& state,
+                        std::string& refusals) {
+  const std::string form = arguments.text("--as");
   const StoredSymbols symbols = read_symbols(stored.episode);
   if (form == "facts") return facts_text(state);
   if (form == "sentences") return describe(state, symbols.domain, *stored.scene);
@@ -104,11 +106,10 @@ std::string moment_text(const StoredEpisode& stored, const AbstractState& state,
     return unknown_facts(state, symbols.domain) +
            to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
   std::string text;
-  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
-    const std::string name = dialect_name(dialect);
-    if (form == "bddl" || form == name)
-      text += (text.empty() ? "" : "\n") + bddl_moment(stored, symbols, state, name, leave_out, refusals);
-  }
+  for (const BddlMapping& mapping : bddl_mappings_of(*words_of(arguments), form))
+    text += (text.empty() ? "" : "
+") +
+            bddl_moment(stored, symbols, state, mapping, arguments.list("--leave-out"), refusals);
   return text;
 }
 
@@ -118,7 +119,7 @@ ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Co
   if (stored.scene == nullptr) throw Error("episode " + std::to_string(stored.id), stored.why_not);
   const std::string form = arguments.text("--as");
   std::string refusals;
-  const std::string text = moment_text(stored, state, form, arguments.list("--leave-out"), refusals);
+  const std::string text = moment_text(arguments, stored, state, refusals);
   if (arguments.flag("--json")) {
     JsonText json;
     json.object().field("episode", stored.id).field("frame", frame);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/bddl/bddl.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
 #include "scripting/library/source_lines.h"
@@ -12,6 +13,24 @@ constexpr SandboxLimits kLimits{5'000'000, 32u << 20};
 
 std::string with_context(const std::string& what, const std::string& text, std::size_t count) {
   return count > 1 ? what + " (variation " + text + ")" : what;
+}
+
+// The problem that a task was imported from must read, in its dialect, and its mapping must be there.
+void check_problem(const Node& problem, const std::string& place, const Library& library, const Complain& complain) {
+  if (!problem["text"].is_text() || !problem["dialect"].is_text()) return;  // said already
+  const std::string& dialect = problem["dialect"].text;
+  if (dialect != "libero" && dialect != "behavior") {
+    complain("problem.dialect", "there is no dialect '" + dialect + "'", did_you_mean(dialect, {"behavior", "libero"}));
+    return;
+  }
+  const BddlDialect read = read_bddl(problem["text"].text, place + ": problem.text").problem.dialect;
+  if ((read == BddlDialect::libero) != (dialect == "libero"))
+    complain("problem.dialect", "the text is " + std::string(to_string(read)) + "'s", "name that dialect");
+  const Node& mapping = problem["mapping"];
+  if (mapping.is_text() && library.module("worlds.bddl." + mapping.text) == nullptr)
+    complain("problem.mapping", "there is no worlds/bddl/" + mapping.text + ".lua", "put the file there");
+  for (const auto& [theirs, ours] : problem["names"].fields)
+    if (!ours.is_text()) complain("problem.names." + theirs, "expects text, this is " + ours.type_name(), {});
 }
 
 void collect_variables(const Node& node, std::vector<std::string>& names) {
@@ -40,6 +59,9 @@ void LibraryBuilder::read_task(const Definition& definition) {
     complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
   }
   if (const auto world = worlds.find(info.world); world != worlds.end()) check_observe(definition, world->second.node);
+  guarded([&] {
+    check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
+  });
   info.hand = hand_of(info.world);
   const std::vector<Node> variations = variations_of(definition, state);
   for (const Node& variation : variations) {

@@ -27,7 +27,17 @@ const Record kTask{
      {"observe", "observe", false, "{}", "", "pictures and sensors to record; goes before the world's, field by field"},
      {"hold", "number", false, "1.0", "s", "for how long the goal must stay true at the end", "0.2", true},
      {"instructions", "string[]|string", true, "", "", "sentences; {axis} is the variation's value",
-      "{ \"stack {height} blocks\" }", true}}};
+      "{ \"stack {height} blocks\" }", true},
+     {"problem", "problem", false, "", "", "what `stampede import` made it from: its episodes are judged by it too"}}};
+
+const Record kProblem{
+    "problem",
+    "The problem of another language that a task was imported from",
+    {{"dialect", "string", true, "", "", "whose words it is in: libero or behavior", "\"libero\""},
+     {"text", "string", true, "", "", "the whole problem, as that language writes it", "[[(define (problem …) …)]]"},
+     {"mapping", "string", false, "the dialect's", "", "a file of worlds/bddl by name: our words for its words"},
+     {"names", "table", false, "{}", "", "its names, and ours where a thing has another one here",
+      "{ main_table = \"table\" }"}}};
 
 const Record kEntry{
     "entry",
@@ -329,8 +339,8 @@ const Record kRobot{
 
 const std::vector<Record>& records() {
   static const std::vector<Record> kRecords = {
-      kTask,   kSkill, kPredicate, kObject,  kWorld,  kRobot,  kEntry, kCase,      kPart,    kJoint,       kLatch,
-      kRegion, kGrasp, kShape,     kTexture, kCamera, kSensor, kLight, kRandomise, kObserve, kObserveNoise};
+      kTask,  kProblem, kSkill, kPredicate, kObject,  kWorld,  kRobot,  kEntry, kCase,      kPart,    kJoint,
+      kLatch, kRegion,  kGrasp, kShape,     kTexture, kCamera, kSensor, kLight, kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

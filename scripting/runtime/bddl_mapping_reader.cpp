@@ -1,6 +1,7 @@
 #include "scripting/runtime/bddl_mapping_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <lua.hpp>
@@ -16,25 +17,22 @@ constexpr std::uintmax_t kLargest = 1u << 20;  // bytes
 
 class MappingReader {
  public:
-  MappingReader(const Library& library, std::string place) : library_(library), place_(std::move(place)) {}
+  MappingReader(const Library& library, std::string place, bool home)
+      : library_(library), place_(std::move(place)), home_(home) {}
 
   BddlMapping read(const Node& table) {
     if (!table.is_table()) throw Error(place_, "expected a table, got " + table.type_name(), "return { … }");
     only(table, "",
-         {"dialect", "extend", "domain", "problem_name", "categories", "sites", "parts", "predicates", "support",
-          "within", "hand", "room", "rooms"});
+         {"dialect", "extend", "domain", "problem_name", "categories", "instances", "unsaid", "unknown", "sites",
+          "parts", "predicates", "support", "within", "hand", "zone", "stands", "room", "rooms"});
     const std::string& dialect = text(table["dialect"], "dialect");
     if (dialect != "libero" && dialect != "behavior")
       fail("dialect", "there is no dialect '" + dialect + "'", did_you_mean(dialect, {"behavior", "libero"}));
-    const BddlMapping standard = dialect == "libero" ? default_libero_mapping() : default_behavior_mapping();
-    BddlMapping mapping = standard;
-    if (!table["extend"].boolean) {
-      mapping.categories.clear();
-      mapping.sites.clear();
-      mapping.parts.clear();
-      mapping.predicates.clear();
-      mapping.rooms.clear();
-    }
+    const bool extend = !table["extend"].present() || table["extend"].boolean;
+    if (extend && home_) fail("extend", "this file is the dialect's mapping: it has none to add to", "extend = false");
+    BddlMapping mapping;
+    mapping.dialect = dialect == "libero" ? BddlDialect::libero : BddlDialect::behavior;
+    if (!home_) mapping = extend ? bddl_mapping_of(library_, mapping.dialect) : words_of(mapping.dialect);
     read_words(table, mapping);
     read_things(table, mapping);
     put_first(mapping.predicates, rules(table["predicates"]));
@@ -58,26 +56,42 @@ class MappingReader {
     return node.text;
   }
 
+  // A mapping without rows still has its dialect's words.
+  BddlMapping words_of(BddlDialect dialect) const {
+    const BddlMapping all = bddl_mapping_of(library_, dialect);
+    BddlMapping words;
+    words.dialect = dialect;
+    for (const auto& [name, member] : kWords) words.*member = all.*member;
+    return words;
+  }
+
   template <typename T>
   static void put_first(std::vector<T>& all, std::vector<T> own) {
     all.insert(all.begin(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
   }
 
   void read_words(const Node& table, BddlMapping& mapping) const {
-    const std::pair<const char*, std::string BddlMapping::*> words[] = {
-        {"domain", &BddlMapping::domain},   {"problem_name", &BddlMapping::problem_name},
-        {"support", &BddlMapping::support}, {"within", &BddlMapping::within},
-        {"hand", &BddlMapping::hand},       {"room", &BddlMapping::room}};
-    for (const auto& [name, member] : words)
+    for (const auto& [name, member] : kWords)
       if (table[name].present()) mapping.*member = text(table[name], name);
     known_predicate("support", mapping.support);
     known_predicate("within", mapping.within);
+    known_thing("zone", mapping.zone);
   }
 
   void read_things(const Node& table, BddlMapping& mapping) const {
     put_first(mapping.categories, pairs(table["categories"], "categories", false));
     for (const BddlPair& pair : mapping.categories) known_thing("categories", pair.ours);
     put_first(mapping.sites, pairs(table["sites"], "sites", true));
+    for (const auto& [category, name] : table["instances"].fields)
+      mapping.instances[category] = text(name, "instances." + category);
+    put_first(mapping.unknown, texts(table["unknown"], "unknown"));
+    std::vector<std::string> unsaid = texts(table["unsaid"], "unsaid");
+    for (const std::string& thing : unsaid) known_thing("unsaid", thing);
+    put_first(mapping.unsaid, std::move(unsaid));
+    for (const auto& [thing, stand] : table["stands"].fields) {
+      known_thing("stands", thing);
+      mapping.stands[thing] = stand_of(stand, "stands." + thing);
+    }
     for (const auto& [thing, parts] : table["parts"].fields) {
       known_thing("parts", thing);
       std::vector<std::string>& names = mapping.parts[thing];
@@ -88,6 +102,26 @@ class MappingReader {
       known_thing("rooms", thing);
       mapping.rooms[thing] = text(room, "rooms." + thing);
     }
+  }
+
+  std::vector<std::string> texts(const Node& list, const std::string& field) const {
+    std::vector<std::string> result;
+    for (const Node& item : list.items) result.push_back(text(item, field));
+    return result;
+  }
+
+  // { x = { 0.52, 0.55 }, y = { 0.12, 0.16 }, z = 0.75 }, in metres of the world
+  BddlStand stand_of(const Node& table, const std::string& field) const {
+    only(table, field, {"x", "y", "z"});
+    const auto range = [&](const char* name) {
+      const Node& ends = table[name];
+      if (ends.items.size() != 2 || !ends.items[0].is_number() || !ends.items[1].is_number() ||
+          ends.items[0].number > ends.items[1].number)
+        fail(field + "." + name, "expected { least, greatest }", "such as { 0.52, 0.55 }, in metres");
+      return std::array<double, 2>{ends.items[0].number, ends.items[1].number};
+    };
+    if (!table["z"].is_number()) fail(field + ".z", "expected a number", "the height of what it stands on, in metres");
+    return {range("x"), range("y"), table["z"].number};
   }
 
   // { { "theirs", "ours" }, … }
@@ -152,8 +186,15 @@ class MappingReader {
     fail(field, "there is no object or type '" + name + "'", did_you_mean(name, names));
   }
 
+  static constexpr std::pair<const char*, std::string BddlMapping::*> kWords[] = {
+      {"domain", &BddlMapping::domain},   {"problem_name", &BddlMapping::problem_name},
+      {"support", &BddlMapping::support}, {"within", &BddlMapping::within},
+      {"hand", &BddlMapping::hand},       {"zone", &BddlMapping::zone},
+      {"room", &BddlMapping::room}};
+
   const Library& library_;
   std::string place_;
+  bool home_;  // it is the dialect's own file
 };
 
 std::string source_of(const std::string& path) {
@@ -167,7 +208,8 @@ std::string source_of(const std::string& path) {
 }  // namespace
 
 BddlMapping read_bddl_mapping(const Library& library, const std::string& path) {
-  const ScriptFile* own = library.module("worlds.bddl." + path);
+  const bool named = path.find_first_of("/.") == std::string::npos;
+  const ScriptFile* own = named ? library.module("worlds.bddl." + path) : nullptr;
   const std::string place = own != nullptr ? own->shown_path : path;
   const std::string bytecode = own != nullptr ? own->bytecode : Sandbox::compile(source_of(path), path);
   Sandbox sandbox({}, [&](std::string_view name) {
@@ -175,7 +217,27 @@ BddlMapping read_bddl_mapping(const Library& library, const std::string& path) {
     return file == nullptr ? std::string_view() : std::string_view(file->bytecode);
   });
   sandbox.run(bytecode, "@" + place, 1);
-  return MappingReader(library, place).read(read_node(sandbox.state(), -1, place));
+  const bool home = own != nullptr && (path == "libero" || path == "behavior");
+  return MappingReader(library, place, home).read(read_node(sandbox.state(), -1, place));
+}
+
+std::string dialect_name(BddlDialect dialect) { return dialect == BddlDialect::libero ? "libero" : "behavior"; }
+
+BddlMapping bddl_mapping_of(const Library& library, BddlDialect dialect) {
+  const std::string name = dialect_name(dialect);
+  if (library.module("worlds.bddl." + name) == nullptr)
+    throw Error("worlds/bddl/" + name + ".lua", "no root has this file", "name the library with --root");
+  BddlMapping mapping = read_bddl_mapping(library, name);
+  if (mapping.dialect != dialect) throw Error("worlds/bddl/" + name + ".lua", "this is another dialect's mapping");
+  return mapping;
+}
+
+std::vector<BddlMapping> bddl_mappings_of(const Library& library, const std::string& dialect) {
+  std::vector<BddlMapping> mappings;
+  for (const BddlDialect one : {BddlDialect::libero, BddlDialect::behavior})
+    if (dialect == dialect_name(one) || (dialect != "libero" && dialect != "behavior"))
+      mappings.push_back(bddl_mapping_of(library, one));
+  return mappings;
 }
 
 }  // namespace stampede

@@ -47,6 +47,10 @@ std::vector<DefinitionRecord> EpisodeScripts::definitions() const {
                                     DefinitionKind::colours, DefinitionKind::module}) {
     for (const ScriptFile* file : library.files(kind)) files.push_back(file);
   }
+  // Other languages' words take part only where a task was imported from one.
+  const ScriptFile* task = library.file(DefinitionKind::task, impl_->task.name());
+  if (task == nullptr || task->source.find("problem") == std::string::npos)
+    std::erase_if(files, [](const ScriptFile* file) { return file->shown_path.starts_with("worlds/bddl/"); });
   std::vector<DefinitionRecord> records;
   for (const ScriptFile* file : files) {
     DefinitionRecord record{std::string(to_string(file->kind)), file->name, file->shown_path, file->source, file->hash};

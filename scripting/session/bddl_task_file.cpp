@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <lua.hpp>
 
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/session/bddl_mapping_file.h"
+#include "scripting/library/definitions.h"
+#include "scripting/library/node.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
+#include "scripting/runtime/object_scene.h"
 
 namespace stampede {
 namespace {
@@ -15,26 +18,11 @@ constexpr double kEdge = 0.03;          // m, kept free at the edges of a surfac
 constexpr double kLeastSpot = 0.01;     // m
 constexpr double kRegionHeight = 0.10;  // m
 
-// Furniture that opens towards the robot stands where the arm reaches it, not where their robot would.
-struct Stand {
-  const char *class_name, *fields;
-};
-constexpr Stand kStands[] = {{"chest", "at = { between(0.52, 0.55), between(0.12, 0.16), 0.75 }"},
-                             {"push_button", "at = { between(0.10, 0.30), between(-0.28, -0.10), 0.75 }"}};
-
-std::string block(const char* name, const std::string& text) {
-  if (text.find("]==]") != std::string::npos)
-    throw Error("import", "the text has ']==]' in it, which ends a comment in Lua", "take it out");
-  return std::string("--[==[ ") + name + "\n" + text + (text.empty() || text.back() == '\n' ? "" : "\n") + "]==]\n";
-}
-
-std::optional<std::string> block_in(const std::string& source, const char* name) {
-  const std::string opening = std::string("--[==[ ") + name + "\n";
-  const std::size_t start = source.find(opening);
-  if (start == std::string::npos) return std::nullopt;
-  const std::size_t from = start + opening.size(), end = source.find("]==]", from);
-  if (end == std::string::npos) return std::nullopt;
-  return source.substr(from, end - from);
+// A text of several lines, in brackets that it does not hold itself.
+std::string long_text(const std::string& text) {
+  std::string level;
+  while (text.find("]" + level + "]") != std::string::npos) level += "=";
+  return "[" + level + "[\n" + text + (text.empty() || text.back() == '\n' ? "" : "\n") + "]" + level + "]";
 }
 
 std::string lua_text(const std::string& text) {
@@ -52,6 +40,35 @@ std::string number(double value) {
   return text;
 }
 
+std::string drawn(const std::array<double, 2>& range) {
+  if (range[0] == range[1]) return number(range[0]);
+  return "between(" + number(range[0]) + ", " + number(range[1]) + ")";
+}
+
+// What an object file of ours is, by the names that predicates ask for.
+struct Class {
+  bool exists = false;
+  std::string type;
+  std::vector<std::string> traits;
+  std::map<std::string, Class> parts;  // regions too
+};
+
+Class class_of(const std::shared_ptr<const Library>& library, const std::string& name) {
+  Class result;
+  if (library->file(DefinitionKind::object, name) == nullptr) return result;
+  for (const Object& object : object_scene(library, name).objects) {
+    const Class one{true, object.type, object.traits, {}};
+    if (object.name == name) {
+      result.type = one.type;
+      result.traits = one.traits;
+    } else if (object.name.starts_with(name + ".")) {
+      result.parts[object.name.substr(name.size() + 1)] = one;
+    }
+  }
+  result.exists = true;
+  return result;
+}
+
 struct Top {
   Transform world_from_body = Transform::Identity();
   Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
@@ -59,10 +76,16 @@ struct Top {
 
 class TaskWriter {
  public:
-  TaskWriter(const BddlProblem& problem, const BddlMapping& mapping, const std::string& mapping_source,
+  TaskWriter(const std::shared_ptr<const Library>& library, const BddlProblem& problem, const NamedMapping& mapping,
              const std::string& world, const Scene& scene, const std::string& origin)
-      : problem_(problem), mapping_source_(mapping_source), world_(world), scene_(scene), origin_(origin) {
-    plain_ = from_bddl(problem, mapping);
+      : library_(library),
+        problem_(problem),
+        mapping_(mapping.mapping),
+        mapping_file_(mapping.file),
+        world_(world),
+        scene_(scene),
+        origin_(origin) {
+    plain_ = from_bddl(problem, mapping_);
   }
 
   ImportedTask write() {
@@ -73,6 +96,9 @@ class TaskWriter {
     for (const BddlMadeRegion& region : plain_.regions) names_[region.name] = flat(region.name);
     if (!result_.refusal.empty()) return std::move(result_);
     task_ = with_scene_names(plain_, names_);
+    know_classes();
+    check_literals();
+    if (!result_.refusal.empty()) return std::move(result_);
     objects();
     init();
     if (!result_.refusal.empty()) return std::move(result_);
@@ -121,6 +147,88 @@ class TaskWriter {
         if (!names_.contains(thing.name) && taken(thing.name)) names_[thing.name] = thing.name + "_here";
   }
 
+  void know_classes() {
+    for (const auto* things : {&task_.objects, &task_.fixtures})
+      for (const BddlObject& thing : *things) {
+        if (classes_.contains(thing.class_name)) continue;
+        const Class& found = classes_[thing.class_name] = class_of(library_, thing.class_name);
+        if (!found.exists)
+          refuse("`" + thing.theirs + "` is mapped to `" + thing.class_name +
+                 "`, which is a type and no object file: map its category to an object");
+      }
+  }
+
+  // What is known of a thing of ours by its name in the task; null where only the checker knows.
+  const Class* known(const std::string& name) const {
+    const std::size_t dot = name.find('.');
+    for (const auto* things : {&task_.objects, &task_.fixtures})
+      for (const BddlObject& thing : *things) {
+        if (thing.name != name.substr(0, dot)) continue;
+        const Class& found = classes_.at(thing.class_name);
+        if (dot == std::string::npos) return &found;
+        const auto part = found.parts.find(name.substr(dot + 1));
+        return part == found.parts.end() ? nullptr : &part->second;
+      }
+    return nullptr;
+  }
+
+  // Why things of these classes cannot stand in that atom; empty: they can.
+  std::string misfit(const std::string& predicate, const std::vector<std::string>& names) const {
+    const Predicate* declared = library_->domain().predicate(predicate);
+    if (declared == nullptr) return "we have no predicate `" + predicate + "`";
+    if (declared->parameters.size() != names.size())
+      return "our `" + predicate + "` takes " + std::to_string(declared->parameters.size()) + " arguments";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Parameter& parameter = declared->parameters[i];
+      const Class* thing = known(names[i]);
+      if (thing == nullptr) continue;
+      if (!parameter.type.empty() && !library_->domain().is_a(thing->type, parameter.type))
+        return "`" + names[i] + "` is a " + thing->type + ", and the " + parameter.name + " of our `" + predicate +
+               "` is a " + parameter.type;
+      for (const std::string& trait : parameter.traits)
+        if (std::find(thing->traits.begin(), thing->traits.end(), trait) == thing->traits.end())
+          return "`" + names[i] + "` has not the trait `" + trait + "`, which the " + parameter.name + " of our `" +
+                 predicate + "` must have";
+    }
+    return {};
+  }
+
+  std::string misfit(const Formula& formula) const {
+    if (formula.kind == Formula::Kind::atom) {
+      std::vector<std::string> names;
+      for (const Term& term : formula.terms) names.push_back(term.name);
+      return misfit(formula.predicate, names);
+    }
+    for (const Formula& part : formula.parts)
+      if (std::string why = misfit(part); !why.empty()) return why;
+    return {};
+  }
+
+  // A mapping can bring things together that our predicates do not take: said here, with their literal.
+  void check_literals() {
+    const auto cure = [](const std::string& why) { return why + "; map its category or the predicate otherwise"; };
+    for (const auto& [theirs, ours] : task_.literals)
+      if (const std::string why = misfit(ours); !why.empty()) {
+        refuse("the goal's " + std::string(theirs.second ? "(not " : "") + to_text(theirs.first) +
+               (theirs.second ? ")" : "") + ": " + cure(why));
+      }
+    for (const BddlLiteral& literal : task_.init)
+      if (const std::string why = misfit(literal.atom.predicate, literal.atom.arguments); !why.empty())
+        refuse(":init, " + in_their_words(literal.atom) + ": " + cure(why));
+  }
+
+  // Our atom with the names that the problem has for its things.
+  std::string in_their_words(const Fact& atom) const {
+    const BddlPredicateRule* rule = mapping_.from_ours(atom.predicate, false);
+    Fact theirs{rule == nullptr ? atom.predicate : rule->theirs, {}};
+    for (const std::string& ours : atom.arguments) {
+      const auto named =
+          std::find_if(task_.names.begin(), task_.names.end(), [&](const auto& pair) { return pair.second == ours; });
+      theirs.arguments.push_back(named == task_.names.end() ? ours : named->first);
+    }
+    return to_text(theirs);
+  }
+
   std::optional<Top> surface(const std::string& name) const {
     const Object* object = scene_.object(name);
     const int body = object == nullptr ? -1 : scene_.body_index(object->body);
@@ -159,8 +267,8 @@ class TaskWriter {
         top->world_from_body * Vector3((area.x_min_m + area.x_max_m) / 2, (area.y_min_m + area.y_max_m) / 2,
                                        top->upper.z() + kRegionHeight / 2);
     const Matrix3 turn = top->world_from_body.linear();
-    objects_ += "    " + name + " = { \"air_zone\", traits = { " + traits + " }, at = { " + number(centre.x()) + ", " +
-                number(centre.y()) + ", " + number(centre.z()) +
+    objects_ += "    " + name + " = { " + lua_text(mapping_.zone) + ", traits = { " + traits + " }, at = { " +
+                number(centre.x()) + ", " + number(centre.y()) + ", " + number(centre.z()) +
                 " }, yaw = " + number(std::atan2(turn(1, 0), turn(0, 0))) + ", region = { size = { " +
                 number(area.x_max_m - area.x_min_m) + ", " + number(area.y_max_m - area.y_min_m) + ", " +
                 number(kRegionHeight) + " } } },\n";
@@ -169,17 +277,19 @@ class TaskWriter {
   void objects() {
     for (const BddlObject& fixture : task_.fixtures) {
       if (here_.contains(fixture.name)) continue;
-      const auto stand = std::find_if(std::begin(kStands), std::end(kStands),
-                                      [&](const Stand& one) { return fixture.class_name == one.class_name; });
-      if (stand == std::end(kStands)) {
-        refuse("`" + fixture.theirs + "`: it is not known where a `" + fixture.class_name + "` stands here");
+      const auto stand = mapping_.stands.find(fixture.class_name);
+      if (stand == mapping_.stands.end()) {
+        refuse("`" + fixture.theirs + "`: it is not known where a `" + fixture.class_name +
+               "` stands here; say it in the mapping's `stands`");
         return;
       }
       if (!stands_.insert(fixture.class_name).second) {
         refuse("`" + fixture.theirs + "`: there is room for one `" + fixture.class_name + "` only");
         return;
       }
-      objects_ += "    " + fixture.name + " = { " + lua_text(fixture.class_name) + ", " + stand->fields + " },\n";
+      const BddlStand& place = stand->second;
+      objects_ += "    " + fixture.name + " = { " + lua_text(fixture.class_name) + ", at = { " + drawn(place.x_m) +
+                  ", " + drawn(place.y_m) + ", " + number(place.z_m) + " } },\n";
       result_.warnings.push_back("`" + fixture.theirs + "` stands where the arm reaches it");
     }
     for (const BddlObject& object : task_.objects)
@@ -203,7 +313,7 @@ class TaskWriter {
       if (!is_object(placement.object)) continue;
       const std::string spot = placement.object + "_spot";
       add_region(spot, placement.on, placement.ranges, "\"container\"");
-      init_ += "    is.inside(" + lua_text(placement.object) + ", " + lua_text(spot) + "),\n";
+      init_ += "    is." + mapping_.within + "(" + lua_text(placement.object) + ", " + lua_text(spot) + "),\n";
       if (placement.yaw_rad != std::array<double, 2>{0, 0})
         result_.warnings.push_back("`" + placement.object + "` starts at any angle");
       placed.insert(placement.object);
@@ -227,27 +337,30 @@ class TaskWriter {
       instruction = task_.name;
       std::replace(instruction.begin(), instruction.end(), '_', ' ');
     }
-    std::string names;
-    for (const auto& [theirs, ours] : names_) names += theirs + " " + ours + "\n";
     std::string& text = result_.text;
     text = "-- Imported from " + origin_ + ": " + instruction + ".\n";
     std::replace(text.begin(), text.end() - 1, '\n', ' ');
     text += "return task {\n  world = " + lua_text(world_) + ",\n  objects = {\n" + objects_ + "  },\n  init = {\n" +
             init_ + "  },\n  goal = pddl [[" + to_pddl(task_.goal) + "]],\n  instructions = { " +
-            lua_text(instruction) + " },\n}\n\n";
-    text += "-- What it was imported from: its episodes are judged by the dialect's own rule too.\n";
-    text += block("bddl", to_bddl(problem_));
-    if (!mapping_source_.empty()) text += block("mapping", mapping_source_);
-    text += block("names", names);
+            lua_text(instruction) + " },\n  problem = {\n    dialect = " + lua_text(dialect_name(problem_.dialect)) +
+            ",\n";
+    if (!mapping_file_.empty()) text += "    mapping = " + lua_text(mapping_file_) + ",\n";
+    std::string names;
+    for (const auto& [theirs, ours] : names_) names += "      [" + lua_text(theirs) + "] = " + lua_text(ours) + ",\n";
+    if (!names.empty()) text += "    names = {\n" + names + "    },\n";
+    text += "    text = " + long_text(to_bddl(problem_)) + ",\n  },\n}\n";
   }
 
+  const std::shared_ptr<const Library>& library_;
   const BddlProblem& problem_;
-  const std::string& mapping_source_;
+  const BddlMapping& mapping_;
+  const std::string& mapping_file_;
   const std::string& world_;
   const Scene& scene_;
   const std::string& origin_;
   BddlTask plain_, task_;
   std::map<std::string, std::string> names_;  // of plain_ -> of the scene
+  std::map<std::string, Class> classes_;
   std::set<std::string> here_, stands_;
   std::string objects_, init_;
   ImportedTask result_;
@@ -255,23 +368,28 @@ class TaskWriter {
 
 }  // namespace
 
-ImportedTask task_file_from(const BddlProblem& problem, const BddlMapping& mapping, const std::string& mapping_source,
-                            const std::string& world, const Scene& scene, const std::string& origin) {
-  return TaskWriter(problem, mapping, mapping_source, world, scene, origin).write();
+ImportedTask task_file_from(const std::shared_ptr<const Library>& library, const BddlProblem& problem,
+                            const NamedMapping& mapping, const std::string& world, const Scene& scene,
+                            const std::string& origin) {
+  return TaskWriter(library, problem, mapping, world, scene, origin).write();
 }
 
-std::optional<ImportedProblem> imported_problem(const std::string& task_source, const std::string& place) {
-  const auto bddl = block_in(task_source, "bddl");
-  if (!bddl) return std::nullopt;
+std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Library>& library,
+                                                const std::string& task) {
+  const ScriptFile* file = library->file(DefinitionKind::task, task);
+  if (file == nullptr || file->source.find("problem") == std::string::npos) return std::nullopt;
+  DefinitionState state(library);
+  state.push(DefinitionKind::task, task);
+  lua_getfield(state.state(), -1, "problem");
+  const Node field = read_node(state.state(), -1, file->shown_path);
+  if (!field.present()) return std::nullopt;
   ImportedProblem imported;
-  imported.problem = read_bddl(*bddl, place).problem;
-  imported.mapping =
-      imported.problem.dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
-  if (const auto mapping = block_in(task_source, "mapping")) imported.mapping = bddl_mapping_from_lua(*mapping, place);
+  imported.problem = read_bddl(field["text"].text, file->shown_path + ": problem.text").problem;
+  imported.mapping = field["mapping"].is_text() ? read_bddl_mapping(*library, field["mapping"].text)
+                                                : bddl_mapping_of(*library, imported.problem.dialect);
   imported.mapping.add_namesakes(imported.problem, [](const std::string&) { return true; });  // import has looked
   std::map<std::string, std::string> names;
-  std::istringstream lines(block_in(task_source, "names").value_or(""));
-  for (std::string theirs, ours; lines >> theirs >> ours;) names[theirs] = ours;
+  for (const auto& [theirs, ours] : field["names"].fields) names[theirs] = ours.text;
   imported.task = with_scene_names(from_bddl(imported.problem, imported.mapping), names);
   return imported;
 }

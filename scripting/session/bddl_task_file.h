@@ -2,10 +2,12 @@
 // it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scripting/library/library.h"
 #include "scripting/session/bddl_verdict.h"
 
 namespace stampede {
@@ -17,12 +19,18 @@ struct ImportedTask {
   std::vector<BddlNote> notes;
 };
 
-// `world`: the world's name; `scene`: of any of its tasks: which fixtures stand there already, and where.
-// `mapping_source`: the Lua file that the mapping comes from, empty for the one built in; kept in the task's file.
-ImportedTask task_file_from(const BddlProblem& problem, const BddlMapping& mapping, const std::string& mapping_source,
-                            const std::string& world, const Scene& scene, const std::string& origin);
+// What a mapping names and where it comes from.
+struct NamedMapping {
+  BddlMapping mapping;
+  std::string file;  // of worlds/bddl, by name; empty: that of the dialect
+};
 
-// What a task file was imported from; nothing for others. Throws Error where the file was damaged.
-std::optional<ImportedProblem> imported_problem(const std::string& task_source, const std::string& place);
+// `world`: the world's name; `scene`: of any of its tasks: which fixtures stand there already, and where.
+ImportedTask task_file_from(const std::shared_ptr<const Library>& library, const BddlProblem& problem,
+                            const NamedMapping& mapping, const std::string& world, const Scene& scene,
+                            const std::string& origin);
+
+// What a task was imported from, by its field `problem`; nothing for others. Throws Error where the file was damaged.
+std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Library>& library, const std::string& task);
 
 }  // namespace stampede

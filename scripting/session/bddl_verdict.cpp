@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/episode/observation.h"
 #include "engine/model/scene_poses.h"
+#include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/stored_symbols.h"
 
 namespace stampede {

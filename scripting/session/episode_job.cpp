@@ -152,9 +152,10 @@ std::string episode_key(const std::vector<DefinitionRecord>& definitions, const 
 }
 
 PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options)
-    : job_(std::move(job)),
+    : library_(std::move(library)),
+      job_(std::move(job)),
       options_(std::move(options)),
-      scripts_(std::move(library), job_.task, job_.variation, job_.seed) {
+      scripts_(library_, job_.task, job_.variation, job_.seed) {
   options_.seed = job_.seed;
   definitions_ = scripts_.definitions();
   key_ = episode_key(definitions_, job_, options_);
@@ -177,10 +178,7 @@ EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
   record.split = options_.split;
   record.definitions = definitions_;
   if (options_.goal || record.frames.empty()) return record;
-  for (const DefinitionRecord& one : definitions_)
-    if (one.kind == "task" && one.name == job_.task)
-      if (const auto imported = imported_problem(one.source, one.path))
-        record.verdicts = {bddl_verdict(record, *imported)};
+  if (const auto imported = imported_problem(library_, job_.task)) record.verdicts = {bddl_verdict(record, *imported)};
   return record;
 }
 

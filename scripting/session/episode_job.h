@@ -93,6 +93,7 @@ class PreparedEpisode {
   EpisodeRecord run(const std::atomic<bool>* stop);
 
  private:
+  std::shared_ptr<const Library> library_;
   EpisodeJob job_;
   RunOptions options_;
   EpisodeScripts scripts_;

@@ -6,7 +6,6 @@
 #include "engine/base/error.h"
 #include "engine/model/scene.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/session/bddl_mapping_file.h"
 
 namespace stampede {
 namespace {
@@ -62,8 +61,9 @@ BddlThing thing_of(const Object& object, const Scene& scene) {
 }
 
 // Where the object stands on the fixture at that moment, in the fixture's frame.
-std::optional<BddlPlacement> placement_of(const Fact& fact, const Scene& scene, const AbstractState& state) {
-  if (fact.predicate != "on" || fact.arguments.size() != 2) return std::nullopt;
+std::optional<BddlPlacement> placement_of(const Fact& fact, const Scene& scene, const AbstractState& state,
+                                          const std::string& support) {
+  if (fact.predicate != support || fact.arguments.size() != 2) return std::nullopt;
   const Object* below = scene.object(fact.arguments[1]);
   const auto pose = state.poses.find(fact.arguments[0]);
   if (below == nullptr || below->kind != ObjectKind::body || pose == state.poses.end()) return std::nullopt;
@@ -81,6 +81,30 @@ std::optional<BddlPlacement> placement_of(const Fact& fact, const Scene& scene, 
                        {yaw, yaw}};
 }
 
+// Fixtures have no fact that says what they stand on: what is below their origin, at its height.
+std::optional<BddlPlacement> stand_of(const Object& object, const Scene& scene) {
+  constexpr double kGap = 0.02;  // m
+  const int own = object.kind == ObjectKind::body ? scene.body_index(object.body) : -1;
+  if (own < 0 || scene.bodies[static_cast<std::size_t>(own)].free) return std::nullopt;
+  const Transform& world_from_own = scene.bodies[static_cast<std::size_t>(own)].world_from_body;
+  for (const Object& below : scene.objects) {
+    const int index = below.kind == ObjectKind::body && has_trait(below, "surface") ? scene.body_index(below.body) : -1;
+    if (index < 0 || index == own || scene.bodies[static_cast<std::size_t>(index)].free) continue;
+    const Body& body = scene.bodies[static_cast<std::size_t>(index)];
+    if (body.parts.empty() || body.parts[0].shapes.empty()) continue;
+    const auto [lower, upper] = bounding_box(body.parts[0]);
+    const Transform below_from_own = body.world_from_body.inverse() * world_from_own;
+    const Vector3 at = below_from_own.translation();
+    const bool over = at.x() > lower.x() && at.x() < upper.x() && at.y() > lower.y() && at.y() < upper.y();
+    if (!over || std::abs(at.z() - upper.z()) > kGap) continue;
+    const double x = rounded(at.x()), y = rounded(at.y());
+    const Matrix3 turn = below_from_own.linear();
+    const double yaw = rounded(std::atan2(turn(1, 0), turn(0, 0)));
+    return BddlPlacement{object.name, below.name, {{x, y, x, y}}, {yaw, yaw}};
+  }
+  return std::nullopt;
+}
+
 void collect_names(const Formula& formula, std::vector<std::string>& names) {
   for (const Term& term : formula.terms)
     if (!term.variable && std::find(names.begin(), names.end(), term.name) == names.end()) names.push_back(term.name);
@@ -89,7 +113,7 @@ void collect_names(const Formula& formula, std::vector<std::string>& names) {
 
 // The scene of that frame in BDDL's terms: things, where they stand, what holds, the goal.
 BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                     const AbstractState& state);
+                     const AbstractState& state, const std::string& support);
 
 // The parts of a conjunction without literals of these predicates, which are named in `remarks`.
 Formula without(const Formula& goal, const std::vector<std::string>& predicates, std::vector<std::string>& remarks) {
@@ -105,8 +129,6 @@ Formula without(const Formula& goal, const std::vector<std::string>& predicates,
 }
 
 }  // namespace
-
-std::string dialect_name(BddlDialect dialect) { return dialect == BddlDialect::libero ? "libero" : "behavior"; }
 
 const std::string* document_text(const EpisodeRecord& episode, const std::string& kind) {
   for (const DocumentRecord& document : episode.documents)
@@ -147,7 +169,7 @@ std::string unknown_facts(const AbstractState& state, const Domain& domain) {
 
 BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
                    const AbstractState& state, const BddlMapping& mapping, const std::vector<std::string>& leave_out) {
-  BddlScene moment = bddl_scene(episode, scene, symbols, state);
+  BddlScene moment = bddl_scene(episode, scene, symbols, state, mapping.support);
   std::vector<std::string> remarks;
   moment.goal = without(moment.goal, leave_out, remarks);
   BddlExport result = export_bddl(moment, mapping, symbols.domain);
@@ -158,14 +180,16 @@ BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const Store
 namespace {
 
 BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                     const AbstractState& state) {
+                     const AbstractState& state, const std::string& support) {
   BddlScene result;
   result.task = episode.task;
   for (const LanguageRecord& sentence : episode.language)
     if (sentence.level == "task" && result.instruction.empty()) result.instruction = sentence.text;
   for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
+  for (const Object& object : scene.objects)
+    if (const auto placement = stand_of(object, scene)) result.placements.push_back(*placement);
   for (const Fact& fact : state.facts)
-    if (const auto placement = placement_of(fact, scene, state)) result.placements.push_back(*placement);
+    if (const auto placement = placement_of(fact, scene, state, support)) result.placements.push_back(*placement);
   result.facts = state.facts;
   result.goal = symbols.problem.goal;
   collect_names(result.goal, result.interest);
@@ -186,17 +210,15 @@ std::string with_notes(const BddlExport& result) {
 }
 
 std::string bddl_text(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                      const AbstractState& state, const std::string& form, const std::vector<std::string>& leave_out,
-                      std::string& refusals) {
+                      const AbstractState& state, const std::vector<BddlMapping>& mappings,
+                      const std::vector<std::string>& leave_out, std::string& refusals) {
   std::string text;
-  for (const BddlDialect dialect : {BddlDialect::libero, BddlDialect::behavior}) {
-    if (form != "bddl" && form != dialect_name(dialect)) continue;
-    const BddlMapping mapping = dialect == BddlDialect::libero ? default_libero_mapping() : default_behavior_mapping();
+  for (const BddlMapping& mapping : mappings) {
     const BddlExport result = bddl_at(episode, scene, symbols, state, mapping, leave_out);
     if (result.refusal.empty()) {
       text += (text.empty() ? "" : "\n") + with_notes(result);
     } else {
-      refusals += std::string(to_string(dialect)) + " cannot say it: " + result.refusal + "\n";
+      refusals += std::string(to_string(mapping.dialect)) + " cannot say it: " + result.refusal + "\n";
     }
   }
   return text;

@@ -33,6 +33,14 @@ std::string rooms(const std::string& goal) {
          goal + "))\n";
 }
 
+constexpr const char* kMugOnPlate =
+    "(define (problem LIBERO_Tabletop_Manipulation) (:domain robosuite) (:language put the mug on the plate)\n"
+    "(:regions (left (:target desk) (:ranges ((-0.03 -0.3 0.03 -0.27)))) (middle (:target desk) (:ranges ((0 -0.03 "
+    "0.1 "
+    "0.03)))))\n(:fixtures desk - table)\n(:objects porcelain_mug_1 - porcelain_mug plate_1 - plate)\n"
+    "(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On porcelain_mug_1 desk_middle))\n"
+    "(:goal (And (On porcelain_mug_1 plate_1))))\n";
+
 // One start of a task that ships, run once for all the tests that only look at it.
 const std::string& stored() {
   static const Folder folder;
@@ -427,13 +435,7 @@ TEST_CASE("where LIBERO's rule and ours differ, both verdicts are kept and the d
 
 TEST_CASE("categories that are named like an object of ours need no mapping, and LIBERO's mugs are mugs") {
   const Folder mine;
-  put(mine / "mugs.bddl",
-      "(define (problem LIBERO_Tabletop_Manipulation) (:domain robosuite) (:language put the mug on the plate)\n"
-      "(:regions (left (:target desk) (:ranges ((-0.03 -0.3 0.03 -0.27)))) (middle (:target desk) (:ranges ((0 -0.03 "
-      "0.1 "
-      "0.03)))))\n(:fixtures desk - table)\n(:objects porcelain_mug_1 - porcelain_mug plate_1 - plate)\n"
-      "(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On porcelain_mug_1 desk_middle))\n"
-      "(:goal (And (On porcelain_mug_1 plate_1))))\n");
+  put(mine / "mugs.bddl", kMugOnPlate);
   const Said said = say({"import", mine / "mugs.bddl", "--task", "mug_on_plate", "--root", STAMPEDE_SOURCE_DIR,
                          "--path", mine / "own", "--out", mine / "o.db"});
   INFO(said.err << said.out);
@@ -442,6 +444,66 @@ TEST_CASE("categories that are named like an object of ours need no mapping, and
   REQUIRE(verdicts.size() == 1);
   CHECK(verdicts[0].ours);
   CHECK(verdicts[0].theirs);
+}
+
+TEST_CASE("an imported task says what it came from in a field, and `check` reads it") {
+  const Folder mine;
+  put(mine / "mugs.bddl", kMugOnPlate);
+  put(mine / "map.lua", "return { dialect = \"libero\", categories = { { \"porcelain_mug\", \"cup\" } } }\n");
+  const Said said = say({"import", mine / "mugs.bddl", "--task", "cup_on_plate", "--mapping", mine / "map.lua",
+                         "--root", STAMPEDE_SOURCE_DIR, "--path", mine / "own", "--episodes", "0"});
+  INFO(said.err << said.out);
+  REQUIRE(said.code == kDone);
+  const std::string task = mine / "own/tasks/cup_on_plate.lua", text = file_text(task);
+  CHECK(says(text, "  problem = {\n    dialect = \"libero\",\n    mapping = \"cup_on_plate\","));
+  CHECK(says(text, "{ \"cup\" }"));
+  CHECK(file_text(mine / "own/worlds/bddl/cup_on_plate.lua") == file_text(mine / "map.lua"));
+  const auto check = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    put(task, changed);
+    return say({"check", "cup_on_plate", "--root", STAMPEDE_SOURCE_DIR, "--path", mine / "own"});
+  };
+  CHECK(check("dialect = \"libero\"", "dialect = \"libero\"").code == kDone);
+  const Said dialect = check("dialect = \"libero\"", "dialect = \"librero\"");
+  CHECK(dialect.code == kBadInput);
+  CHECK(says(dialect.err + dialect.out, "did you mean 'libero'"));
+  const Said damaged = check("(on porcelain_mug_1 plate_1)", "(on porcelain_mug_1 plat_1)");
+  CHECK(damaged.code == kBadInput);
+  CHECK(says(damaged.err + damaged.out, "plat_1"));
+  CHECK(says(check("mapping = \"cup_on_plate\"", "mapping = \"nowhere\"").err, "worlds/bddl/nowhere.lua"));
+}
+
+TEST_CASE("a generous mapping gives a task that passes the check, or a refusal with literal and reason") {
+  const std::vector<std::string> classes = {"cupboard", "saucepan_lid", "umbrella_stand", "push_button",
+                                            "air_zone", "work_table",   "thing",          "tray"};
+  const auto [goal, literal] = GENERATE(table<std::string, std::string>({{"(On mug_1 plate_1)", "(on "},
+                                                                         {"(In mug_1 plate_1)", "(in "},
+                                                                         {"(Open plate_1)", "(open "},
+                                                                         {"(TurnOn plate_1)", "(turnon "}}));
+  for (const std::string& ours : classes) {
+    const Folder mine;
+    put(mine / "map.lua",
+        "return { dialect = \"libero\", categories = { { \"mug\", \"mug\" }, { \"plate\", \"" + ours + "\" } } }\n");
+    put(mine / "p.bddl",
+        "(define (problem LIBERO_Tabletop_Manipulation) (:domain robosuite) (:language do it)\n"
+        "(:regions (left (:target desk) (:ranges ((-0.03 -0.3 0.03 -0.27)))) (middle (:target desk) "
+        "(:ranges ((0 -0.03 0.1 0.03)))))\n(:fixtures desk - table)\n(:objects mug_1 - mug plate_1 - "
+        "plate)\n(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On mug_1 desk_middle))\n"
+        "(:goal (And " +
+            goal + ")))\n");
+    const Said said = say({"import", mine / "p.bddl", "--task", "made", "--mapping", mine / "map.lua", "--root",
+                           STAMPEDE_SOURCE_DIR, "--path", mine / "own", "--episodes", "0"});
+    INFO(ours << " " << goal << "\n" << said.err);
+    const bool stays = std::filesystem::exists(mine / "own/tasks/made.lua");
+    CHECK((said.code == kDone || said.code == kNo));
+    CHECK(stays == (said.code == kDone));
+    if (said.code == kNo) {
+      CHECK(says(said.err, "cannot be a task here: "));
+      CHECK((says(said.err, literal) || says(said.err, "(on plate_1") || says(said.err, "`plate_1`") ||
+             says(said.err, "in `")));
+    }
+  }
 }
 
 TEST_CASE("what cannot be imported is refused with the reason") {

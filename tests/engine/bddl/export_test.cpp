@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/bddl/import.h"
 #include "engine/symbolic/pddl.h"
+#include "words.h"
 
 using namespace stampede;
 using Catch::Matchers::Contains;
@@ -66,12 +67,8 @@ BddlScene scene_with(const std::string& goal) {
   return scene;
 }
 
-BddlExport libero(const std::string& goal) {
-  return export_bddl(scene_with(goal), default_libero_mapping(), tabletop());
-}
-BddlExport behavior(const std::string& goal) {
-  return export_bddl(scene_with(goal), default_behavior_mapping(), tabletop());
-}
+BddlExport libero(const std::string& goal) { return export_bddl(scene_with(goal), libero_words(), tabletop()); }
+BddlExport behavior(const std::string& goal) { return export_bddl(scene_with(goal), behavior_words(), tabletop()); }
 
 std::string goal_text(const BddlExport& result) {
   std::string text = result.refusal;
@@ -194,8 +191,8 @@ TEST_CASE("LIBERO: what it cannot say is refused with part, reason and cure") {
 TEST_CASE("LIBERO: what went out comes back the same") {
   const BddlScene scene =
       scene_with("(and (inside cube1 chest.top_drawer) (closed chest.top_drawer) (on cube2 cube1))");
-  const BddlExport result = export_bddl(scene, default_libero_mapping(), tabletop());
-  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, default_libero_mapping());
+  const BddlExport result = export_bddl(scene, libero_words(), tabletop());
+  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, libero_words());
   CHECK(task.refusal.empty());
   CHECK(task.goal == scene.goal);
   REQUIRE(task.placements.size() == 1);
@@ -208,16 +205,51 @@ TEST_CASE("LIBERO: what went out comes back the same") {
 TEST_CASE("LIBERO: fixtures that stand on another are placed too") {
   BddlScene scene = scene_with("(open chest.top_drawer)");
   scene.placements.push_back({"chest", "table", {{0.2, 0.2, 0.2, 0.2}}, {0, 0}});
-  const BddlExport result = export_bddl(scene, default_libero_mapping(), tabletop());
+  const BddlExport result = export_bddl(scene, libero_words(), tabletop());
   CHECK(result.problem.init.at(0).atom == Fact{"on", {"chest", "table_chest_init_region"}});
-  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, default_libero_mapping());
+  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, libero_words());
   CHECK(task.placements.at(0) == scene.placements.at(1));
+}
+
+TEST_CASE("LIBERO: what its arena has, what it calls it, and what it lacks") {
+  BddlMapping mapping = libero_words();
+  mapping.instances = {{"table", "main_table"}};
+  mapping.unsaid = {"floor"};
+  mapping.unknown = {"wooden_block"};
+  BddlScene scene = scene_with("(open chest.top_drawer)");
+  scene.things.push_back({Kind::fixture, "floor", "floor", "fixture", "", {}});
+  const BddlExport result = export_bddl(scene, mapping, tabletop());
+  CHECK_THAT(result.text, Contains("main_table - table\n") && Contains("(on cube1 main_table_cube1_init_region)") &&
+                              Contains("(:target main_table)") && !Contains("floor"));
+  CHECK(result.names.at("table") == "main_table");
+  CHECK(std::count_if(result.remarks.begin(), result.remarks.end(), [](const std::string& remark) {
+          return remark.starts_with("LIBERO has no object `wooden_block` (`cube");
+        }) == 2);
+  const BddlTask task = from_bddl(read_bddl(result.text, "again").problem, mapping);
+  CHECK(task.refusal.empty());
+  CHECK(task.fixtures.at(0).class_name == "work_table");
+}
+
+TEST_CASE("a drawer that is half open is told, not lost") {
+  const std::string told = "`chest.top_drawer` is neither open nor closed";
+  for (const BddlMapping& mapping : {libero_words(), behavior_words()}) {
+    BddlScene scene = scene_with("(on cube1 cube2)");
+    const auto tells = [&] {
+      const auto remarks = export_bddl(scene, mapping, tabletop()).remarks;
+      return std::count_if(remarks.begin(), remarks.end(), [&](const auto& one) { return one.starts_with(told); });
+    };
+    CHECK(tells() == 0);
+    scene.facts.erase({"closed", {"chest.top_drawer"}});
+    CHECK(tells() == 1);
+    scene.facts.insert({"open", {"chest.top_drawer"}});
+    CHECK(tells() == 0);
+  }
 }
 
 TEST_CASE("LIBERO: sites and surfaces that their models may lack are remarked") {
   BddlScene scene = scene_with("(and (inside cube1 chest.left_door) (on cube2 chest))");
   scene.things.push_back({Kind::part, "chest.left_door", "chest", "drawer", "chest", {}});
-  const std::vector<std::string> remarks = export_bddl(scene, default_libero_mapping(), tabletop()).remarks;
+  const std::vector<std::string> remarks = export_bddl(scene, libero_words(), tabletop()).remarks;
   const auto has = [&](const std::string& text) {
     return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& r) { return r.find(text) == 0; });
   };
@@ -292,16 +324,16 @@ TEST_CASE("BEHAVIOR: parts are folded, and opposite wishes for two of them are r
     return std::count_if(result.problem.init.begin(), result.problem.init.end(),
                          [](const BddlLiteral& l) { return l.atom.predicate == "open"; });
   };
-  CHECK(open(export_bddl(ajar, default_behavior_mapping(), tabletop())) == 0);
+  CHECK(open(export_bddl(ajar, behavior_words(), tabletop())) == 0);
   ajar.facts.insert({"open", {"chest.top_drawer"}});
-  const BddlExport result = export_bddl(ajar, default_behavior_mapping(), tabletop());
+  const BddlExport result = export_bddl(ajar, behavior_words(), tabletop());
   CHECK(std::count(result.problem.init.begin(), result.problem.init.end(),
                    BddlLiteral{{"open", {"cabinet.n.01_1"}}, false}) == 1);
   CHECK(open(result) == 1);
 }
 
 TEST_CASE("things without a name there are remarked, and refused in goals") {
-  BddlMapping poor = default_behavior_mapping();
+  BddlMapping poor = behavior_words();
   std::erase_if(poor.categories, [](const BddlPair& pair) { return pair.ours == "cube"; });
   const BddlExport kept = export_bddl(scene_with("(open chest.top_drawer)"), poor, tabletop());
   CHECK_THAT(kept.remarks.at(0), Contains("`cube1` is left out: the mapping has no synset for `cube`"));
@@ -315,7 +347,7 @@ TEST_CASE("things without a name there are remarked, and refused in goals") {
 TEST_CASE("an exported goal holds there exactly where it holds here") {
   const Domain domain = tabletop();
   const bool to_libero = GENERATE(false, true);
-  const BddlMapping mapping = to_libero ? default_libero_mapping() : default_behavior_mapping();
+  const BddlMapping mapping = to_libero ? libero_words() : behavior_words();
   Random random(RandomKey("bddl export"));
   const auto pick = [&](const std::vector<std::string>& from) {
     return from[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(from.size())))];

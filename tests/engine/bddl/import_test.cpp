@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
 #include "texts.h"
+#include "words.h"
 
 using namespace stampede;
 using Catch::Matchers::Contains;
@@ -14,13 +15,13 @@ using Catch::Matchers::Contains;
 namespace {
 
 BddlMapping desk_mapping() {
-  BddlMapping mapping = default_libero_mapping();
+  BddlMapping mapping = libero_words();
   for (const char* same : {"mug", "plate", "cup"}) mapping.categories.push_back({same, same});
   return mapping;
 }
 
 BddlMapping kitchen_mapping() {
-  BddlMapping mapping = default_behavior_mapping();
+  BddlMapping mapping = behavior_words();
   mapping.categories.push_back({"apple.n.01", "apple"});
   mapping.categories.push_back({"bowl.n.01", "bowl"});
   mapping.predicates.push_back({"nextto", "beside", false, {1, 0}, BddlMeaning::equal, "a test"});
@@ -216,8 +217,7 @@ TEST_CASE("a mapping with unknown words is bad input") {
   bad = desk_mapping();
   bad.predicates[0].order = {0, 0};
   CHECK_THROWS_WITH(check_mapping(bad, "map.lua"), Contains("no permutation"));
-  CHECK_THROWS_WITH(from_bddl(read_bddl(kTidyDesk, "d").problem, default_behavior_mapping()),
-                    Contains("is for BEHAVIOR"));
+  CHECK_THROWS_WITH(from_bddl(read_bddl(kTidyDesk, "d").problem, behavior_words()), Contains("is for BEHAVIOR"));
 }
 
 TEST_CASE("names become ours: well-formed, unique and not reserved") {

@@ -21,19 +21,37 @@ BddlMapping read_text(const std::string& fields) {
 
 }  // namespace
 
-TEST_CASE("the shipped mapping files extend the built-in ones, own entries first") {
-  const BddlMapping ours = read_bddl_mapping(library(), "libero"), standard = default_libero_mapping();
-  CHECK(ours.dialect == BddlDialect::libero);
-  CHECK(ours.categories.size() > standard.categories.size());
-  CHECK(*ours.category("cube", "cube") == "red_cube");
-  CHECK(*ours.class_of("wooden_cabinet") == "chest");
-  CHECK(ours.parts == standard.parts);
-  CHECK(read_bddl_mapping(library(), "behavior").rooms.at("push_button") == "living_room");
+TEST_CASE("the shipped mappings are Lua like an author's, and all that is known of the dialects") {
+  const BddlMapping libero = read_bddl_mapping(library(), "libero");
+  CHECK(libero.dialect == BddlDialect::libero);
+  CHECK(*libero.category("work_table", "") == "table");
+  CHECK(libero.instances.at("table") == "main_table");
+  CHECK(*libero.class_of("wooden_cabinet") == "chest");
+  CHECK(libero.from_theirs("turnoff", false)->negated);
+  CHECK(libero.stands.at("chest").x_m[0] < libero.stands.at("chest").x_m[1]);
+  const BddlMapping behavior = bddl_mapping_of(library(), BddlDialect::behavior);
+  CHECK(behavior.room == "kitchen");
+  CHECK(behavior.from_ours("closed", false)->theirs == "open");
+  CHECK(bddl_mappings_of(library(), "bddl").size() == 2);
+  CHECK(bddl_mappings_of(library(), "behavior").size() == 1);
 }
 
-TEST_CASE("without extend a file is all there is; arguments are counted from 1") {
+TEST_CASE("an author's file goes before its dialect's") {
+  const BddlMapping own = read_text(
+      R"(dialect = "libero", categories = { { "red_cube", "cube" } }, instances = { red_cube = "it" }, room = "study",
+         stands = { chest = { x = { 0.4, 0.4 }, y = { 0, 0.1 }, z = 0.7 } })");
+  const BddlMapping shipped = read_bddl_mapping(library(), "libero");
+  CHECK(own.categories.size() == shipped.categories.size() + 1);
+  CHECK(*own.category("cube", "cube") == "red_cube");
+  CHECK(own.instances.size() == 2);
+  CHECK(own.parts == shipped.parts);
+  CHECK(own.room == "study");
+  CHECK(own.stands.at("chest").z_m == 0.7);
+}
+
+TEST_CASE("without what it extends a file is all there is; arguments are counted from 1") {
   const BddlMapping mapping = read_text(
-      R"(dialect = "behavior", categories = { { "box.n.01", "chest" } },
+      R"(dialect = "behavior", extend = false, categories = { { "box.n.01", "chest" } },
          predicates = { { theirs = "grasped", ours = "holding", order = { 2, 1 }, meaning = "stronger" } })");
   REQUIRE(mapping.categories.size() == 1);
   REQUIRE(mapping.predicates.size() == 1);
@@ -53,6 +71,9 @@ TEST_CASE("words that nobody has are refused, with the nearest as cure") {
   CHECK_THROWS_WITH(read_text(R"(dialect = "libero", categories = { { "bowl", "cubee" } })"),
                     Catch::Contains("did you mean 'cube'"));
   CHECK_THROWS_WITH(read_text(R"(dialect = "libero", categories = { bowl = "cube" })"), Catch::Contains("pairs"));
+  CHECK_THROWS_WITH(read_text(R"(dialect = "libero", stands = { chest = { x = { 1, 0 }, y = { 0, 1 }, z = 0 } })"),
+                    Catch::Contains("stands.chest.x"));
+  CHECK_THROWS_WITH(read_text(R"(dialect = "libero", zone = "air_zon")"), Catch::Contains("air_zone"));
   CHECK_THROWS_WITH(read_bddl_mapping(library(), "/nowhere/at_all.lua"), Catch::Contains("cannot be read"));
   CHECK_THROWS_WITH(read_text("dialect = nowhere.at_all"), Catch::Contains(":2"));
 }
