@@ -8,6 +8,7 @@
 #include "engine/episode/episode_runner.h"
 #include "engine/episode/keyframes.h"
 #include "engine/episode/language.h"
+#include "engine/symbolic/pddl.h"
 
 namespace stampede {
 
@@ -30,7 +31,7 @@ EpisodeRecord EpisodeRunner::run() {
     record_.language.push_back({"world", sentence, -1});
   open_subgoal();
   SkillResult result = make_plan();
-  record_.documents.push_back({"plan", to_text(plan_)});
+  record_.documents.push_back({"plan", to_pddl(plan_)});
   if (result.ok()) result = behave();
   close(result);
   paint();
@@ -142,7 +143,7 @@ void EpisodeRunner::close(const SkillResult& result) {
       record_.language.push_back({"skill", segment.label, segment.ordinal});
   record_.keyframes["stopped"] = stopped_keyframes(record_);
   for (DocumentRecord& document : record_.documents)
-    if (document.kind == "plan") document.text = to_text(plan_);
+    if (document.kind == "plan") document.text = to_pddl(plan_);
 }
 
 // From what was recorded, as anybody could later.

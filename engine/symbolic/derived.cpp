@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/solutions.h"
 #include "engine/symbolic/symbols.h"
 
 namespace stampede::symbolic {
@@ -57,17 +58,15 @@ namespace {
 
 using symbolic::View;
 
-// One pass over a predicate's possible atoms; those already known are not evaluated again.
-std::vector<Fact> newly_true(const Predicate& predicate, const View& view) {
+// The atoms of a predicate that its definition makes true and that are not known yet.
+std::vector<Fact> newly_true(const Predicate& predicate, const Formula& definition, const View& view) {
   std::vector<Term> terms;
   for (const Parameter& parameter : predicate.parameters) terms.push_back({true, parameter.name});
   std::vector<Fact> found;
   Binding binding;
-  symbolic::for_each_binding(predicate.parameters, view, binding, [&] {
+  symbolic::for_each_solution(predicate.parameters, definition, view, binding, [&] {
     Fact fact = symbolic::ground_atom(predicate.name, terms, binding);
-    if (!view.facts.contains(fact) && symbolic::evaluate(predicate.derived, view, binding)) {
-      found.push_back(std::move(fact));
-    }
+    if (!view.facts.contains(fact)) found.push_back(std::move(fact));
     return true;
   });
   return found;
@@ -87,19 +86,51 @@ bool uses(const Formula& formula, const std::vector<const Predicate*>& stratum) 
 
 }  // namespace
 
-Facts with_derived(const Facts& basic, const Domain& domain, const std::vector<TypedObject>& objects) {
-  Facts facts = basic;
-  for (const std::vector<const Predicate*>& stratum : symbolic::strata(domain)) {
+void symbolic::collect_derived(const Formula& formula, const Domain& domain, std::set<std::string>& predicates) {
+  if (formula.kind == Formula::Kind::atom) {
+    const Predicate* predicate = domain.predicate(formula.predicate);
+    if (predicate != nullptr && predicate->kind == PredicateKind::derived &&
+        predicates.insert(predicate->name).second) {
+      collect_derived(predicate->derived, domain, predicates);
+    }
+  }
+  for (const Formula& part : formula.parts) collect_derived(part, domain, predicates);
+}
+
+std::vector<Fact> symbolic::add_derived(Facts& facts, const Domain& domain, const std::vector<TypedObject>& objects,
+                                        const std::set<std::string>& predicates) {
+  std::vector<Fact> added;
+  if (predicates.empty()) return added;
+  for (std::vector<const Predicate*> stratum : strata(domain)) {
+    std::erase_if(stratum, [&](const Predicate* one) { return !predicates.contains(one->name); });
     bool recursive = false;
-    for (const Predicate* predicate : stratum) recursive |= uses(predicate->derived, stratum);
+    std::vector<Formula> definitions;
+    for (const Predicate* predicate : stratum) {
+      recursive |= uses(predicate->derived, stratum);
+      definitions.push_back(negation_normal(predicate->derived));
+    }
     for (bool changed = true; changed;) {
       changed = false;
-      for (const Predicate* predicate : stratum) {
-        for (Fact& fact : newly_true(*predicate, {facts, domain, objects})) changed |= facts.insert(fact).second;
+      for (std::size_t i = 0; i < stratum.size(); ++i) {
+        for (Fact& fact : newly_true(*stratum[i], definitions[i], {facts, domain, objects})) {
+          if (!facts.insert(fact).second) continue;
+          changed = true;
+          added.push_back(std::move(fact));
+        }
       }
       changed &= recursive;
     }
   }
+  return added;
+}
+
+Facts with_derived(const Facts& basic, const Domain& domain, const std::vector<TypedObject>& objects) {
+  Facts facts = basic;
+  std::set<std::string> all;
+  for (const Predicate& predicate : domain.predicates) {
+    if (predicate.kind == PredicateKind::derived) all.insert(predicate.name);
+  }
+  symbolic::add_derived(facts, domain, objects, all);
   return facts;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl_text.h"
+#include "engine/symbolic/solutions.h"
 
 namespace stampede::symbolic {
 
@@ -32,7 +33,6 @@ bool admits(const Parameter& parameter, const TypedObject& object, const View& v
 bool evaluate(const Formula& formula, const View& view, Binding& binding) {
   using Kind = Formula::Kind;
   const auto part_holds = [&](const Formula& part) { return evaluate(part, view, binding); };
-  const auto body_holds = [&] { return evaluate(formula.parts.at(0), view, binding); };
   switch (formula.kind) {
     case Kind::always:
       return true;
@@ -43,15 +43,17 @@ bool evaluate(const Formula& formula, const View& view, Binding& binding) {
     case Kind::equal:
       return value_of(formula.terms.at(0), binding) == value_of(formula.terms.at(1), binding);
     case Kind::negation:
-      return !body_holds();
+      return !evaluate(formula.parts.at(0), view, binding);
     case Kind::conjunction:
       return std::all_of(formula.parts.begin(), formula.parts.end(), part_holds);
     case Kind::disjunction:
       return std::any_of(formula.parts.begin(), formula.parts.end(), part_holds);
     case Kind::exists:
-      return !for_each_binding(formula.variables, view, binding, [&] { return !body_holds(); });
+      return !for_each_solution(formula.variables, negation_normal(formula.parts.at(0)), view, binding,
+                                [] { return false; });
     case Kind::forall:
-      return for_each_binding(formula.variables, view, binding, body_holds);
+      return for_each_solution(formula.variables, negation_normal(formula.parts.at(0), true), view, binding,
+                               [] { return false; });
   }
   return false;
 }

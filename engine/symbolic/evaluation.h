@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,19 @@ Formula negation_normal(const Formula& formula, bool negated = false);
 // Strata of the derived predicates, lowest first; each stratum sorted by name.
 // Throws Error when a derived predicate depends on its own negation.
 std::vector<std::vector<const Predicate*>> strata(const Domain& domain);
+
+// Adds the derived facts of the predicates named, and of those that they are derived from, to facts that have none.
+// Returns those added, for whoever takes them out again.
+std::vector<Fact> add_derived(Facts& facts, const Domain& domain, const std::vector<TypedObject>& objects,
+                              const std::set<std::string>& predicates);
+// The derived predicates that a formula is about, itself or through their definitions.
+void collect_derived(const Formula& formula, const Domain& domain, std::set<std::string>& predicates);
+
+// What a ground action changes, in facts with the derived ones that its effects' conditions mention.
+struct Change {
+  Facts added, removed;  // what is in both is added
+};
+Change change_of(const Action& action, const std::vector<std::string>& arguments, const View& view);
 
 // The problem's objects together with the domain's constants, sorted by name.
 std::vector<TypedObject> all_objects(const Domain& domain, const std::vector<TypedObject>& objects);

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/symbolic/reachability.h"
+#include "engine/symbolic/simplify.h"
 
 namespace stampede::symbolic {
 namespace {
@@ -19,6 +20,7 @@ class Builder {
   void run(std::int64_t memory_bytes) {
     if (!reach_.run(memory_bytes)) {
       task_.out_of_memory = true;
+      task_.fullest = fullest();
       return;
     }
     judge_atoms();
@@ -32,9 +34,31 @@ class Builder {
     }
     layer_axioms();
     build_goal();
+    simplify(task_);
   }
 
  private:
+  std::string fullest() const {
+    std::int64_t all = 0;
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < lifted_.schemas.size(); ++i) {
+      all += reach_.instances_of(static_cast<int>(i));
+      if (reach_.instances_of(static_cast<int>(i)) > reach_.instances_of(static_cast<int>(most))) most = i;
+    }
+    std::string text = std::to_string(all) + " ground formulas";
+    if (all == 0) return text;
+    const Schema& schema = lifted_.schemas[most];
+    text += ", " + std::to_string(reach_.instances_of(static_cast<int>(most))) + " of them of ";
+    if (schema.action >= 0) {
+      text += "the action `" + lifted_.domain->actions[schema.action].name + "`";
+    } else if (lifted_.domain->predicate(lifted_.predicates[schema.head.predicate]) != nullptr) {
+      text += "the derived predicate `" + lifted_.predicates[schema.head.predicate] + "`";
+    } else {
+      text += "a quantified condition";
+    }
+    return text + " over " + std::to_string(schema.domains.size()) + " variables";
+  }
+
   void judge_atoms() {
     const std::size_t count = reach_.atoms();
     std::vector<char> added(count, 0), removed(count, 0);

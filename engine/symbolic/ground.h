@@ -47,6 +47,7 @@ struct GroundTask {
   std::vector<LiftedAtom> reachable;   // all atoms that relaxed reachability met
 
   bool out_of_memory = false;  // grounding was given up; nothing else can be relied on
+  std::string fullest;         // then: how many ground formulas there are, and what most of them come from
 
   bool solvable() const { return impossible.empty() && undeniable.empty(); }
   PlanStep step(int op) const;

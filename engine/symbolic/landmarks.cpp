@@ -1,6 +1,7 @@
 #include "engine/symbolic/landmarks.h"
 
 #include <algorithm>
+#include <bit>
 #include <deque>
 #include <iterator>
 
@@ -9,6 +10,8 @@ namespace {
 
 constexpr std::size_t kMostLabelWords = 16'000'000;  // 128 MB
 constexpr std::size_t kMostLabelWork = 60'000'000;   // words touched when each rule is looked at a few times
+
+constexpr std::size_t kMostMasked = 8000;  // landmarks: 32 MB of masks
 
 bool bit(const std::uint64_t* words, int i) { return (words[i >> 6] >> (i & 63) & 1) != 0; }
 void set_bit(std::uint64_t* words, int i) { words[i >> 6] |= std::uint64_t{1} << (i & 63); }
@@ -24,6 +27,7 @@ Landmarks::Landmarks(const GroundTask& task, const Relaxation& relaxation, const
   choose(task);
   order(task, relaxation);
   find_removals(task);
+  make_masks();
   labels_ = {};
   labelled_ = {};
 }
@@ -228,6 +232,117 @@ Landmarks::Ahead Landmarks::judge(const Words& state, std::uint64_t* reached) {
       const bool is_needed = std::any_of(later.begin(), later.end(), [&](int one) { return !bit(reached, one); });
       if (is_needed) ++ahead.landmarks;
     }
+  }
+  return ahead;
+}
+
+void Landmarks::make_masks() {
+  parent_truth_.assign(words_, 0);
+  truth_ = wanted_bits_ = reached_bits_ = goal_mask_ = parent_truth_;
+  for (const int goal : goals_) set_bit(goal_mask_.data(), goal);
+  if (node_.size() > kMostMasked) return;
+  const auto fill = [&](std::vector<std::uint64_t>& masks, const std::vector<std::vector<int>>& lists) {
+    masks.assign(node_.size() * words_, 0);
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      for (const int other : lists[i]) set_bit(masks.data() + i * words_, other);
+    }
+  };
+  fill(before_mask_, before_);
+  fill(needs_mask_, needs_);
+  fill(needed_for_mask_, needed_for_);
+  fill(takes_away_mask_, takes_away_);
+}
+
+void Landmarks::begin_successors(const Words& state, const std::uint64_t* reached) {
+  parent_ = &state;
+  parent_reached_ = reached;
+  std::fill(parent_truth_.begin(), parent_truth_.end(), 0);
+  for (int landmark = 0; landmark < size(); ++landmark) {
+    if (literal_holds(state.data(), node_[landmark])) set_bit(parent_truth_.data(), landmark);
+  }
+  reached_bits_.assign(reached, reached + words_);
+  parent_ahead_ = judge(state, reached_bits_.data());
+}
+
+// The landmark and all that it needs and that is not true.
+void Landmarks::spread_wanted(int landmark) {
+  set_bit(wanted_bits_.data(), landmark);
+  stack_.push_back(landmark);
+  while (!stack_.empty()) {
+    const std::uint64_t* needs = mask(needs_mask_, stack_.back());
+    stack_.pop_back();
+    for (std::size_t w = 0; w < words_; ++w) {
+      std::uint64_t more = needs[w] & ~truth_[w] & ~wanted_bits_[w];
+      wanted_bits_[w] |= more;
+      for (; more != 0; more &= more - 1) stack_.push_back(static_cast<int>(64 * w) + std::countr_zero(more));
+    }
+  }
+}
+
+Landmarks::Ahead Landmarks::ahead_of(const Words& successor) {
+  if (needs_mask_.empty()) {
+    reached_bits_.assign(parent_reached_, parent_reached_ + words_);
+    return judge(successor, reached_bits_.data());
+  }
+  truth_ = parent_truth_;
+  bool is_same = true;
+  for (std::size_t word = 0; word < successor.size(); ++word) {
+    for (std::uint64_t changed = successor[word] ^ (*parent_)[word]; changed != 0; changed &= changed - 1) {
+      const std::size_t fact = 64 * word + static_cast<std::size_t>(std::countr_zero(changed));
+      for (const std::size_t node : {2 * fact, 2 * fact + 1}) {
+        const int landmark = of_node_[node];
+        if (landmark < 0) continue;
+        truth_[landmark >> 6] ^= std::uint64_t{1} << (landmark & 63);
+        is_same = false;
+      }
+    }
+  }
+  if (is_same) return parent_ahead_;
+  const auto each = [&](std::size_t w, std::uint64_t bits, const auto& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<int>(64 * w) + std::countr_zero(bits));
+  };
+  const auto meets = [&](const std::uint64_t* a, const auto& b) {
+    for (std::size_t w = 0; w < words_; ++w) {
+      if ((a[w] & b(w)) != 0) return true;
+    }
+    return false;
+  };
+  std::fill(wanted_bits_.begin(), wanted_bits_.end(), 0);
+  for (std::size_t w = 0; w < words_; ++w) {
+    each(w, goal_mask_[w] & ~truth_[w], [&](int goal) {
+      if (!bit(wanted_bits_.data(), goal)) spread_wanted(goal);
+    });
+  }
+  for (bool changed = true; changed;) {  // goals held too early
+    changed = false;
+    for (std::size_t w = 0; w < words_; ++w) {
+      each(w, goal_mask_[w] & ~wanted_bits_[w], [&](int goal) {
+        if (!meets(mask(takes_away_mask_, goal), [&](std::size_t v) { return wanted_bits_[v]; })) return;
+        spread_wanted(goal);
+        changed = true;
+      });
+    }
+  }
+  for (std::size_t w = 0; w < words_; ++w) reached_bits_[w] = parent_reached_[w];
+  for (std::size_t w = 0; w < words_; ++w) {
+    each(w, truth_[w] & ~parent_reached_[w], [&](int landmark) {
+      const bool is_turn = !meets(mask(before_mask_, landmark), [&](std::size_t v) { return ~parent_reached_[v]; });
+      if (is_turn) set_bit(reached_bits_.data(), landmark);
+    });
+  }
+  Ahead ahead;
+  int reached = 0;
+  for (std::size_t w = 0; w < words_; ++w) {
+    const std::uint64_t wanted_goals = goal_mask_[w] & wanted_bits_[w];
+    ahead.goals += std::popcount(wanted_goals);
+    reached_bits_[w] &= ~wanted_goals;
+    reached += std::popcount(reached_bits_[w]);
+  }
+  ahead.landmarks = size() - reached;
+  for (std::size_t w = 0; w < words_; ++w) {
+    each(w, reached_bits_[w] & ~truth_[w], [&](int landmark) {
+      if (meets(mask(needed_for_mask_, landmark), [&](std::size_t v) { return ~reached_bits_[v]; })) ++ahead.landmarks;
+    });
   }
   return ahead;
 }

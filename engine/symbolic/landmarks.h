@@ -30,7 +30,17 @@ class Landmarks {
   // Koehler, Hoffmann, JAIR 2000, doi:10.1613/jair.715).
   Ahead judge(const Words& state, std::uint64_t* reached);
 
+  // What `judge` says of each successor of one state, by bits and from what changed: several times faster.
+  // `reached`: of the state, after its own `progress`. Both must outlive the calls of `ahead_of`.
+  void begin_successors(const Words& state, const std::uint64_t* reached);
+  Ahead ahead_of(const Words& successor);
+
  private:
+  void make_masks();
+  void spread_wanted(int landmark);
+  const std::uint64_t* mask(const std::vector<std::uint64_t>& masks, int landmark) const {
+    return masks.data() + static_cast<std::size_t>(landmark) * words_;
+  }
   void label(const GroundTask& task, const Relaxation& relaxation, const Words& start);
   void choose(const GroundTask& task);
   void find_removals(const GroundTask& task);
@@ -53,6 +63,13 @@ class Landmarks {
   std::vector<char> wanted_;                  // scratch of `find_wanted`
   std::vector<int> stack_;                    // the same
   std::vector<std::uint64_t> now_;            // scratch of `progress` and `judge`
+
+  // The same relations as bits, `words_` a landmark; empty where there are too many landmarks.
+  std::vector<std::uint64_t> before_mask_, needs_mask_, needed_for_mask_, takes_away_mask_, goal_mask_;
+  const Words* parent_ = nullptr;  // of `begin_successors`
+  const std::uint64_t* parent_reached_ = nullptr;
+  Ahead parent_ahead_;  // of a successor in which the same landmarks are true
+  std::vector<std::uint64_t> parent_truth_, truth_, wanted_bits_, reached_bits_;
 };
 
 }  // namespace stampede::symbolic

@@ -13,7 +13,9 @@ namespace {
 using Kind = Formula::Kind;
 using Scope = std::map<std::string, LiftedTerm>;
 
-constexpr std::size_t kMostDisjuncts = 8;  // beyond it a disjunction becomes a predicate of its own
+constexpr std::size_t kMostDisjuncts = 8;        // beyond it a disjunction becomes a predicate of its own
+constexpr std::int64_t kMostGround = 1'000'000;  // bindings of quantifiers that are written out
+constexpr std::int64_t kMostBindings = 100'000;  // of a rule's variables, before it is split
 
 class Lifter {
  public:
@@ -175,7 +177,10 @@ class Lifter {
       case Kind::disjunction: {
         std::vector<Conjunct> all;
         for (const Formula& part : formula.parts) {
-          for (Conjunct& one : normal(part, scope)) all.push_back(std::move(one));
+          for (Conjunct& one : normal(part, scope)) {
+            if (is_true(one)) return {Conjunct{}};
+            all.push_back(std::move(one));
+          }
         }
         return all;
       }
@@ -187,12 +192,50 @@ class Lifter {
         return all;
       }
       case Kind::forall: {
+        if (is_denied_rather(formula.parts.at(0), scope)) return denied(formula, scope);
+        count_ground(formula);
         std::vector<Conjunct> all = {Conjunct{}};
         expand(formula, 0, scope, all);
         return all;
       }
     }
     return {};
+  }
+
+  static bool is_true(const Conjunct& one) {
+    return one.positive.empty() && one.negative.empty() && one.equalities.empty() && one.extra.empty();
+  }
+
+  // In conditions of actions, `for all x, not A(x) or B(x)` becomes the denial of `some x with A(x) and not B(x)`: then
+  // joins over A find the few bindings that matter, where one by one all would be written out for each action.
+  // Definitions are written out, because a predicate may depend on itself but not on its own denial.
+  bool is_denied_rather(const Formula& body, const Scope& scope) const {
+    const bool is_lifted = std::any_of(scope.begin(), scope.end(), [](const auto& one) { return one.second.variable; });
+    const bool is_literal = body.kind == Kind::atom || body.kind == Kind::equal || body.kind == Kind::negation;
+    return in_action_ && is_lifted && !is_literal;
+  }
+
+  std::vector<Conjunct> denied(const Formula& formula, const Scope& scope) {
+    const std::vector<Conjunct> failing = normal(negation_normal(formula, true), scope);
+    if (failing.empty()) return {Conjunct{}};
+    if (std::any_of(failing.begin(), failing.end(), is_true)) return {};
+    Conjunct result;
+    result.negative.push_back(as_predicate(failing).positive.front());
+    return {result};
+  }
+
+  // A formula that is written out for each binding of its variables must not fill the memory.
+  void count_ground(const Formula& formula) {
+    std::int64_t count = 1;
+    for (const Parameter& one : formula.variables) {
+      const auto choices = static_cast<std::int64_t>(values(one).size());
+      count = choices > 0 && count > kMostGround / choices ? kMostGround + 1 : count * choices;
+    }
+    ground_ += count;
+    if (ground_ <= kMostGround) return;
+    throw TooManyGround("a formula over " + std::to_string(formula.variables.size()) + " variables and " +
+                        std::to_string(task_.objects.size()) + " objects has more than " + std::to_string(kMostGround) +
+                        " ground instances: " + formula_text(formula, Names::plain).substr(0, 200));
   }
 
   void expand(const Formula& forall, std::size_t from, const Scope& scope, std::vector<Conjunct>& all) {
@@ -236,25 +279,104 @@ class Lifter {
     std::set<int> free, bound;
     for (const Conjunct& one : disjuncts) {
       bound.insert(one.extra.begin(), one.extra.end());
-      const auto note = [&](const LiftedTerm& t) {
-        if (t.variable) free.insert(t.id);
-      };
-      for (const LiftedAtom& at : one.positive) std::for_each(at.terms.begin(), at.terms.end(), note);
-      for (const LiftedAtom& at : one.negative) std::for_each(at.terms.begin(), at.terms.end(), note);
-      for (const Equality& at : one.equalities) note(at.left), note(at.right);
+      free.merge(variables_of(one));
     }
     for (const int id : bound) free.erase(id);
-    const std::string name = "one of " + std::to_string(task_.predicates.size());  // a space: no author's name has one
-    LiftedAtom head{name_predicate(name, free.size()), {}};
-    task_.fluent[head.predicate] = task_.derived[head.predicate] = 1;
-    for (const int id : free) head.terms.push_back({true, id});
+    const LiftedAtom head = new_head(free);
     for (const Conjunct& one : disjuncts) add_rule(head, one);
     Conjunct result;
     result.positive.push_back(head);
     return result;
   }
 
-  void add_rule(const LiftedAtom& head, const Conjunct& body) {
+  std::int64_t bindings_of(const std::set<int>& variables) const {
+    std::int64_t count = 1;
+    for (const int id : variables) {
+      const auto choices = std::max<std::int64_t>(1, static_cast<std::int64_t>(variables_[id].size()));
+      count = count > kMostBindings / choices ? kMostBindings + 1 : count * choices;
+    }
+    return count;
+  }
+
+  // A rule with many bindings is split: what speaks of a variable that its head does not have becomes a rule of its
+  // own over the variables beside it (bucket elimination: Dechter, Artificial Intelligence 113, 1999; for grounding:
+  // Helmert, Artificial Intelligence 173, 2009). A chain of n objects then needs n joins of two.
+  void add_rule(const LiftedAtom& head, Conjunct body) {
+    while (true) {
+      std::set<int> kept, all = variables_of(body);
+      for (const LiftedTerm& one : head.terms) {
+        if (one.variable) kept.insert(one.id);
+      }
+      all.insert(kept.begin(), kept.end());
+      if (bindings_of(all) <= kMostBindings) break;
+      std::set<int> beside;
+      const int next = least_bound(body, kept, beside);
+      if (next < 0 || beside.size() + 1 >= all.size()) break;
+      split(body, next, beside);
+    }
+    add_plain_rule(head, body);
+  }
+
+  // The variable that the fewest others stand beside, of those that the head does not have.
+  int least_bound(const Conjunct& body, const std::set<int>& kept, std::set<int>& beside) const {
+    int best = -1;
+    for (const int id : variables_of(body)) {
+      if (kept.contains(id)) continue;
+      Conjunct mine = body, rest;
+      take_apart(mine, rest, id);
+      std::set<int> others = variables_of(mine);
+      others.erase(id);
+      if (best >= 0 && others.size() >= beside.size()) continue;
+      best = id;
+      beside = std::move(others);
+    }
+    return best;
+  }
+
+  void split(Conjunct& body, int id, const std::set<int>& beside) {
+    Conjunct rest;
+    take_apart(body, rest, id);
+    const LiftedAtom head = new_head(beside);
+    add_plain_rule(head, body);
+    body = std::move(rest);
+    body.positive.push_back(head);
+  }
+
+  // Leaves in `mine` what speaks of the variable; the rest goes to `rest`.
+  static void take_apart(Conjunct& mine, Conjunct& rest, int id) {
+    const auto is_it = [&](const LiftedTerm& one) { return one.variable && one.id == id; };
+    const auto speaks = [&](const LiftedAtom& one) { return std::any_of(one.terms.begin(), one.terms.end(), is_it); };
+    const auto move = [](auto& from, auto& to, const auto& stays) {
+      std::copy_if(from.begin(), from.end(), std::back_inserter(to), [&](const auto& one) { return !stays(one); });
+      std::erase_if(from, [&](const auto& one) { return !stays(one); });
+    };
+    move(mine.positive, rest.positive, speaks);
+    move(mine.negative, rest.negative, speaks);
+    move(mine.equalities, rest.equalities, [&](const Equality& one) { return is_it(one.left) || is_it(one.right); });
+    move(mine.extra, rest.extra, [&](int one) { return one == id; });
+  }
+
+  static std::set<int> variables_of(const Conjunct& one) {
+    std::set<int> found(one.extra.begin(), one.extra.end());
+    const auto note = [&](const LiftedTerm& t) {
+      if (t.variable) found.insert(t.id);
+    };
+    for (const LiftedAtom& at : one.positive) std::for_each(at.terms.begin(), at.terms.end(), note);
+    for (const LiftedAtom& at : one.negative) std::for_each(at.terms.begin(), at.terms.end(), note);
+    for (const Equality& at : one.equalities) note(at.left), note(at.right);
+    return found;
+  }
+
+  // Of an auxiliary derived predicate over these variables.
+  LiftedAtom new_head(const std::set<int>& variables) {
+    const std::string name = "one of " + std::to_string(task_.predicates.size());  // a space: no author's name has one
+    LiftedAtom head{name_predicate(name, variables.size()), {}};
+    task_.fluent[head.predicate] = task_.derived[head.predicate] = 1;
+    for (const int id : variables) head.terms.push_back({true, id});
+    return head;
+  }
+
+  void add_plain_rule(const LiftedAtom& head, const Conjunct& body) {
     Schema schema;
     schema.head = head;
     schema.body = body;
@@ -310,6 +432,7 @@ class Lifter {
 
   void lift_action(const Action& action, int index) {
     variables_.clear();
+    in_action_ = true;
     const Scope scope = bind_parameters(action.parameters, {});
     std::vector<Formula> parts = inequalities(action, domain_);
     parts.push_back(action.precondition);
@@ -343,6 +466,7 @@ class Lifter {
 
   void lift_goal() {
     variables_.clear();
+    in_action_ = false;
     const Formula goal = negation_normal(problem_.goal);
     std::vector<Conjunct> disjuncts = normal(goal, {});
     if (disjuncts.empty()) {  // once more, so that the literal to blame is at hand for the explanation
@@ -359,7 +483,8 @@ class Lifter {
   const Domain& domain_;
   const Problem& problem_;
   LiftedTask task_;
-  bool keep_false_ = false;
+  bool keep_false_ = false, in_action_ = false;
+  std::int64_t ground_ = 0;  // bindings of quantifiers written out so far
   std::map<std::string, int> objects_, predicates_;
   std::vector<std::size_t> arity_;
   std::vector<std::vector<int>> variables_;  // of the schema in the making: the domain of each

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/symbolic/symbols.h"
 
 namespace stampede::symbolic {
@@ -61,7 +62,16 @@ struct LiftedTask {
   Conjunct goal;  // ground
 };
 
-// Throws Error for unknown predicates or objects, wrong arities and derived predicates in effects.
+// Formulas over too many objects to be written out: with the count, and a cure.
+class TooManyGround : public Error {
+ public:
+  explicit TooManyGround(const std::string& what)
+      : Error("the problem", what,
+              "narrow the types of the variables, name the objects meant, or say it with fewer variables by a derived "
+              "predicate") {}
+};
+
+// Throws Error for unknown predicates or objects, wrong arities and derived predicates in effects, TooManyGround.
 LiftedTask lift(const Domain& domain, const Problem& problem);
 
 }  // namespace stampede::symbolic

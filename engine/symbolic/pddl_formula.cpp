@@ -121,37 +121,58 @@ void take_traits(Formula& formula, std::vector<Parameter>& variables, const Doma
   formula = conjunction({parts.begin() + static_cast<std::ptrdiff_t>(taken), parts.end()});
 }
 
-std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool variables, const Domain* domain) {
+namespace {
+
+bool is_among(const std::vector<Parameter>& parameters, const std::string& name) {
+  return std::any_of(parameters.begin(), parameters.end(), [&](const Parameter& one) { return one.name == name; });
+}
+
+std::string read_type(const Node& type, const Domain* domain) {
+  if (type.is_list) {
+    if (type.head() != "either") fail(type, "expected the name of a type");
+    fail(type, "`either` types are not supported", "give the types a common parent, or use a static predicate");
+  }
+  if (type.word == "-" || type.word.starts_with("?")) {
+    fail(type, "expected the name of a type after `-`, got `" + type.word + "`",
+         "write `- object` where any type will do");
+  }
+  const std::string name = name_from_pddl(type.word);
+  if (domain != nullptr && name != "object" && !domain->types.contains(name)) {
+    std::vector<std::string> known = {"object"};
+    for (const auto& [one, parent] : domain->types) known.push_back(one);
+    fail(type, "unknown type `" + type.word + "`", did_you_mean(name, known));
+  }
+  return name == "object" ? "" : name;
+}
+
+}  // namespace
+
+std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool variables, const Domain* domain,
+                                  Repeats repeats) {
   std::vector<Parameter> result;
   std::size_t untyped = 0;
   for (std::size_t i = from; i < list.items.size(); ++i) {
     const Node& item = list.items[i];
     if (item.is_list) fail(item, "expected a name, not a list");
     if (item.word != "-") {
-      if (variables != item.word.starts_with("?")) {
+      if (variables != item.word.starts_with("?") || item.word == "?") {
         fail(item, variables ? "expected a variable such as `?x`, got `" + item.word + "`"
                              : "expected a name without `?`, got `" + item.word + "`");
       }
-      result.push_back({name_from_pddl(variables ? item.word.substr(1) : item.word), "", {}});
-      const auto is_same = [&](const Parameter& one) { return one.name == result.back().name; };
-      if (variables && std::any_of(result.begin(), result.end() - 1, is_same)) {
-        fail(item, "`" + item.word + "` is declared twice", "PDDL does not tell capital letters from small ones");
+      const std::string name = name_from_pddl(variables ? item.word.substr(1) : item.word);
+      std::string own = name;
+      if (variables && is_among(result, name)) {
+        if (repeats == Repeats::refused) {
+          fail(item, "`" + item.word + "` is declared twice", "PDDL does not tell capital letters from small ones");
+        }
+        for (int number = 2; is_among(result, own); ++number) own = name + "_" + std::to_string(number);
       }
+      result.push_back({own, "", {}});
       continue;
     }
     if (++i >= list.items.size()) fail(item, "`-` without a type after it", "write `- object` where any type will do");
-    const Node& type = list.items[i];
-    if (type.is_list) {
-      if (type.head() != "either") fail(type, "expected the name of a type");
-      fail(type, "`either` types are not supported", "give the types a common parent, or use a static predicate");
-    }
-    const std::string name = name_from_pddl(type.word);
-    if (domain != nullptr && name != "object" && !domain->types.contains(name)) {
-      std::vector<std::string> known = {"object"};
-      for (const auto& [one, parent] : domain->types) known.push_back(one);
-      fail(type, "unknown type `" + type.word + "`", did_you_mean(name, known));
-    }
-    for (; untyped < result.size(); ++untyped) result[untyped].type = name == "object" ? "" : name;
+    const std::string type = read_type(list.items[i], domain);
+    for (; untyped < result.size(); ++untyped) result[untyped].type = type;
   }
   return result;
 }

@@ -15,8 +15,11 @@ struct Vocabulary {
   const std::vector<TypedObject>* objects = nullptr;
 };
 
-// `a b - type c`: from item `from` on. Variables are without their `?`, and each may be declared once.
-std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool variables, const Domain* domain);
+// `a b - type c`: from item `from` on. Variables are without their `?`, and each may be declared once, except where the
+// list only says how many there are and of what types: there the second `?x` becomes `?x_2`.
+enum class Repeats { refused, renamed };
+std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool variables, const Domain* domain,
+                                  Repeats repeats = Repeats::refused);
 Formula read_atom(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
 Formula read_formula(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
 Term read_term(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);

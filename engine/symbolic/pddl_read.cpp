@@ -128,18 +128,16 @@ class DomainReader {
   void declare(const Node& node) {
     if (node.head() == ":types") {
       for (const Parameter& one : read_typed(node, 1, false, nullptr)) {
-        const std::string parent = one.type.empty() ? "object" : one.type;
-        const auto [known, is_new] = domain_.types.try_emplace(one.name, parent);
-        if (is_new || known->second == parent || one.name == "object") continue;
-        fail(node, "type `" + one.name + "` has two parents, `" + known->second + "` and `" + parent + "`",
-             "give it one; what crosses the tree is a static predicate");
+        parents_[one.name].insert(one.type.empty() ? "object" : one.type);
+        domain_.types.try_emplace(one.name, "object");
       }
       for (std::size_t i = 1; i < node.items.size(); ++i) {
         const std::string name = name_from_pddl(node.items[i].word);
         if (name != "-" && name != "object" && !domain_.types.contains(name)) domain_.types[name] = "object";
       }
       domain_.types.erase("object");
-      check_types(node);
+      parents_.erase("object");
+      for (const auto& [type, parents] : parents_) choose_parent(node, type, parents);
     } else if (node.head() == ":constants") {
       for (const Parameter& one : read_typed(node, 1, false, &domain_)) {
         for (const TypedObject& other : domain_.constants) {
@@ -156,16 +154,41 @@ class DomainReader {
     }
   }
 
-  void check_types(const Node& node) const {
-    for (const auto& [type, parent] : domain_.types) {
-      std::string at = parent;
-      for (std::size_t i = 0; at != "object"; ++i) {
-        if (i > domain_.types.size()) {
+  // What a type descends from on any of its lines, itself left out.
+  std::set<std::string> all_above(const Node& node, const std::string& type) const {
+    std::set<std::string> above;
+    std::vector<std::string> open = {type};
+    while (!open.empty()) {
+      const auto found = parents_.find(open.back());
+      open.pop_back();
+      if (found == parents_.end()) continue;
+      for (const std::string& parent : found->second) {
+        if (parent == type) {
           fail(node, "type `" + type + "` descends from itself", "give one type of the circle another parent");
         }
-        at = domain_.types.at(at);
+        if (above.insert(parent).second) open.push_back(parent);
       }
     }
+    return above;
+  }
+
+  // A type on several lines (`area - object`, then `area - surface`): the parent that lies below all others.
+  void choose_parent(const Node& node, const std::string& type, const std::set<std::string>& parents) {
+    all_above(node, type);
+    for (const std::string& parent : parents) {
+      const std::set<std::string> above = all_above(node, parent);
+      const auto is_above = [&](const std::string& other) {
+        return other == parent || other == "object" || above.contains(other);
+      };
+      if (!std::all_of(parents.begin(), parents.end(), is_above)) continue;
+      if (parent == "object" && parents.size() > 1) continue;
+      domain_.types[type] = parent;
+      return;
+    }
+    std::string list;
+    for (const std::string& parent : parents) list += (list.empty() ? "`" : ", `") + parent + "`";
+    fail(node, "type `" + type + "` has parents of which none descends from the others: " + list,
+         "give it one; what crosses the tree is a static predicate");
   }
 
   void predicate(const Node& node, const Note& note) {
@@ -179,7 +202,7 @@ class DomainReader {
       domain_.traits.push_back(result.name);
       return;
     }
-    result.parameters = read_typed(node, 1, true, &domain_);
+    result.parameters = read_typed(node, 1, true, &domain_, Repeats::renamed);
     add_traits(result.parameters, note);
     result.label = note.label;
     if (note.fixed) result.kind = PredicateKind::fixed;
@@ -200,7 +223,7 @@ class DomainReader {
       }
       Predicate function;
       function.name = name_from_pddl(item.head());
-      function.parameters = read_typed(item, 1, true, &domain_);
+      function.parameters = read_typed(item, 1, true, &domain_, Repeats::renamed);
       for (const Predicate& one : domain_.functions) {
         if (one.name == function.name) fail(item, "function `" + one.name + "` is declared twice");
       }
@@ -298,6 +321,7 @@ class DomainReader {
   const Node& top_;
   Domain domain_;
   Vocabulary vocabulary_;
+  std::map<std::string, std::set<std::string>> parents_;  // of each type, on all its lines
   bool has_costs_ = false;
 };
 

@@ -33,8 +33,8 @@ std::string name_from_pddl(std::string_view name) {
 
 std::string variables_text(const std::vector<Parameter>& variables, Names names) {
   std::string text;
-  const bool typed =
-      std::any_of(variables.begin(), variables.end(), [](const Parameter& v) { return !v.type.empty(); });
+  const bool typed = names == Names::pddl || std::any_of(variables.begin(), variables.end(),
+                                                         [](const Parameter& v) { return !v.type.empty(); });
   for (const Parameter& variable : variables) {
     if (!text.empty()) text += ' ';
     text += "?" + name_text(variable.name, names);
@@ -50,8 +50,8 @@ std::string atom_text(const std::string& predicate, const std::vector<Term>& ter
 }
 
 // Inside another formula VAL takes no `(and)` or `(or)` without parts and Fast Downward no `()`; these both take.
-const char* const kAlways = "(forall (?any) (= ?any ?any))";
-const char* const kNever = "(exists (?any) (not (= ?any ?any)))";
+const char* const kAlways = "(forall (?any - object) (= ?any ?any))";
+const char* const kNever = "(exists (?any - object) (not (= ?any ?any)))";
 
 bool is_constant(const Formula& formula, Formula::Kind quantifier) {
   using Kind = Formula::Kind;

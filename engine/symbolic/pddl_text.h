@@ -15,7 +15,9 @@ enum class Names { plain, pddl };
 
 std::string name_text(std::string_view name, Names names);
 std::string name_from_pddl(std::string_view name);
-std::string variables_text(const std::vector<Parameter>& variables, Names names);  // ?a - block ?b
+// ?a - block ?b - object; as plain text without `- object` where nothing is typed. VAL's type checker takes no untyped
+// variable in a typed domain.
+std::string variables_text(const std::vector<Parameter>& variables, Names names);
 std::string atom_text(const std::string& predicate, const std::vector<Term>& terms, Names names);
 std::string formula_text(const Formula& formula, Names names);
 // Whether this is how `always` (a forall) or `never` (an exists) is written inside another formula.

@@ -79,6 +79,7 @@ class Scanner {
     result.place = place();
     while (at_ < text_.size() && text_[at_] != '(' && text_[at_] != ')' && text_[at_] != ';' &&
            std::isspace(static_cast<unsigned char>(text_[at_])) == 0) {
+      if (text_[at_] == '?' && !result.word.empty()) break;  // `(at?x)` is `(at ?x)`
       result.word += static_cast<char>(std::tolower(static_cast<unsigned char>(text_[at_])));
       step();
     }

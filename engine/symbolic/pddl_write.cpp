@@ -44,9 +44,17 @@ bool has_costs(const Domain& domain) {
   });
 }
 
+// Every variable and constant is written with its type, `object` at least.
+bool has_types(const Domain& domain) {
+  const auto declares = [](const auto& one) { return !one.parameters.empty(); };
+  return !domain.types.empty() || !domain.traits.empty() || !domain.constants.empty() ||
+         std::any_of(domain.predicates.begin(), domain.predicates.end(), declares) ||
+         std::any_of(domain.actions.begin(), domain.actions.end(), declares);
+}
+
 std::set<std::string> requirements(const Domain& domain) {
   std::set<std::string> used = {":strips"};
-  if (!domain.types.empty()) used.insert(":typing");
+  if (has_types(domain)) used.insert(":typing");
   for (const Predicate& predicate : domain.predicates) {
     if (predicate.kind != PredicateKind::derived) continue;
     used.insert(":derived-predicates");
@@ -84,12 +92,11 @@ std::string types_text(const Domain& domain) {
   return text + ")\n";
 }
 
-std::string objects_text(const char* word, const std::vector<TypedObject>& objects, const Domain& domain) {
+std::string objects_text(const char* word, const std::vector<TypedObject>& objects) {
   if (objects.empty()) return {};
   std::string text = std::string("  (:") + word;
   for (const TypedObject& object : objects) {
-    text += "\n    " + pddl(object.name);
-    if (!domain.types.empty()) text += " - " + (object.type.empty() ? "object" : pddl(object.type));
+    text += "\n    " + pddl(object.name) + " - " + (object.type.empty() ? "object" : pddl(object.type));
   }
   return text + ")\n";
 }
@@ -105,7 +112,7 @@ std::string traits_note(const std::vector<Parameter>& parameters) {
 std::string predicates_text(const Domain& domain) {
   if (domain.traits.empty() && domain.predicates.empty()) return {};
   std::string text = "  (:predicates";
-  for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x) ;@ trait";
+  for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x - object) ;@ trait";
   for (const Predicate& predicate : domain.predicates) {
     const std::string variables = symbolic::variables_text(predicate.parameters, Names::pddl);
     text += "\n    (" + pddl(predicate.name) + (variables.empty() ? "" : " " + variables) + ")";
@@ -206,11 +213,19 @@ std::string to_pddl(const Formula& formula) {
 
 std::string to_text(const Formula& formula) { return symbolic::formula_text(formula, Names::plain); }
 
+std::string to_pddl_name(std::string_view name) { return symbolic::name_text(name, Names::pddl); }
+
+std::string to_pddl(const Plan& plan) {
+  std::string text;
+  for (const PlanStep& step : plan) text += pddl(to_text(Fact{step.action, step.arguments})) + "\n";
+  return text;
+}
+
 std::string to_pddl(const Domain& domain) {
   symbolic::check_names(domain);
   std::string text = "(define (domain " + pddl(domain.name) + ")\n";
   text += "  " + requirements_text(requirements(domain)) + "\n" + types_text(domain);
-  text += objects_text("constants", domain.constants, domain) + predicates_text(domain) + functions_text(domain);
+  text += objects_text("constants", domain.constants) + predicates_text(domain) + functions_text(domain);
   for (const Predicate& predicate : domain.predicates) {
     if (predicate.kind == PredicateKind::derived) text += derived_text(predicate);
   }
@@ -235,7 +250,7 @@ std::string to_pddl(const Problem& problem, const Domain& domain, const std::str
     used.insert(known.begin(), known.end());
     text += "  " + requirements_text(used) + "\n";
   }
-  text += objects_text("objects", objects, domain) + "  (:init";
+  text += objects_text("objects", objects) + "  (:init";
   if (has_costs(domain)) text += "\n    (= (total-cost) 0)" + values_text(problem);
   for (const Fact& fact : problem.init) text += "\n    " + pddl(to_text(fact));
   text += ")\n";

@@ -12,13 +12,10 @@ Reachability::Reachability(const LiftedTask& task)
       numbers_(task.predicates.size()),
       of_predicate_(task.predicates.size()),
       index_(task.predicates.size()),
-      uses_(task.predicates.size()) {
+      uses_(task.predicates.size()),
+      instances_of_(task.schemas.size(), 0) {
   for (std::size_t i = 0; i < task.schemas.size(); ++i) {
     const Schema& schema = task.schemas[i];
-    if (schema.body.positive.size() > 63) {
-      throw Error(task.domain->name, "a condition has more than 63 positive literals with variables",
-                  "split it with a derived predicate");
-    }
     for (std::size_t j = 0; j < schema.body.positive.size(); ++j) {
       uses_[schema.body.positive[j].predicate].emplace_back(static_cast<int>(i), static_cast<int>(j));
     }
@@ -82,8 +79,8 @@ bool Reachability::run(std::int64_t memory_bytes) {
     binding_.assign(task_.schemas[i].domains.size(), -1);
     fill(static_cast<int>(i), 0);
   }
-  for (std::size_t next = 0; next < predicate_.size() && bytes_ <= most_bytes_; ++next) trigger(static_cast<int>(next));
-  return bytes_ <= most_bytes_;
+  for (std::size_t next = 0; next < predicate_.size() && !is_full(); ++next) trigger(static_cast<int>(next));
+  return !is_full();
 }
 
 void Reachability::trigger(int atom) {
@@ -92,8 +89,11 @@ void Reachability::trigger(int atom) {
     binding_.assign(task_.schemas[schema].domains.size(), -1);
     std::vector<int> bound;
     if (!unify(body.positive[position], atom, schema, bound)) continue;
-    const std::uint64_t all = (std::uint64_t{1} << body.positive.size()) - 1;
-    join(schema, all & ~(std::uint64_t{1} << position), position, atom);
+    std::vector<int> others;
+    for (int i = 0; i < static_cast<int>(body.positive.size()); ++i) {
+      if (i != position) others.push_back(i);
+    }
+    join(schema, others, position, atom);
   }
 }
 
@@ -132,40 +132,35 @@ const std::vector<int>* Reachability::candidates(const LiftedAtom& pattern, bool
   return best;
 }
 
-void Reachability::join(int schema, std::uint64_t remaining, int trigger_position, int atom) {
-  if (remaining == 0) {
-    fill(schema, 0);
-    return;
-  }
+// `remaining`: positions of the body that are not yet matched, ascending.
+void Reachability::join(int schema, const std::vector<int>& remaining, int trigger_position, int atom) {
   const std::vector<LiftedAtom>& body = task_.schemas[schema].body.positive;
+  const auto limit_at = [&](int position) { return position < trigger_position ? atom : atom + 1; };  // each once
+  std::vector<int> open;
   int best_position = -1;
   const std::vector<int>* best = nullptr;
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    if ((remaining >> i & 1) == 0) continue;
+  for (const int position : remaining) {
     bool complete = false;
     int exact = -1;
-    const std::vector<int>* list = candidates(body[i], complete, exact);
+    const std::vector<int>* list = candidates(body[position], complete, exact);
     if (complete) {
-      const int limit = static_cast<int>(i) < trigger_position ? atom : atom + 1;  // each instance once
-      if (exact < 0 || exact >= limit) return;
-      remaining &= ~(std::uint64_t{1} << i);
+      if (exact < 0 || exact >= limit_at(position)) return;
       continue;
     }
-    if (best == nullptr || list->size() < best->size()) best = list, best_position = static_cast<int>(i);
+    open.push_back(position);
+    if (best == nullptr || list->size() < best->size()) best = list, best_position = position;
   }
-  if (remaining == 0) {
+  if (open.empty()) {
     fill(schema, 0);
     return;
   }
-  const int limit = best_position < trigger_position ? atom : atom + 1;
+  std::erase(open, best_position);
   std::vector<int> bound;
   for (std::size_t i = 0; i < best->size(); ++i) {  // by index: the list may grow while we are inside
     const int candidate = (*best)[i];
-    if (candidate >= limit) break;
+    if (candidate >= limit_at(best_position) || is_full()) break;
     bound.clear();
-    if (unify(body[best_position], candidate, schema, bound)) {
-      join(schema, remaining & ~(std::uint64_t{1} << best_position), trigger_position, atom);
-    }
+    if (unify(body[best_position], candidate, schema, bound)) join(schema, open, trigger_position, atom);
     for (const int variable : bound) binding_[variable] = -1;
   }
 }
@@ -183,7 +178,7 @@ void Reachability::fill(int schema, std::size_t variable) {
     return;
   }
   for (const int value : from.domains[next]) {
-    if (bytes_ > most_bytes_) break;
+    if (is_full()) break;
     binding_[next] = value;
     fill(schema, next + 1);
   }
@@ -206,8 +201,10 @@ bool Reachability::statics_hold(const Conjunct& conjunct, const std::vector<int>
 
 void Reachability::found(int schema) {
   const Schema& from = task_.schemas[schema];
-  if (bytes_ > most_bytes_) return;
-  bytes_ += 150 + 12 * static_cast<std::int64_t>(binding_.size());  // and the operator that will be made of it
+  if (is_full()) return;
+  // With the operator or axiom that will be made of it, and what heuristics keep of that.
+  bytes_ += 250 + 60 * static_cast<std::int64_t>(binding_.size());
+  ++instances_of_[schema];
   instances_.push_back({schema, binding_});
   std::vector<int> binding = binding_, arguments;
   const auto add_atom = [&](const LiftedAtom& atom) {

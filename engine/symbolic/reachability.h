@@ -25,6 +25,7 @@ class Reachability {
   int find(int predicate, const std::vector<int>& arguments) const;  // number of the atom, or -1
   int find(const LiftedAtom& atom, const std::vector<int>& binding) const;
   const std::vector<Instance>& instances() const { return instances_; }
+  std::int64_t instances_of(int schema) const { return instances_of_[schema]; }
   std::size_t atoms() const { return predicate_.size(); }
   int predicate(int atom) const { return predicate_[atom]; }
   const std::vector<int>& arguments(int atom) const { return arguments_[atom]; }
@@ -48,7 +49,8 @@ class Reachability {
   std::uint64_t key(const std::vector<int>& arguments) const;
   void add(int predicate, const std::vector<int>& arguments);
   void trigger(int atom);
-  void join(int schema, std::uint64_t remaining, int trigger_position, int atom);
+  void join(int schema, const std::vector<int>& remaining, int trigger_position, int atom);
+  bool is_full() const { return bytes_ > most_bytes_; }
   void fill(int schema, std::size_t variable);
   void found(int schema);
   bool unify(const LiftedAtom& pattern, int atom, int schema, std::vector<int>& bound);
@@ -66,6 +68,7 @@ class Reachability {
   std::vector<std::vector<std::pair<int, int>>> uses_;             // [predicate]: schema, position in its body
   std::vector<std::vector<std::vector<char>>> allowed_;            // [schema][variable][object]
   std::vector<Instance> instances_;
+  std::vector<std::int64_t> instances_of_;  // by schema
   std::vector<int> binding_;
   std::int64_t bytes_ = 0, most_bytes_ = 0;  // about; instances and atoms
 };

@@ -165,11 +165,15 @@ class Search {
   // h_FF is that of the state itself (lazy); what landmarks say is cheap and far better known of each successor.
   void queue_successors(const Words& state, int number, std::array<int, kHeuristics> keys) {
     const std::vector<int>& preferred = heuristic_.preferred();
+    if (used_ > 2) {
+      const std::size_t words = query_.landmarks->words();
+      query_.landmarks->begin_successors(state, reached_.data() + static_cast<std::size_t>(number) * words);
+    }
     for (const int op : heuristic_.applicable()) {
       const bool is_preferred = std::binary_search(preferred.begin(), preferred.end(), op);
       if (used_ > 2) {
         semantics_.apply(state, op, successor_);
-        const Landmarks::Ahead then = ahead(successor_, number);
+        const Landmarks::Ahead then = query_.landmarks->ahead_of(successor_);
         keys[1] = then.goals;
         keys[2] = then.landmarks;
       }

@@ -44,11 +44,20 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
                   const std::set<PlanStep>& forbidden) {
   using namespace symbolic;
   PlanOutcome outcome;
-  const GroundTask task = ground(lift(domain, problem), forbidden, limits.memory_bytes);
+  LiftedTask lifted;
+  try {
+    lifted = lift(domain, problem);
+  } catch (const TooManyGround& error) {
+    outcome.end = PlanEnd::memory_limit;
+    outcome.explanation = error.message() + "\n    " + error.hint();
+    return outcome;
+  }
+  const GroundTask task = ground(std::move(lifted), forbidden, limits.memory_bytes);
   if (task.out_of_memory) {
     outcome.end = PlanEnd::memory_limit;
-    outcome.explanation = "the ground actions need more than the limit of " + std::to_string(limits.memory_bytes) +
-                          " bytes; actions with fewer parameters, or narrower types, make fewer";
+    outcome.explanation = "more ground formulas than the limit of " + std::to_string(limits.memory_bytes) +
+                          " bytes has room for: " + task.fullest +
+                          "\n    fewer variables, or narrower types of them, make fewer";
     return outcome;
   }
   if (!task.solvable()) {

@@ -5,35 +5,13 @@
 namespace stampede::symbolic {
 
 Semantics::Semantics(const GroundTask& task)
-    : task_(task), words_(std::max<std::size_t>(1, (static_cast<std::size_t>(task.facts) + 63) / 64)) {}
+    : task_(task), axioms_(task), words_(std::max<std::size_t>(1, (static_cast<std::size_t>(task.facts) + 63) / 64)) {}
 
 Words Semantics::initial() const {
   Words state(words_, 0);
   for (const int fact : task_.initial) assign(state.data(), fact, true);
-  derive(state);
+  axioms_.derive(state.data());
   return state;
-}
-
-void Semantics::derive(Words& state) const {
-  if (task_.axioms.empty()) return;
-  for (int fact = task_.basic; fact < task_.facts; ++fact) assign(state.data(), fact, false);
-  const std::vector<Axiom>& axioms = task_.axioms;
-  for (std::size_t begin = 0; begin < axioms.size();) {
-    std::size_t end = begin;
-    while (end < axioms.size() && axioms[end].layer == axioms[begin].layer) ++end;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (test(state.data(), axioms[i].head)) continue;
-        const bool fires = std::all_of(axioms[i].body.begin(), axioms[i].body.end(),
-                                       [&](Literal one) { return literal_holds(state.data(), one); });
-        if (!fires) continue;
-        assign(state.data(), axioms[i].head, true);
-        changed = true;
-      }
-    }
-    begin = end;
-  }
 }
 
 bool Semantics::applicable(const Words& state, int op) const {
@@ -59,7 +37,7 @@ void Semantics::apply(const Words& state, int op, Words& next) const {
       if ((one & 1) == 0) assign(next.data(), one >> 1, true);
     }
   }
-  derive(next);
+  axioms_.update(state.data(), next.data());
 }
 
 bool Semantics::is_goal(const Words& state) const {

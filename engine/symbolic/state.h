@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/symbolic/ground.h"
+#include "engine/symbolic/axioms.h"
 
 namespace stampede::symbolic {
 
@@ -19,12 +19,11 @@ inline void assign(std::uint64_t* words, int fact, bool value) {
   words[fact >> 6] = value ? words[fact >> 6] | bit : words[fact >> 6] & ~bit;
 }
 
-// Bits of all facts; the derived ones follow from the basic ones.
+// Bits of all facts; the derived ones follow from the basic ones. Not for two threads at once.
 class Semantics {
  public:
   explicit Semantics(const GroundTask& task);
   Words initial() const;
-  void derive(Words& state) const;  // sets the derived bits from the basic ones
   bool applicable(const Words& state, int op) const;
   void apply(const Words& state, int op, Words& next) const;  // derived bits included
   bool is_goal(const Words& state) const;
@@ -32,6 +31,7 @@ class Semantics {
 
  private:
   const GroundTask& task_;
+  Axioms axioms_;
   std::size_t words_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/solutions.h"
 
 namespace stampede {
 
@@ -86,26 +87,36 @@ Facts apply(const Action& action, const std::vector<std::string>& arguments, con
     throw Error(action.name, "takes " + std::to_string(action.parameters.size()) + " arguments, got " +
                                  std::to_string(arguments.size()));
   }
-  Binding binding;
-  for (std::size_t i = 0; i < arguments.size(); ++i) binding[action.parameters[i].name] = arguments[i];
   Facts basic;
   for (const Fact& fact : facts) {
     const Predicate* predicate = domain.predicate(fact.predicate);
     if (predicate == nullptr || predicate->kind != PredicateKind::derived) basic.insert(fact);
   }
-  const Facts before = with_derived(basic, domain, objects);
-  const symbolic::View view{before, domain, objects};
-  Facts added, removed;
+  std::set<std::string> needed;
+  for (const Effect& effect : action.effects) symbolic::collect_derived(effect.when, domain, needed);
+  const std::vector<Fact> derived = symbolic::add_derived(basic, domain, objects, needed);
+  const symbolic::Change change = symbolic::change_of(action, arguments, {basic, domain, objects});
+  for (const Fact& fact : derived) basic.erase(fact);
+  for (const Fact& fact : change.removed) basic.erase(fact);
+  basic.insert(change.added.begin(), change.added.end());  // after the removals: PDDL lets an addition win
+  return basic;
+}
+
+namespace symbolic {
+
+Change change_of(const Action& action, const std::vector<std::string>& arguments, const View& view) {
+  Binding binding;
+  for (std::size_t i = 0; i < arguments.size(); ++i) binding[action.parameters[i].name] = arguments[i];
+  Change change;
   for (const Effect& effect : action.effects) {
-    symbolic::for_each_binding(effect.forall, view, binding, [&] {
-      if (!symbolic::evaluate(effect.when, view, binding)) return true;
-      (effect.negated ? removed : added).insert(symbolic::ground_atom(effect.predicate, effect.terms, binding));
+    for_each_solution(effect.forall, negation_normal(effect.when), view, binding, [&] {
+      (effect.negated ? change.removed : change.added).insert(ground_atom(effect.predicate, effect.terms, binding));
       return true;
     });
   }
-  for (const Fact& fact : removed) basic.erase(fact);
-  basic.insert(added.begin(), added.end());  // after the removals: PDDL lets an addition win
-  return basic;
+  return change;
 }
+
+}  // namespace symbolic
 
 }  // namespace stampede

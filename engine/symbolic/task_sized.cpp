@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/ground.h"
@@ -92,6 +93,10 @@ Domain named_by_content(Domain domain) {
 
 Domain task_sized(const Domain& domain, const Problem& problem) {
   const symbolic::GroundTask task = symbolic::ground(symbolic::lift(domain, problem), {});
+  if (task.out_of_memory) {
+    throw Error("problem " + problem.name, "too large to find what it needs of its domain: " + task.fullest,
+                "fewer variables, or narrower types of them, make fewer");
+  }
   std::set<std::string> reachable;
   for (std::size_t i = 0; i < task.operators.size(); ++i) reachable.insert(task.step(static_cast<int>(i)).action);
   return Relevance(domain, std::move(reachable)).run(problem);

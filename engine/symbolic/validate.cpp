@@ -45,6 +45,14 @@ std::string fault(const Domain& domain, const Action& action, const PlanStep& st
   return missing.empty() ? "" : "needs " + joined(missing);
 }
 
+// What must be derived before the action can be judged.
+std::set<std::string> derived_for(const Action& action, const Domain& domain) {
+  std::set<std::string> needed;
+  symbolic::collect_derived(action.precondition, domain, needed);
+  for (const Effect& effect : action.effects) symbolic::collect_derived(effect.when, domain, needed);
+  return needed;
+}
+
 // An action whose cost is undefined for its objects cannot be taken.
 std::string cost_fault(const Domain& domain, const Problem& problem, const PlanStep& step) {
   try {
@@ -72,16 +80,23 @@ Validation validate(const Domain& domain, const Problem& problem, const Plan& pl
       result.explanation = place + "unknown action; " + symbolic::did_you_mean(step.action, known);
       return result;
     }
-    std::string why = fault(domain, *action, step, with_derived(facts, domain, objects), objects);
+    const std::vector<Fact> derived = symbolic::add_derived(facts, domain, objects, derived_for(*action, domain));
+    std::string why = fault(domain, *action, step, facts, objects);
     if (why.empty() && !action->cost_function.empty()) why = cost_fault(domain, problem, step);
     if (!why.empty()) {
       result.explanation = place + why;
       return result;
     }
-    facts = apply(*action, step.arguments, facts, domain, objects);
+    const symbolic::Change change = symbolic::change_of(*action, step.arguments, {facts, domain, objects});
+    for (const Fact& fact : derived) facts.erase(fact);
+    for (const Fact& fact : change.removed) facts.erase(fact);
+    facts.insert(change.added.begin(), change.added.end());  // after the removals: PDDL lets an addition win
   }
   result.failed_step = -1;
-  const std::vector<std::string> missing = unmet(problem.goal, with_derived(facts, domain, objects), domain, objects);
+  std::set<std::string> needed;
+  symbolic::collect_derived(problem.goal, domain, needed);
+  symbolic::add_derived(facts, domain, objects, needed);
+  const std::vector<std::string> missing = unmet(problem.goal, facts, domain, objects);
   result.valid = missing.empty();
   if (!result.valid) result.explanation = "the plan ends without " + joined(missing);
   return result;

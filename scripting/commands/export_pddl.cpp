@@ -82,7 +82,7 @@ class PddlExporter {
     const std::string stem = kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", episode.task, id)
                                                : fmt::format("problems/{}_e{:05}_f{:05}", episode.task, id, frame);
     write(stem + ".pddl", text);
-    write(stem + ".plan", to_text(plan));
+    write(stem + ".plan", to_pddl(plan));
     index_.rows.push_back({stem + ".pddl", domain, stem + ".plan", kind, id, episode.task, episode.variation,
                            episode.seed, frame, static_cast<double>(frame) / episode.frame_hz,
                            std::string(to_string(episode.outcome)), std::string(to_string(episode.reason)),

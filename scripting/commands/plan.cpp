@@ -65,18 +65,19 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
   }
   const FoundPlans found = plans_for(arguments, question);
   const bool pddl = arguments.flag("--pddl") || arguments.flag("--task-sized");
+  const PlanNames names = pddl ? PlanNames::pddl : PlanNames::ours;
   PddlTexts texts;
   if (pddl) texts = pddl_of(question, prepared.scripts().symbols().domain(), arguments.flag("--task-sized"));
   if (arguments.flag("--json")) {
     JsonText json;
     json.object().field("task", job.task).field("variation", job.variation).field("seed", job.seed);
-    write_plans(found, question.asked.domain, question.asked.problem, json);
+    write_plans(found, question.asked.domain, question.asked.problem, names, json);
     json.field("beside_goal", question.beside_goal);
     if (pddl) json.field("domain", texts.domain).field("problem", texts.problem);
     console.out << json.end().text();
   } else {
     if (pddl) console.out << texts.domain << "\n" << texts.problem << "\n; plan\n";
-    write_plans(found, question.asked.domain, question.asked.problem, console.out);
+    write_plans(found, question.asked.domain, question.asked.problem, names, console.out);
   }
   console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(found);
   return plan_code(found);
@@ -98,12 +99,12 @@ ExitCode plan_files(const Arguments& arguments, Console& console) {
   if (arguments.flag("--json")) {
     JsonText json;
     json.object().field("domain_file", domain_file).field("problem_file", problem_file);
-    write_plans(found, domain, problem, json);
+    write_plans(found, domain, problem, PlanNames::pddl, json);
     if (pddl) json.field("domain", to_pddl(domain)).field("problem", to_pddl(problem, domain));
     console.out << json.end().text();
   } else {
     if (pddl) console.out << to_pddl(domain) << "\n" << to_pddl(problem, domain) << "\n; plan\n";
-    write_plans(found, domain, problem, console.out);
+    write_plans(found, domain, problem, PlanNames::pddl, console.out);
   }
   console.err << problem_file << ": " << plan_story(found);
   return plan_code(found);

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/symbol_options.h"
 
@@ -44,21 +45,24 @@ FoundPlans ask_for_plans(const Arguments& arguments, const Domain& domain, const
   return found;
 }
 
-void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, std::ostream& out) {
+void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, PlanNames names,
+                 std::ostream& out) {
   int number = 0;
   for (const Plan& plan : found.plans) {
     if (found.plans.size() > 1)
       out << fmt::format("; plan {}: {} steps, cost {}\n", ++number, plan.size(), cost_of(domain, problem, plan));
-    out << to_text(plan);
+    out << (names == PlanNames::pddl ? to_pddl(plan) : to_text(plan));
   }
 }
 
-void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, JsonText& json) {
+void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, PlanNames names,
+                 JsonText& json) {
+  const auto name = [&](const std::string& text) { return names == PlanNames::pddl ? to_pddl_name(text) : text; };
   const auto steps = [&](const Plan& plan) {
     json.array();
     for (const PlanStep& step : plan) {
-      json.object().field("action", step.action).key("arguments").array();
-      for (const std::string& argument : step.arguments) json.value(argument);
+      json.object().field("action", name(step.action)).key("arguments").array();
+      for (const std::string& argument : step.arguments) json.value(name(argument));
       json.end().end();
     }
     json.end();

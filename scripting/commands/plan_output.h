@@ -21,8 +21,13 @@ struct FoundPlans {
 FoundPlans ask_for_plans(const Arguments& arguments, const Domain& domain, const Problem& problem);
 std::vector<OptionRow> plan_limit_options();  // --k, --expansions, --planner
 
-void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, std::ostream& out);
-void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, JsonText& json);  // fields
+// The names of the program's other texts (`panda.hand`), or those of PDDL files (`panda--hand`): a plan beside a
+// problem's text names that text's objects.
+enum class PlanNames { ours, pddl };
+void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, PlanNames names,
+                 std::ostream& out);
+void write_plans(const FoundPlans& found, const Domain& domain, const Problem& problem, PlanNames names,
+                 JsonText& json);  // fields
 // `4 steps, cost 4, 12 states expanded`, or why there is none; the exit code that says the same.
 std::string plan_story(const FoundPlans& found);
 ExitCode plan_code(const FoundPlans& found);

@@ -66,8 +66,7 @@ TEST_CASE("nested when and forall become one level, and a variable that hides an
 
 TEST_CASE("domains that cannot be read say where and why") {
   CHECK(domain_complaint("(:requirements :stirps)").find("did you mean ':strips'?") != std::string::npos);
-  CHECK(domain_complaint("(:types a - b a - c)").find("has two parents, `b` and `c`") != std::string::npos);
-  CHECK(domain_complaint("(:predicates (p ?x ?X))").find("`?x` is declared twice") != std::string::npos);
+  CHECK(domain_complaint("(:action a :parameters (?x ?X))").find("`?x` is declared twice") != std::string::npos);
   CHECK(domain_complaint("(:constants Cup cup)").find("constant `cup` is declared twice") != std::string::npos);
   CHECK(domain_complaint("(:predicates (p)) (:action a) (:action A)").find("is defined twice") != std::string::npos);
   CHECK(domain_complaint("(:types a b) (:predicates (p ?x - a)) (:action go :parameters (?y - b) :precondition (p ?y))")
