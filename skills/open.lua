@@ -14,7 +14,7 @@ return skill {
     local pulled = w:part_at(p.part, w:number(p.part, "pull")):times(w:pose(p.part):inverse()):times(c.grasp.pose)
     robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose, ahead = pulled }
     robot:close_hand(p.part, { force = c.grasp.force })
-    robot:move_part(p.part, w:number(p.part, "pull"), { speed = c.speed })
+    robot:move_part(p.part, w:number(p.part, "pull"), { speed = c.speed, most_force = 40 })
     robot:open_hand(0.05)
     robot:retreat(0.08)
   end,

@@ -3,15 +3,16 @@ return skill {
   params = { "button: pressable" },
   precondition = { is.hand_empty() },
   effect = { is.pressed("button") },
-  continuous = { depth = { 0.006, min = 0.002, max = 0.02, unit = "m" } }, -- below the top of the button at rest
+  continuous = { depth = { 0.010, min = 0.006, max = 0.015, unit = "m" } }, -- below the top of the button at rest
   label = "press the {button}",
   run = function(robot, p, c)
     local w = robot:view()
     robot:close_hand()
     local x, y = w:position(p.button)
-    local above = robot:tip():with_position(x, y, w:top(p.button) + 0.012)
+    local fingers = 0.009 -- m that they end beyond the tip
+    local above = robot:tip():with_position(x, y, w:top(p.button) + fingers + 0.003)
     robot:move_through { approach = above:offset(0, 0, 0.05), goal = above }
-    robot:move_line({ 0, 0, -0.012 - c.depth }, { speed = 0.05, tolerate = true })
+    robot:move_line({ 0, 0, -0.003 - c.depth }, { speed = 0.05, most_force = 15 }) -- a little beyond the stop: it gives way
     robot:wait(0.1)
     robot:lift(0.08)
     robot:open_hand()

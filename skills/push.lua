@@ -74,7 +74,7 @@ return skill {
       local z = w:bottom(p.obj) + math.max(0.012, math.min(0.02, (w:top(p.obj) - w:bottom(p.obj)) / 2))
       local start = pose(x - ux * behind, y - uy * behind, z, math.pi, 0, yaw)
       robot:move_through { approach = start:offset(0, 0, 0.08), goal = start }
-      robot:move_line({ ux * (way + 0.015), uy * (way + 0.015), 0 }, { speed = c.speed, tolerate = true })
+      robot:move_line({ ux * (way + 0.015), uy * (way + 0.015), 0 }, { speed = c.speed, most_force = 30 })
       robot:move_line { -0.02 * ux, -0.02 * uy, 0.07 }
     end
     robot:open_hand()

@@ -6,6 +6,7 @@ namespace stampede {
 namespace {
 
 constexpr double kFollowsReference = 0.02;  // rad: further off, contact holds the arm
+constexpr double kShut = 0.005;             // m: a hand that is told to be no wider grasps nothing
 
 template <typename... Cases>
 struct Overloaded : Cases... {
@@ -18,7 +19,7 @@ PlannedCall from(PlannedMotion planned, FollowOptions options) {
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
-PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, CollisionSpace& space,
+PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
                            const JointVector& start, FollowOptions options, RandomKey key) {
   const World& world = rollout.world();
   const PartRef ref = rollout.view().part_of(call.object);
@@ -31,8 +32,23 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, C
   LineOptions line;
   line.tool_speed = call.speed;
   options.kind = "move_part";
+  options.most_force = call.most_force;
   options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
-  return from(plan_tool_path(space, start, path, line, {}, key), std::move(options));
+  return from(plan_tool_path(state, start, path, line, {}, key), std::move(options));
+}
+
+// The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
+PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
+  if (!call.expect.empty())
+    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect)), Reason::none, {}};
+  double opening = call.opening;
+  if (opening > rollout.world().opening()) {
+    CollisionState released = held;
+    released.release();
+    if (rollout.keep) released.allow(*rollout.keep);
+    opening = widest_opening(released, rollout.world().arm_position(), opening);
+  }
+  return {make_hand(opening, call.force, std::nullopt), Reason::none, {}};
 }
 
 }  // namespace
@@ -42,9 +58,9 @@ JointVector planning_start(const World& world) {
   return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
 }
 
-std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
+std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
   World& world = rollout.world();
-  auto space = world.collision_space();
+  auto space = std::make_unique<CollisionState>(world.collision_state());
   space->set_opening(world.opening());
   if (rollout.keep && rollout.keep->body >= 0 &&
       world.scene().bodies[static_cast<std::size_t>(rollout.keep->body)].free)
@@ -54,22 +70,33 @@ std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vect
   return space;
 }
 
+bool yields(const RobotCall& call) {
+  const auto* line = std::get_if<robot_call::MoveLine>(&call);
+  const auto* part = std::get_if<robot_call::MovePart>(&call);
+  return (line != nullptr && line->most_force > 0) || (part != nullptr && part->most_force > 0);
+}
+
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
   World& world = rollout.world();
   const JointVector start = planning_start(world);
   FollowOptions options;
   options.keep = rollout.keep;
   const auto space = [&] { return planning_space(rollout, touchable); };
+  const auto free_space = [&] {  // a hand that is shut is not about to grasp anything
+    const bool shut = !rollout.keep && world.commanded_opening() < kShut;
+    return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
+  };
   return std::visit(
       Overloaded{[&](const robot_call::MoveThrough& move) {
                    options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
-                   return from(plan_through(*space(), start, move.targets, {}, key), options);
+                   return from(plan_through(*free_space(), start, move.targets, {}, key), options);
                  },
                  [&](const robot_call::MoveLine& move) {
                    options.kind = move.kind;
                    options.stop_on_contact = move.stop_on_contact;
                    options.contact_force = move.force;
-                   options.tolerate_error = move.tolerate || move.stop_on_contact;
+                   options.tolerate_error = move.tolerate || move.stop_on_contact || move.most_force > 0;
+                   options.most_force = move.most_force;
                    LineOptions line;
                    line.tool_speed = move.speed;
                    line.collide = move.collide;
@@ -79,11 +106,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                    options.kind = "move_joints";
                    return from(plan_joints(*space(), start, move.target, {}, key), options);
                  },
-                 [&](const robot_call::Hand& hand) {
-                   const auto expect =
-                       hand.expect.empty() ? std::nullopt : std::optional(rollout.view().part_of(hand.expect));
-                   return PlannedCall{make_hand(hand.opening, hand.force, expect), Reason::none, {}};
-                 },
+                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
                  [&](const robot_call::MovePart& move) {
                    return plan_move_part(rollout, move, *space(), start, options, key);
                  },

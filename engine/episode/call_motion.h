@@ -20,8 +20,11 @@ struct PlannedCall {
 // targets. Repeatable: a pure function of its arguments. RunSkill, Done and Fail are not motions.
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key);
 
+// Is it made by an arm that gives way to contact (on Cartesian impedance, where the skill's controller is stiff)?
+bool yields(const RobotCall& call);
+
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
-std::unique_ptr<CollisionSpace> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
+std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
 
 // Where plans start: the reference, or the arm itself where contact keeps it away from its reference.
 JointVector planning_start(const World& world);

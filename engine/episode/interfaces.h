@@ -86,8 +86,8 @@ class Symbols {
   virtual bool can_hide(const std::string&) const { return false; }
   virtual bool observable(const Fact&, const WorldView&) { return true; }
   // Ways to make the fact true, best or random first, at most `most`; empty when the predicate has no sample.
-  virtual std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
-                                        int most) = 0;
+  virtual std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state,
+                                        RandomKey key, int most) = 0;
 };
 
 // A declared continuous parameter of a skill.
@@ -138,6 +138,7 @@ struct MoveLine {
   double force = 3;       // N, that stops it
   bool tolerate = false;  // falling short is no failure
   bool collide = false;   // plan around nothing, but refuse a line that touches
+  double most_force = 0;  // N: the arm gives way, and stops where contact asks for more; 0: it does not
   std::string kind = "move_line";
 };
 struct MoveJoints {
@@ -152,7 +153,8 @@ struct MovePart {
   std::string object;
   double position = 0;
   double speed = 0.1;
-};  // the held handle's joint; arcs too
+  double most_force = 0;  // as of MoveLine
+};                        // the held handle's joint; arcs too
 struct Wait {
   double seconds = 0;
 };

@@ -7,6 +7,7 @@
 #include "engine/episode/call_motion.h"
 #include "engine/episode/effects.h"
 #include "engine/episode/language.h"
+#include "engine/episode/passages.h"
 
 namespace stampede {
 namespace {
@@ -258,6 +259,8 @@ SkillResult SkillDriver::run_motion(const Context& context, const RobotCall& cal
   segment.robot = rollout_.view().scene().robot.name;
   segment.skill = planned.motion->kind();
   segment.controller = rollout_.recorder().segment(context.segment).controller;
+  if (yields(call) && segment.controller == to_string(ControllerKind::joint_position))
+    segment.controller = to_string(ControllerKind::cartesian_impedance);
   const int ordinal = rollout_.recorder().open_segment(std::move(segment), rollout_.step());
   const auto* hand = std::get_if<robot_call::Hand>(&call);
   if (hand != nullptr && hand->expect.empty()) rollout_.keep.reset();
@@ -268,12 +271,7 @@ SkillResult SkillDriver::run_motion(const Context& context, const RobotCall& cal
 }
 
 SkillResult SkillDriver::follow(Motion& motion, int segment) {
-  struct Passage {
-    double distance = 1e9;
-    ViaRecord record;
-  };
-  const auto vias = motion.vias();
-  std::vector<Passage> passages(vias.size());
+  Passages passages(motion.vias(), segment);
   World& world = rollout_.world();
   SkillResult result;
   while (true) {
@@ -284,19 +282,9 @@ SkillResult SkillDriver::follow(Motion& motion, int segment) {
       result = {reason, std::string(describe(reason)), ends(reason)};
       break;
     }
-    for (std::size_t i = 0; i < vias.size(); ++i) {
-      const Transform tip = world.world_from_tip();
-      const double distance = (tip.translation() - vias[i].world_from_tip.translation()).norm();
-      if (distance >= passages[i].distance) continue;
-      const JointVector speed = world.arm_velocity();
-      passages[i] = {
-          distance,
-          {segment, vias[i].name, to_pose(vias[i].world_from_tip), to_pose(tip), rollout_.step(),
-           speed.cwiseAbs().maxCoeff(), (world.arm().jacobian(world.arm_position()).topRows<3>() * speed).norm()}};
-    }
+    passages.look(world);
   }
-  for (const Passage& passage : passages)
-    if (passage.distance < 0.05) rollout_.recorder().vias.push_back(passage.record);
+  for (ViaRecord& via : passages.in_order()) rollout_.recorder().vias.push_back(std::move(via));
   return result;
 }
 

@@ -39,7 +39,7 @@ class Draft {
   explicit Draft(Scene scene) : scene_(std::move(scene)) { rebuild(); }
 
   const WorldView& view() const { return *view_; }
-  CollisionSpace& space() { return *space_; }
+  const CollisionState& collision_state() const { return *state_; }
   Scene& scene() { return scene_; }
 
   void place(const Placement& placement) {
@@ -61,19 +61,19 @@ class Draft {
     body.world_from_body = pose;
     if (!body.free) return rebuild();
     world_->apply(operation::Place{index, pose});
-    space_->move_body(index, pose);
+    state_->move_body(index, pose);
   }
 
  private:
   void rebuild() {
     world_ = std::make_unique<World>(std::make_shared<const Scene>(scene_));
     view_ = std::make_unique<WorldView>(*world_);
-    space_ = world_->collision_space();
+    state_ = world_->collision_state();
   }
   Scene scene_;
   std::unique_ptr<World> world_;
   std::unique_ptr<WorldView> view_;
-  std::unique_ptr<CollisionSpace> space_;
+  std::optional<CollisionState> state_;
 };
 
 bool all_at_rest(const WorldView& view) {
@@ -212,7 +212,8 @@ class StartMaker {
       const Literal literal = *next;
       waiting_literals.erase(next);
       if (literal.negated) continue;
-      const auto ways = symbols_.sample(literal.fact, draft.view(), draft.space(), key.with(number++), kSamples);
+      const auto ways =
+          symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key.with(number++), kSamples);
       const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
       if (ways.empty()) {
         if (waiting != unplaced.end()) return refuse(text_of(literal));

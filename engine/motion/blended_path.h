@@ -49,6 +49,9 @@ std::vector<double> default_blends(const std::vector<JointVector>& waypoints, do
 // Further limits on the path speed ds/dt at a point (tool speed); infinity: none.
 using PathSpeedLimit = std::function<double(const PathPoint&)>;
 
+// The path speed at which the tip keeps MotionLimits::tool_speed. Lifetime: borrows the arm.
+PathSpeedLimit tool_limit(const Arm& arm, const MotionLimits& limits);
+
 // Passes the path as fast as the limits' shares allow: forward and backward sweeps over the path speed (Kunz,
 // Stilman, RSS 2012, doi:10.15607/RSS.2012.VIII.027; Pham, Pham, T-RO 2018, doi:10.1109/TRO.2018.2819195), then the
 // speed is averaged over a window, which bounds the jerk. The result is tested on dense samples and slowed down

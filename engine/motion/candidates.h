@@ -21,20 +21,20 @@ struct GraspCandidate {
 // Antipodal grasps of a part's shapes (parallel faces of boxes, diameters of round shapes, opposed facets of hulls)
 // or the object's authored ones, in an order shuffled by key but top-down and centred ones first; those with no IK
 // or whose hand touches something at grasp or approach are skipped. Result: at most `most`, empty: no_grasp.
-// Before or after: `space` may hold nothing; the object itself is allowed to be touched.
-std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World& world, const Object& object,
+// Before or after: `state` may hold nothing; the object itself is allowed to be touched.
+std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most);
 
 // Places where a free body fits on top of a surface part: uniformly over the upper faces of its shapes, upright with
 // random yaw, `margin` from the edge, free of all other bodies. Poses are of the body. Result: at most `most`.
-std::vector<Transform> free_spots(CollisionSpace& space, const World& world, const Object& surface,
+std::vector<Transform> free_spots(const CollisionState& state, const World& world, const Object& surface,
                                   const Object& object, RandomKey key, int most);
 // The same inside a region's box (resting on its lower face, or anywhere within when `floating`).
-std::vector<Transform> region_spots(CollisionSpace& space, const World& world, const Region& region,
+std::vector<Transform> region_spots(const CollisionState& state, const World& world, const Region& region,
                                     const Object& object, RandomKey key, int most);
 // The one pose on top of another object, centred, with a yaw symmetric to it (stacking).
-std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, const Object& below, const Object& object,
-                                   RandomKey key, int most);
+std::vector<Transform> stack_spots(const CollisionState& state, const World& world, const Object& below,
+                                   const Object& object, RandomKey key, int most);
 
 // Pose of an object (body, part or region centre) in the world.
 Transform world_from_object(const World& world, const Object& object);

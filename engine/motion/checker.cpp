@@ -16,10 +16,10 @@ std::string part_name(const Scene& scene, PartRef ref) {
   return part.empty() || part == name ? name : name + "." + part;
 }
 
-std::string contact_text(CollisionSpace& space, const JointVector& q) {
-  const std::optional<CollisionPair> pair = space.first_contact(q);
+std::string contact_text(const CollisionState& state, const JointVector& q, double padding_m) {
+  const std::optional<CollisionPair> pair = state.first_contact(q, padding_m);
   if (!pair) return {};
-  return part_name(space.scene(), pair->robot_part) + " touches " + part_name(space.scene(), pair->other);
+  return part_name(state.scene(), pair->robot_part) + " touches " + part_name(state.scene(), pair->other);
 }
 
 }  // namespace
@@ -28,70 +28,96 @@ double joint_gap(const JointVector& a, const JointVector& b) {
   return a.size() == 0 ? 0.0 : (a - b).cwiseAbs().maxCoeff();
 }
 
-Checker::Checker(CollisionSpace& space, double padding_m, const std::vector<JointVector>& ends)
-    : space_(space), padding_m_(padding_m) {
-  space_.set_padding(0);
+Checker::Checker(const CollisionState& state, double padding_m, const std::vector<JointVector>& ends)
+    : state_(state), padding_m_(std::max(0.0, padding_m)) {
   if (padding_m_ <= 0) return;
-  pad(padding_m_);
   for (const JointVector& end : ends)
-    if (!space_.free(end)) excused_.push_back(end);
+    if (!state_.free(end, padding_m_)) excused_.push_back(end);
 }
 
-Checker::~Checker() { pad(0); }
-
-void Checker::pad(double padding_m) {
-  if (padding_m == applied_m_) return;
-  space_.set_padding(padding_m);
-  applied_m_ = padding_m;
-}
-
-void Checker::pad_for(const JointVector& q) {
+double Checker::padding_at(const JointVector& q) const {
   const bool excused = std::any_of(excused_.begin(), excused_.end(),
                                    [&](const JointVector& end) { return joint_gap(end, q) < kExcusedRadius; });
-  pad(excused ? 0.0 : padding_m_);
+  return excused ? 0.0 : padding_m_;
 }
 
-bool Checker::free(const JointVector& q) {
-  pad_for(q);
-  return space_.free(q);
+bool Checker::free(const JointVector& q) const { return state_.free(q, padding_at(q)); }
+
+std::string Checker::contact(const JointVector& q) const { return contact_text(state_, q, padding_at(q)); }
+
+// Stretches of equal padding are asked about together.
+std::size_t Checker::first_touching(std::span<const JointVector> configurations) const {
+  std::size_t begin = 0;
+  while (begin < configurations.size()) {
+    const double padding = padding_at(configurations[begin]);
+    std::size_t end = begin + 1;
+    while (end < configurations.size() && padding_at(configurations[end]) == padding) ++end;
+    const std::size_t free = state_.first_touching(configurations.subspan(begin, end - begin), padding);
+    if (free < end - begin) return begin + free;
+    begin = end;
+  }
+  return configurations.size();
 }
 
-std::string Checker::contact(const JointVector& q) {
-  pad_for(q);
-  return contact_text(space_, q);
-}
-
-bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_rad) {
+bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_rad) const {
+  if (excused_.empty()) return state_.edge_free(a, b, step_rad, padding_m_);
   const int count = static_cast<int>(std::ceil(joint_gap(a, b) / step_rad));
-  if (!free(b)) return false;
+  std::vector<JointVector> samples{b};
   int stride = 1;
   while (stride < count) stride *= 2;
   for (; stride >= 2; stride /= 2)
-    for (int i = stride / 2; i < count; i += stride)
-      if (!free(a + (static_cast<double>(i) / count) * (b - a))) return false;
-  return true;
+    for (int i = stride / 2; i < count; i += stride) samples.push_back(a + (static_cast<double>(i) / count) * (b - a));
+  return first_touching(samples) == samples.size();
 }
 
-std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad) {
+namespace {
+
+// Collects configurations and asks about many at once.
+class Batch {
+ public:
+  explicit Batch(const Checker& checker) : checker_(checker) { samples_.reserve(kSize); }
+  // The first that touched something, among those added so far; asked when enough have come together, or at the end.
+  std::optional<JointVector> add(const JointVector& q) {
+    samples_.push_back(q);
+    return samples_.size() < kSize ? std::nullopt : ask();
+  }
+  std::optional<JointVector> ask() {
+    const std::size_t touching = checker_.first_touching(samples_);
+    std::optional<JointVector> found;
+    if (touching < samples_.size()) found = samples_[touching];
+    samples_.clear();
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t kSize = 64;
+  const Checker& checker_;
+  std::vector<JointVector> samples_;
+};
+
+}  // namespace
+
+std::optional<JointVector> first_touch(const Checker& checker, const std::vector<JointVector>& waypoints,
+                                       double step_rad) {
   if (waypoints.empty()) return std::nullopt;
-  if (!checker.free(waypoints.front())) return waypoints.front();
+  Batch batch(checker);
+  batch.add(waypoints.front());
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const JointVector& a = waypoints[i - 1];
     const JointVector& b = waypoints[i];
     const int count = std::max(1, static_cast<int>(std::ceil(joint_gap(a, b) / step_rad)));
-    for (int k = 1; k <= count; ++k) {
-      const JointVector q = a + (static_cast<double>(k) / count) * (b - a);
-      if (!checker.free(q)) return q;
-    }
+    for (int k = 1; k <= count; ++k)
+      if (const auto touch = batch.add(a + (static_cast<double>(k) / count) * (b - a))) return touch;
   }
-  return std::nullopt;
+  return batch.ask();
 }
 
-std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz,
+std::optional<JointVector> first_touch(const Checker& checker, const Trajectory& trajectory, int physics_hz,
                                        double step_rad) {
   if (trajectory.knots.empty()) return std::nullopt;
+  Batch batch(checker);
   JointVector last = trajectory.knots.front().position;
-  if (!checker.free(last)) return last;
+  batch.add(last);
   for (std::int64_t step = 1; step <= trajectory.steps(); ++step) {
     const double s = static_cast<double>(step);
     const JointVector q = evaluate(trajectory, s, physics_hz).position;
@@ -104,16 +130,13 @@ std::optional<JointVector> first_touch(Checker& checker, const Trajectory& traje
     for (int k = 1; k <= count; ++k) {
       const double between = s - 1.0 + static_cast<double>(k) / count;
       const JointVector sample = k == count ? q : evaluate(trajectory, between, physics_hz).position;
-      if (!checker.free(sample)) return sample;
+      if (const auto touch = batch.add(sample)) return touch;
     }
     last = q;
   }
-  return std::nullopt;
+  return batch.ask();
 }
 
-std::string describe_contact(CollisionSpace& space, const JointVector& q) {
-  space.set_padding(0);
-  return contact_text(space, q);
-}
+std::string describe_contact(const CollisionState& state, const JointVector& q) { return contact_text(state, q, 0); }
 
 }  // namespace stampede

@@ -2,46 +2,47 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "engine/sim/collision_space.h"
+#include "engine/model/trajectory.h"
+#include "engine/sim/collision_state.h"
 
 namespace stampede {
 
 // Greatest difference of any joint, rad.
 double joint_gap(const JointVector& a, const JointVector& b);
 
-// Asks a CollisionSpace with obstacles grown by a padding. An end that is free only without padding (a hand beside
+// Asks a CollisionState with obstacles grown by a padding. An end that is free only without padding (a hand beside
 // the thing it just let go) excuses its neighbourhood: there the padding is not asked for.
-// Lifetime: borrows the space; leaves its padding at 0.
+// Lifetime: borrows the state, which must not change meanwhile.
 class Checker {
  public:
-  Checker(CollisionSpace& space, double padding_m, const std::vector<JointVector>& ends);
-  ~Checker();
-  Checker(const Checker&) = delete;
-  Checker& operator=(const Checker&) = delete;
+  Checker(const CollisionState& state, double padding_m, const std::vector<JointVector>& ends);
 
-  bool free(const JointVector& q);
-  std::string contact(const JointVector& q);  // what describe_contact says, padding included
+  bool free(const JointVector& q) const;
+  std::string contact(const JointVector& q) const;  // what describe_contact says, padding included
+  // Index of the first configuration that touches something; configurations.size() when none does.
+  std::size_t first_touching(std::span<const JointVector> configurations) const;
   // a is known to be free; checks up to b at most `step_rad` apart, coarse before fine: contacts are found early.
-  bool edge_free(const JointVector& a, const JointVector& b, double step_rad);
+  bool edge_free(const JointVector& a, const JointVector& b, double step_rad) const;
 
  private:
-  void pad(double padding_m);
-  void pad_for(const JointVector& q);
-  CollisionSpace& space_;
+  double padding_at(const JointVector& q) const;
+  const CollisionState& state_;
   double padding_m_;
-  double applied_m_ = 0;
   std::vector<JointVector> excused_;
 };
 
 // First configuration of the polyline, sampled at most `step_rad` apart, that touches something.
-std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad);
+std::optional<JointVector> first_touch(const Checker& checker, const std::vector<JointVector>& waypoints,
+                                       double step_rad);
 // The same along a trajectory.
-std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz, double step_rad);
+std::optional<JointVector> first_touch(const Checker& checker, const Trajectory& trajectory, int physics_hz,
+                                       double step_rad);
 
 // `hand.left_finger touches table`: what touches what there, for people. Empty: nothing.
-std::string describe_contact(CollisionSpace& space, const JointVector& q);
+std::string describe_contact(const CollisionState& state, const JointVector& q);
 
 }  // namespace stampede

@@ -17,7 +17,6 @@ constexpr std::size_t kMostTested = 96;
 struct Option {
   Transform object_from_tip;
   double width = 0, force = 0, approach = kApproach_m;
-  bool authored = false;
   double score = 0;  // smallest first
 };
 
@@ -37,7 +36,7 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
                                  const Transform& world_from_object, const Transform& world_from_tip, RandomKey key) {
   std::vector<Option> options;
   for (const Grasp& grasp : object.grasps)
-    options.push_back({grasp.object_from_tip, grasp.width, grasp.force, grasp.approach, true, 0});
+    options.push_back({grasp.object_from_tip, grasp.width, grasp.force, grasp.approach, 0});
   if (object.grasps.empty()) {
     const double force = force_for(part.mass, scene.robot.grip_force);
     for (std::size_t i = 0; i < part.shapes.size(); ++i) {
@@ -45,7 +44,7 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
       const auto found = shape_grasps(part.shapes[i], scene.robot.opening_max, kDepth_m,
                                       key.with("shape").with(static_cast<std::int64_t>(i)));
       for (const ShapeGrasp& grasp : found)
-        options.push_back({grasp.part_from_tip, grasp.width, force, kApproach_m, false, 20 * grasp.off_centre});
+        options.push_back({grasp.part_from_tip, grasp.width, force, kApproach_m, 20 * grasp.off_centre});
     }
   }
   Random random(key.with("order"));
@@ -61,10 +60,10 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
 }
 
 // Reachable and free at both poses, and the arm can go straight from one to the other.
-bool feasible(CollisionSpace& space, const GraspCandidate& grasp, const JointVector& start, RandomKey key) {
-  const Arm& arm = space.arm();
+bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key) {
+  const Arm& arm = state.arm();
   for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, 3, 12)) {
-    if (!space.free(q)) continue;
+    if (!state.free(q)) continue;
     constexpr int kSteps = 4;
     std::optional<JointVector> last = q;
     for (int i = 1; i <= kSteps && last; ++i) {
@@ -75,7 +74,7 @@ bool feasible(CollisionSpace& space, const GraspCandidate& grasp, const JointVec
       last = arm.solve(tip, before, key, 0);
       if (last && (*last - before).cwiseAbs().maxCoeff() > 0.6) last.reset();
     }
-    if (last && space.free(*last)) return true;
+    if (last && state.free(*last)) return true;
   }
   return false;
 }
@@ -97,17 +96,19 @@ Transform world_from_object(const World& world, const Object& object) {
   return world.world_from_part({body, object.part});
 }
 
-std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World& world, const Object& object,
+std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most) {
   int body = 0;
   const Scene& scene = world.scene();
   const Part& part = part_of(scene, object, body);
   const Transform world_from_body = world.world_from_part({body, object.part});
   std::vector<Option> options =
-      make_options(scene, object, part, world_from_body, space.arm().world_from_tip(start), key);
+      make_options(scene, object, part, world_from_body, state.arm().world_from_tip(start), key);
   if (options.size() > kMostTested) options.resize(kMostTested);
   std::vector<GraspCandidate> found;
-  space.set_padding(0);
+  CollisionState hand = state;
+  // Authored grasps may touch what they were authored for; those from geometry start clear of it.
+  if (!object.grasps.empty()) hand.allow({body, object.part});
   for (const double room :
        {scene.robot.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
     if (!found.empty()) break;
@@ -121,13 +122,10 @@ std::vector<GraspCandidate> grasp_candidates(CollisionSpace& space, const World&
       grasp.opening = std::min(scene.robot.opening_max, option.width + room);
       grasp.force = option.force;
       grasp.index = static_cast<int>(found.size());
-      space.set_opening(grasp.opening);
-      // Authored grasps may touch what they were authored for; those from geometry start clear of it.
-      if (option.authored) space.allow({body, object.part});
-      if (feasible(space, grasp, start, key.with("ik"))) found.push_back(grasp);
+      hand.set_opening(grasp.opening);
+      if (feasible(hand, grasp, start, key.with("ik"))) found.push_back(grasp);
     }
   }
-  if (!object.grasps.empty()) space.clear_allowed();
   return found;
 }
 

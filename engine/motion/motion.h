@@ -47,6 +47,9 @@ struct FollowOptions {
   bool stop_on_contact = false;  // done at the first new contact of hand or held part above contact_force
   double contact_force = 3;      // N
   bool tolerate_error = false;   // arriving short of the target is no failure (pressing, pushing, pulling)
+  // N, above 0: the arm gives way to contact (Cartesian impedance for the time of this motion), and the motion is done
+  // where the hand or what it holds meets more than this. It stays where contact has left it.
+  double most_force = 0;
 };
 std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options);
 

@@ -17,6 +17,9 @@ constexpr double kStopped_s = 0.3;  // fingers that have not moved for this long
 constexpr double kHandTimeout_s = 3;
 constexpr double kStill_m = 2e-4;
 constexpr double kOpeningTolerance_m = 1e-3;
+constexpr double kRest_s = 0.025;            // and must stay so: it may swing
+constexpr double kRest_rad_s = 0.01;         // slower joints are at rest: below 1 cm/s at the tip
+constexpr double kYieldingStiffness = 1500;  // N/m: 1 cm off its way, the arm presses with 15 N
 
 MotionResult failed(Reason reason) { return {MotionStatus::failed, reason}; }
 
@@ -63,13 +66,9 @@ class FollowMotion : public Motion {
 
   MotionResult step(World& world) override {
     if (count_ == 0) start(world);
-    const std::int64_t elapsed = count_++;
-    if (lost(world)) return stop(world, failed(Reason::dropped));
-    if (options_.stop_on_contact && touched(world)) return stop(world, kDone);
-    if (elapsed < trajectory_.steps()) return kRunning;
-    if (arrived(world)) return kDone;
-    if (elapsed - trajectory_.steps() < steps_of(options_.settle_s, world)) return kRunning;
-    return options_.tolerate_error ? kDone : failed(Reason::tracking_error);
+    const MotionResult result = look(world);
+    if (result.status != MotionStatus::running) stay(world);
+    return result;
   }
 
  private:
@@ -77,12 +76,46 @@ class FollowMotion : public Motion {
     hand_ = hand_parts(world.scene().robot);
     if (options_.stop_on_contact)
       for (const Contact& contact : world.contacts()) known_.insert({contact.a, contact.b});
+    if (options_.most_force > 0 && world.controller().kind == ControllerKind::joint_position) {
+      stiff_ = world.controller();
+      world.apply(operation::Controller{ControllerKind::cartesian_impedance, kYieldingStiffness});
+    }
     world.apply(operation::Follow{trajectory_});
+  }
+
+  MotionResult look(World& world) {
+    const std::int64_t elapsed = count_++;
+    if (lost(world)) {
+      world.apply(operation::Follow{brake(world)});
+      return failed(Reason::dropped);
+    }
+    if (!stopping_ && met(world)) {
+      stopping_ = true;
+      trajectory_ = brake(world);
+      world.apply(operation::Follow{trajectory_});
+      count_ = 1;
+      return kRunning;
+    }
+    if (elapsed < trajectory_.steps()) return kRunning;
+    const bool there = stopping_ || arrived(world);
+    resting_ = at_rest(world) ? resting_ + 1 : 0;
+    if (there && resting_ >= steps_of(kRest_s, world)) return kDone;
+    if (elapsed - trajectory_.steps() < steps_of(options_.settle_s, world)) return kRunning;
+    return there || options_.tolerate_error ? kDone : failed(Reason::tracking_error);
+  }
+
+  // An arm that gave way stays where contact has left it: stiff again, it must not jump back to its reference.
+  void stay(World& world) {
+    if (!stiff_) return;
+    world.apply(operation::Setpoint{world.arm_position(), JointVector::Zero(world.arm().joints())});
+    world.apply(*stiff_);
   }
 
   bool arrived(const World& world) const {
     return (world.arm_position() - trajectory_.knots.back().position).cwiseAbs().maxCoeff() <= options_.tolerance_rad;
   }
+
+  static bool at_rest(const World& world) { return world.arm_velocity().cwiseAbs().maxCoeff() <= kRest_rad_s; }
 
   bool lost(const World& world) {
     if (!options_.keep) return false;
@@ -90,25 +123,26 @@ class FollowMotion : public Motion {
     return missing_ > steps_of(kLost_s, world);
   }
 
-  // A contact of the hand, or of what it holds, with anything else that was not there at the start.
-  bool touched(const World& world) const {
+  // A contact of the hand, or of what it holds, with anything else: one that was not there at the start, or one that
+  // is harder than this motion may press.
+  bool met(const World& world) const {
+    if (!options_.stop_on_contact && options_.most_force <= 0) return false;
     const auto mine = [&](PartRef part) { return hand_.contains(part) || options_.keep == part; };
     return std::any_of(world.contacts().begin(), world.contacts().end(), [&](const Contact& contact) {
-      return mine(contact.a) != mine(contact.b) && contact.mean_force > options_.contact_force &&
+      if (mine(contact.a) == mine(contact.b)) return false;
+      if (options_.most_force > 0 && contact.mean_force > options_.most_force) return true;
+      return options_.stop_on_contact && contact.mean_force > options_.contact_force &&
              !known_.contains({contact.a, contact.b});
     });
-  }
-
-  static MotionResult stop(World& world, MotionResult result) {
-    world.apply(operation::Follow{brake(world)});
-    return result;
   }
 
   Trajectory trajectory_;
   FollowOptions options_;
   std::set<PartRef> hand_;
   std::set<std::pair<PartRef, PartRef>> known_;
-  std::int64_t count_ = 0, missing_ = 0;
+  std::optional<operation::Controller> stiff_;  // to return to
+  bool stopping_ = false;
+  std::int64_t count_ = 0, missing_ = 0, resting_ = 0;
 };
 
 class HandMotion : public Motion {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "engine/base/error.h"
@@ -142,9 +143,24 @@ Quaternion resting_rotation(const World& world, int body) {
   return resting_rotation(Quaternion(world.world_from_part({body, 0}).linear()));
 }
 
+// Draws places, asks about many at once and keeps the first `most` that are free. A draw is nothing where it misses.
+std::vector<Transform> keep_free(const CollisionState& state, int body, int most,
+                                 const std::function<std::optional<Transform>()>& draw) {
+  std::vector<Transform> kept, drawn;
+  for (int left = kDrawsPerSpot * most; left > 0 && static_cast<int>(kept.size()) < most;) {
+    drawn.clear();
+    for (; left > 0 && static_cast<int>(drawn.size()) < most; --left)
+      if (const std::optional<Transform> place = draw()) drawn.push_back(*place);
+    const std::vector<bool> free = state.places_free(body, drawn, kPadding_m);
+    for (std::size_t i = 0; i < drawn.size() && static_cast<int>(kept.size()) < most; ++i)
+      if (free[i]) kept.push_back(drawn[i]);
+  }
+  return kept;
+}
+
 }  // namespace
 
-std::vector<Transform> free_spots(CollisionSpace& space, const World& world, const Object& surface,
+std::vector<Transform> free_spots(const CollisionState& state, const World& world, const Object& surface,
                                   const Object& object, RandomKey key, int most) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
@@ -152,23 +168,21 @@ std::vector<Transform> free_spots(CollisionSpace& space, const World& world, con
   const Quaternion upright = resting_rotation(world, body);
   const Transform world_from_surface = world.world_from_part({body_of(scene, surface), surface.part});
   const std::vector<Face> faces = upper_faces(part_of(scene, surface), world_from_surface);
-  std::vector<Transform> spots;
+  if (faces.empty()) return {};
   Random random(key.with("free_spots"));
-  for (int draw = 0; draw < kDrawsPerSpot * most && static_cast<int>(spots.size()) < most && !faces.empty(); ++draw) {
+  return keep_free(state, body, most, [&]() -> std::optional<Transform> {
     const Face& face = draw_face(faces, random);
     const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
     const Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
     const std::optional<Vector3> point = draw_on(face, foot, random);
-    if (!point) continue;
+    if (!point) return std::nullopt;
     Vector3 origin = face.world_from_face * *point;
     origin.z() += footprint(part, rotation).below + kGap_m;
-    const Transform spot = make_transform(origin, rotation);
-    if (space.body_free(body, spot, kPadding_m)) spots.push_back(spot);
-  }
-  return spots;
+    return make_transform(origin, rotation);
+  });
 }
 
-std::vector<Transform> region_spots(CollisionSpace& space, const World& world, const Region& region,
+std::vector<Transform> region_spots(const CollisionState& state, const World& world, const Region& region,
                                     const Object& object, RandomKey key, int most) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
@@ -181,9 +195,8 @@ std::vector<Transform> region_spots(CollisionSpace& space, const World& world, c
   // The lower face, with z up; a patch of no height carries too.
   Face face{world_from_region * translation(0, 0, -0.5 * region.size.z()), 0.5 * region.size.x(), 0.5 * region.size.y(),
             0};
-  std::vector<Transform> spots;
   Random random(key.with("region_spots"));
-  for (int draw = 0; draw < kDrawsPerSpot * most && static_cast<int>(spots.size()) < most; ++draw) {
+  return keep_free(state, body, most, [&]() -> std::optional<Transform> {
     const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
     Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
     // Where the whole object does not fit, its middle does: a small target still names a place.
@@ -191,17 +204,15 @@ std::vector<Transform> region_spots(CollisionSpace& space, const World& world, c
         foot.high.y() - foot.low.y() + 2 * kMargin_m > region.size.y())
       foot.low = foot.high = Vector3::Zero();
     const std::optional<Vector3> point = draw_on(face, foot, random);
-    if (!point) continue;
+    if (!point) return std::nullopt;
     Vector3 origin = face.world_from_face * *point;
     origin.z() += footprint(part, rotation).below + kGap_m;
-    const Transform spot = make_transform(origin, rotation);
-    if (space.body_free(body, spot, kPadding_m)) spots.push_back(spot);
-  }
-  return spots;
+    return make_transform(origin, rotation);
+  });
 }
 
-std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, const Object& below, const Object& object,
-                                   RandomKey key, int most) {
+std::vector<Transform> stack_spots(const CollisionState& state, const World& world, const Object& below,
+                                   const Object& object, RandomKey key, int most) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
   const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
@@ -223,7 +234,7 @@ std::vector<Transform> stack_spots(CollisionSpace& space, const World& world, co
     Vector3 origin = middle - 0.5 * (foot.low + foot.high);
     origin.z() = top + foot.below + kGap_m;
     const Transform spot = make_transform(origin, rotation);
-    if (space.body_free(body, spot, 0)) spots.push_back(spot);
+    if (state.body_free(body, spot, 0)) spots.push_back(spot);
   }
   return spots;
 }

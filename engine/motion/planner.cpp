@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kShortestBlend = 1e-3;  // rad
 
-void check_input(const CollisionSpace& space, const JointVector& q, std::string_view which) {
-  if (q.size() == space.arm().joints() && q.allFinite()) return;
+void check_input(const CollisionState& state, const JointVector& q, std::string_view which) {
+  if (q.size() == state.arm().joints() && q.allFinite()) return;
   throw Error("motion planning", std::string(which) + " must be finite, with one value for each joint of the arm");
 }
 
@@ -46,28 +46,28 @@ double clearance_m(const MotionLimits& limits, int care) {
   return care < kMostCare ? std::min(limits.padding_m, kClearance) : 0.0;
 }
 
-JointPath check_ends(CollisionSpace& space, const JointVector& start, const JointVector& goal) {
-  check_input(space, start, "the start");
-  check_input(space, goal, "the goal");
+JointPath check_ends(const CollisionState& state, const JointVector& start, const JointVector& goal) {
+  check_input(state, start, "the start");
+  check_input(state, goal, "the goal");
   JointPath path;
-  if (const std::string contact = describe_contact(space, start); !contact.empty()) {
+  if (const std::string contact = describe_contact(state, start); !contact.empty()) {
     path.reason = Reason::start_in_collision;
     path.detail = "at the start " + contact;
-  } else if (const std::string at_goal = describe_contact(space, goal); !at_goal.empty()) {
+  } else if (const std::string at_goal = describe_contact(state, goal); !at_goal.empty()) {
     path.reason = Reason::no_path;
     path.detail = "at the goal " + at_goal;
-  } else if (!space.arm().within_limits(goal, -1e-9)) {
+  } else if (!state.arm().within_limits(goal, -1e-9)) {
     path.reason = Reason::unreachable;
     path.detail = "the goal is outside the joint limits";
   }
   return path;
 }
 
-JointPath search_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+JointPath search_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
                       const MotionLimits& limits, RandomKey key, int care) {
   static constexpr std::array<double, kMostCare + 1> kSpacing{5.0, 2.0, 1.0};
   const double step_rad = kSpacing[static_cast<std::size_t>(care)] * limits.resolution_rad;
-  Checker checker(space, limits.padding_m, {start, goal});
+  Checker checker(state, limits.padding_m, {start, goal});
   JointPath path;
   if (checker.edge_free(start, goal, step_rad)) {
     path.waypoints = {start, goal};
@@ -77,7 +77,7 @@ JointPath search_path(CollisionSpace& space, const JointVector& start, const Joi
   TreeOptions options;
   options.step_rad = step_rad;
   options.iterations = limits.iterations;
-  path.waypoints = grow_trees(checker, space.arm().limits(), start, goal, options, query.with("trees"));
+  path.waypoints = grow_trees(checker, state.arm().limits(), start, goal, options, query.with("trees"));
   if (path.waypoints.empty()) {
     path.reason = Reason::no_path;
     path.detail = "no path in " + std::to_string(limits.iterations) + " tree extensions";
@@ -87,14 +87,14 @@ JointPath search_path(CollisionSpace& space, const JointVector& start, const Joi
   return path;
 }
 
-JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+JointPath plan_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
                     const MotionLimits& limits, RandomKey key) {
   check_limits(limits);
-  JointPath path = check_ends(space, start, goal);
+  JointPath path = check_ends(state, start, goal);
   for (int care = 0; care <= kMostCare && path.reason == Reason::none; ++care) {
-    path = search_path(space, start, goal, limits, key, care);
+    path = search_path(state, start, goal, limits, key, care);
     if (path.reason != Reason::none) break;
-    Checker checker(space, clearance_m(limits, care), {start, goal});
+    Checker checker(state, clearance_m(limits, care), {start, goal});
     const std::optional<JointVector> touch = first_touch(checker, path.waypoints, certified_step(limits));
     if (!touch) return path;
     if (care < kMostCare) continue;
@@ -105,20 +105,25 @@ JointPath plan_path(CollisionSpace& space, const JointVector& start, const Joint
   return path;
 }
 
-PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
-                      double clearance, const PathSpeedLimit& speed_limit) {
+PlannedMotion certify(const CollisionState& state, const std::vector<JointVector>& waypoints,
+                      const MotionLimits& limits, double clearance, const PathSpeedLimit& speed_limit) {
   constexpr int kRounds = 24;
-  const int physics_hz = space.scene().physics_hz;
+  const int physics_hz = state.scene().physics_hz;
   PlannedMotion motion;
   const std::vector<JointVector> kept = distinct(waypoints);
   if (kept.size() < 2) {
-    motion.trajectory = time_path(space.arm(), {waypoints.back()}, limits, physics_hz);
+    motion.trajectory = time_path(state.arm(), {waypoints.back()}, limits, physics_hz);
     return motion;
   }
-  Checker checker(space, std::max(0.0, clearance), {kept.front(), kept.back()});
+  const Checker checker(state, std::max(0.0, clearance), {kept.front(), kept.back()});
+  const Arm& arm = state.arm();
+  const PathSpeedLimit of_arm = tool_limit(arm, limits);
+  const PathSpeedLimit limit = [&](const PathPoint& point) {
+    return speed_limit ? std::min(of_arm(point), speed_limit(point)) : of_arm(point);
+  };
   std::vector<double> blends = default_blends(kept, kLongestBlend);
   for (int round = 0; round < kRounds; ++round) {
-    motion.trajectory = time_blended(BlendedPath(kept, blends), space.arm().limits(), limits, physics_hz, speed_limit);
+    motion.trajectory = time_blended(BlendedPath(kept, blends), arm.limits(), limits, physics_hz, limit);
     const std::optional<JointVector> touch =
         clearance >= 0 ? first_touch(checker, motion.trajectory, physics_hz, certified_step(limits)) : std::nullopt;
     if (!touch) return motion;
@@ -132,20 +137,20 @@ PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& way
   return motion;
 }
 
-PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
                           const MotionLimits& limits, RandomKey key) {
   check_limits(limits);
   PlannedMotion motion;
-  const JointPath ends = check_ends(space, start, goal);
+  const JointPath ends = check_ends(state, start, goal);
   motion.reason = ends.reason;
   motion.detail = ends.detail;
   if (ends.reason != Reason::none) return motion;
   for (int care = 0; care <= kMostCare; ++care) {
-    const JointPath path = search_path(space, start, goal, limits, key, care);
+    const JointPath path = search_path(state, start, goal, limits, key, care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
-    motion = certify(space, path.waypoints, limits, clearance_m(limits, care));
+    motion = certify(state, path.waypoints, limits, clearance_m(limits, care));
     if (motion.reason == Reason::none) return motion;
   }
   return motion;

@@ -9,7 +9,7 @@
 #include "engine/base/random.h"
 #include "engine/base/reason.h"
 #include "engine/motion/motion.h"
-#include "engine/sim/collision_space.h"
+#include "engine/sim/collision_state.h"
 
 namespace stampede {
 
@@ -19,6 +19,7 @@ struct MotionLimits {
   double resolution_rad = 0.01;  // spacing that is promised; certification samples four times as densely
   int iterations = 4000;         // tree extensions before no_path
   int shortcuts = 60;            // attempts of the shortener
+  double tool_speed = 1.65;      // m/s of the tip, a little less than the 1.7 of a Panda: smoothing adds some
   double padding_m = 0.005;      // obstacles grow by this while planning; certification is without
 };
 
@@ -44,7 +45,7 @@ struct JointPath {
   std::string detail;
   std::vector<JointVector> waypoints;
 };
-JointPath plan_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+JointPath plan_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
                     const MotionLimits& limits, RandomKey key);
 
 // Times a joint path: corners are rounded (blends stay within the certified tube or shrink), the path is passed at
@@ -54,11 +55,15 @@ Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, 
 
 // A planned motion through all targets, stopping only at the last. Free motion up to the first target; between
 // targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
-PlannedMotion plan_through(CollisionSpace& space, const JointVector& start, const std::vector<ToolTarget>& targets,
-                           const MotionLimits& limits, RandomKey key);
+PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
+                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key);
+
+// How far the hand may open where it is, up to `wanted_m`, before a finger meets what it does not touch yet; at least a
+// little, or nothing could be let go. `state`: nothing held, what is to be let go allowed. Units: m. Repeatable.
+double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m);
 
 // A planned free motion to joint positions.
-PlannedMotion plan_joints(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
                           const MotionLimits& limits, RandomKey key);
 
 // The tip follows world_from_tip(s), s in [0, 1], by IK at dense samples with joint continuity (no sample more than
@@ -69,11 +74,11 @@ struct LineOptions {
   bool collide = false;
   int samples = 0;  // 0: one each 5 mm or 0.02 rad
 };
-PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
+PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,
                              const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
                              const MotionLimits& limits, RandomKey key);
 // Straight line with slerp from where the tip is.
-PlannedMotion plan_line(CollisionSpace& space, const JointVector& start, const Transform& world_from_tip,
+PlannedMotion plan_line(const CollisionState& state, const JointVector& start, const Transform& world_from_tip,
                         const LineOptions& line, const MotionLimits& limits, RandomKey key);
 
 }  // namespace stampede

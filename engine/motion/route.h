@@ -10,12 +10,12 @@
 namespace stampede {
 
 // A path that keeps the padding, checked coarsely only. `care` 0, 1, 2: at ever denser spacing.
-JointPath search_path(CollisionSpace& space, const JointVector& start, const JointVector& goal,
+JointPath search_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
                       const MotionLimits& limits, RandomKey key, int care);
 constexpr int kMostCare = 2;
 
 // Nothing wrong with both ends: reason none.
-JointPath check_ends(CollisionSpace& space, const JointVector& start, const JointVector& goal);
+JointPath check_ends(const CollisionState& state, const JointVector& start, const JointVector& goal);
 
 // Configurations from `start` (left out of the result) along a tool path.
 struct ToolPath {
@@ -44,8 +44,8 @@ double clearance_m(const MotionLimits& limits, int care);
 
 // Rounds, times and certifies (`clearance_m` below 0: does not). Blends that touch something shrink.
 // Result: no_path when the polyline itself does.
-PlannedMotion certify(CollisionSpace& space, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
-                      double clearance_m, const PathSpeedLimit& speed_limit = {});
+PlannedMotion certify(const CollisionState& state, const std::vector<JointVector>& waypoints,
+                      const MotionLimits& limits, double clearance_m, const PathSpeedLimit& speed_limit = {});
 
 // Step at which the trajectory passes nearest to a configuration.
 std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz);

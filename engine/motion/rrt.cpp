@@ -33,7 +33,7 @@ void from_joints(const JointVector& q, ob::State* state) {
 // from its key only, and its nearest neighbours are searched linearly (the default structure owns a generator).
 class KeyedConnect : public ob::Planner {
  public:
-  KeyedConnect(const ob::SpaceInformationPtr& si, Checker& checker, const std::vector<JointLimits>& limits,
+  KeyedConnect(const ob::SpaceInformationPtr& si, const Checker& checker, const std::vector<JointLimits>& limits,
                const TreeOptions& options, RandomKey key)
       : ob::Planner(si, "KeyedConnect"), checker_(checker), limits_(limits), options_(options), random_(key) {
     for (auto& tree : trees_)
@@ -114,7 +114,7 @@ class KeyedConnect : public ob::Planner {
     pdef_->addSolutionPath(path);
   }
 
-  Checker& checker_;
+  const Checker& checker_;
   const std::vector<JointLimits>& limits_;
   TreeOptions options_;
   Random random_;
@@ -141,8 +141,9 @@ ob::SpaceInformationPtr make_space(const std::vector<JointLimits>& limits, const
 
 }  // namespace
 
-std::vector<JointVector> grow_trees(Checker& checker, const std::vector<JointLimits>& limits, const JointVector& start,
-                                    const JointVector& goal, const TreeOptions& options, RandomKey key) {
+std::vector<JointVector> grow_trees(const Checker& checker, const std::vector<JointLimits>& limits,
+                                    const JointVector& start, const JointVector& goal, const TreeOptions& options,
+                                    RandomKey key) {
   static std::once_flag silenced;  // OMPL's log is process-wide; the library is silent
   std::call_once(silenced, [] { ompl::msg::setLogLevel(ompl::msg::LOG_NONE); });
   const ob::SpaceInformationPtr si = make_space(limits, start, goal);

@@ -17,12 +17,13 @@ struct TreeOptions {
 // RRT-Connect (Kuffner, LaValle, ICRA 2000, doi:10.1109/ROBOT.2000.844730) within the joint limits.
 // Result: waypoints from start to goal, empty when the iterations are used up.
 // Repeatable: a pure function of its arguments.
-std::vector<JointVector> grow_trees(Checker& checker, const std::vector<JointLimits>& limits, const JointVector& start,
-                                    const JointVector& goal, const TreeOptions& options, RandomKey key);
+std::vector<JointVector> grow_trees(const Checker& checker, const std::vector<JointLimits>& limits,
+                                    const JointVector& start, const JointVector& goal, const TreeOptions& options,
+                                    RandomKey key);
 
 // Shortens a path: leaves out corners that are not needed, then tries `attempts` random straight cuts
 // (Geraerts, Overmars, IJRR 2007, doi:10.1177/0278364907079280).
-std::vector<JointVector> shorten(Checker& checker, std::vector<JointVector> path, int attempts, double step_rad,
+std::vector<JointVector> shorten(const Checker& checker, std::vector<JointVector> path, int attempts, double step_rad,
                                  RandomKey key);
 
 }  // namespace stampede

@@ -25,7 +25,7 @@ PathPoint point_at(const std::vector<JointVector>& path, const std::vector<doubl
 }
 
 // From each kept waypoint straight to the farthest one that can be seen among the next few.
-std::vector<JointVector> skip_corners(Checker& checker, const std::vector<JointVector>& path, double step_rad) {
+std::vector<JointVector> skip_corners(const Checker& checker, const std::vector<JointVector>& path, double step_rad) {
   constexpr std::size_t kLookAhead = 8;
   std::vector<JointVector> kept{path.front()};
   for (std::size_t i = 0; i + 1 < path.size();) {
@@ -39,7 +39,7 @@ std::vector<JointVector> skip_corners(Checker& checker, const std::vector<JointV
 
 }  // namespace
 
-std::vector<JointVector> shorten(Checker& checker, std::vector<JointVector> path, int attempts, double step_rad,
+std::vector<JointVector> shorten(const Checker& checker, std::vector<JointVector> path, int attempts, double step_rad,
                                  RandomKey key) {
   if (path.size() < 3) return path;
   path = skip_corners(checker, path, step_rad);

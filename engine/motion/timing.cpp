@@ -233,13 +233,22 @@ Trajectory time_blended(const BlendedPath& path, const std::vector<JointLimits>&
   throw Error("timing", "no speed keeps the joint limits", "are the limits of the robot positive?");
 }
 
+PathSpeedLimit tool_limit(const Arm& arm, const MotionLimits& limits) {
+  if (!(limits.tool_speed > 0)) throw Error("motion limits", "the speed of the tool must be positive");
+  return [&arm, speed = limits.tool_speed](const PathPoint& point) {
+    const Vector3 along = arm.jacobian(point.position).topRows<3>() * point.tangent;
+    return speed / std::max(1e-9, along.norm());
+  };
+}
+
 Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
                      int physics_hz) {
   if (waypoints.empty()) throw Error("timing", "a path needs at least one waypoint");
   const std::vector<JointVector> kept = distinct(waypoints);
   const JointVector still = JointVector::Zero(kept.front().size());
   if (kept.size() == 1) return Trajectory{{{0, waypoints.back(), still, still}}};
-  return time_blended(BlendedPath(kept, default_blends(kept, kLongestBlend)), arm.limits(), limits, physics_hz);
+  return time_blended(BlendedPath(kept, default_blends(kept, kLongestBlend)), arm.limits(), limits, physics_hz,
+                      tool_limit(arm, limits));
 }
 
 }  // namespace stampede

@@ -52,12 +52,12 @@ struct Tail {
   std::vector<JointVector> at_target;
 };
 
-Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vector<ToolTarget>& targets,
+Tail make_tail(const CollisionState& state, const JointVector& first, const std::vector<ToolTarget>& targets,
                const MotionLimits& limits, RandomKey key) {
   Tail tail;
   tail.waypoints = {first};
   tail.at_target = {first};
-  if (const std::string contact = describe_contact(space, first); !contact.empty()) {
+  if (const std::string contact = describe_contact(state, first); !contact.empty()) {
     tail.reason = Reason::no_path;
     tail.detail = "at " + targets[0].name + " " + contact;
     return tail;
@@ -66,14 +66,14 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
   for (; i < targets.size() && !targets[i].ahead; ++i) {
     const Transform from = targets[i - 1].world_from_tip, to = targets[i].world_from_tip;
     const ToolPath line = follow_tool(
-        space.arm(), tail.waypoints.back(), [&](double s) { return between(from, to, s); }, samples_between(from, to),
+        state.arm(), tail.waypoints.back(), [&](double s) { return between(from, to, s); }, samples_between(from, to),
         key.with(static_cast<std::int64_t>(i)));
     tail.reason = line.reason;
     tail.detail = "on the way to " + targets[i].name + ": " + line.detail;
     if (tail.reason != Reason::none) return tail;
     std::vector<JointVector> dense{tail.waypoints.back()};
     dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
-    Checker checker(space, 0, {});
+    Checker checker(state, 0, {});
     if (const auto touch = first_touch(checker, dense, certified_step(limits))) {
       tail.reason = Reason::no_path;
       tail.detail = "on the way to " + targets[i].name + ": " + checker.contact(*touch);
@@ -86,7 +86,7 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
   for (JointVector from = tail.waypoints.back(); i < targets.size(); ++i) {
     const Transform here = targets[i - 1].world_from_tip, there = targets[i].world_from_tip;
     const ToolPath line = follow_tool(
-        space.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
+        state.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
         key.with(static_cast<std::int64_t>(i)));
     tail.reason = line.reason;
     tail.detail = "on from " + targets[i - 1].name + ": " + line.detail;
@@ -99,38 +99,36 @@ Tail make_tail(CollisionSpace& space, const JointVector& first, const std::vecto
 
 // The free way to the first target, on which nothing may be touched when straight lines follow it: what is to be
 // grasped is then still an obstacle.
-JointPath search_way(CollisionSpace& space, const JointVector& start, const Tail& tail, const MotionLimits& limits,
-                     RandomKey key, int care) {
-  const std::vector<PartRef> allowed = space.allowed();
-  if (tail.waypoints.size() > 1) space.clear_allowed();
-  JointPath path = search_path(space, start, tail.waypoints.front(), limits, key, care);
-  if (tail.waypoints.size() > 1)
-    for (const PartRef part : allowed) space.allow(part);
-  return path;
+JointPath search_way(const CollisionState& state, const JointVector& start, const Tail& tail,
+                     const MotionLimits& limits, RandomKey key, int care) {
+  if (tail.waypoints.size() <= 1) return search_path(state, start, tail.waypoints.front(), limits, key, care);
+  CollisionState untouched = state;
+  untouched.clear_allowed();
+  return search_path(untouched, start, tail.waypoints.front(), limits, key, care);
 }
 
 // Free motion to the tail's start, then the tail.
-PlannedMotion plan_to_tail(CollisionSpace& space, const JointVector& start, const Tail& tail,
+PlannedMotion plan_to_tail(const CollisionState& state, const JointVector& start, const Tail& tail,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
   PlannedMotion motion;
   for (int care = 0; care <= kMostCare; ++care) {
-    JointPath path = search_way(space, start, tail, limits, key, care);
+    JointPath path = search_way(state, start, tail, limits, key, care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
     path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
-    motion = certify(space, path.waypoints, limits, clearance_m(limits, care));
+    motion = certify(state, path.waypoints, limits, clearance_m(limits, care));
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;
   for (std::size_t i = 0; i + 1 < tail.at_target.size(); ++i)
     motion.vias.push_back({targets[i].name, targets[i].world_from_tip,
-                           nearest_step(motion.trajectory, tail.at_target[i], space.scene().physics_hz)});
+                           nearest_step(motion.trajectory, tail.at_target[i], state.scene().physics_hz)});
   return motion;
 }
 
 // The path speed at which the tool keeps its own limits.
-PathSpeedLimit tool_limit(const Arm& arm, const LineOptions& line) {
+PathSpeedLimit line_limit(const Arm& arm, const LineOptions& line) {
   return [&arm, line](const PathPoint& point) {
     const Eigen::Matrix<double, 6, 1> twist = arm.jacobian(point.position) * point.tangent;
     const double linear = std::max(1e-9, twist.head<3>().norm()), angular = std::max(1e-9, twist.tail<3>().norm());
@@ -178,34 +176,34 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::functi
   return path;
 }
 
-PlannedMotion plan_through(CollisionSpace& space, const JointVector& start, const std::vector<ToolTarget>& targets,
-                           const MotionLimits& limits, RandomKey key) {
+PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
+                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
   if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
   PlannedMotion motion;
-  const JointPath ends = check_ends(space, start, start);
+  const JointPath ends = check_ends(state, start, start);
   motion.reason = ends.reason;
   motion.detail = ends.detail;
   if (motion.reason == Reason::start_in_collision) return motion;
   const std::vector<JointVector> solutions =
-      space.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
+      state.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
   motion.reason = Reason::unreachable;
   motion.detail = "no joint configuration reaches " + targets[0].name;
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
-    const Tail tail = make_tail(space, solutions[i], targets, limits, query.with("tail"));
+    const Tail tail = make_tail(state, solutions[i], targets, limits, query.with("tail"));
     if (tail.reason != Reason::none) {
       motion.reason = tail.reason;
       motion.detail = tail.detail;
       continue;
     }
-    motion = plan_to_tail(space, start, tail, targets, limits, query);
+    motion = plan_to_tail(state, start, tail, targets, limits, query);
     if (motion.reason == Reason::none) return motion;
   }
   return motion;
 }
 
-PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
+PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,
                              const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
                              const MotionLimits& limits, RandomKey key) {
   if (!(line.tool_speed > 0) || !(line.tool_turn > 0))
@@ -222,33 +220,33 @@ PlannedMotion plan_tool_path(CollisionSpace& space, const JointVector& start,
   std::vector<JointVector> waypoints{start};
   // Where the tip is may differ a little from the path's start.
   const ToolPath first = follow_tool(
-      space.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
+      state.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
   const JointVector from = first.reason == Reason::none ? first.waypoints.back() : start;
-  const ToolPath path = follow_tool(space.arm(), from, world_from_tip, samples, key.with("path"));
+  const ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"));
   motion.reason = first.reason == Reason::none ? path.reason : first.reason;
   motion.detail = first.reason == Reason::none ? path.detail : "the path's start is out of reach";
   if (motion.reason != Reason::none) return motion;
   if (joint_gap(from, start) > 1e-4) waypoints.push_back(from);
   waypoints.insert(waypoints.end(), path.waypoints.begin(), path.waypoints.end());
   if (line.collide) {
-    if (const std::string contact = describe_contact(space, start); !contact.empty()) {
+    if (const std::string contact = describe_contact(state, start); !contact.empty()) {
       motion.reason = Reason::start_in_collision;
       motion.detail = "at the start " + contact;
       return motion;
     }
   }
-  return certify(space, decimate(waypoints, kToolError), limits, line.collide ? 0.0 : -1.0,
-                 tool_limit(space.arm(), line));
+  return certify(state, decimate(waypoints, kToolError), limits, line.collide ? 0.0 : -1.0,
+                 line_limit(state.arm(), line));
 }
 
-PlannedMotion plan_line(CollisionSpace& space, const JointVector& start, const Transform& world_from_tip,
+PlannedMotion plan_line(const CollisionState& state, const JointVector& start, const Transform& world_from_tip,
                         const LineOptions& line, const MotionLimits& limits, RandomKey key) {
   check_pose(world_from_tip);
-  const Transform from = space.arm().world_from_tip(start);
+  const Transform from = state.arm().world_from_tip(start);
   LineOptions options = line;
   if (options.samples <= 0) options.samples = samples_between(from, world_from_tip);
   return plan_tool_path(
-      space, start, [&](double s) { return between(from, world_from_tip, s); }, options, limits, key);
+      state, start, [&](double s) { return between(from, world_from_tip, s); }, options, limits, key);
 }
 
 }  // namespace stampede

@@ -59,13 +59,14 @@ void ContactWindow::add_step(btDispatcher& dispatcher, double dt) {
   const int count = dispatcher.getNumManifolds();
   for (int i = 0; i < count; ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-    double impulse = 0;
+    double impulse = 0, depth = 0;
     btVector3 normal(0, 0, 0), point(0, 0, 0), total(0, 0, 0);
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& contact = manifold.getContactPoint(p);
       const double strength = contact.m_appliedImpulse;
       if (!(strength > 0)) continue;
       impulse += strength;
+      depth = std::max(depth, -contact.getDistance());
       normal += contact.m_normalWorldOnB * strength;
       point += contact.m_positionWorldOnB * strength;
       total += contact.m_lateralFrictionDir1 * contact.m_appliedImpulseLateral1 +
@@ -85,6 +86,7 @@ void ContactWindow::add_step(btDispatcher& dispatcher, double dt) {
       sum.step_normal = 0;
       sum.step = steps_;
     }
+    sum.depth = std::max(sum.depth, depth);
     sum.normal += impulse / dt;
     sum.step_normal += impulse / dt;
     sum.normal_vector += sign * from_bullet(normal);
@@ -101,6 +103,7 @@ void ContactWindow::close() {
     contact.b = sum.b;
     contact.mean_force = sum.normal / static_cast<double>(steps_);
     contact.peak_force = std::max(sum.peak, sum.step_normal);
+    contact.depth = sum.depth;
     const double length = sum.normal_vector.norm();
     if (length > 0) contact.normal = sum.normal_vector / length;
     contact.point = sum.point / sum.normal;

@@ -22,7 +22,7 @@ class ContactWindow {
   // One pair's running sums: of forces in N over the steps of the open window.
   struct Sum {
     PartRef a, b;
-    double normal = 0, peak = 0, step_normal = 0;
+    double normal = 0, peak = 0, step_normal = 0, depth = 0;
     std::int64_t step = 0;  // that step_normal belongs to
     Vector3 normal_vector = Vector3::Zero(), point = Vector3::Zero(), force = Vector3::Zero();
   };

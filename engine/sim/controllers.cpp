@@ -15,12 +15,14 @@ constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
 constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
 constexpr double kSingularity = 1e-4;     // damping of the null-space projector
 constexpr double kArmErp = 0.2, kFingerErp = 0.2;
-constexpr double kGearForce = 50;        // N
-constexpr std::int64_t kStartSteps = 3;  // a finger just told to move is not blocked
-constexpr double kBlockedLag = 0.001;    // m
-constexpr double kBlockedSpeed = 0.25;   // of finger_speed
-constexpr double kPressSpeed = 1.0;      // m/s
-constexpr double kDefaultEffort = 100;   // N m or N, where a robot states none
+constexpr double kGearForce = 50;  // N
+// A finger just told to move is not blocked. Nor is one whose contact has just been dropped: asked for so much speed,
+// it would be 4 mm deep in what it holds before contact is found again.
+constexpr std::int64_t kStartSteps = 3;
+constexpr double kBlockedLag = 0.001;   // m
+constexpr double kBlockedSpeed = 0.25;  // of finger_speed
+constexpr double kPressSpeed = 1.0;     // m/s
+constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 
 // Rotation vector of `to` seen from `from`, in world axes.
 Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
@@ -251,7 +253,7 @@ void World::Impl::control_hand() {
     const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
     const double lag = each - body_slot(kRobot).multibody->getJointPos(finger_links[f]);
     const double speed = body_slot(kRobot).multibody->getJointVel(finger_links[f]);
-    const bool blocked = steps >= hand_step + kStartSteps && std::abs(lag) > kBlockedLag &&
+    const bool blocked = steps >= std::max(hand_step, boundary_step) + kStartSteps && std::abs(lag) > kBlockedLag &&
                          std::abs(speed) < kBlockedSpeed * robot.finger_speed;
     btMultiBodyJointMotor& motor = *finger_motors[f];
     motor.setPositionTarget(each, blocked ? 0 : 1);

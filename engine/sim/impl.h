@@ -13,6 +13,7 @@
 #include "engine/sim/anchors.h"
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
+#include "engine/sim/collision_model.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/shapes.h"
 #include "engine/sim/torsion_solver.h"
@@ -106,6 +107,7 @@ struct World::Impl {
   const Transform& world_from_part(PartRef ref) const;
   Vector3 velocity(PartRef ref, Vector3* linear) const;  // angular; linear of the centre of mass
   double position(PartRef ref) const;
+  bool strained() const;
   JointVector arm_position_now() const;
   JointVector arm_velocity_now() const;
   void read_efforts();
@@ -138,7 +140,8 @@ struct World::Impl {
   std::int64_t steps = 0;
   operation::Controller controller;
   operation::Hand hand;
-  std::int64_t hand_step = 0;  // when it was given
+  std::int64_t hand_step = 0;      // when it was given
+  std::int64_t boundary_step = 0;  // of the last boundary: contact points have to be found again after it
   Reference reference;
   JointState reference_now;  // of `steps`
   AnchorNormals anchors;
@@ -148,7 +151,8 @@ struct World::Impl {
   bool canonical = false;                    // nothing moved since the last boundary
   std::vector<Command> log;
 
-  mutable std::vector<std::vector<Transform>> poses;  // body + 1, part
+  mutable std::shared_ptr<const CollisionModel> collision_model;  // made when first asked for
+  mutable std::vector<std::vector<Transform>> poses;              // body + 1, part
   mutable std::vector<std::vector<std::int64_t>> pose_stamps;
   std::int64_t stamp = 1;  // poses with another one are stale
 };

@@ -110,6 +110,7 @@ void World::Impl::rebuild_broadphase() {
 void World::Impl::canonicalise() {
   set_state(state());
   rebuild_broadphase();
+  boundary_step = steps;
   canonical = true;
   ++stamp;
 }
@@ -158,7 +159,7 @@ void World::restore(const Snapshot& snapshot) {
   w.set_state(data.state);
   w.rebuild_broadphase();
   for (std::size_t i = 0; i < w.mechanisms.size(); ++i) w.mechanisms[i].locked = data.locked[i];
-  w.steps = data.steps;
+  w.steps = w.boundary_step = data.steps;
   w.controller = data.controller;
   w.hand = data.hand;
   w.hand_step = data.hand_step;

@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/sim/collision_space.h"
+#include "engine/sim/collision_state.h"
 #include "engine/sim/impl.h"
 
 namespace stampede {
 
 constexpr int kSolverIterations = 20;  // measured: fewer lets grasps slip, more buys little
+constexpr int kStrainedIterations =
+    120;                          // a light part between a stop and a strong arm: 20 let it sink in by centimetres
+constexpr double kStrain = 5e-5;  // m or rad beyond its stop
 
 World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)),
@@ -135,8 +138,24 @@ std::int64_t World::step_count() const { return impl_->steps; }
 double World::dt() const { return impl_->dt; }
 const std::vector<Command>& World::log() const { return impl_->log; }
 
+// Something presses a joint against its stop. A function of joint positions alone: snapshots know nothing of it.
+bool World::Impl::strained() const {
+  const auto beyond = [&](PartRef ref) {
+    const Joint& joint = part(ref).joint;
+    if (!(joint.lower < joint.upper)) return false;
+    const double q = position(ref);
+    return q < joint.lower - kStrain || q > joint.upper + kStrain;
+  };
+  const std::vector<int>& fingers = scene->robot.fingers;
+  return std::any_of(mechanisms.begin(), mechanisms.end(), [&](const Mechanism& m) { return beyond(m.part); }) ||
+         std::any_of(fingers.begin(), fingers.end(), [&](int finger) {
+           return beyond({kRobot, finger});
+         });
+}
+
 void World::step() {
   Impl& w = *impl_;
+  w.world.getSolverInfo().m_numIterations = w.strained() ? kStrainedIterations : kSolverIterations;
   w.control();
   w.move_mechanisms();
   w.anchors.before_step(w.world);
@@ -221,6 +240,8 @@ JointVector World::arm_position() const { return impl_->arm_position_now(); }
 JointVector World::arm_velocity() const { return impl_->arm_velocity_now(); }
 JointState World::reference() const { return impl_->reference_now; }
 
+const operation::Controller& World::controller() const { return impl_->controller; }
+
 bool World::following() const {
   const Reference& reference = impl_->reference;
   return reference.trajectory && impl_->steps - reference.start_step < reference.trajectory->steps();
@@ -240,6 +261,20 @@ double World::opening() const {
 double World::commanded_opening() const { return impl_->hand.opening; }
 const std::vector<Contact>& World::contacts() const { return impl_->contacts.closed(); }
 void World::close_window() { impl_->contacts.close(); }
+
+CollisionState World::collision_state() const {
+  const Impl& w = *impl_;
+  if (!w.collision_model) w.collision_model = std::make_shared<const CollisionModel>(w.scene);
+  std::vector<Transform> world_from_part;
+  for (int b = 0; b < static_cast<int>(w.scene->bodies.size()); ++b)
+    for (int p = 0; p < static_cast<int>(w.body(b).parts.size()); ++p)
+      world_from_part.push_back(w.world_from_part({b, p}));
+  std::vector<double> robot_positions;
+  for (int p = 0; p < static_cast<int>(w.scene->robot.body.parts.size()); ++p)
+    robot_positions.push_back(w.position({kRobot, p}));
+  return {w.collision_model, world_from_part, std::move(robot_positions)};
+}
+
 std::optional<PartRef> World::grasped() const { return impl_->contacts.grasped(impl_->scene->robot.pads); }
 
 }  // namespace stampede

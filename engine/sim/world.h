@@ -10,6 +10,7 @@
 
 #include "engine/model/scene.h"
 #include "engine/model/trajectory.h"
+#include "engine/sim/part_ref.h"
 
 namespace stampede {
 
@@ -51,17 +52,11 @@ std::string_view operation_kind(const Operation& operation);                    
 std::string operation_to_bytes(const Operation& operation);                     // full precision, little-endian
 Operation operation_from_bytes(std::string_view kind, std::string_view bytes);  // throws Error
 
-// A body and one of its parts; body -1 is the robot.
-struct PartRef {
-  int body = 0;
-  int part = 0;
-  friend auto operator<=>(const PartRef&, const PartRef&) = default;
-};
-
 // A touching pair over the last closed window (one frame). a < b.
 struct Contact {
   PartRef a, b;
   double mean_force = 0, peak_force = 0;  // normal, N; mean over the window's steps
+  double depth = 0;                       // by which the shapes overlapped at most, m
   Vector3 normal = Vector3::Zero();       // unit, world, from b to a, force-weighted
   Vector3 point = Vector3::Zero();        // world, force-weighted
   Vector3 force = Vector3::Zero();        // mean contact force on a, friction included, world, N
@@ -85,7 +80,7 @@ class Snapshot {
   std::shared_ptr<const Data> data;
 };
 
-class CollisionSpace;
+class CollisionState;
 
 class World {
  public:
@@ -116,6 +111,7 @@ class World {
   JointVector arm_velocity() const;
   JointState reference() const;  // the arm's set-point at this step
   bool following() const;        // the reference has not reached its trajectory's end
+  const operation::Controller& controller() const;
   Transform world_from_tip() const;
   double opening() const;  // m
   double commanded_opening() const;
@@ -142,8 +138,8 @@ class World {
   void restore(const Snapshot& snapshot);
   std::string state_hash() const;  // of all positions and velocities
 
-  // The world as it is now, frozen, for motion planning.
-  std::unique_ptr<CollisionSpace> collision_space() const;
+  // The world as it is now, for questions of motion planning: a value that knows nothing of this world any more.
+  CollisionState collision_state() const;
 
   struct Impl;
 

@@ -229,6 +229,10 @@ function stampede_world_view:bottom(thing) end
 ---@param thing string
 ---@return number
 function stampede_world_view:top(thing) end
+-- How far it reaches below its own frame when it is upright [m]
+---@param thing string
+---@return number
+function stampede_world_view:below(thing) end
 ---@param a string
 ---@param b string
 ---@return number
@@ -376,6 +380,7 @@ function stampede_world_view:place(thing, at) end
 ---@field stop_on_contact? boolean
 ---@field tolerate? boolean  an end that is not reached is no failure
 ---@field collide? boolean  contact is meant
+---@field most_force? number  the arm gives way to contact and ends the motion where it meets more [N]
 
 -- The arm and its hand, in a skill's `run`
 ---@class stampede.robot_view
@@ -410,7 +415,7 @@ function stampede_robot_view:move_joints(positions) end
 -- The held handle along its joint
 ---@param part string
 ---@param position number
----@param options? { speed: number }
+---@param options? { speed: number, most_force: number }
 function stampede_robot_view:move_part(part, position, options) end
 ---@param seconds number
 function stampede_robot_view:wait(seconds) end

@@ -72,13 +72,13 @@ Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView&
   return value;
 }
 
-std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
-                                          int most) {
+std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& view, const CollisionState& free,
+                                          RandomKey key, int most) {
   if (tests_.library()->file(DefinitionKind::predicate, fact.predicate) == nullptr || most <= 0) return {};
   ScriptState scripts(tests_.library(), tests_.hand());
   const int sample = scripts.function_of(DefinitionKind::predicate, fact.predicate, "sample");
   if (sample == 0) return {};
-  const ViewScope scope(scripts.view, view, &space, most);
+  const ViewScope scope(scripts.view, view, &free, most);
   std::vector<Placement> placements;
   scripts.protect([&](lua_State* state) {
     scripts.push_kept(sample);

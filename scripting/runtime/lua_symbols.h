@@ -19,7 +19,7 @@ class LuaSymbols : public Symbols {
   bool can_hide(const std::string& predicate) const override { return tests_.library()->can_hide(predicate); }
   bool observable(const Fact& fact, const WorldView& view) override;
   // In a fresh state each time: a sample depends on its arguments only.
-  std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
+  std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
                                 int most) override;
 
  private:

@@ -144,15 +144,17 @@ int move_through(lua_State* state) {
 int move_to(lua_State* state) { return ask(state, robot_call::MoveThrough{{{"goal", finite_pose(state, 2)}}}); }
 
 robot_call::MoveLine line(lua_State* state, const Transform& target, int options, const char* kind) {
-  only_fields(state, options, {"speed", "force", "stop_on_contact", "tolerate", "collide"});
+  only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "collide"});
   robot_call::MoveLine call{target};
   call.speed = number_field(state, options, "speed", call.speed);
   call.force = number_field(state, options, "force", call.force);
+  call.most_force = number_field(state, options, "most_force", call.most_force);
   call.stop_on_contact = flag_field(state, options, "stop_on_contact");
   call.tolerate = flag_field(state, options, "tolerate");
   call.collide = flag_field(state, options, "collide");
   call.kind = kind;
   luaL_argcheck(state, call.speed > 0, options, "speed must be positive");
+  luaL_argcheck(state, call.most_force >= 0, options, "most_force must not be negative");
   return call;
 }
 
@@ -204,9 +206,11 @@ int move_joints(lua_State* state) {
 
 // The held or touched part's joint to a position, along its line or arc.
 int move_part(lua_State* state) {
-  only_fields(state, 4, {"speed"});
+  only_fields(state, 4, {"speed", "most_force"});
   robot_call::MovePart call;
   call.speed = number_field(state, 4, "speed", call.speed);
+  call.most_force = number_field(state, 4, "most_force", call.most_force);
+  luaL_argcheck(state, call.most_force >= 0, 4, "most_force must not be negative");
   call.position = finite(state, 3);
   const std::string_view part = check_text(state, 2);
   view_of(state).joint_range(part);

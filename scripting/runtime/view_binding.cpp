@@ -40,6 +40,14 @@ int number_of(lua_State* state) {
   lua_pushnumber(state, (view_of(state).*getter)(check_text(state, 2)));
   return 1;
 }
+// How far a thing reaches below its frame when it is upright, whatever way it is turned now.
+int below(lua_State* state) {
+  const WorldView& view = view_of(state);
+  const PartRef ref = view.part_of(check_text(state, 2));
+  const Body& body = ref.body < 0 ? view.scene().robot.body : view.scene().bodies[static_cast<std::size_t>(ref.body)];
+  lua_pushnumber(state, -bounding_box(body.parts[static_cast<std::size_t>(ref.part)])[0].z());
+  return 1;
+}
 template <auto getter>
 int vector_of(lua_State* state) {
   return push_vector(state, (view_of(state).*getter)(check_text(state, 2)));
@@ -280,6 +288,7 @@ constexpr luaL_Reg kMethods[] = {
     {"size", lua_function<vector_of<&WorldView::size>>},
     {"bottom", lua_function<number_of<&WorldView::bottom>>},
     {"top", lua_function<number_of<&WorldView::top>>},
+    {"below", lua_function<below>},
     {"distance", lua_function<distance>},
     {"joint", lua_function<number_of<&WorldView::joint>>},
     {"joint_fraction", lua_function<number_of<&WorldView::joint_fraction>>},

@@ -5,7 +5,7 @@
 
 #include "engine/base/random.h"
 #include "engine/episode/world_view.h"
-#include "engine/sim/collision_space.h"
+#include "engine/sim/collision_state.h"
 
 struct lua_State;
 
@@ -15,16 +15,16 @@ namespace stampede {
 // only: a script that keeps `w` for later gets an error, never another moment's world.
 struct ViewContext {
   const WorldView* view = nullptr;
-  CollisionSpace* space = nullptr;  // while sampling
-  int most = 0;                     // samples asked for
-  bool facts = false;               // may the facts be read? Not by predicates: facts are made of these
-  std::string hand;                 // `panda.hand`
+  const CollisionState* space = nullptr;  // while sampling
+  int most = 0;                           // samples asked for
+  bool facts = false;                     // may the facts be read? Not by predicates: facts are made of these
+  std::string hand;                       // `panda.hand`
 };
 
 // Sets a context for a scope. Scopes nest.
 class ViewScope {
  public:
-  ViewScope(ViewContext& context, const WorldView& view, CollisionSpace* space = nullptr, int most = 0)
+  ViewScope(ViewContext& context, const WorldView& view, const CollisionState* space = nullptr, int most = 0)
       : context_(context), before_(context) {
     context.view = &view;
     context.space = space;
@@ -48,7 +48,7 @@ class ViewScope {
     explicit Before(const ViewContext& context)
         : view(context.view), space(context.space), most(context.most), facts(context.facts) {}
     const WorldView* view;
-    CollisionSpace* space;
+    const CollisionState* space;
     int most;
     bool facts;
   } before_;

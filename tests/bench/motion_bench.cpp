@@ -13,23 +13,23 @@ using namespace stampede;
 
 void random_queries(benchmark::State& state) {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
+  const CollisionState collision = world.collision_state();
   std::vector<double> times_ms;
   int solved = 0, touching = 0;
   double duration_s = 0;
   std::int64_t number = 0;
   for (auto _ : state) {
     Random random(RandomKey("bench").with(number));
-    const JointVector start = random_free(*space, random), goal = random_free(*space, random);
+    const JointVector start = random_free(collision, random), goal = random_free(collision, random);
     const auto before = std::chrono::steady_clock::now();
-    const PlannedMotion motion = plan_joints(*space, start, goal, {}, RandomKey("plan").with(number++));
+    const PlannedMotion motion = plan_joints(collision, start, goal, {}, RandomKey("plan").with(number++));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
     state.SetIterationTime(taken.count());
     times_ms.push_back(1e3 * taken.count());
     if (motion.reason != Reason::none) continue;
     ++solved;
     duration_s += static_cast<double>(motion.trajectory.steps()) / world.scene().physics_hz;
-    if (touches(*space, motion.trajectory, world.scene().physics_hz, 0.0025) > 0) ++touching;
+    if (touches(collision, motion.trajectory, world.scene().physics_hz, 0.0025) > 0) ++touching;
   }
   std::sort(times_ms.begin(), times_ms.end());
   state.counters["median_ms"] = times_ms[times_ms.size() / 2];
@@ -42,14 +42,25 @@ BENCHMARK(random_queries)->Iterations(200)->UseManualTime()->Unit(benchmark::kMi
 
 void check_free(benchmark::State& state) {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
+  const CollisionState collision = world.collision_state();
   Random random(RandomKey("free"));
   std::vector<JointVector> configurations;
-  for (int k = 0; k < 500; ++k) configurations.push_back(random_free(*space, random));
+  for (int k = 0; k < 500; ++k) configurations.push_back(random_free(collision, random));
   std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(space->free(configurations[k++ % configurations.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(collision.free(configurations[k++ % configurations.size()]));
 }
 BENCHMARK(check_free);
+
+void check_many(benchmark::State& state) {  // the same, all in one call; items: configurations
+  const World world(cluttered_scene());
+  const CollisionState collision = world.collision_state();
+  Random random(RandomKey("free"));
+  std::vector<JointVector> configurations;
+  for (int k = 0; k < 500; ++k) configurations.push_back(random_free(collision, random));
+  for (auto _ : state) benchmark::DoNotOptimize(collision.first_touching(configurations));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(configurations.size()));
+}
+BENCHMARK(check_many);
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "engine/sim/collision_space.h"
+#include "engine/sim/collision_state.h"
 #include "engine/sim/impl.h"
 #include "tests/support/panda.h"
 
@@ -80,7 +80,7 @@ void engine_against_bare(benchmark::State& state, ControllerKind kind) {
 
 void collision_query(benchmark::State& state) {
   World world(bench_scene());
-  auto space = world.collision_space();
+  CollisionState collision = world.collision_state();
   Random random(RandomKey("collision bench"));
   std::vector<JointVector> states;
   for (int i = 0; i < 1000; ++i) {
@@ -89,11 +89,11 @@ void collision_query(benchmark::State& state) {
       const JointLimits& limits = world.arm().limits()[static_cast<std::size_t>(j)];
       q[j] = random.between(limits.lower, limits.upper);
     }
-    if (state.range(0) == 0 || space->free(q)) states.push_back(q);
+    if (state.range(0) == 0 || collision.free(q)) states.push_back(q);
   }
   std::size_t at = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(space->free(states[at]));
+    benchmark::DoNotOptimize(collision.free(states[at]));
     at = (at + 1) % states.size();
   }
 }
@@ -117,7 +117,7 @@ void build_world(benchmark::State& state) {
 
 void freeze_world(benchmark::State& state) {
   World world(bench_scene());
-  for (auto _ : state) benchmark::DoNotOptimize(world.collision_space());
+  for (auto _ : state) benchmark::DoNotOptimize(world.collision_state());
 }
 
 BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)->MinTime(3);

@@ -7,7 +7,7 @@ return object {
       type = "button", traits = { "pressable" },
       slider = { axis = { 0, 0, -1 }, at = { 0, 0, 0.02 }, range = { 0, 0.005 }, spring = 4, damping = 1, friction = 0.2 },
       shapes = { cylinder { 0.02, 0.016, at = { 0, 0, 0.008 } } },
-      mass = 0.02, numbers = { on_at = 0.0035 },
+      mass = 0.04, numbers = { on_at = 0.0035 },
     },
   },
 }

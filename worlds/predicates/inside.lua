@@ -8,7 +8,7 @@ local function shelf_spots(w, obj, shelf, rng)
   local region = shelf .. ".inside"
   local frame = w:pose(region)
   local deep, wide, high = w:size(region)
-  local length, width, height = w:size(obj)
+  local length, width = w:size(obj)
   local _, _, yaw = w:pose(obj):rpy()
   local poses, to_front = {}, 0
   local _, _, into = frame:rpy()
@@ -26,7 +26,7 @@ local function shelf_spots(w, obj, shelf, rng)
     local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- beside the open fingers and the hand, which is 21 cm wide
     if not held then room = 0.75 * room end -- so that it is easily taken off again
     local side = rng:between(-1, 1) * math.max(room, 0)
-    local spot = frame:along(-deep / 2 + margin + half_x, side, (height - high) / 2 + 0.001)
+    local spot = frame:along(-deep / 2 + margin + half_x, side, w:below(obj) - high / 2 + 0.001)
     local x, y, z = spot:position()
     local free = true
     for _, other in ipairs(w:objects("movable")) do

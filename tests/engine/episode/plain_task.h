@@ -51,13 +51,13 @@ class PlainSymbols : public Symbols {
     if (fact.predicate == "holding") return {view.grasped(fact.arguments[1]), {}};
     return {view.grasped_object().empty(), {}};
   }
-  std::vector<Placement> sample(const Fact& fact, const WorldView& view, CollisionSpace& space, RandomKey key,
+  std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
                                 int most) override {
     if (fact.predicate != "on") return {};
     const Object &obj = view.object(fact.arguments[0]), &below = view.object(fact.arguments[1]);
     std::vector<Placement> placements;
-    for (const Transform& pose : below.type == "cube" ? stack_spots(space, view.world(), below, obj, key, most)
-                                                      : free_spots(space, view.world(), below, obj, key, most))
+    for (const Transform& pose : below.type == "cube" ? stack_spots(state, view.world(), below, obj, key, most)
+                                                      : free_spots(state, view.world(), below, obj, key, most))
       placements.push_back({obj.name, pose});
     return placements;
   }

@@ -71,9 +71,9 @@ TEST_CASE("a cube's grasps are reachable, free, repeatable, and the first comes 
   const World world(std::make_shared<Scene>(table_scene(8)));
   for (const char* name : {"cube1", "cube4", "cube8"}) {
     const Object& cube = *world.scene().object(name);
-    const auto space = world.collision_space();
+    const CollisionState state = world.collision_state();
     const JointVector home = world.arm().home();
-    const auto grasps = grasp_candidates(*space, world, cube, home, RandomKey("cube"), 4);
+    const auto grasps = grasp_candidates(state, world, cube, home, RandomKey("cube"), 4);
     REQUIRE_FALSE(grasps.empty());
     CHECK(grasps[0].world_from_tip.linear().col(2).z() < -0.99);
     const Vector3 centre = world_from_object(world, cube).translation();
@@ -85,7 +85,7 @@ TEST_CASE("a cube's grasps are reachable, free, repeatable, and the first comes 
       const Vector3 back = grasps[k].world_from_tip.inverse() * grasps[k].world_from_approach.translation();
       CHECK((back - Vector3(0, 0, -0.08)).norm() < 1e-9);
     }
-    const auto again = grasp_candidates(*space, world, cube, home, RandomKey("cube"), 4);
+    const auto again = grasp_candidates(state, world, cube, home, RandomKey("cube"), 4);
     REQUIRE(again.size() == grasps.size());
     for (std::size_t k = 0; k < grasps.size(); ++k)
       CHECK(again[k].world_from_tip.matrix() == grasps[k].world_from_tip.matrix());
@@ -101,8 +101,8 @@ TEST_CASE("authored grasps replace those from geometry") {
   authored.force = 33;
   authored.approach = 0.05;
   cube.grasps = {authored};
-  const auto space = world.collision_space();
-  const auto grasps = grasp_candidates(*space, world, cube, world.arm().home(), RandomKey("authored"), 4);
+  const CollisionState state = world.collision_state();
+  const auto grasps = grasp_candidates(state, world, cube, world.arm().home(), RandomKey("authored"), 4);
   REQUIRE(grasps.size() == 1);
   CHECK(grasps[0].force == 33);
   CHECK(grasps[0].width == 0.041);
@@ -116,9 +116,9 @@ TEST_CASE("of two grasps that can both be reached, the one from above comes firs
     grasp.object_from_tip = rotation_rpy(3.14159265358979, -slant, 0);
     cube.grasps.push_back(grasp);
   }
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   for (int k = 0; k < 10; ++k) {
-    const auto grasps = grasp_candidates(*space, world, cube, world.arm().home(), RandomKey("slant").with(k), 4);
+    const auto grasps = grasp_candidates(state, world, cube, world.arm().home(), RandomKey("slant").with(k), 4);
     REQUIRE(grasps.size() == 2);
     CHECK(grasps[0].world_from_tip.linear().col(2).z() < -0.99);
     CHECK(grasps[1].world_from_tip.linear().col(2).z() > -0.8);
@@ -127,9 +127,9 @@ TEST_CASE("of two grasps that can both be reached, the one from above comes firs
 
 TEST_CASE("free spots lie on the table, clear of the other cubes, and rest on it") {
   const World world(std::make_shared<Scene>(table_scene(12)));
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   const Scene& scene = world.scene();
-  const auto spots = free_spots(*space, world, *scene.object("table"), *scene.object("cube1"), RandomKey("spots"), 50);
+  const auto spots = free_spots(state, world, *scene.object("table"), *scene.object("cube1"), RandomKey("spots"), 50);
   REQUIRE(spots.size() == 50);
   double spread = 0;
   for (const Transform& spot : spots) {
@@ -147,9 +147,9 @@ TEST_CASE("free spots lie on the table, clear of the other cubes, and rest on it
 
 TEST_CASE("a cube is stacked on the middle of another, with parallel sides") {
   const World world(std::make_shared<Scene>(table_scene(3)));
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   const Scene& scene = world.scene();
-  const auto spots = stack_spots(*space, world, *scene.object("cube2"), *scene.object("cube1"), RandomKey("stack"), 4);
+  const auto spots = stack_spots(state, world, *scene.object("cube2"), *scene.object("cube1"), RandomKey("stack"), 4);
   REQUIRE(spots.size() == 4);
   const Transform below = world.world_from_part({scene.body_index("cube2"), 0});
   for (const Transform& spot : spots) {
@@ -162,12 +162,12 @@ TEST_CASE("a cube is stacked on the middle of another, with parallel sides") {
 
 TEST_CASE("region spots keep the object inside the region, on its lower face") {
   const World world(std::make_shared<Scene>(table_scene(1)));
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   Region region;
   region.name = "target";
   region.part_from_region = translation(0.6, 0.3, 0.05);
   region.size = Vector3(0.15, 0.12, 0.1);
-  const auto spots = region_spots(*space, world, region, *world.scene().object("cube1"), RandomKey("region"), 20);
+  const auto spots = region_spots(state, world, region, *world.scene().object("cube1"), RandomKey("region"), 20);
   REQUIRE(spots.size() == 20);
   for (const Transform& spot : spots) {
     CHECK(spot.translation().z() == Approx(0.021).margin(1e-6));

@@ -29,25 +29,25 @@ inline std::shared_ptr<const Scene> cluttered_scene(int boxes = 10) {
   return scene;
 }
 
-inline JointVector random_free(CollisionSpace& space, Random& random) {
-  const auto& limits = space.arm().limits();
+inline JointVector random_free(const CollisionState& state, Random& random) {
+  const auto& limits = state.arm().limits();
   JointVector q(static_cast<Eigen::Index>(limits.size()));
   do {
     for (std::size_t i = 0; i < limits.size(); ++i)
       q[static_cast<Eigen::Index>(i)] = random.between(limits[i].lower, limits[i].upper);
-  } while (!space.free(q));
+  } while (!state.free(q));
   return q;
 }
 
 // Samples of a trajectory at most `step_rad` apart that touch something.
-inline int touches(CollisionSpace& space, const Trajectory& trajectory, int physics_hz, double step_rad) {
+inline int touches(const CollisionState& state, const Trajectory& trajectory, int physics_hz, double step_rad) {
   int count = 0;
   JointVector last = trajectory.knots.front().position;
   for (double step = 0; step <= static_cast<double>(trajectory.steps()); step += 0.1) {
     const JointVector q = evaluate(trajectory, step, physics_hz).position;
     const double next = (evaluate(trajectory, step + 0.1, physics_hz).position - last).cwiseAbs().maxCoeff();
     if (step > 0 && next < step_rad) continue;  // slow stretches need fewer samples
-    if (!space.free(q)) ++count;
+    if (!state.free(q)) ++count;
     last = q;
   }
   return count;

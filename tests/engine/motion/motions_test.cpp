@@ -31,11 +31,11 @@ Transform above(double x, double y, double z) { return translation(x, y, z) * ro
 // Moves the open hand around a cube and closes it.
 MotionResult grasp(World& world, const Object& cube) {
   run(world, *make_hand(0.08, 20, std::nullopt));
-  const auto space = world.collision_space();
-  const auto grasps = grasp_candidates(*space, world, cube, world.arm_position(), RandomKey("grasp"), 1);
+  CollisionState state = world.collision_state();
+  const auto grasps = grasp_candidates(state, world, cube, world.arm_position(), RandomKey("grasp"), 1);
   REQUIRE_FALSE(grasps.empty());
-  space->allow({world.scene().body_index(cube.body), 0});
-  const auto plan = plan_through(*space, world.arm_position(),
+  state.allow({world.scene().body_index(cube.body), 0});
+  const auto plan = plan_through(state, world.arm_position(),
                                  {{"approach", grasps[0].world_from_approach}, {"grasp", grasps[0].world_from_tip}}, {},
                                  RandomKey("reach"));
   REQUIRE(run(world, *follow(plan)).status == MotionStatus::done);
@@ -43,9 +43,9 @@ MotionResult grasp(World& world, const Object& cube) {
 }
 
 MotionResult lift(World& world, double height, FollowOptions options) {
-  const auto space = world.collision_space();
-  const Transform goal = translation(0, 0, height) * space->arm().world_from_tip(world.arm_position());
-  return run(world, *follow(plan_line(*space, world.arm_position(), goal, {}, {}, RandomKey("lift")), options));
+  const CollisionState state = world.collision_state();
+  const Transform goal = translation(0, 0, height) * state.arm().world_from_tip(world.arm_position());
+  return run(world, *follow(plan_line(state, world.arm_position(), goal, {}, {}, RandomKey("lift")), options));
 }
 
 }  // namespace
@@ -95,16 +95,15 @@ TEST_CASE("a press ends at the contact, or short of its target where that is all
   for (const int mode : {0, 1, 2}) {
     World world(std::make_shared<Scene>(table_scene(0)));
     run(world, *make_hand(0, 20, std::nullopt));
-    const auto space = world.collision_space();
-    const auto reach =
-        plan_through(*space, world.arm_position(), {{"over", above(0.5, 0, 0.1)}}, {}, RandomKey("over"));
+    const CollisionState state = world.collision_state();
+    const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.1)}}, {}, RandomKey("over"));
     REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
     FollowOptions options;
     options.stop_on_contact = mode == 0;
     options.tolerate_error = mode == 1;
     LineOptions line;
     line.tool_speed = 0.1;
-    const auto press = plan_line(*space, world.arm_position(), above(0.5, 0, -0.05), line, {}, RandomKey("press"));
+    const auto press = plan_line(state, world.arm_position(), above(0.5, 0, -0.05), line, {}, RandomKey("press"));
     const MotionResult result = run(world, *follow(press, options));
     if (mode == 2) {
       CHECK(result.status == MotionStatus::failed);
@@ -114,6 +113,70 @@ TEST_CASE("a press ends at the contact, or short of its target where that is all
     CHECK(result.status == MotionStatus::done);
     if (mode == 0) CHECK(world.world_from_tip().translation().z() > -0.01);
   }
+}
+
+TEST_CASE("an arm that may press with so much and no more stops there, and stays where contact has left it") {
+  World world(std::make_shared<Scene>(table_scene(0)));
+  run(world, *make_hand(0, 20, std::nullopt));
+  const CollisionState state = world.collision_state();
+  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
+  REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
+  FollowOptions options;
+  options.most_force = 12;
+  LineOptions line;
+  line.tool_speed = 0.1;
+  const auto press = plan_line(state, world.arm_position(), above(0.5, 0, -0.10), line, {}, RandomKey("press"));
+  CHECK(run(world, *follow(press, options)).status == MotionStatus::done);
+  CHECK(world.controller().kind == ControllerKind::joint_position);
+  CHECK((world.reference().position - world.arm_position()).norm() < 1e-12);
+  double peak = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    for (int step = 0; step < 12; ++step) world.step();
+    world.close_window();
+    for (const Contact& contact : world.contacts())
+      if (contact.a.body == -1) peak = std::max(peak, contact.mean_force);
+  }
+  CHECK(peak > 1);
+  CHECK(peak < 60);
+  CHECK(world.arm_velocity().norm() < 0.01);
+}
+
+TEST_CASE("the hand opens as far as what is beside it allows") {
+  World world(std::make_shared<Scene>(table_scene(2)));
+  const int held = world.scene().body_index("cube1"), other = world.scene().body_index("cube2");
+  const JointVector q = world.arm().home();
+  CollisionState state = world.collision_state();
+  state.move_body(held, world.world_from_tip());
+  state.allow({held, 0});
+  state.set_opening(0.04);
+  CHECK(widest_opening(state, q, 0.08) == 0.08);
+  CHECK(widest_opening(state, q, 0.05) == 0.05);
+  // A neighbour 8 mm beside the finger that closes on the held cube.
+  const Transform beside = world.world_from_tip() * translation(0, 0.02 + 0.0224 + 0.008 + 0.02, 0);
+  state.move_body(other, beside);
+  const double opening = widest_opening(state, q, 0.08);
+  CHECK(opening > 0.044);
+  CHECK(opening < 0.06);
+  state.set_opening(opening);
+  CHECK(state.free(q));
+}
+
+TEST_CASE("the tool keeps its own speed limit, whatever the joints could do") {
+  World world(std::make_shared<Scene>(table_scene(0)));
+  const CollisionState state = world.collision_state();
+  JointVector left = world.arm().home(), right = left;
+  left[0] = -1.2;
+  right[0] = 1.2;
+  left[3] = right[3] = -1.0;  // a stretched arm is fast
+  const auto sweep = plan_joints(state, left, right, {}, RandomKey("sweep"));
+  REQUIRE(sweep.reason == Reason::none);
+  double most = 0;
+  for (std::int64_t step = 0; step <= sweep.trajectory.steps(); ++step) {
+    const JointState at = evaluate(sweep.trajectory, static_cast<double>(step), world.scene().physics_hz);
+    most = std::max(most, (world.arm().jacobian(at.position).topRows<3>() * at.velocity).norm());
+  }
+  CHECK(most < 1.7);
+  CHECK(most > 1.2);
 }
 
 TEST_CASE("motions without sense are refused") {

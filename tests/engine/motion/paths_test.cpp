@@ -22,26 +22,26 @@ struct Query {
   JointVector start, goal;
 };
 
-Query query(CollisionSpace& space, std::int64_t number) {
+Query query(const CollisionState& state, std::int64_t number) {
   Random random(RandomKey("query").with(number));
-  const JointVector start = random_free(space, random);
-  return {start, random_free(space, random)};
+  const JointVector start = random_free(state, random);
+  return {start, random_free(state, random)};
 }
 
-PlannedMotion ask(CollisionSpace& space, std::int64_t number) {
-  const Query q = query(space, number);
-  return plan_joints(space, q.start, q.goal, {}, RandomKey("test").with(number));
+PlannedMotion ask(const CollisionState& state, std::int64_t number) {
+  const Query q = query(state, number);
+  return plan_joints(state, q.start, q.goal, {}, RandomKey("test").with(number));
 }
 
 }  // namespace
 
 TEST_CASE("every planned motion is free of contact at four times the certified density") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   int solved = 0;
   for (int k = 0; k < 40; ++k) {
-    const Query q = query(*space, k);
-    const PlannedMotion motion = ask(*space, k);
+    const Query q = query(state, k);
+    const PlannedMotion motion = ask(state, k);
     if (motion.reason != Reason::none) {
       CHECK_FALSE(motion.detail.empty());
       CHECK(motion.trajectory.knots.empty());
@@ -50,37 +50,37 @@ TEST_CASE("every planned motion is free of contact at four times the certified d
     ++solved;
     CHECK(motion.trajectory.knots.front().position == q.start);
     CHECK(motion.trajectory.knots.back().position == q.goal);
-    CHECK(touches(*space, motion.trajectory, world.scene().physics_hz, 0.0025) == 0);
+    CHECK(touches(state, motion.trajectory, world.scene().physics_hz, 0.0025) == 0);
   }
   CHECK(solved >= 38);
 }
 
 TEST_CASE("paths are certified, keep the ends, and stay within the joint limits") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   for (int k = 100; k < 110; ++k) {
-    const Query q = query(*space, k);
-    const JointPath path = plan_path(*space, q.start, q.goal, {}, RandomKey("test").with(k));
+    const Query q = query(state, k);
+    const JointPath path = plan_path(state, q.start, q.goal, {}, RandomKey("test").with(k));
     if (path.reason != Reason::none) {
       CHECK(path.waypoints.empty());
       continue;
     }
     CHECK(path.waypoints.front() == q.start);
     CHECK(path.waypoints.back() == q.goal);
-    for (const JointVector& waypoint : path.waypoints) CHECK(space->arm().within_limits(waypoint));
+    for (const JointVector& waypoint : path.waypoints) CHECK(state.arm().within_limits(waypoint));
     for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
       const JointVector step = path.waypoints[i] - path.waypoints[i - 1];
       const int count = 1 + static_cast<int>(step.cwiseAbs().maxCoeff() / 0.0025);
       for (int s = 0; s <= count; ++s)
-        REQUIRE(space->free(path.waypoints[i - 1] + (static_cast<double>(s) / count) * step));
+        REQUIRE(state.free(path.waypoints[i - 1] + (static_cast<double>(s) / count) * step));
     }
   }
 }
 
 TEST_CASE("a query has one answer: alone, after others, beside a busy thread") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
-  const PlannedMotion alone = ask(*space, 7);
+  const CollisionState state = world.collision_state();
+  const PlannedMotion alone = ask(state, 7);
   REQUIRE(alone.reason == Reason::none);
   REQUIRE(alone.trajectory.knots.size() > 2);
 
@@ -88,40 +88,40 @@ TEST_CASE("a query has one answer: alone, after others, beside a busy thread") {
   quick.iterations = 20;  // a thousand queries that draw from everything there is to draw from
   quick.shortcuts = 2;
   for (int k = 0; k < 1000; ++k) {
-    const Query q = query(*space, 1000 + k % 10);
-    plan_path(*space, q.start, q.goal, quick, RandomKey("other").with(k));
+    const Query q = query(state, 1000 + k % 10);
+    plan_path(state, q.start, q.goal, quick, RandomKey("other").with(k));
   }
-  CHECK(same(alone.trajectory, ask(*space, 7).trajectory));
+  CHECK(same(alone.trajectory, ask(state, 7).trajectory));
 
   std::atomic<bool> stop{false};
   std::thread busy([&stop] {
     const World other(cluttered_scene());
-    const auto other_space = other.collision_space();
-    for (int k = 0; !stop; ++k) ask(*other_space, 20 + k % 5);
+    const CollisionState other_state = other.collision_state();
+    for (int k = 0; !stop; ++k) ask(other_state, 20 + k % 5);
   });
-  CHECK(same(alone.trajectory, ask(*space, 7).trajectory));
-  CHECK(same(alone.trajectory, ask(*space, 7).trajectory));
+  CHECK(same(alone.trajectory, ask(state, 7).trajectory));
+  CHECK(same(alone.trajectory, ask(state, 7).trajectory));
   stop = true;
   busy.join();
-  const auto fresh = World(cluttered_scene()).collision_space();
+  const auto fresh = World(cluttered_scene()).collision_state();
   CHECK(same(alone.trajectory, ask(*fresh, 7).trajectory));
 }
 
 TEST_CASE("no path is a result that says why") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
-  const JointVector home = space->arm().home();
+  const CollisionState state = world.collision_state();
+  const JointVector home = state.arm().home();
   JointVector into_table = home;
   into_table[1] = 1.2;  // the arm leans far forward, its hand below the table's top
   into_table[3] = -1.0;
-  REQUIRE_FALSE(space->free(into_table));
+  REQUIRE_FALSE(state.free(into_table));
 
-  const PlannedMotion from = plan_joints(*space, into_table, home, {}, RandomKey("a"));
+  const PlannedMotion from = plan_joints(state, into_table, home, {}, RandomKey("a"));
   CHECK(from.reason == Reason::start_in_collision);
   CHECK(from.detail.find(" touches ") != std::string::npos);
   CHECK(from.trajectory.knots.empty());
 
-  const PlannedMotion to = plan_joints(*space, home, into_table, {}, RandomKey("a"));
+  const PlannedMotion to = plan_joints(state, home, into_table, {}, RandomKey("a"));
   CHECK(to.reason == Reason::no_path);
   CHECK(to.detail.find(" touches ") != std::string::npos);
 
@@ -129,8 +129,8 @@ TEST_CASE("no path is a result that says why") {
   none.iterations = 1;
   int unsolved = 0;
   for (int k = 0; k < 20; ++k) {
-    const Query q = query(*space, k);
-    const JointPath path = plan_path(*space, q.start, q.goal, none, RandomKey("b").with(k));
+    const Query q = query(state, k);
+    const JointPath path = plan_path(state, q.start, q.goal, none, RandomKey("b").with(k));
     if (path.reason == Reason::none) continue;
     CHECK(path.reason == Reason::no_path);
     CHECK(path.detail.find("1 tree") != std::string::npos);
@@ -141,25 +141,25 @@ TEST_CASE("no path is a result that says why") {
 
 TEST_CASE("planning leaves no padding behind") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
-  const auto fresh = world.collision_space();
-  ask(*space, 3);
+  const CollisionState state = world.collision_state();
+  const auto fresh = world.collision_state();
+  ask(state, 3);
   Random random(RandomKey("padding"));
   for (int k = 0; k < 2000; ++k) {
     JointVector q(7);
     for (Eigen::Index i = 0; i < 7; ++i) {
-      const JointLimits& limit = space->arm().limits()[static_cast<std::size_t>(i)];
+      const JointLimits& limit = state.arm().limits()[static_cast<std::size_t>(i)];
       q[i] = random.between(limit.lower, limit.upper);
     }
-    REQUIRE(space->free(q) == fresh->free(q));
+    REQUIRE(state.free(q) == fresh.free(q));
   }
 }
 
 TEST_CASE("joints that are not numbers are refused") {
   const World world(cluttered_scene());
-  const auto space = world.collision_space();
-  JointVector bad = space->arm().home();
+  const CollisionState state = world.collision_state();
+  JointVector bad = state.arm().home();
   bad[2] = std::nan("");
-  CHECK_THROWS_AS(plan_joints(*space, space->arm().home(), bad, {}, RandomKey("a")), Error);
-  CHECK_THROWS_AS(plan_path(*space, JointVector::Zero(3), bad, {}, RandomKey("a")), Error);
+  CHECK_THROWS_AS(plan_joints(state, state.arm().home(), bad, {}, RandomKey("a")), Error);
+  CHECK_THROWS_AS(plan_path(state, JointVector::Zero(3), bad, {}, RandomKey("a")), Error);
 }

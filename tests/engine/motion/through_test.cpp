@@ -22,25 +22,25 @@ double turn_between(const Transform& a, const Transform& b) {
 
 TEST_CASE("an approach is passed close by, without stopping, and the grasp is reached") {
   const World world(std::make_shared<Scene>(table_scene(10)));
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   Random random(RandomKey("through"));
   int solved = 0;
   for (int k = 0; k < 15; ++k) {
     const double x = random.between(0.35, 0.65), y = random.between(-0.35, 0.35), yaw = random.between(-1, 1);
     const Transform grasp = above(x, y, 0.06, yaw), approach = above(x, y, 0.15, yaw);
-    const PlannedMotion motion = plan_through(*space, space->arm().home(), {{"approach", approach}, {"grasp", grasp}},
-                                              {}, RandomKey("t").with(k));
+    const PlannedMotion motion =
+        plan_through(state, state.arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("t").with(k));
     if (motion.reason != Reason::none) continue;
     ++solved;
     REQUIRE(motion.vias.size() == 1);
     CHECK(motion.vias[0].name == "approach");
     const JointState passing = evaluate(motion.trajectory, static_cast<double>(motion.vias[0].step), kHz);
     CHECK(passing.velocity.norm() > 0.1);
-    CHECK((space->arm().world_from_tip(passing.position).translation() - approach.translation()).norm() < 0.03);
-    const Transform end = space->arm().world_from_tip(motion.trajectory.knots.back().position);
+    CHECK((state.arm().world_from_tip(passing.position).translation() - approach.translation()).norm() < 0.03);
+    const Transform end = state.arm().world_from_tip(motion.trajectory.knots.back().position);
     CHECK((end.translation() - grasp.translation()).norm() < 1e-4);
     CHECK(turn_between(end, grasp) < 1e-3);
-    CHECK(touches(*space, motion.trajectory, kHz, 0.0025) == 0);
+    CHECK(touches(state, motion.trajectory, kHz, 0.0025) == 0);
     CHECK(static_cast<double>(motion.trajectory.steps()) / kHz < 2.5);
   }
   CHECK(solved >= 14);
@@ -48,15 +48,15 @@ TEST_CASE("an approach is passed close by, without stopping, and the grasp is re
 
 TEST_CASE("the last half of an approach is a straight line of the tool") {
   const World world(std::make_shared<Scene>(table_scene(0)));
-  const auto space = world.collision_space();
+  const CollisionState state = world.collision_state();
   const Transform grasp = above(0.5, 0.1, 0.05), approach = above(0.5, 0.1, 0.15);
   const PlannedMotion motion =
-      plan_through(*space, space->arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("line"));
+      plan_through(state, state.arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("line"));
   REQUIRE(motion.reason == Reason::none);
   double worst = 0;
   for (std::int64_t step = motion.vias[0].step; step <= motion.trajectory.steps(); ++step) {
     const Vector3 tip =
-        space->arm().world_from_tip(evaluate(motion.trajectory, static_cast<double>(step), kHz).position).translation();
+        state.arm().world_from_tip(evaluate(motion.trajectory, static_cast<double>(step), kHz).position).translation();
     if (tip.z() < 0.10) worst = std::max(worst, (tip - grasp.translation()).head<2>().norm());
   }
   CHECK(worst < 0.002);
@@ -64,13 +64,13 @@ TEST_CASE("the last half of an approach is a straight line of the tool") {
 
 TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
   const World world(std::make_shared<Scene>(table_scene(0)));
-  const auto space = world.collision_space();
-  const Arm& arm = space->arm();
+  const CollisionState state = world.collision_state();
+  const Arm& arm = state.arm();
   const Transform from = arm.world_from_tip(arm.home());
   const Transform to = translation(0.1, 0.15, -0.1) * from;
   LineOptions line;
   line.tool_speed = 0.2;
-  const PlannedMotion motion = plan_line(*space, arm.home(), to, line, {}, RandomKey("line"));
+  const PlannedMotion motion = plan_line(state, arm.home(), to, line, {}, RandomKey("line"));
   REQUIRE(motion.reason == Reason::none);
   const Vector3 direction = (to.translation() - from.translation()).normalized();
   double off = 0, speed = 0, turned = 0;
@@ -91,8 +91,8 @@ TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
 
 TEST_CASE("a tool path round a hinge stays on its circle") {
   const World world(std::make_shared<Scene>(table_scene(0)));
-  const auto space = world.collision_space();
-  const Arm& arm = space->arm();
+  const CollisionState state = world.collision_state();
+  const Arm& arm = state.arm();
   const Transform from = arm.world_from_tip(arm.home());
   const Vector3 hinge = from.translation() + Vector3(0, 0.3, 0);
   const auto path = [&](double s) {
@@ -100,7 +100,7 @@ TEST_CASE("a tool path round a hinge stays on its circle") {
     turn.linear() = Eigen::AngleAxisd(0.6 * s, Vector3::UnitZ()).toRotationMatrix();
     return Transform(translation(hinge) * turn * translation(-hinge) * from);
   };
-  const PlannedMotion motion = plan_tool_path(*space, arm.home(), path, {}, {}, RandomKey("door"));
+  const PlannedMotion motion = plan_tool_path(state, arm.home(), path, {}, {}, RandomKey("door"));
   REQUIRE(motion.reason == Reason::none);
   double worst = 0;
   for (std::int64_t step = 0; step <= motion.trajectory.steps(); ++step) {
@@ -115,22 +115,22 @@ TEST_CASE("a tool path round a hinge stays on its circle") {
 
 TEST_CASE("targets out of reach and lines into the table say so") {
   const World world(std::make_shared<Scene>(table_scene(3)));
-  const auto space = world.collision_space();
-  const JointVector home = space->arm().home();
-  const PlannedMotion far = plan_through(*space, home, {{"shelf", above(1.5, 0, 0.3)}}, {}, RandomKey("far"));
+  const CollisionState state = world.collision_state();
+  const JointVector home = state.arm().home();
+  const PlannedMotion far = plan_through(state, home, {{"shelf", above(1.5, 0, 0.3)}}, {}, RandomKey("far"));
   CHECK(far.reason == Reason::unreachable);
   CHECK(far.detail.find("shelf") != std::string::npos);
 
   const PlannedMotion below = plan_through(
-      *space, home, {{"approach", above(0.7, 0.3, 0.1)}, {"grasp", above(0.7, 0.3, -0.02)}}, {}, RandomKey("below"));
+      state, home, {{"approach", above(0.7, 0.3, 0.1)}, {"grasp", above(0.7, 0.3, -0.02)}}, {}, RandomKey("below"));
   CHECK(below.reason == Reason::no_path);
   CHECK(below.detail.find("touches table") != std::string::npos);
 
   LineOptions line;
   line.collide = true;
-  const PlannedMotion into = plan_line(*space, home, above(0.55, 0, -0.05), line, {}, RandomKey("into"));
+  const PlannedMotion into = plan_line(state, home, above(0.55, 0, -0.05), line, {}, RandomKey("into"));
   CHECK(into.reason == Reason::no_path);
-  const PlannedMotion beyond = plan_line(*space, home, above(1.6, 0, 0.4), {}, {}, RandomKey("beyond"));
+  const PlannedMotion beyond = plan_line(state, home, above(1.6, 0, 0.4), {}, {}, RandomKey("beyond"));
   CHECK(beyond.reason == Reason::unreachable);
   CHECK(beyond.trajectory.knots.empty());
 }

@@ -83,6 +83,23 @@ TEST_CASE("a pressed button sinks, counts and returns", "[sim]") {
   }
 }
 
+TEST_CASE("a button pressed against its stop by a yielding arm stays there", "[sim]") {
+  Scene scene = table_scene(0);
+  add_body(scene, button({0.5, 0, 0.01}));
+  World world(shared(scene));
+  const PartRef cap{body_index(world, "button"), 1};
+  const double stop = world.scene().bodies[static_cast<std::size_t>(cap.body)].parts[1].joint.upper;
+  grip(world, 0);
+  move_to(world, solve(world, tip_down(0.5, 0, 0.08), world.arm().home()), 1);
+  world.apply(operation::Controller{ControllerKind::cartesian_impedance, 1500});
+  move_line(world, tip_down(0.5, 0, 0.04 - stop - 0.010 + 0.0104), 0.5);  // 1 cm too far: 15 N
+  for (int step = 0; step < 240; ++step) {
+    world.step();
+    REQUIRE(world.joint_position(cap) < stop + 0.0005);
+  }
+  CHECK(world.joint_position(cap) > stop - 0.0005);
+}
+
 TEST_CASE("a latch holds until its lever is pressed, and catches again", "[sim]") {
   // The lever and the leaf are moved by gravity, which the scene turns: no hand is needed.
   Scene scene = table_scene(0);

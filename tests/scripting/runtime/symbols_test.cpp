@@ -52,34 +52,34 @@ TEST_CASE("an error in a classifier names file and line") {
 TEST_CASE("samples are poses of the first argument or joint positions, and a function of the key") {
   SmallWorld small;
   Symbols& symbols = small.scripts.symbols();
-  const auto space = small.world.collision_space();
+  const CollisionState state = small.world.collision_state();
   const RandomKey key = RandomKey("test").with(1);
-  const auto poses = symbols.sample({"higher", {"cube", "top"}}, small.view, *space, key, 8);
+  const auto poses = symbols.sample({"higher", {"cube", "top"}}, small.view, state, key, 8);
   REQUIRE(poses.size() == 2);
   CHECK(poses[0].object == "cube");
   CHECK((position(poses[0]) - Vector3(0.2, 0.1, 0.62)).norm() < 1e-9);
   CHECK((position(poses[1]).z() >= 0.72 && position(poses[1]).z() < 0.82));
-  const auto again = symbols.sample({"higher", {"cube", "top"}}, small.view, *space, key, 8);
+  const auto again = symbols.sample({"higher", {"cube", "top"}}, small.view, state, key, 8);
   CHECK(position(again[1]) == position(poses[1]));
-  const auto other = symbols.sample({"higher", {"cube", "top"}}, small.view, *space, key.with(1), 8);
+  const auto other = symbols.sample({"higher", {"cube", "top"}}, small.view, state, key.with(1), 8);
   CHECK(position(other[1]) != position(poses[1]));
-  CHECK(symbols.sample({"higher", {"cube", "top"}}, small.view, *space, key, 1).size() == 1);
+  CHECK(symbols.sample({"higher", {"cube", "top"}}, small.view, state, key, 1).size() == 1);
 
-  const auto joints = symbols.sample({"open", {"chest.drawer"}}, small.view, *space, key, 8);
+  const auto joints = symbols.sample({"open", {"chest.drawer"}}, small.view, state, key, 8);
   REQUIRE(joints.size() == 8);
   for (const Placement& placement : joints) {
     CHECK(placement.object == "chest.drawer");
     const double q = std::get<double>(placement.value);
     CHECK((q >= 0.15 && q <= 0.2));
   }
-  CHECK(symbols.sample({"holding", {"mini.hand", "cube"}}, small.view, *space, key, 8).empty());
+  CHECK(symbols.sample({"holding", {"mini.hand", "cube"}}, small.view, state, key, 8).empty());
 }
 
 TEST_CASE("built-in spots lie on the surface") {
   SmallWorld small;
-  const auto space = small.world.collision_space();
+  const CollisionState state = small.world.collision_state();
   const auto spots =
-      small.scripts.symbols().sample({"on", {"cube", "bench"}}, small.view, *space, RandomKey("spots"), 5);
+      small.scripts.symbols().sample({"on", {"cube", "bench"}}, small.view, state, RandomKey("spots"), 5);
   REQUIRE_FALSE(spots.empty());
   for (const Placement& spot : spots) {
     CHECK(position(spot).z() == Approx(0.52).margin(0.002));  // half a cube above the top
@@ -99,9 +99,9 @@ TEST_CASE("nothing that a script keeps survives a skill boundary, and no sample 
   CHECK(*symbols.value(counted, small.view).margin == 2.0);
   run.reset();
   CHECK(*symbols.value(counted, small.view).margin == 1.0);
-  const auto space = small.world.collision_space();
+  const CollisionState state = small.world.collision_state();
   for (int i = 0; i < 3; ++i) {
-    const auto ways = symbols.sample(counted, small.view, *space, RandomKey("k"), 4);
+    const auto ways = symbols.sample(counted, small.view, state, RandomKey("k"), 4);
     REQUIRE(ways.size() == 1);
     CHECK(position(ways[0]).x() == Approx(1.0));  // the first sample of a fresh state, each time
   }

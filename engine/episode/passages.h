@@ -1,0 +1,31 @@
+// When the tool passed the via-points of a motion.
+#pragma once
+
+#include <vector>
+
+#include "engine/episode/record.h"
+#include "engine/motion/motion.h"
+
+namespace stampede {
+
+// Looks at the tool after each step of one motion.
+class Passages {
+ public:
+  Passages(std::vector<PlannedVia> vias, int segment) : vias_(std::move(vias)), segment_(segment) {}
+  void look(const World& world);
+  // One passage a via: in the order of the vias, as near to all of them as that order allows, the earliest of equals.
+  // Vias that the tool came no nearer than 5 cm are left out.
+  std::vector<ViaRecord> in_order() const;
+
+ private:
+  struct Sample {
+    std::int64_t step = 0;
+    Transform world_from_tip;
+    double joint_speed = 0, tool_speed = 0;  // rad/s, m/s
+  };
+  std::vector<PlannedVia> vias_;
+  int segment_ = 0;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace stampede

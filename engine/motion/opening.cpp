@@ -1,0 +1,36 @@
+// How far the fingers may open.
+#include <algorithm>
+
+#include "engine/motion/planner.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kStep_m = 0.001;
+constexpr double kSpare_m = 0.0015;    // left between a finger and what is beside it
+constexpr double kLeast_m = 0.004;     // what lets go of a thing in any case
+constexpr double kOverlap_m = 0.0005;  // a finger that already leans against something
+
+bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const CollisionPair& other) {
+    return other.robot_part == pair.robot_part && other.other == pair.other;
+  });
+}
+
+}  // namespace
+
+double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m) {
+  const double least = std::min(wanted_m, state.opening() + kLeast_m);
+  const std::vector<CollisionPair> touched = state.contacts(q, kOverlap_m);
+  CollisionState wider = state;
+  for (double opening = state.opening() + kStep_m; opening < wanted_m + kSpare_m; opening += kStep_m) {
+    wider.set_opening(opening);
+    const auto contacts = wider.contacts(q);
+    const bool met =
+        std::any_of(contacts.begin(), contacts.end(), [&](const CollisionPair& pair) { return !among(touched, pair); });
+    if (met) return std::clamp(opening - kStep_m - kSpare_m, least, wanted_m);
+  }
+  return wanted_m;
+}
+
+}  // namespace stampede

@@ -1,0 +1,97 @@
+// One thread's working memory for questions to one CollisionState. Room-internal.
+#pragma once
+
+#include "engine/sim/collision_model.h"
+#include "engine/sim/collision_state.h"
+
+namespace stampede {
+
+// Lifetime: borrows the state, which must not change meanwhile.
+class CollisionQuery {
+ public:
+  using Placed = CollisionState::Placed;
+  CollisionQuery(const CollisionState& state, double padding_m);
+
+  bool touches(const JointVector& q);
+  // Calls visitor(pair) for what touches, in a fixed order, until it says true: enough.
+  template <typename Visitor>
+  bool visit(const JointVector& q, const Visitor& visitor);
+
+  void arm_as_it_was();  // before body_free
+  bool body_free(int body, const Transform& world_from_body);
+
+  static void place(Placed& placed, const CollisionModel::Piece& piece, const Transform& world_from_part);
+
+ private:
+  using Piece = CollisionModel::Piece;
+  void place_robot();
+  void place_carried();
+  void find_near();
+  bool near(const Piece& a, const Placed& at_a, const Piece& b, const Placed& at_b, double distance) const;
+  template <typename Visitor>
+  bool meets_bodies(const Piece& piece, const Placed& placed, bool may_touch, const Visitor& visitor) const;
+  template <typename Visitor>
+  bool meets_part(const Piece& piece, const Placed& placed, int robot_part, const Visitor& visitor) const;
+
+  const CollisionState& state_;
+  const CollisionModel& model_;
+  double padding_;
+  std::vector<double> positions_;  // of all robot parts
+  std::vector<Transform> poses_;
+  std::vector<Placed> robot_, carried_;
+  std::vector<bool> allowed_;        // per piece of the bodies
+  std::vector<std::uint32_t> near_;  // pieces of bodies within the box around all that moves, in order
+  std::size_t held_begin_ = 0, held_end_ = 0;
+};
+
+template <typename Visitor>
+bool CollisionQuery::meets_bodies(const Piece& piece, const Placed& placed, bool may_touch,
+                                  const Visitor& visitor) const {
+  for (const std::uint32_t i : near_) {
+    if (may_touch && allowed_[i]) continue;
+    if (near(piece, placed, model_.bodies[i], state_.pieces_[i], padding_) &&
+        visitor(CollisionPair{piece.part, model_.bodies[i].part}))
+      return true;
+  }
+  return false;
+}
+
+template <typename Visitor>
+bool CollisionQuery::meets_part(const Piece& piece, const Placed& placed, int robot_part,
+                                const Visitor& visitor) const {
+  const CollisionModel::Range range = model_.robot_parts[static_cast<std::size_t>(robot_part)];
+  for (std::size_t i = range.begin; i < range.end; ++i)
+    if (near(piece, placed, model_.robot[i], robot_[i], 0) && visitor(CollisionPair{piece.part, model_.robot[i].part}))
+      return true;
+  return false;
+}
+
+template <typename Visitor>
+bool CollisionQuery::visit(const JointVector& q, const Visitor& visitor) {
+  const Robot& robot = model_.scene->robot;
+  for (std::size_t j = 0; j < robot.arm.size(); ++j)
+    positions_[static_cast<std::size_t>(robot.arm[j])] = q[static_cast<Eigen::Index>(j)];
+  place_robot();
+  if (state_.held_) place_carried();
+  find_near();
+  const bool holding = state_.held_.has_value();
+  for (std::size_t i = 0; i < robot_.size(); ++i) {
+    const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
+    if (model_.moved[part] && meets_bodies(model_.robot[i], robot_[i], model_.hand[part] && !holding, visitor))
+      return true;
+  }
+  for (const auto& [one, two] : robot.checked_pairs) {
+    const CollisionModel::Range range = model_.robot_parts[static_cast<std::size_t>(one)];
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      if (meets_part(model_.robot[i], robot_[i], two, visitor)) return true;
+  }
+  for (std::size_t i = held_begin_; i < held_end_; ++i) {
+    const Placed& placed = carried_[i - held_begin_];
+    if (meets_bodies(model_.bodies[i], placed, true, visitor)) return true;
+    for (const int part : model_.held_partners)
+      if (meets_part(model_.bodies[i], placed, part, visitor)) return true;
+  }
+  return false;
+}
+
+}  // namespace stampede

@@ -1,0 +1,81 @@
+// Whether the arm may be somewhere: a moment of a world as a value, and the questions asked of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/model/kinematics.h"
+#include "engine/sim/part_ref.h"
+
+namespace stampede {
+
+struct CollisionModel;
+
+struct CollisionPair {
+  PartRef robot_part;  // body -1, or the held body
+  PartRef other;
+};
+
+// Where bodies are, what the hand holds and what does not count. The shapes themselves belong to a model that is made
+// once per scene and shared, so a state is cheap to make and to copy; it knows nothing of the World it came from.
+// Questions leave it as it is and may be asked from several threads. Repeatable. Units: m, rad.
+class CollisionState {
+ public:
+  // `world_from_part`: of all parts of all bodies but the robot, in order; `robot_positions`: one joint position a
+  // part.
+  CollisionState(std::shared_ptr<const CollisionModel> model, std::span<const Transform> world_from_part,
+                 std::vector<double> robot_positions);
+
+  const Scene& scene() const;
+  const Arm& arm() const;
+
+  // A free body that moves with the tip from now on and collides in the arm's stead. Throws for a body that is fixed.
+  void hold(int body, const Transform& tip_from_body);
+  void release() { held_.reset(); }
+  std::optional<int> held() const { return held_; }
+  // Contact between the empty hand, or what the hand holds, and this part does not count. clear_allowed() forgets all.
+  void allow(PartRef part) { allowed_.push_back(part); }
+  const std::vector<PartRef>& allowed() const { return allowed_; }
+  void clear_allowed() { allowed_.clear(); }
+  void set_opening(double opening_m) { opening_ = opening_m; }
+  double opening() const { return opening_; }
+  void move_body(int body, const Transform& world_from_body);
+  void remove(PartRef part);  // with all that hangs on it; of a base part, the whole body
+
+  // Obstacles grow by `padding_m`; the robot against itself is tested without.
+  bool free(const JointVector& q, double padding_m = 0) const;
+  std::optional<CollisionPair> first_contact(const JointVector& q, double padding_m = 0) const;  // in a fixed order
+  std::vector<CollisionPair> contacts(const JointVector& q, double padding_m = 0) const;         // each pair once
+  // Index of the first configuration that touches something; configurations.size() when none does.
+  std::size_t first_touching(std::span<const JointVector> configurations, double padding_m = 0) const;
+  // From `a`, which is known to be free, to `b` on a straight line, at most `step_rad` (any joint) apart; coarse before
+  // fine, so that contacts are found early.
+  bool edge_free(const JointVector& a, const JointVector& b, double step_rad, double padding_m = 0) const;
+
+  // Would this free body, placed there, touch anything but what it may rest on? The arm is where it was, the fingers
+  // as open as the state says.
+  bool body_free(int body, const Transform& world_from_body, double padding_m) const;
+  // The same for many places: one answer each.
+  std::vector<bool> places_free(int body, std::span<const Transform> world_from_body, double padding_m) const;
+
+ private:
+  friend class CollisionQuery;
+  struct Placed {  // a piece of a body: its pose and its bounding box
+    Transform world_from_shape = Transform::Identity();
+    Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
+  };
+  void place(std::size_t piece, const Transform& world_from_part);
+
+  std::shared_ptr<const CollisionModel> model_;
+  std::vector<Placed> pieces_;             // of all bodies, in the model's order
+  std::vector<Transform> body_from_part_;  // of all bodies, in body and part order
+  std::vector<double> robot_positions_;    // of all robot parts
+  double opening_ = 0;                     // m
+  std::vector<PartRef> allowed_;           // few: searched in order
+  std::optional<int> held_;
+  Transform tip_from_held_ = Transform::Identity();
+};
+
+}  // namespace stampede

@@ -1,0 +1,279 @@
+// The frozen world that motion planning asks.
+#include "engine/sim/collision_state.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+#include "engine/sim/convex.h"
+#include "tests/engine/sim/sim_scenes.h"
+
+using namespace stampede;
+using namespace stampede::testing;
+
+namespace {
+
+Shape sphere(double radius) {
+  Shape shape;
+  shape.kind = ShapeKind::sphere;
+  shape.radius = radius;
+  return shape;
+}
+
+Transform random_pose(Random& random, double reach) {
+  const Quaternion turn(random.normal(), random.normal(), random.normal(), random.normal());
+  return make_transform({random.between(-reach, reach), random.between(-reach, reach), random.between(-reach, reach)},
+                        turn.normalized());
+}
+
+// Distance of a point to a box, exactly.
+double distance_to_box(const Vector3& point, const Vector3& half) {
+  return (point.cwiseAbs() - half).cwiseMax(0.0).norm();
+}
+
+}  // namespace
+
+TEST_CASE("a sphere and a box are as far apart as geometry says", "[sim]") {
+  Random random(RandomKey("sphere and box"));
+  const Convex ball(sphere(0.05)), box(box_shape({0.2, 0.1, 0.3}));
+  for (int i = 0; i < 2000; ++i) {
+    const Transform world_from_box = random_pose(random, 0.1), world_from_ball = random_pose(random, 0.4);
+    const double gap =
+        distance_to_box(world_from_box.inverse() * world_from_ball.translation(), {0.1, 0.05, 0.15}) - 0.05;
+    CHECK(closer_than(ball, world_from_ball, box, world_from_box, gap + 1e-7));
+    if (gap > 1e-6) CHECK_FALSE(closer_than(box, world_from_box, ball, world_from_ball, gap - 1e-7));
+  }
+}
+
+TEST_CASE("a box and the hull of its corners agree", "[sim]") {
+  Random random(RandomKey("box and hull"));
+  Shape hull_shape;
+  hull_shape.kind = ShapeKind::hull;
+  for (int i = 0; i < 8; ++i)
+    hull_shape.points.push_back({i & 1 ? 0.1 : -0.1, i & 2 ? 0.05 : -0.05, i & 4 ? 0.15 : -0.15});
+  const Convex hull(hull_shape), box(box_shape({0.2, 0.1, 0.3}));
+  Shape rod;
+  rod.kind = ShapeKind::cylinder;
+  rod.radius = 0.05;
+  rod.length = 0.3;
+  for (const ShapeKind kind : {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::capsule, ShapeKind::box}) {
+    rod.kind = kind;
+    rod.size = {0.1, 0.1, 0.3};
+    const Convex other(rod);
+    int near = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Transform a = random_pose(random, 0.2), b = random_pose(random, 0.2);
+      const bool one = closer_than(box, a, other, b, 0.01);
+      near += one;
+      CHECK(one == closer_than(hull, a, other, b, 0.01));
+      CHECK(one == closer_than(other, b, hull, a, 0.01));
+    }
+    CHECK(near > 200);
+    CHECK(near < 1990);
+  }
+}
+
+TEST_CASE("the arm is free at home, and meets what is put in its way", "[sim]") {
+  Scene scene = table_scene(3);
+  World world(shared(scene));
+  CollisionState state = world.collision_state();
+  const JointVector home = world.arm().home();
+  CHECK(state.free(home));
+  CHECK_FALSE(state.first_contact(home));
+  const int cube = body_index(world, "cube2");
+  state.move_body(cube, world.world_from_tip() * translation(0, 0, -0.05));  // in the palm
+  CHECK_FALSE(state.free(home));
+  const auto pair = state.first_contact(home);
+  REQUIRE(pair);
+  CHECK(pair->other == PartRef{cube, 0});
+  CHECK(pair->robot_part.body == -1);
+  state.allow({cube, 0});
+  CHECK(state.free(home));
+  state.clear_allowed();
+  CHECK_FALSE(state.free(home));
+  // Between open fingers there is room for it; between closed ones there is not.
+  state.move_body(cube, world.world_from_tip());
+  state.set_opening(0.08);
+  CHECK(state.free(home));
+  state.set_opening(0.02);
+  CHECK_FALSE(state.free(home));
+}
+
+TEST_CASE("padding is a distance: the table is met where the lowest point says", "[sim]") {
+  World world(shared(table_scene(0)));
+  CollisionState state = world.collision_state();
+  state.set_opening(0);
+  // The lowest points of a hand that points down are the finger boxes, 0.0584 + 0.0545 m beyond the hand's frame.
+  const double lowest_below_tip = 0.0584 + 0.04525 + 0.00925 - 0.1034;
+  double padding = 0;
+  const auto free_at = [&](double gap) {
+    return state.free(solve(world, tip_down(0.5, 0.1, lowest_below_tip + gap), world.arm().home()), padding);
+  };
+  CHECK(free_at(0.001));
+  CHECK_FALSE(free_at(-0.001));
+  padding = 0.02;
+  CHECK(free_at(0.021));
+  CHECK_FALSE(free_at(0.019));
+}
+
+TEST_CASE("a held body collides in the arm's stead", "[sim]") {
+  World world(shared(table_scene(2)));
+  CollisionState state = world.collision_state();
+  const int held = body_index(world, "cube1"), other = body_index(world, "cube2");
+  const JointVector q = solve(world, tip_down(0.5, 0.3, 0.1), world.arm().home());
+  CHECK(state.free(q));
+  state.hold(held, translation(0, 0, 0.09));  // hangs below the tip: its lowest face is 1 cm into the table
+  CHECK(state.held() == held);
+  const auto pair = state.first_contact(q);
+  REQUIRE(pair);
+  CHECK(pair->robot_part == PartRef{held, 0});
+  CHECK(pair->other == PartRef{0, 0});
+  state.allow({0, 0});
+  CHECK(state.free(q));
+  state.clear_allowed();
+  state.hold(held, translation(0, 0, 0.02));
+  CHECK(state.free(q));
+  state.move_body(other, translation(0.5, 0.3, 0.08));
+  CHECK_FALSE(state.free(q));
+  state.release();
+  CHECK_FALSE(state.held());
+}
+
+TEST_CASE("an arm folded into itself is not free", "[sim]") {
+  World world(shared(table_scene(0)));
+  CollisionState state = world.collision_state();
+  // Elbow bent to its limit with the forearm turned: the hand ends in the upper arm.
+  const JointVector folded = (JointVector(7) << 0, -1.7, 0, -3.05, 0, 0.0, 0).finished();
+  const auto pair = state.first_contact(folded);
+  REQUIRE(pair);
+  CHECK(pair->robot_part.body == -1);
+  CHECK(pair->other.body == -1);
+}
+
+TEST_CASE("the checker agrees with Bullet's own contacts", "[sim]") {
+  // A cube on the table is touched by the pressing hand exactly when the state, frozen then, says so.
+  World world(shared(table_scene(1)));
+  grip(world, 0);
+  const Vector3 cube = world.world_from_part({1, 0}).translation();
+  move_to(world, solve(world, tip_down(cube.x(), cube.y(), 0.08), world.arm().home()), 2);
+  CHECK(world.collision_state().free(world.arm_position()));
+  move_line(world, tip_down(cube.x(), cube.y(), 0.045), 1);
+  const auto pair = world.collision_state().first_contact(world.arm_position(), 0.001);
+  REQUIRE(pair);
+  CHECK(pair->other == PartRef{1, 0});
+}
+
+TEST_CASE("a free place may have something below, but nothing beside or within", "[sim]") {
+  World world(shared(table_scene(2)));
+  CollisionState state = world.collision_state();
+  const int cube = body_index(world, "cube1"), other = body_index(world, "cube2");
+  const Vector3 neighbour = world.world_from_part({other, 0}).translation();
+  CHECK(state.body_free(cube, translation(0.5, 0.3, 0.02), 0));
+  CHECK(state.body_free(cube, translation(0.5, 0.3, 0.02), 0.02));  // padding does not count against the table
+  CHECK_FALSE(state.body_free(cube, translation(0.5, 0.3, 0.01), 0));
+  CHECK(state.body_free(cube, translation(neighbour + Vector3(0.041, 0, 0)), 0));
+  CHECK_FALSE(state.body_free(cube, translation(neighbour + Vector3(0.041, 0, 0)), 0.005));
+  CHECK(state.body_free(cube, translation(neighbour + Vector3(0, 0, 0.04)), 0.005));         // on top of it
+  CHECK_FALSE(state.body_free(cube, world.world_from_tip() * translation(0, 0, -0.05), 0));  // in the palm
+}
+
+TEST_CASE("what the state says of random poses, the world's own contacts say too", "[sim]") {
+  // Cubes are put into or beside the hand at random; one step later Bullet tells what presses against what. Pairs that
+  // are within half a millimetre of touching are left out.
+  World world(shared(table_scene(4)));
+  Random random(RandomKey("contacts"));
+  int met = 0, apart = 0;
+  for (int round = 0; round < 60; ++round) {
+    for (const char* cube : {"cube1", "cube2", "cube3", "cube4"})
+      world.apply(operation::Place{body_index(world, cube), world.world_from_tip() * random_pose(random, 0.12)});
+    world.apply(operation::Boundary{});
+    const CollisionState state = world.collision_state();
+    const JointVector q = world.arm_position();
+    const auto of_state = state.contacts(q), nearly = state.contacts(q, 0.0005);
+    world.step();
+    world.close_window();
+    const auto pressed = [&](const CollisionPair& pair) {
+      return std::any_of(world.contacts().begin(), world.contacts().end(), [&](const Contact& contact) {
+        return contact.a == pair.robot_part && contact.b == pair.other;
+      });
+    };
+    const auto among = [](const std::vector<CollisionPair>& pairs, PartRef a, PartRef b) {
+      return std::any_of(pairs.begin(), pairs.end(),
+                         [&](const CollisionPair& pair) { return pair.robot_part == a && pair.other == b; });
+    };
+    for (const CollisionPair& pair : of_state) {
+      INFO("round " << round << ": part " << pair.robot_part.part << " and body " << pair.other.body);
+      CHECK(pressed(pair));
+      ++met;
+    }
+    for (const Contact& contact : world.contacts()) {
+      if (contact.a.body != -1) continue;
+      INFO("round " << round << ": part " << contact.a.part << " and body " << contact.b.body);
+      CHECK(among(nearly, contact.a, contact.b));
+    }
+    apart += of_state.empty();
+  }
+  CHECK(met > 50);
+  CHECK(apart > 5);
+}
+
+TEST_CASE("many configurations in one call get the answers of one call each", "[sim]") {
+  World world(shared(table_scene(3)));
+  CollisionState state = world.collision_state();
+  state.hold(body_index(world, "cube1"), translation(0, 0, 0.02));
+  Random random(RandomKey("many"));
+  std::vector<JointVector> all;
+  for (int k = 0; k < 400; ++k) {
+    JointVector q(world.arm().joints());
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const JointLimits& limits = world.arm().limits()[static_cast<std::size_t>(j)];
+      q[j] = random.between(limits.lower, limits.upper);
+    }
+    all.push_back(q);
+  }
+  int touching = 0;
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t free = state.first_touching(std::span(all).subspan(begin), 0.003);
+    for (std::size_t i = begin; i < begin + free; ++i) REQUIRE(state.free(all[i], 0.003));
+    begin += free;
+    if (begin == all.size()) break;
+    REQUIRE_FALSE(state.free(all[begin], 0.003));
+    REQUIRE(state.first_contact(all[begin], 0.003));
+    REQUIRE_FALSE(state.contacts(all[begin], 0.003).empty());
+    ++touching;
+    ++begin;
+  }
+  CHECK(touching > 20);
+  CHECK(touching < 390);
+  const JointVector home = world.arm().home();
+  for (std::size_t k = 0; k < 40; ++k) {  // an edge is free exactly when all its samples are
+    bool free = true;
+    const int count = static_cast<int>(std::ceil((all[k] - home).cwiseAbs().maxCoeff() / 0.05));
+    for (int i = 1; i <= count; ++i)
+      free = free && state.free(home + (static_cast<double>(i) / count) * (all[k] - home));
+    CHECK(state.edge_free(home, all[k], 0.05) == free);
+  }
+}
+
+TEST_CASE("many places in one call get the answers of one call each, and a copy is a state of its own", "[sim]") {
+  World world(shared(table_scene(3)));
+  const CollisionState state = world.collision_state();
+  const int cube = body_index(world, "cube1");
+  Random random(RandomKey("places"));
+  std::vector<Transform> places;
+  for (int k = 0; k < 200; ++k)
+    places.push_back(translation(random.between(0.2, 0.8), random.between(-0.4, 0.4), 0.02));
+  const std::vector<bool> free = state.places_free(cube, places, 0.005);
+  for (std::size_t k = 0; k < places.size(); ++k) CHECK(free[k] == state.body_free(cube, places[k], 0.005));
+  CHECK(std::count(free.begin(), free.end(), true) > 20);
+  CHECK(std::count(free.begin(), free.end(), false) > 2);
+  CollisionState moved = state;
+  moved.move_body(cube, world.world_from_tip() * translation(0, 0, -0.05));
+  CHECK(state.free(world.arm().home()));
+  CHECK_FALSE(moved.free(world.arm().home()));
+  CHECK(world.collision_state().free(world.arm().home()));
+}
