@@ -1,10 +1,12 @@
 -- Shut the drawer that stands open.
+local places = require "worlds.lib.places"
+
 return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = function(v)
     return {
-      chest = { "chest", at = { between(0.52, 0.55), between(-0.10, 0.10), 0.75 },
+      chest = { "chest", place = places.round_the_table(0.12, 0.24, 0.35, 0.75),
         joints = { [v.level .. "_drawer"] = between(0.08, 0.14) } },
     }
   end,

@@ -1,10 +1,12 @@
 -- Find the tin that lies in one of three closed drawers, and put it on the table; no sentence says in which.
 -- The demonstrator knows: it opens the right drawer at once. What can be seen (`observed_facts`) differs until then.
+local places = require "worlds.lib.places"
+
 return task {
   world = "tabletop",
   variations = { hidden_in = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", at = { between(0.51, 0.53), between(0.02, 0.10), 0.75 } },
+    chest = { "chest", place = places.round_the_table(0.12, 0.24, 0.35, 0.75) },
     item = { "tin", colour = one_of(colours.names) },
   },
   init = function(v)

@@ -17,13 +17,14 @@ return task {
   world = "tabletop",
   variations = sequences(),
   objects = function(v)
+    local anywhere = { between(0.08, 0.32), between(-0.30, 0.30), 0.75 }
     return {
-      button1 = { "push_button", colour = v.first, at = { between(0.10, 0.30), between(-0.28, -0.16), 0.75 } },
-      button2 = { "push_button", colour = v.second, at = { between(0.10, 0.30), between(-0.06, 0.06), 0.75 } },
-      button3 = { "push_button", colour = v.third, at = { between(0.10, 0.30), between(0.16, 0.28), 0.75 } },
+      button1 = { "push_button", colour = v.first, at = anywhere },
+      button2 = { "push_button", colour = v.second, at = anywhere },
+      button3 = { "push_button", colour = v.third, at = anywhere },
     }
   end,
-  init = { is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
+  init = { is.spaced("button1", "button2"), is.spaced("button1", "button3"), is.spaced("button2", "button3"), is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
   goal = function(v)
     local parts = {}
     for i = 1, v.count do parts[i] = is.pressed("button" .. i .. ".cap") end

@@ -1,4 +1,5 @@
 -- Put the one grocery that is named into the cupboard beside the table.
+local places = require "worlds.lib.places"
 local groceries = { "chocolate_jelly", "coffee", "crackers_box", "mustard", "soup_can", "spam_can", "strawberry_jelly",
   "sugar_box", "tuna_can" }
 local words = { chocolate_jelly = "chocolate jelly", coffee = "coffee", crackers_box = "crackers", mustard = "mustard",
@@ -8,7 +9,7 @@ return task {
   world = "tabletop",
   variations = { item = groceries },
   objects = function()
-    local things = { cupboard = { "cupboard", at = { between(-0.04, 0.00), between(0.57, 0.60), 0.95 }, yaw = between(1.45, 1.65) } }
+    local things = { cupboard = { "cupboard", place = places.round_the_table(0.195, 0.20, 0.27, 0.95) } }
     for _, name in ipairs(groceries) do things[name] = { name } end
     return things
   end,

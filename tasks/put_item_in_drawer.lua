@@ -1,9 +1,11 @@
 -- Open one drawer of the chest and put the block inside.
+local places = require "worlds.lib.places"
+
 return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", at = { between(0.52, 0.55), between(0.12, 0.16), 0.75 } },
+    chest = { "chest", place = places.round_the_table(0.12, 0.24, 0.35, 0.75) },
     item = { "cube", colour = one_of(colours.names) },
   },
   init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),

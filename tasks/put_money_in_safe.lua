@@ -1,9 +1,11 @@
 -- Put the stack of banknotes on one of the three shelves of the open safe.
+local places = require "worlds.lib.places"
+
 return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.50, 1.70) },
+    safe = { "safe", place = places.round_the_table(0.17, 0.22, 0.35, 0.75) },
     money = { "money" },
   },
   init = { is.on("money", "table") },

@@ -3,13 +3,13 @@ return task {
   world = "tabletop",
   variations = { colour = colours.names },
   objects = function(v)
+    local anywhere = { between(0.06, 0.34), between(-0.32, 0.32), between(0.86, 1.18) }
     return {
-      target = { "floating_target", colour = v.colour, at = { between(0.10, 0.30), between(-0.30, -0.10), between(0.90, 1.15) } },
-      left = { "floating_target", colour = one_of(colours.except(v.colour)), at = { between(0.10, 0.30), between(-0.04, 0.04), between(0.90, 1.15) } },
-      right = { "floating_target", colour = one_of(colours.except(v.colour)), at = { between(0.10, 0.30), between(0.10, 0.30), between(0.90, 1.15) } },
+      target = { "floating_target", colour = v.colour, at = anywhere },
+      other = { "floating_target", count = 2, colour = one_of(colours.except(v.colour)), at = anywhere },
     }
   end,
-  init = { is.hand_empty() },
+  init = { is.hand_empty(), is.spaced("target", "other1"), is.spaced("target", "other2"), is.spaced("other1", "other2") },
   goal = { is.at("target") },
   hold = 0.2, -- s
   instructions = {

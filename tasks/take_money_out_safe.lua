@@ -1,9 +1,11 @@
 -- Take the stack of banknotes off one shelf of the open safe and put it on the table; the other two stay.
+local places = require "worlds.lib.places"
+
 return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", at = { between(0.08, 0.12), between(0.55, 0.58), 0.75 }, yaw = between(1.50, 1.70) },
+    safe = { "safe", place = places.round_the_table(0.17, 0.22, 0.35, 0.75) },
     low = { "money" }, mid = { "money" }, high = { "money" },
   },
   init = { is.inside("low", "safe.bottom"), is.inside("mid", "safe.middle"), is.inside("high", "safe.top") },

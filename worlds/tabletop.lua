@@ -1,6 +1,14 @@
 -- One Panda arm on a pedestal behind a work table whose top is the plane z = 0.75 m; all of the top is in reach.
+local function about(home, spread) return between(home - spread, home + spread) end
+
 return world {
-  robot = { "panda", at = { -0.30, 0, 0.75 } },
+  robot = {
+    "panda", at = { -0.30, 0, 0.75 },
+    joints = { -- the arm starts near its home, elsewhere in each episode: its tip within about 20 cm
+      joint1 = about(0, 0.35), joint2 = about(-math.pi / 4, 0.20), joint3 = about(0, 0.25), joint4 = about(-3 * math.pi / 4, 0.20),
+      joint5 = about(0, 0.25), joint6 = about(math.pi / 2, 0.25), joint7 = about(math.pi / 4, 0.50),
+    },
+  },
   fixtures = {
     floor = { "floor", at = { 0.2, 0, 0 } },
     pedestal = { "pedestal", at = { -0.30, 0, 0.75 } },

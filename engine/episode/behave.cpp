@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/episode/episode_runner.h"
+#include "engine/symbolic/drawn_choice.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -33,7 +34,8 @@ PlanOutcome EpisodeRunner::ask_planner() {
     for (const PlanStep& step : forbidden_) obstructions.push_back({step, {}, {}});
   const PlanningTask planning = planning_task(task_, symbols_.domain(), facts, rollout_->stage(), obstructions);
   if (options_.planner) return options_.planner(planning.domain, planning.problem);
-  return solve(planning.domain, planning.problem, {}, forbidden_);
+  const RandomKey key = RandomKey("plan").with(task_.name()).with(task_.variation()).with(options_.seed);
+  return solve_drawn(planning.domain, planning.problem, forbidden_, key);
 }
 
 SkillResult EpisodeRunner::plan_rest(std::size_t done) {

@@ -183,6 +183,8 @@ class Checker {
     if (std::find(predicates_.begin(), predicates_.end(), formula.predicate) == predicates_.end())
       unknown("predicate", formula.predicate, predicates_);
     const Predicate* predicate = domain_.predicate(formula.predicate);
+    if (predicate != nullptr && predicate->kind == PredicateKind::start && place_ == "--goal")
+      throw Error(place_, "'" + formula.predicate + "' is only asked of starts and is no fact", "--where may name it");
     const std::size_t wanted = predicate == nullptr ? 1 : predicate->parameters.size();
     for (std::size_t i = 0; i < wanted && formula.terms.size() + 1 == wanted && hands_.size() == 1; ++i)
       if (predicate != nullptr && predicate->parameters[i].type == "hand")
@@ -226,6 +228,13 @@ std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const 
   Drawing drawing(symbols, objects, known, key);
   if (!drawing.make(symbolic::negation_normal(formula), {}, [] { return true; })) return std::nullopt;
   return drawing.take();
+}
+
+std::set<std::string> predicates_of(const Formula& formula) {
+  if (formula.kind == Formula::Kind::atom) return {formula.predicate};
+  std::set<std::string> names;
+  for (const Formula& part : formula.parts) names.merge(predicates_of(part));
+  return names;
 }
 
 Formula checked_formula(const Formula& formula, const Domain& domain, const std::vector<TypedObject>& objects,

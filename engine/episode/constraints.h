@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ StaticFacts static_facts(const Scene& scene, const Domain& domain);
 std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const Symbols& symbols,
                                                   const std::vector<TypedObject>& objects, const Facts& known,
                                                   RandomKey key);
+
+std::set<std::string> predicates_of(const Formula& formula);  // that it names, traits and attributes too
 
 // The formula with the hand filled in where an atom leaves it out and there is one hand. Throws Error for unknown
 // predicates, types and objects (with the nearest as cure), wrong numbers of arguments and variables that nothing

@@ -24,15 +24,24 @@ std::vector<std::string> candidates(const Parameter& parameter, const Domain& do
   return names;
 }
 
-void combine(const std::vector<std::vector<std::string>>& choices, Fact& fact, std::vector<Fact>& out) {
+bool whole_and_part(const std::string& a, const std::string& b) {
+  return a.size() < b.size() ? b.starts_with(a) && b[a.size()] == '.'
+                             : a != b && a.starts_with(b) && a[b.size()] == '.';
+}
+
+// `own`: whether a thing may be related to its own parts.
+void combine(const std::vector<std::vector<std::string>>& choices, bool own, Fact& fact, std::vector<Fact>& out) {
   if (fact.arguments.size() == choices.size()) {
     out.push_back(fact);
     return;
   }
   for (const std::string& choice : choices[fact.arguments.size()]) {
-    if (std::find(fact.arguments.begin(), fact.arguments.end(), choice) != fact.arguments.end()) continue;
+    const auto barred = [&](const std::string& other) {
+      return other == choice || (!own && whole_and_part(other, choice));
+    };
+    if (std::any_of(fact.arguments.begin(), fact.arguments.end(), barred)) continue;
     fact.arguments.push_back(choice);
-    combine(choices, fact, out);
+    combine(choices, own, fact, out);
     fact.arguments.pop_back();
   }
 }
@@ -52,14 +61,15 @@ std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& dom
   return facts;
 }
 
-FactTracker::FactTracker(Symbols& symbols, const WorldView& view) : symbols_(symbols), dt_(view.world().dt()) {
-  enumerate(view);
+FactTracker::FactTracker(Symbols& symbols, const WorldView& view, const std::set<std::string>& asked)
+    : symbols_(symbols), dt_(view.world().dt()) {
+  enumerate(view, asked);
   index_arguments(view);
   add_static(view);
   state_.atoms.resize(names_.size());
 }
 
-void FactTracker::enumerate(const WorldView& view) {
+void FactTracker::enumerate(const WorldView& view, const std::set<std::string>& asked) {
   const Domain& domain = symbols_.domain();
   for (const Object& thing : view.scene().objects) objects_.push_back({thing.name, thing.type});
   for (const Predicate& predicate : domain.predicates) {
@@ -67,6 +77,7 @@ void FactTracker::enumerate(const WorldView& view) {
       derived_names_.insert(predicate.name);
       continue;
     }
+    if (predicate.kind == PredicateKind::start && !asked.contains(predicate.name)) continue;
     const bool attribute = std::any_of(view.scene().objects.begin(), view.scene().objects.end(),
                                        [&](const Object& thing) { return thing.attributes.contains(predicate.name); });
     if (attribute) continue;  // known without reading the world
@@ -80,7 +91,7 @@ void FactTracker::enumerate(const WorldView& view) {
                 names_.size(),
                 0};
     Fact fact{predicate.name, {}};
-    combine(choices, fact, names_);
+    combine(choices, group.fixed, fact, names_);
     group.count = names_.size() - group.first;
     groups_.push_back(group);
   }
@@ -178,7 +189,8 @@ void FactTracker::begin(const std::map<Fact, Symbols::Value>& values) {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const auto found = values.find(names_[i]);
     if (found == values.end() || !found->second.holds) continue;
-    state_.atoms[i] = {true, true, 0, 0, found->second.margin};
+    state_.atoms[i].holds = state_.atoms[i].raw = true;
+    state_.atoms[i].margin = found->second.margin;
     state_.facts.insert(names_[i]);
   }
   changed_ = true;
@@ -217,7 +229,9 @@ void FactTracker::look(const WorldView& view) {
     if (!group.hides) continue;
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
       Atom& atom = state_.atoms[i];
-      if (atom.known == atom.holds || !symbols_.observable(names_[i], view)) continue;
+      if ((atom.seen && atom.known == atom.holds) || !symbols_.observable(names_[i], view)) continue;
+      atom.seen = true;
+      if (atom.known == atom.holds) continue;
       if (atom.known) {
         FactRecord record;
         record.fact = names_[i];
@@ -231,21 +245,32 @@ void FactTracker::look(const WorldView& view) {
   }
 }
 
-Facts FactTracker::observed() const {
+std::vector<Fact> FactTracker::never_seen() const {
+  std::vector<Fact> facts;
+  for (const Group& group : groups_)
+    for (std::size_t i = group.first; group.hides && i < group.first + group.count; ++i)
+      if (!state_.atoms[i].seen) facts.push_back(names_[i]);
+  return facts;
+}
+
+Facts FactTracker::known_basic() const {
   Facts seen = static_;
   for (const Group& group : groups_)
     for (std::size_t i = group.first; i < group.first + group.count; ++i)
       if (group.hides ? state_.atoms[i].known : state_.atoms[i].holds) seen.insert(names_[i]);
-  return with_derived(seen, symbols_.domain(), objects_);
+  return seen;
 }
+
+Facts FactTracker::observed() const { return with_derived(known_basic(), symbols_.domain(), objects_); }
 
 void FactTracker::update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step) {
   Atom& atom = state_.atoms[index];
   if (value.holds != atom.raw) {
     atom.raw = value.holds;
     atom.raw_since_step = step;
-    if (value.holds) atom.margin = value.margin;
+    if (value.holds && !atom.holds) atom.margin.reset();
   }
+  if (value.holds && value.margin) atom.margin = std::max(atom.margin.value_or(*value.margin), *value.margin);
   if (atom.raw == atom.holds) return;
   const double settle = group.traits.momentary ? 0 : group.traits.settle_s;
   if (static_cast<double>(step - atom.raw_since_step) * dt_ + 1e-9 >= settle)

@@ -20,10 +20,12 @@ struct AttributeFact {
 };
 std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& domain);
 
-// Follows every ground atom of the domain's basic predicates. Copy its State to undo.
+// Follows every ground atom of the domain's basic predicates, but those that relate a thing to its own parts and
+// regions (unless they are static: `part_of` may be). Copy its State to undo.
 class FactTracker {
  public:
-  FactTracker(Symbols& symbols, const WorldView& view);
+  // `asked`: predicates of kind start that are read too; nothing but a test of a start asks for them.
+  FactTracker(Symbols& symbols, const WorldView& view, const std::set<std::string>& asked = {});
 
   // Starts from values read elsewhere (after settling, in the world the start was made in).
   void begin(const std::map<Fact, Symbols::Value>& values);
@@ -38,7 +40,9 @@ class FactTracker {
   const Facts& facts() const { return state_.facts; }
   Facts basic() const;                   // facts() without derived ones: PDDL's :init
   Facts observed() const;                // as facts(), but of what can hide only what was seen so when it was last seen
+  Facts known_basic() const;             // observed() without derived ones
   bool known(const Fact& fact) const;    // is it in observed()?
+  std::vector<Fact> never_seen() const;  // what can hide and could not be seen so far: nobody knows whether it holds
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
   const Domain& domain() const { return symbols_.domain(); }
   const std::vector<TypedObject>& objects() const { return objects_; }
@@ -53,8 +57,9 @@ class FactTracker {
     bool raw = false;
     std::int64_t since_step = 0;  // of the debounced value
     std::int64_t raw_since_step = 0;
-    std::optional<double> margin;
-    bool known = false;  // of predicates that can hide: as it was when it was last seen
+    std::optional<double> margin;  // the greatest since it holds
+    bool seen = false;             // of predicates that can hide: could it be seen so far?
+    bool known = false;            // of these: as it was when it was last seen
     std::int64_t known_since_step = 0;
   };
   struct State {
@@ -75,7 +80,7 @@ class FactTracker {
     bool hides = false;
     std::size_t first = 0, count = 0;
   };
-  void enumerate(const WorldView& view);
+  void enumerate(const WorldView& view, const std::set<std::string>& asked);
   void add_static(const WorldView& view);
   void finish(std::vector<FactRecord>& records, int steps_per_frame) const;
   void update(std::size_t index, const Group& group, const Symbols::Value& value, std::int64_t step);

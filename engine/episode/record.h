@@ -86,7 +86,7 @@ struct FactRecord {
   std::int64_t first_frame = 0, end_frame = 0;
   bool open_start = false, open_end = false;
   bool observed = true;          // known all the time
-  std::optional<double> margin;  // at the start of the interval
+  std::optional<double> margin;  // the greatest while it held
 };
 
 struct ContactRecord {

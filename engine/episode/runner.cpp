@@ -51,9 +51,10 @@ void EpisodeRunner::describe_episode(const PreparedStart& start) {
   record_.beside_goal = beside_goal(task_);
   for (const std::string& sentence : task_.instructions()) record_.language.push_back({"task", sentence, -1});
   for (const Predicate& predicate : symbols_.domain().predicates)
-    record_.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
-                                         : predicate.kind == PredicateKind::derived ? "derived"
-                                                                                    : "fixed";
+    if (predicate.kind != PredicateKind::start)
+      record_.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
+                                           : predicate.kind == PredicateKind::derived ? "derived"
+                                                                                      : "fixed";
   if (!start.scene) return;
   const Scene& scene = *start.scene;
   record_.world = scene.world;

@@ -33,6 +33,13 @@ void park(Scene& scene, const std::vector<std::string>& unplaced) {
   }
 }
 
+JointVector arm_at_start(const Robot& robot) {
+  JointVector start(static_cast<Eigen::Index>(robot.arm.size()));
+  for (std::size_t i = 0; i < robot.arm.size(); ++i)
+    start[static_cast<Eigen::Index>(i)] = robot.body.parts[static_cast<std::size_t>(robot.arm[i])].joint.initial;
+  return start;
+}
+
 // One draw under construction: a scene, and a frozen world of it to ask.
 class Draft {
  public:
@@ -132,6 +139,8 @@ class StartMaker {
     park(scene, task_.unplaced());
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
+    if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
+    if (!draft.space().free(arm_at_start(draft.scene().robot))) return refuse("the arm being free where it starts");
 
     World world(std::make_shared<const Scene>(draft.scene()));
     WorldView view(world);
@@ -246,22 +255,43 @@ class StartMaker {
     return found == literals.end() ? literals.begin() : found;
   }
 
+  // Conditions on starts are no facts: formulas read them as if they were, literals one by one.
+  bool start_only(const std::string& name) const {
+    const Predicate* predicate = symbols_.domain().predicate(name);
+    return predicate != nullptr && predicate->kind == PredicateKind::start;
+  }
+  std::set<std::string> asked() const {
+    std::set<std::string> names = where_ ? predicates_of(*where_) : std::set<std::string>{};
+    std::erase_if(names, [&](const std::string& name) { return !start_only(name); });
+    return names;
+  }
+  // The first of them that is not met.
+  std::optional<std::string> unmet_condition(const WorldView& view) {
+    for (const Literal& literal : literals_)
+      if (start_only(literal.fact.predicate) && symbols_.value(literal.fact, view).holds == literal.negated)
+        return text_of(literal);
+    return std::nullopt;
+  }
+
   // What to say of a scene that does not settle: the first literal that this undid, where there is one.
   std::string moving(const WorldView& view) {
-    FactTracker tracker(symbols_, view);
+    FactTracker tracker(symbols_, view, asked());
     tracker.begin(tracker.read_all(view));
-    for (const Literal& literal : literals_) {
-      if (tracker.facts().contains(literal.fact) == literal.negated) return text_of(literal) + " and coming to rest";
-    }
+    if (const auto unmet = unmet_condition(view)) return *unmet + " and coming to rest";
+    for (const Literal& literal : literals_)
+      if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
+        return text_of(literal) + " and coming to rest";
     return "coming to rest";
   }
 
   bool accept(const WorldView& view, PreparedStart& start) {
-    FactTracker tracker(symbols_, view);
+    FactTracker tracker(symbols_, view, asked());
     auto values = tracker.read_all(view);
     tracker.begin(values);
+    if (const auto unmet = unmet_condition(view)) return refuse(*unmet);
     for (const Literal& literal : literals_)
-      if (tracker.facts().contains(literal.fact) == literal.negated) return refuse(text_of(literal));
+      if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
+        return refuse(text_of(literal));
     if (where_ && !holds(*where_, tracker.facts(), symbols_.domain(), tracker.objects()))
       return refuse(failing_parts(*where_, tracker.facts(), symbols_.domain(), tracker.objects()).front());
     tracker.look(view);

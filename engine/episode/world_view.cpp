@@ -17,8 +17,11 @@ constexpr double kRestDistance = 1e-3;  // m
 constexpr double kRestAngle = 0.0175;   // rad
 constexpr double kSupportShare = 0.25;  // of the object's weight
 
-std::array<Vector3, 2> world_bounds(const Transform& world_from_part, const Part& part) {
-  const auto [low, high] = bounding_box(part);
+constexpr double kFromBelow = 0.5;  // least share of a contact's normal that is upward
+
+using Bounds = std::array<Vector3, 2>;
+
+Bounds world_bounds(const Transform& world_from_part, const Vector3& low, const Vector3& high) {
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 local(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
@@ -30,6 +33,12 @@ std::array<Vector3, 2> world_bounds(const Transform& world_from_part, const Part
   return {lower, upper};
 }
 
+// Of a point to a box, from how far it lies beyond each pair of faces: negative inside.
+double signed_distance(const Vector3& beyond) {
+  const double outside = beyond.cwiseMax(0).norm();
+  return outside > 0 ? outside : beyond.maxCoeff();
+}
+
 }  // namespace
 
 WorldView::WorldView(World& world) : world_(&world) {
@@ -38,6 +47,26 @@ WorldView::WorldView(World& world) : world_(&world) {
     index_[objects[i].name] = static_cast<int>(i);
     bodies_.push_back(objects[i].body.empty() ? -1 : scene().body_index(objects[i].body));
   }
+  for (int body = 0; body < static_cast<int>(scene().bodies.size()); ++body) {
+    std::vector<Box>& boxes = parts_.emplace_back();
+    for (const Part& part : scene().bodies[static_cast<std::size_t>(body)].parts) {
+      const PartRef ref{body, static_cast<int>(boxes.size())};
+      const auto [low, high] = bounding_box(part);
+      boxes.push_back({ref, low, high});
+      Part alone;
+      for (const Shape& shape : part.shapes) {
+        if (!shape.collides) continue;
+        alone.shapes = {shape};
+        const auto [shape_low, shape_high] = bounding_box(alone);
+        shapes_.push_back({ref, shape_low, shape_high});
+      }
+    }
+  }
+}
+
+Bounds WorldView::bounds_of(PartRef part) const {
+  const Box& box = parts_[static_cast<std::size_t>(part.body)][static_cast<std::size_t>(part.part)];
+  return world_bounds(world_->world_from_part(part), box.low, box.high);
 }
 
 // Contacts are asked for whom they belong to many times a frame: names are looked up once.
@@ -123,18 +152,14 @@ double WorldView::bottom(std::string_view name) const {
   const Object& thing = object(name);
   if (thing.kind == ObjectKind::region || thing.kind == ObjectKind::hand)
     return world_from(name).translation().z() - size(name).z() / 2;
-  const PartRef ref = part_of(name);
-  const Part& part = scene().bodies[static_cast<std::size_t>(ref.body)].parts[static_cast<std::size_t>(ref.part)];
-  return world_bounds(world_->world_from_part(ref), part)[0].z();
+  return bounds_of(part_of(name))[0].z();
 }
 
 double WorldView::top(std::string_view name) const {
   const Object& thing = object(name);
   if (thing.kind == ObjectKind::region || thing.kind == ObjectKind::hand)
     return world_from(name).translation().z() + size(name).z() / 2;
-  const PartRef ref = part_of(name);
-  const Part& part = scene().bodies[static_cast<std::size_t>(ref.body)].parts[static_cast<std::size_t>(ref.part)];
-  return world_bounds(world_->world_from_part(ref), part)[1].z();
+  return bounds_of(part_of(name))[1].z();
 }
 
 double WorldView::joint(std::string_view part) const { return world_->joint_position(part_of(part)); }
@@ -176,19 +201,66 @@ double WorldView::contact_force(std::string_view a, std::string_view b) const {
   return force;
 }
 
-bool WorldView::supports(std::string_view surface, std::string_view name) const {
-  const Object &below = object(surface), &above = object(name);
+// While the hand holds it too, its weight says nothing: then any contact from below counts, until it leaves.
+bool WorldView::borne(const Object& below, const Object& above) const {
   if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand)
     return false;
-  const PartRef ref = part_of(name);
+  const PartRef ref{body_of(above), above.part};
+  const bool held = holds(above);
   double upward = 0;
   for (const Contact& contact : world_->contacts()) {
-    if (contact.a == ref && owns(below, contact.b)) upward += contact.force.z();
-    if (contact.b == ref && owns(below, contact.a)) upward -= contact.force.z();
+    const bool first = contact.a == ref && owns(below, contact.b);
+    if (!first && !(contact.b == ref && owns(below, contact.a))) continue;
+    const double side = first ? 1 : -1;
+    if (held && contact.mean_force > 0 && side * contact.normal.z() >= kFromBelow) return true;
+    upward += side * contact.force.z();
   }
-  if (upward <= 0) return false;
+  if (held || upward <= 0) return false;
   const double mass = scene().bodies[static_cast<std::size_t>(ref.body)].parts[0].mass;
-  return upward >= kSupportShare * mass * scene().gravity.norm() && !grasped(name);
+  return upward >= kSupportShare * mass * scene().gravity.norm();
+}
+
+WorldView::Judged WorldView::supports(std::string_view surface, std::string_view name) const {
+  const Object &below = object(surface), &above = object(name);
+  const bool on = borne(below, above);
+  const int owner = body_of(below);
+  if (above.kind != ObjectKind::body || owner < 0 || below.kind == ObjectKind::region) return {on, 0};
+  const Box& box = parts_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(below.part)];
+  const auto [low, high] = bounds_of({body_of(above), above.part});
+  const Vector3 foot((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, low.z());
+  const Vector3 at = world_->world_from_part(box.part).inverse() * foot;
+  const Vector3 inward = (at - box.low).cwiseMin(box.high - at);  // from the side faces
+  if (on) return {true, std::max(0.0, inward.head<2>().minCoeff())};
+  const Vector3 away(std::max(0.0, -inward.x()), std::max(0.0, -inward.y()), at.z() - box.high.z());
+  return {false, -away.norm()};
+}
+
+bool WorldView::touched_by_others(const Object& thing) const {
+  return std::any_of(world_->contacts().begin(), world_->contacts().end(), [&](const Contact& contact) {
+    return (owns(thing, contact.a) && contact.b.body >= 0) || (owns(thing, contact.b) && contact.a.body >= 0);
+  });
+}
+
+// From its lowest point to the highest shape below it, by bounding boxes.
+double WorldView::drop_below(const Object& thing) const {
+  constexpr double kSunk = 0.002;  // m
+  const PartRef own{body_of(thing), thing.part};
+  const auto [low, high] = bounds_of(own);
+  double floor = 0;
+  for (const Box& box : shapes_) {
+    if (box.part.body == own.body) continue;
+    const auto [below, top] = world_bounds(world_->world_from_part(box.part), box.low, box.high);
+    const bool under = below.x() < high.x() && top.x() > low.x() && below.y() < high.y() && top.y() > low.y();
+    if (under && top.z() <= low.z() + kSunk) floor = std::max(floor, top.z());
+  }
+  return std::max(0.0, low.z() - floor);
+}
+
+WorldView::Judged WorldView::carried(std::string_view name) const {
+  const Judged held = grasped(name);
+  const Object& thing = object(name);
+  if (!held.holds || thing.kind == ObjectKind::region) return {false, std::min(0.0, held.margin)};
+  return touched_by_others(thing) ? Judged{false, 0} : Judged{true, drop_below(thing)};
 }
 
 bool WorldView::at_rest(std::string_view name) const {
@@ -203,9 +275,16 @@ bool WorldView::at_rest(std::string_view name) const {
          angle_between(Quaternion(now.linear()), Quaternion(then.linear())) < kRestAngle;
 }
 
-bool WorldView::grasped(std::string_view name) const {
+bool WorldView::holds(const Object& thing) const {
   const auto held = world_->grasped();
-  return held && owns(object(name), *held);
+  return held && owns(thing, *held);
+}
+
+WorldView::Judged WorldView::grasped(std::string_view name) const {
+  const Object& thing = object(name);
+  const bool held = holds(thing);
+  const double depth = -box_distance(name, world_->world_from_tip().translation());
+  return {held, held ? std::max(0.0, depth) : std::min(0.0, depth)};
 }
 
 std::string WorldView::grasped_object() const {
@@ -231,9 +310,17 @@ bool WorldView::inside(std::string_view region_name, std::string_view name, bool
 }
 
 double WorldView::region_distance(std::string_view region_name, const Vector3& point) const {
-  const Vector3 beyond = (world_from(region_name).inverse() * point).cwiseAbs() - size(region_name) / 2;
-  const double outside = beyond.cwiseMax(0).norm();
-  return outside > 0 ? outside : beyond.maxCoeff();
+  return signed_distance((world_from(region_name).inverse() * point).cwiseAbs() - size(region_name) / 2);
+}
+
+double WorldView::box_distance(std::string_view name, const Vector3& point) const {
+  const Object& thing = object(name);
+  const int body = body_of(thing);
+  if (thing.kind == ObjectKind::region || thing.kind == ObjectKind::hand || body < 0)
+    return region_distance(name, point);
+  const Box& box = parts_[static_cast<std::size_t>(body)][static_cast<std::size_t>(thing.part)];
+  const Vector3 middle = (box.low + box.high) / 2;
+  return signed_distance((world_from(thing).inverse() * point - middle).cwiseAbs() - (box.high - middle));
 }
 
 void WorldView::close_frame() {

@@ -41,18 +41,29 @@ class WorldView {
 
   bool touching(std::string_view a, std::string_view b) const;
   double contact_force(std::string_view a, std::string_view b) const;  // mean normal, N
-  // The upward share of contact force on `object` that comes from `surface`: at least a quarter of its weight, and
-  // the hand does not hold it.
-  bool supports(std::string_view surface, std::string_view object) const;
+  // Whether something holds, and by how much: not negative while it does, not positive while it does not, m.
+  struct Judged {
+    bool holds = false;
+    double margin = 0;
+  };
+  // Contact with `surface` bears at least a quarter of the object's weight; of what is in the hand too, any of it that
+  // comes from below. Margin: how far the object's middle is from the edge of the surface's box, seen from above; else
+  // minus the way from its foot to the top of that box.
+  Judged supports(std::string_view surface, std::string_view object) const;
   bool at_rest(
       std::string_view object) const;  // moved less than 1 mm and 1 deg in 0.25 s, relative to what supports it
-  bool grasped(std::string_view object) const;  // by friction between the pads
-  std::string grasped_object() const;           // or empty
-  double opening() const;                       // m
+  // By friction between the pads. Margin: how deep the tip is in the object's box; else minus the way to it.
+  Judged grasped(std::string_view object) const;
+  // Grasped, and nothing but the hand touches it. Margin: how deep it could fall; while it is not in the hand, that of
+  // grasped().
+  Judged carried(std::string_view object) const;
+  std::string grasped_object() const;  // or empty
+  double opening() const;              // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?
   bool inside(std::string_view region, std::string_view object, bool whole = false) const;
   // Signed distance of a point to the region's box, negative inside, m.
   double region_distance(std::string_view region, const Vector3& point) const;
+  double box_distance(std::string_view object, const Vector3& point) const;  // the same, of its bounding box
 
   void close_frame();  // after World::close_window: extends the history
   struct History {
@@ -72,11 +83,22 @@ class WorldView {
 
  private:
   int body_of(const Object& object) const;  // index of its body; -1: none
+  bool holds(const Object& object) const;   // does the hand?
+  bool touched_by_others(const Object& object) const;
+  bool borne(const Object& below, const Object& above) const;
+  double drop_below(const Object& object) const;
+  std::array<Vector3, 2> bounds_of(PartRef part) const;  // of a body's part in the world
 
   World* world_;
   const FactTracker* facts_ = nullptr;
   std::map<std::string, int, std::less<>> index_;  // object name -> index in scene().objects
   std::vector<int> bodies_;                        // of each of them, the index of its body; -1: none
+  struct Box {
+    PartRef part;
+    Vector3 low, high;  // in the part's frame
+  };
+  std::vector<std::vector<Box>> parts_;  // bounding boxes by body and part
+  std::vector<Box> shapes_;              // of all shapes that bodies collide with
   History history_;
 };
 

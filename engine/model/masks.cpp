@@ -22,6 +22,16 @@ const Object* object_of(const Scene& scene, const std::string& body, int part) {
   return whole;
 }
 
+// What hides what is behind it; the rest tints it and is in no mask.
+bool opaque(double alpha) { return alpha >= kOpaque; }
+
+bool in_masks(const Part& part) {
+  return std::any_of(part.shapes.begin(), part.shapes.end(),
+                     [](const Shape& shape) { return shape.visible && opaque(shape.colour.alpha); });
+}
+
+bool in_masks(const Region& region) { return region.visible && opaque(region.colour.alpha); }
+
 bool is_hand(const Scene& scene, int part) { return hangs_on(scene.robot.body, part, scene.robot.tip_part); }
 
 std::string class_of_region(const Scene& scene, const Region& region) {
@@ -75,10 +85,15 @@ std::string class_of_part(const Scene& scene, int body, int part) {
 
 void number_masks(Scene& scene, RandomKey key) {
   int next = 1;
-  for (Part& part : scene.robot.body.parts) part.instance = next++;
+  for (Part& part : scene.robot.body.parts) {
+    part.instance = in_masks(part) ? next : 0;  // a link without shapes leaves its number out
+    ++next;
+  }
   std::vector<int*> others;
   for (Body& body : scene.bodies)
     for (Part& part : body.parts) {
+      part.instance = 0;
+      if (!in_masks(part)) continue;
       if (body.fixture)
         part.instance = next++;
       else
@@ -86,7 +101,7 @@ void number_masks(Scene& scene, RandomKey key) {
     }
   for (Region& region : scene.regions) {
     region.instance = 0;
-    if (region.visible) others.push_back(&region.instance);
+    if (in_masks(region)) others.push_back(&region.instance);
   }
   std::vector<int> numbers(others.size());
   for (int& number : numbers) number = next++;
@@ -98,12 +113,14 @@ void number_masks(Scene& scene, RandomKey key) {
 
 std::vector<MaskEntry> mask_key(const Scene& scene) {
   std::vector<MaskEntry> entries;
-  for (std::size_t part = 0; part < scene.robot.body.parts.size(); ++part) entries.push_back(entry_of(scene, -1, part));
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    for (std::size_t part = 0; part < scene.bodies[body].parts.size(); ++part)
-      entries.push_back(entry_of(scene, static_cast<int>(body), part));
+  const auto add_parts = [&](const Body& body, int index) {
+    for (std::size_t part = 0; part < body.parts.size(); ++part)
+      if (body.parts[part].instance != 0 || in_masks(body.parts[part])) entries.push_back(entry_of(scene, index, part));
+  };
+  add_parts(scene.robot.body, -1);
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) add_parts(scene.bodies[body], static_cast<int>(body));
   for (const Region& region : scene.regions) {
-    if (!region.visible) continue;
+    if (region.instance == 0 && !in_masks(region)) continue;
     const std::string name = class_of_region(scene, region);
     entries.push_back({region.instance, region.name, region.name, name, semantic_of(scene, name)});
   }

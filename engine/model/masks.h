@@ -10,7 +10,7 @@
 
 namespace stampede {
 
-// One thing that masks tell apart: a part of a body or of the robot, or a visible region.
+// One thing that masks tell apart: a part of a body or of the robot, or a region; each can be seen.
 struct MaskEntry {
   int instance = 0;    // in instance masks; 0 is the background
   std::string name;    // `panda.link3`, `chest.top_drawer`, `block1`
@@ -19,9 +19,13 @@ struct MaskEntry {
   int semantic = 0;  // in semantic masks
 };
 
-// Numbers parts and visible regions: the robot's parts from 1, then the fixtures' (in the scene's order): the same in
-// every task of a world. The numbers of everything else are shuffled by `key`, so that a number never tells what a
-// thing is for. Fills Scene::classes with the classes in use, sorted, when it is empty. Repeatable.
+// What has less alpha is seen through: drawn in colours only, in no mask.
+inline constexpr double kOpaque = 0.99;
+
+// Numbers parts and regions with something visible and opaque; 0 for the rest. The robot's parts from 1, then the
+// fixtures' (in the scene's order): the same in every task of a world. The numbers of everything else are shuffled by
+// `key`, so that a number never tells what a thing is for. Fills Scene::classes with the classes in use, sorted, when
+// it is empty. Repeatable.
 void number_masks(Scene& scene, RandomKey key);
 
 // The class of a part: the type of the part's own object (`drawer`), else the class of its body (`chest`); `hand` for

@@ -76,7 +76,7 @@ struct Part {
   Vector3 centre_of_mass = Vector3::Zero();  // in the part's frame
   Matrix3 inertia = Matrix3::Zero();         // about the centre of mass, in the part's axes, kg m^2
   Surface surface;
-  int instance = 0;  // value in instance masks; 0: not numbered yet (see masks.h)
+  int instance = 0;  // value in instance masks; 0: not numbered yet, or never in them (see masks.h)
 };
 
 // fixed: part 0 stands still, further parts move on joints (furniture, the robot). free: exactly one part.

@@ -21,8 +21,6 @@ SceneState initial_state(const Scene& scene) {
     state.joint_position.push_back(initial_positions(body));
   }
   state.robot_position = initial_positions(scene.robot.body);
-  for (std::size_t i = 0; i < scene.robot.arm.size(); ++i)
-    state.robot_position[static_cast<std::size_t>(scene.robot.arm[i])] = scene.robot.home[i];
   for (const Region& region : scene.regions) state.world_from_region.push_back(region.part_from_region);
   return state;
 }

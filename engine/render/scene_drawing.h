@@ -59,9 +59,6 @@ class TessellationCache {
   std::size_t corners_ = 0;
 };
 
-// Things with alpha below this are seen through: drawn in colour only, after everything else.
-inline constexpr double kOpaque = 0.99;
-
 class SceneDrawing {
  public:
   // Throws Error for scenes without mask numbers, missing textures, and what tessellate refuses.

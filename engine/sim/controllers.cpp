@@ -69,11 +69,14 @@ void World::Impl::build_robot_motors() {
     constraints.push_back(std::move(motor));
     return static_cast<btMultiBodyJointMotor*>(constraints.back().get());
   };
+  const auto joints = static_cast<Eigen::Index>(robot.arm.size());
+  JointVector start(joints);
   for (std::size_t j = 0; j < robot.arm.size(); ++j) {
+    start[static_cast<Eigen::Index>(j)] = part({kRobot, robot.arm[j]}).joint.initial;
     arm_links.push_back(slot({kRobot, robot.arm[j]}).link);
     arm_motors.push_back(motor_of(robot.arm[j]));
     arm_motors.back()->setErp(kArmErp);
-    robot_slot.multibody->setJointPos(arm_links.back(), robot.home[j]);
+    robot_slot.multibody->setJointPos(arm_links.back(), start[static_cast<Eigen::Index>(j)]);
   }
   for (const int finger : robot.fingers) {
     finger_links.push_back(slot({kRobot, finger}).link);
@@ -100,8 +103,7 @@ void World::Impl::build_robot_motors() {
   hand.opening = 0;
   for (const int finger : robot.fingers) hand.opening += part({kRobot, finger}).joint.initial;
   hand.force = robot.grip_force;
-  const auto joints = static_cast<Eigen::Index>(robot.arm.size());
-  reference.setpoint = {arm.home(), JointVector::Zero(joints), JointVector::Zero(joints)};
+  reference.setpoint = {start, JointVector::Zero(joints), JointVector::Zero(joints)};
   reference_now = reference.setpoint;
   arm_torque = JointVector::Zero(joints);
   dynamics = ArmDynamics(robot);

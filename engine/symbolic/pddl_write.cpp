@@ -114,6 +114,7 @@ std::string predicates_text(const Domain& domain) {
   std::string text = "  (:predicates";
   for (const std::string& trait : domain.traits) text += "\n    (" + pddl(trait) + " ?x - object) ;@ trait";
   for (const Predicate& predicate : domain.predicates) {
+    if (predicate.kind == PredicateKind::start) continue;  // never a fact
     const std::string variables = symbolic::variables_text(predicate.parameters, Names::pddl);
     text += "\n    (" + pddl(predicate.name) + (variables.empty() ? "" : " " + variables) + ")";
     std::string note;

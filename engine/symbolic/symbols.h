@@ -72,7 +72,8 @@ struct Action {
   friend bool operator==(const Action&, const Action&) = default;
 };
 
-enum class PredicateKind { basic, derived, fixed };  // fixed: read once (static)
+// fixed: read once (static). start: a condition on how an episode begins, tested then and never again: no fact.
+enum class PredicateKind { basic, derived, fixed, start };
 
 struct Predicate {
   std::string name;

@@ -85,6 +85,7 @@ class LibraryBuilder {
 
   // check_objects.cpp
   void check_objects();
+  void check_start(const Definition& definition, const Node& joints, const Node& arm, const std::string& path);
   void check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what);
   void add_object(SceneObjects& objects, const std::string& name, const Node& entry) const;
   SceneObjects world_objects(const std::string& world) const;

@@ -127,6 +127,9 @@ void check_inner(const Field& field, const Node& node, const std::string& path, 
       for (std::size_t i = 0; i < node.items.size(); ++i) {
         check_record(*inner, node.items[i], path + "." + std::to_string(i + 1), complain);
       }
+    } else if (is_draw(node)) {
+      for (const Node& choice : node["values"].items)
+        if (choice.is_table() && !is_draw(choice)) check_record(*inner, choice, path, complain);
     } else {
       check_record(*inner, node, path, complain);
     }

@@ -117,6 +117,8 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
   }
   check_record(*record("entry"), entry, path, complainer(definition), known);
   check_body(definition, entry, path);
+  if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
+  if (robot) return check_start(definition, entry["joints"], found->second.node["arm"], path + ".joints");
   for (const auto& [part, position] : entry["joints"].fields) {
     const Node& parts = found->second.node["parts"];
     if (parts[part].present() || found->second.node["urdf"].present()) continue;
@@ -125,7 +127,20 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
     complain(definition, path + ".joints", "'" + class_name + "' has no part '" + part + "'",
              did_you_mean(part, names));
   }
-  if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
+}
+
+// Where an arm starts: its own joints, each once.
+void LibraryBuilder::check_start(const Definition& definition, const Node& joints, const Node& arm,
+                                 const std::string& path) {
+  std::vector<std::string> names;
+  for (const Node& joint : arm.items) names.push_back(joint.text);
+  for (const auto& [joint, position] : joints.fields) {
+    if (std::find(names.begin(), names.end(), joint) == names.end())
+      complain(definition, path, "the arm has no joint '" + joint + "'", did_you_mean(joint, names));
+    if (!has_type(position, "number"))
+      complain(definition, path + "." + joint, "expects a number, this is " + position.type_name(),
+               "such as " + joint + " = between(-0.2, 0.2)");
+  }
 }
 
 // The object with its parts (name.part) and regions (name.region, name.part.region).
@@ -147,7 +162,7 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   const bool region = either("region").present();
   object.type = either("type").is_text() ? either("type").text : region ? "region" : "";
   object.traits = texts(either("traits"));
-  object.positioned = entry["at"].present();
+  object.positioned = entry["at"].present() || entry["place"].present();
   const bool fixed =
       either("fixed").kind == Node::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
   object.free = found != nullptr && !fixed && !region && node["parts"].fields.empty();

@@ -140,6 +140,13 @@ void LibraryBuilder::declare_predicates() {
     const bool derived = definition.node["derived"].present();
     if (derived) predicate.kind = PredicateKind::derived;
     if (!derived && definition.node["static"].boolean) predicate.kind = PredicateKind::fixed;
+    if (definition.node["start_only"].boolean) {
+      predicate.kind = PredicateKind::start;
+      for (const char* other : {"derived", "static", "momentary", "remember", "settle", "observable"})
+        if (definition.node[other].present())
+          complain(definition, other, "a predicate that is only asked of starts has no '" + std::string(other) + "'",
+                   "leave it out, or leave start_only out");
+    }
     check_label(definition, predicate.label, predicate.parameters);
     if (derived && definition.node["holds"].present()) {
       complain(definition, "derived", "a predicate has holds or derived, not both", "keep one");

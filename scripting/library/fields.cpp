@@ -39,16 +39,26 @@ const Record kProblem{
      {"names", "table", false, "{}", "", "its names, and ours where a thing has another one here",
       "{ main_table = \"table\" }"}}};
 
-const Record kEntry{
-    "entry",
-    "One line of a task's objects or a world's fixtures: a class and what differs from its file",
-    {{"count", "integer", false, "", "", "makes a group name1 … namen (0: an empty one)", "4"},
-     {"at", "vector", false, "", "m", "fixed position of the body in the world", "{ 0.1, 0, 0.75 }"},
-     {"yaw", "number", false, "0", "rad", "turn about the vertical", "deg(90)"},
-     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
-     {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"},
-     {"joints", "table", false, "{}", "rad or m", "initial joint positions by part", "{ top_drawer = 0.1 }"}},
-    "string"};
+const Record kEntry{"entry",
+                    "One line of a task's objects or a world's fixtures: a class and what differs from its file",
+                    {{"count", "integer", false, "", "", "makes a group name1 … namen (0: an empty one)", "4"},
+                     {"at", "vector", false, "", "m", "fixed position of the body in the world", "{ 0.1, 0, 0.75 }"},
+                     {"yaw", "number", false, "0", "rad", "turn about the vertical", "deg(90)"},
+                     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
+                     {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"},
+                     {"place", "place", false, "", "", "at and a turn together, where one draw chooses both",
+                      "one_of { { at = { 0.5, 0, 0.75 } }, { at = { 0.1, 0.5, 0.75 }, yaw = deg(90) } }"},
+                     {"joints", "table", false, "{}", "rad or m",
+                      "initial joint positions by part; of a robot, where its arm starts instead of at home",
+                      "{ top_drawer = between(0.08, 0.14) }"}},
+                    "string"};
+
+const Record kPlace{"place",
+                    "Where something stands",
+                    {{"at", "vector", true, "", "m", "position of the body in the world"},
+                     {"yaw", "number", false, "0", "rad", "turn about the vertical"},
+                     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
+                     {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"}}};
 
 const Record kSkill{
     "skill",
@@ -84,11 +94,14 @@ const Record kPredicate{
     {{"params", "string[]", true, "", "", "\"name: type & trait\"; one of type hand may be left out in literals",
       "{ \"obj: movable\", \"surface: surface\" }"},
      {"label", "string", true, "", "", "the fact in words, with {params}", "\"the {obj} is on the {surface}\""},
-     {"holds", "function", false, "", "", "function(w, …): does it hold, and a signed margin if there is one"},
+     {"holds", "function", false, "", "",
+      "function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds"},
      {"derived", "formula", false, "", "", "the formula that it stands for, instead of holds",
       "is_not(exists(\"?y: movable\", is.on(\"?y\", \"x\")))"},
      {"sample", "function", false, "", "", "function(w, …, rng): poses or joint positions that make it true"},
-     {"static", "boolean", false, "false", "", "read once, at the start"},
+     {"static", "boolean", false, "false", "", "cannot change in an episode: read once, at the start"},
+     {"start_only", "boolean", false, "false", "",
+      "a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it"},
      {"settle", "number", false, "0", "s", "a shorter change is noise"},
      {"momentary", "boolean", false, "false", "", "read at every physics step, without settle time"},
      {"remember", "boolean", false, "false", "", "stays true once true"},
@@ -338,9 +351,10 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {
-      kTask,  kProblem, kSkill, kPredicate, kObject,  kWorld,  kRobot,  kEntry, kCase,      kPart,    kJoint,
-      kLatch, kRegion,  kGrasp, kShape,     kTexture, kCamera, kSensor, kLight, kRandomise, kObserve, kObserveNoise};
+  static const std::vector<Record> kRecords = {kTask,   kProblem, kSkill,     kPredicate, kObject,      kWorld,
+                                               kRobot,  kEntry,   kPlace,     kCase,      kPart,        kJoint,
+                                               kLatch,  kRegion,  kGrasp,     kShape,     kTexture,     kCamera,
+                                               kSensor, kLight,   kRandomise, kObserve,   kObserveNoise};
   return kRecords;
 }
 

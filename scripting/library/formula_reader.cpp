@@ -141,7 +141,13 @@ class Reader {
   void check_predicate(const Node& node) {
     const std::string& name = node["predicate"].text;
     const auto trait = std::find(domain_.traits.begin(), domain_.traits.end(), name);
-    if (domain_.predicate(name) != nullptr || trait != domain_.traits.end()) return;
+    if (const Predicate* known = domain_.predicate(name)) {
+      if (known->kind == PredicateKind::start && context_.field != "init")
+        fail("'" + name + "' is only asked of starts and is no fact",
+             "name it in init, or take start_only out of its file");
+      return;
+    }
+    if (trait != domain_.traits.end()) return;
     std::vector<std::string> known = domain_.traits;
     for (const Predicate& predicate : domain_.predicates) known.push_back(predicate.name);
     std::string hint = did_you_mean(name, known);

@@ -264,18 +264,26 @@ function stampede_world_view:touching(a, b) end
 ---@param b string
 ---@return number
 function stampede_world_view:force(a, b) end
--- Does the surface carry it from below?
+-- Does the surface bear it from below: a quarter of its weight at least; of what is held too, any touch from below? And
+-- by how much: from its middle to the surface's edge; while it does not, minus the way to the surface's top (m)
 ---@param surface string
 ---@param thing string
----@return boolean
+---@return boolean supports
+---@return number margin
 function stampede_world_view:supports(surface, thing) end
 ---@param thing string
 ---@return boolean
 function stampede_world_view:at_rest(thing) end
--- Between the pads of the hand?
+-- Between the pads of the hand? And how deep the tip is in its box; while it is not, minus the way there (m)
 ---@param thing string
----@return boolean
+---@return boolean grasped
+---@return number margin
 function stampede_world_view:grasped(thing) end
+-- Grasped, and touched by nothing but the hand? And how deep it could fall; while it is not grasped, as grasped() (m)
+---@param thing string
+---@return boolean carried
+---@return number margin
+function stampede_world_view:carried(thing) end
 ---@return string|nil
 function stampede_world_view:grasped_object() end
 -- Of the hand

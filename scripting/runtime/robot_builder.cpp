@@ -146,4 +146,16 @@ Robot build_robot(const std::string& name, const Value& fields, Body body, const
   return robot;
 }
 
+void set_start(const Value& joints, Robot& robot) {
+  for (const auto& [name, value] : joints.fields) {
+    const int part = part_index_of(robot.body, name, value);
+    const auto found = std::find(robot.arm.begin(), robot.arm.end(), part);
+    if (found == robot.arm.end()) throw Error(value.place, "'" + name + "' is no joint of the arm");
+    const JointLimits& limits = robot.limits[static_cast<std::size_t>(found - robot.arm.begin())];
+    Joint& joint = robot.body.parts[static_cast<std::size_t>(part)].joint;
+    joint.initial = value.as_number();
+    if (joint.initial < limits.lower || joint.initial > limits.upper) value.expected("a position within its limits");
+  }
+}
+
 }  // namespace stampede

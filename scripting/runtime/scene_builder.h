@@ -49,4 +49,7 @@ class SceneBuilder {
 Robot build_robot(const std::string& name, const Value& fields, Body body, const Transform& world_from_base,
                   const Colours& colours);
 
+// `joints`: positions by joint or link, at which the arm starts instead of at home.
+void set_start(const Value& joints, Robot& robot);
+
 }  // namespace stampede

@@ -27,10 +27,16 @@ std::string filled(const std::string& text, const std::map<std::string, std::str
   return result;
 }
 
-// An entry's fields replace the file's; its attributes and numbers are added to the file's.
+// An entry's fields replace the file's; its attributes and numbers are added to the file's. What `place` holds goes
+// where the entry's own at, yaw, rpy and quaternion would be: so one draw can choose all of them.
 Value overlaid(Value file, const Value& entry) {
+  for (const auto& [key, value] : entry["place"].fields) {
+    if (entry[key].present())
+      throw Error(value.place, "place says '" + key + "', and the entry says it too", "leave one out");
+    file.fields[key] = value;
+  }
   for (const auto& [key, value] : entry.fields) {
-    if (key == "count" || key == "name") continue;
+    if (key == "count" || key == "name" || key == "place") continue;
     const bool adds = (key == "attributes" || key == "numbers") && file[key].kind == Value::Kind::table;
     if (!adds) {
       file.fields[key] = value;
@@ -143,7 +149,9 @@ void TaskReader::read_robot(const Value& robot) {
   const Value fields = definition(DefinitionKind::robot, name, "", robot);
   const UrdfBody& urdf = assets_.urdf(file.path.parent_path() / fields.text_or("urdf", name + ".urdf"));
   builder_->add_drawn(urdf.drawn);
-  builder_->set_robot(build_robot(name, fields, urdf.body, transform_from(robot), colours_));
+  Robot built = build_robot(name, fields, urdf.body, transform_from(robot), colours_);
+  set_start(robot["joints"], built);
+  builder_->set_robot(std::move(built));
   drawn_.hand = builder_->hand();
 }
 

@@ -52,6 +52,16 @@ template <auto getter>
 int vector_of(lua_State* state) {
   return push_vector(state, (view_of(state).*getter)(check_text(state, 2)));
 }
+// Whether it holds, and its margin.
+int push_judged(lua_State* state, const WorldView::Judged& judged) {
+  lua_pushboolean(state, judged.holds ? 1 : 0);
+  lua_pushnumber(state, judged.margin);
+  return 2;
+}
+template <auto test>
+int judged(lua_State* state) {
+  return push_judged(state, (view_of(state).*test)(check_text(state, 2)));
+}
 template <auto test>
 int pair_test(lua_State* state) {
   lua_pushboolean(state, (view_of(state).*test)(check_text(state, 2), check_text(state, 3)) ? 1 : 0);
@@ -61,6 +71,10 @@ template <auto test>
 int single_test(lua_State* state) {
   lua_pushboolean(state, (view_of(state).*test)(check_text(state, 2)) ? 1 : 0);
   return 1;
+}
+
+int supports(lua_State* state) {
+  return push_judged(state, view_of(state).supports(check_text(state, 2), check_text(state, 3)));
 }
 
 int position(lua_State* state) {
@@ -297,9 +311,10 @@ constexpr luaL_Reg kMethods[] = {
     {"part_at", lua_function<part_at>},
     {"touching", lua_function<pair_test<&WorldView::touching>>},
     {"force", lua_function<force>},
-    {"supports", lua_function<pair_test<&WorldView::supports>>},
+    {"supports", lua_function<supports>},
     {"at_rest", lua_function<single_test<&WorldView::at_rest>>},
-    {"grasped", lua_function<single_test<&WorldView::grasped>>},
+    {"grasped", lua_function<judged<&WorldView::grasped>>},
+    {"carried", lua_function<judged<&WorldView::carried>>},
     {"grasped_object", lua_function<grasped_object>},
     {"opening", lua_function<opening>},
     {"inside", lua_function<inside>},

@@ -18,6 +18,21 @@ inline std::shared_ptr<const Library> all_tasks() {
   return shared;
 }
 
+// What ships, without this folder's own.
+inline std::shared_ptr<const Library> shipped() {
+  static const std::shared_ptr<const Library> shared = Library::load(Roots{{STAMPEDE_SOURCE_DIR}});
+  return shared;
+}
+
+// Every `parts`-th of what ships, from number `part` on.
+inline std::vector<std::string> shipped_tasks(int part, int parts) {
+  std::vector<std::string> names;
+  int index = 0;
+  for (const ScriptFile* file : shipped()->files(DefinitionKind::task))
+    if (index++ % parts == part) names.push_back(file->name);
+  return names;
+}
+
 inline EpisodeRecord run_task(const std::string& task, const std::string& variation, RunOptions options) {
   EpisodeScripts scripts(all_tasks(), task, variation, options.seed);
   return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);

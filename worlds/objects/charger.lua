@@ -1,11 +1,12 @@
 -- A telephone charger: a block with two pins; they point along +x.
--- A hand that comes from above, leaning back from the wall by so many degrees.
+-- A hand that comes from above, leaning back from the wall by so many degrees, 10 more or less; near the middle.
 local function leaning(degrees, side)
-  local angle = math.rad(degrees)
+  local least, most = math.rad(degrees - 10), math.rad(degrees + 10)
   -- tip z: down and forward (+x); tip y: across the block
   return {
-    at = { -0.004 * math.cos(angle), 0, 0.006 }, width = 0.044, approach = 0.08,
-    rpy = { 0, side * (math.pi - angle), side > 0 and 0 or math.pi },
+    at = { between(-0.009, 0.002), 0, between(0.003, 0.008) }, width = 0.044, approach = 0.08,
+    rpy = { 0, side > 0 and between(math.pi - most, math.pi - least) or between(least - math.pi, most - math.pi),
+      side > 0 and 0 or math.pi },
   }
 end
 
@@ -18,5 +19,5 @@ return object {
     box { 0.020, 0.006, 0.006, at = { 0.035, -0.010, 0 }, colour = { 0.80, 0.80, 0.82 } },
   },
   regions = { seat = { at = { 0.045, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.006, 0.026, 0.002 } } },
-  grasps = { leaning(25, 1), leaning(25, -1), leaning(40, 1), leaning(40, -1), leaning(55, 1), leaning(55, -1) },
+  grasps = { leaning(28, 1), leaning(28, -1), leaning(38, 1), leaning(38, -1), leaning(48, 1), leaning(48, -1) },
 }

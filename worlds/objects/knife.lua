@@ -1,9 +1,10 @@
 -- A kitchen knife with a 12 cm blade that lies flat, face up (+z); the handle is at +x.
--- The hand comes from above and closes across the width of the handle.
+-- The hand comes from above, or at up to 6 degrees to it, and closes across the width of the handle.
 local grasps = {}
-for _, x in ipairs { 0.055, 0.045, 0.065 } do
+for _, x in ipairs { 0.045, 0.055, 0.065 } do
   for _, yaw in ipairs { 0, math.pi } do
-    grasps[#grasps + 1] = { at = { x, 0, 0.003 }, rpy = { math.pi, 0, yaw }, width = 0.024, approach = 0.08, force = 30 }
+    grasps[#grasps + 1] = { at = { between(x - 0.005, x + 0.005), 0, between(0.001, 0.004) },
+      rpy = { math.pi, between(-0.1, 0.1), yaw }, width = 0.024, approach = 0.08, force = 30 }
   end
 end
 

@@ -1,5 +1,8 @@
 -- A cordless phone that lies on its back; its earpiece and the stub of its aerial are at +x.
-local function from_above(x, yaw) return { at = { x, 0, 0.006 }, rpy = { math.pi, 0, yaw }, width = 0.048 } end
+local function from_above(x, yaw) -- or at up to 10 degrees to it, along the phone
+  return { at = { between(x - 0.01, x + 0.01), 0, between(0.003, 0.008) },
+    rpy = { math.pi, between(-0.17, 0.17), yaw }, width = 0.048 }
+end
 
 local dark = { 0.10, 0.10, 0.12 }
 local outline = { { -0.075, 0.018 }, { -0.068, 0.024 }, { 0.068, 0.024 }, { 0.075, 0.018 } }

@@ -3,11 +3,12 @@ local radius = 0.085
 
 -- The hand comes from outside towards the middle, one finger on either side.
 local grasps = {}
-for _, angle in ipairs { 0, 20, -20, 40, -40 } do
+for angle = -45, 45, 5 do
   for _, face in ipairs { 1, -1 } do
     local turn = deg(angle)
+    local deep = radius - 0.020 + 0.001 * (angle // 5 % 3 - 1) -- a millimetre more or less
     grasps[#grasps + 1] = {
-      at = { (radius - 0.020) * math.cos(turn), (radius - 0.020) * math.sin(turn), 0 },
+      at = { deep * math.cos(turn), deep * math.sin(turn), 0 },
       rpy = { face * math.pi / 2, 0, turn - face * math.pi / 2 }, width = 0.012, approach = 0.08, force = 30,
     }
   end

@@ -1,9 +1,11 @@
 -- A USB stick; its plug points along +x.
 local grasps = {}
-for _, lean in ipairs { 0, math.rad(10) } do
-  for _, side in ipairs { 1, -1 } do -- from above, leaning back from what it is plugged in
-    grasps[#grasps + 1] = { at = { -0.008, 0, 0.005 }, rpy = { 0, side * (math.pi - lean), side > 0 and 0 or math.pi },
-      width = 0.020, approach = 0.07, force = 12 }
+for _, least in ipairs { 0, 6, 12 } do
+  for _, side in ipairs { 1, -1 } do -- from above, leaning back from what it is plugged in, by up to 18 degrees
+    local low, high = math.rad(least), math.rad(least + 6)
+    grasps[#grasps + 1] = { at = { between(-0.012, -0.005), 0, between(0.004, 0.006) }, width = 0.020, approach = 0.07,
+      force = 12, rpy = { 0, side > 0 and between(math.pi - high, math.pi - low) or between(low - math.pi, high - math.pi),
+        side > 0 and 0 or math.pi } }
   end
 end
 

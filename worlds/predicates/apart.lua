@@ -1,4 +1,4 @@
--- At the start the two stand far enough from each other for a hand between them (8 cm); never asked again.
+-- The two stand far enough from each other for a hand between them (8 cm). A condition on starts.
 local function far(w, x, y, a, b)
   local bx, by = w:position(b)
   local a_x, a_y = w:size(a)
@@ -9,7 +9,7 @@ end
 return predicate {
   params = { "a: movable", "b: movable" },
   label = "the {a} stands apart from the {b}",
-  static = true,
+  start_only = true,
   holds = function(w, a, b)
     local x, y = w:position(a)
     return far(w, x, y, a, b)

@@ -1,4 +1,4 @@
--- At the start, the other thing stands where a hand would be that takes the object from above across its shorter side.
+-- The other thing stands where a hand would be that takes the object from above across its shorter side.
 local finger, palm = 0.05, 0.10 -- m to either side: the middle of an open finger, the end of the palm
 local below_palm = 0.03 -- m: the palm stays this far above the middle of what the hand takes
 
@@ -12,7 +12,7 @@ end
 return predicate {
   params = { "other: movable", "obj: movable" },
   label = "the {other} leaves no room for a hand around the {obj}",
-  static = true,
+  start_only = true,
   holds = function(w, other, obj)
     if other == obj then return false end
     local length, width = w:size(obj)

@@ -1,12 +1,15 @@
--- The object hangs on the hook or rod: its loop or hole is around it and it is held up by it, not by a hand.
+-- The object hangs on the hook or rod: its loop or hole is around it, and it is held up by it until it leaves it.
 local seats = require "worlds.lib.seats"
 
 return predicate {
   params = { "obj: movable", "hook: hook" },
   label = "the {obj} hangs on the {hook}",
   settle = 0.1, -- s
+  margin_unit = "m", -- how far the hook reaches into the loop
   holds = function(w, obj, hook)
-    return w:region_distance(hook, seats.loop(w, obj)) <= 0 and w:supports(seats.owner(hook), obj)
+    local distance = w:region_distance(hook, seats.loop(w, obj))
+    local hangs = distance <= 0 and w:supports(seats.owner(hook), obj)
+    return hangs, hangs and -distance or -math.max(distance, 0)
   end,
   sample = function(w, obj, hook) return seats.with_part_at(w, obj, seats.loop(w, obj), w:pose(hook)) end,
 }

@@ -75,8 +75,12 @@ return predicate {
   label = "the {obj} is inside the {box}",
   settle = 0.1, -- s
   requires = "near",
+  margin_unit = "m", -- how deep in it
   observable = function(w, _, box) return looks_open(w, box) end,
-  holds = function(w, obj, box) return w:inside(inner(w, box), obj) end,
+  holds = function(w, obj, box)
+    local distance = w:region_distance(inner(w, box), obj)
+    return distance <= 0, -distance
+  end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
     return handy(w, box, w:region_spots(inner(w, box), obj, rng))

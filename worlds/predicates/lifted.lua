@@ -1,4 +1,4 @@
--- The object is in the hand, touches nothing that could hold it up, and is in no slot and on no hook.
+-- The hand alone carries the object: it is grasped, nothing else touches it, and it is in no slot and on no hook.
 local seats = require "worlds.lib.seats"
 
 return predicate {
@@ -6,11 +6,11 @@ return predicate {
   label = "the {obj} is lifted",
   settle = 0.1, -- s
   requires = "held",
+  margin_unit = "m", -- how deep it could fall, or how far it is out of slots and off hooks where that is less
   holds = function(w, obj)
-    if not w:grasped(obj) then return false end
-    for _, other in ipairs(w:objects("support")) do
-      if other ~= obj and w:touching(other, obj) then return false end
-    end
-    return seats.clearance(w, obj) > 0
+    local carried, deep = w:carried(obj)
+    if not carried then return false, deep end
+    local clear = seats.clearance(w, obj)
+    return clear > 0, math.min(deep, clear)
   end,
 }

@@ -1,4 +1,5 @@
--- The object rests on the support: held up by it from below, not by a hand.
+-- The object rests on the support, which bears it from below. While the hand holds it too, it is on the support until it
+-- leaves it: the fact ends at the frame in which pictures show a gap, not when the fingers close.
 -- Spots with room for fingers around them, where the object asks for it (number `room`: m from centre to centre, and
 -- most of it to the edge of what stands up beside it); all spots where there are none such.
 local function roomy(w, obj, below, spots)
@@ -34,6 +35,7 @@ return predicate {
   label = "the {obj} is on the {below}",
   settle = 0.1, -- s
   requires = "touching",
+  margin_unit = "m", -- how far the object's middle is from the edge of the support
   holds = function(w, obj, below) return w:supports(below, obj) end,
   sample = function(w, obj, below, rng)
     if w:exists(below .. ".mouth") then -- a lid: its frame, at the rim, comes to the mouth

@@ -1,8 +1,8 @@
--- At the start the object lies wholly outside the marked area; never asked again.
+-- The object lies wholly outside the marked area. A condition on starts.
 return predicate {
   params = { "obj: movable", "area: marked" },
   label = "the {obj} lies outside the {area}",
-  static = true,
+  start_only = true,
   holds = function(w, obj, area)
     local x, y = w:position(obj)
     local area_x, area_y = w:position(area)

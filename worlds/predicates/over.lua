@@ -3,11 +3,13 @@ return predicate {
   params = { "obj: movable", "box: container & hollow" },
   label = "the {obj} is over the {box}",
   settle = 0.1, -- s
+  margin_unit = "m", -- how far it is from not being over it
   holds = function(w, obj, box)
     local x, y = w:position(obj)
     local inside = box .. ".inside"
     local _, _, z = w:position(inside)
-    return w:bottom(obj) > w:top(inside) and w:region_distance(inside, x, y, z) <= 0
+    local over = math.min(w:bottom(obj) - w:top(inside), -w:region_distance(inside, x, y, z))
+    return over >= 0, over
   end,
   sample = function(w, obj, box) -- as it is turned now, or turned as little as will do
     local inside = box .. ".inside"

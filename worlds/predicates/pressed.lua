@@ -4,5 +4,9 @@ return predicate {
   label = "the {button} has been pressed",
   momentary = true,
   remember = true,
-  holds = function(w, button) return w:joint(button) >= w:number(button, "on_at") end,
+  margin_unit = "m",
+  holds = function(w, button)
+    local beyond = w:joint(button) - w:number(button, "on_at")
+    return beyond >= 0, beyond
+  end,
 }

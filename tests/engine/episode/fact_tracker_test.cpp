@@ -88,3 +88,70 @@ TEST_CASE("values of attributes that are no names stay out of symbols: PDDL coul
   CHECK_FALSE(tracker.facts().contains(Fact{"mark", {"cube1", "4"}}));
   for (const TypedObject& object : tracker.objects()) CHECK(object.name != "4");
 }
+
+TEST_CASE("nothing is related to its own parts and regions, but by a static predicate") {
+  class Related : public plain::PlainSymbols {
+   public:
+    Related() {
+      const std::vector<Parameter> pair{{"a", "", {}}, {"b", "", {}}};
+      domain_.predicates.push_back({"near", pair, PredicateKind::basic, {}, ""});
+      domain_.predicates.push_back({"owns", pair, PredicateKind::fixed, {}, ""});
+      domain_.predicates.push_back({"roomy", pair, PredicateKind::start, {}, ""});
+      std::sort(domain_.predicates.begin(), domain_.predicates.end(),
+                [](const Predicate& a, const Predicate& b) { return a.name < b.name; });
+    }
+    const Domain& domain() const override { return domain_; }
+    Value value(const Fact&, const WorldView&) override { return {true, {}}; }
+
+   private:
+    Domain domain_ = plain::domain();
+  };
+  Scene scene = table_scene(1);
+  Object seat;
+  seat.name = "cube1.seat", seat.kind = ObjectKind::region, seat.type = "region", seat.body = "cube1";
+  scene.objects.push_back(seat);
+  scene.regions.push_back({"cube1.seat", "cube1", 0, Transform::Identity(), {0.01, 0.01, 0.01}, false, {}, 0});
+  std::sort(scene.objects.begin(), scene.objects.end(),
+            [](const Object& a, const Object& b) { return a.name < b.name; });
+  Related symbols;
+  World world(std::make_shared<const Scene>(scene));
+  const WorldView view(world);
+  FactTracker tracker(symbols, view);
+  tracker.begin(tracker.read_all(view));
+  CHECK(tracker.facts().contains(Fact{"near", {"cube1", "table"}}));
+  CHECK(tracker.facts().contains(Fact{"near", {"cube1.seat", "table"}}));
+  CHECK_FALSE(tracker.facts().contains(Fact{"near", {"cube1", "cube1.seat"}}));
+  CHECK_FALSE(tracker.facts().contains(Fact{"near", {"cube1.seat", "cube1"}}));
+  CHECK(tracker.facts().contains(Fact{"owns", {"cube1", "cube1.seat"}}));
+  // What is only asked of starts is a fact for those who ask, of a start.
+  CHECK_FALSE(tracker.facts().contains(Fact{"roomy", {"cube1", "table"}}));
+  FactTracker asked(symbols, view, {"roomy"});
+  asked.begin(asked.read_all(view));
+  CHECK(asked.facts().contains(Fact{"roomy", {"cube1", "table"}}));
+}
+
+TEST_CASE("an interval keeps the greatest margin of its frames") {
+  class Measured : public plain::PlainSymbols {
+   public:
+    Value value(const Fact& fact, const WorldView& view) override {
+      if (fact.predicate != "hand_empty") return {};
+      constexpr std::array<double, 9> kMargins{-1, 1, 3, 2, -1, -1, 5, 1, 1};
+      const double margin = kMargins.at(static_cast<std::size_t>(view.world().step_count() / 12));
+      return {margin >= 0, margin};
+    }
+  } symbols;
+  World world(std::make_shared<const Scene>(table_scene(1)));
+  WorldView view(world);
+  FactTracker tracker(symbols, view);
+  tracker.begin(tracker.read_all(view));
+  for (int frame = 1; frame <= 8; ++frame) {
+    for (int i = 0; i < 12; ++i) world.step();
+    world.close_window();
+    view.close_frame();
+    tracker.frame(view);
+  }
+  std::vector<double> greatest;
+  for (const FactRecord& record : tracker.intervals(world.step_count(), 12))
+    if (record.fact.predicate == "hand_empty") greatest.push_back(record.margin.value());
+  CHECK(greatest == std::vector<double>{3, 5});
+}

@@ -47,8 +47,8 @@ class PlainSymbols : public Symbols {
     return traits;
   }
   Value value(const Fact& fact, const WorldView& view) override {
-    if (fact.predicate == "on") return {view.supports(fact.arguments[1], fact.arguments[0]), {}};
-    if (fact.predicate == "holding") return {view.grasped(fact.arguments[1]), {}};
+    if (fact.predicate == "on") return {view.supports(fact.arguments[1], fact.arguments[0]).holds, {}};
+    if (fact.predicate == "holding") return {view.grasped(fact.arguments[1]).holds, {}};
     return {view.grasped_object().empty(), {}};
   }
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,

@@ -44,6 +44,13 @@ const MaskEntry& entry(const std::vector<MaskEntry>& key, const std::string& nam
   return *found;
 }
 
+// Links with something to see.
+int drawn_links(const Scene& scene) {
+  const auto& parts = scene.robot.body.parts;
+  return static_cast<int>(
+      std::count_if(parts.begin(), parts.end(), [](const Part& part) { return !part.shapes.empty(); }));
+}
+
 }  // namespace
 
 TEST_CASE("robot and fixtures have the same numbers in each task of a world, whatever the seed") {
@@ -54,7 +61,7 @@ TEST_CASE("robot and fixtures have the same numbers in each task of a world, wha
     ++same;
     CHECK(entry(many, one.name).instance == one.instance);
   }
-  CHECK(same == static_cast<int>(table_scene(0).robot.body.parts.size()) + 1);
+  CHECK(same == drawn_links(table_scene(0)) + 1);
   CHECK(entry(few, "panda.link0").instance == 1);
 }
 
@@ -70,17 +77,34 @@ TEST_CASE("the numbers of everything else depend on the key, and on it alone") {
   CHECK(numbers.size() == 6);  // five cubes and the patch: each number comes up (missing one: 6 (5/6)^60 = 1e-4)
 }
 
-TEST_CASE("the key has every part and visible region once, numbered without gaps") {
+TEST_CASE("the key has each part and region that can be seen once; only links without shapes leave gaps") {
   const Scene scene = numbered(world_scene(3, true), "key");
   const auto key = mask_key(scene);
-  CHECK(key.size() == scene.robot.body.parts.size() + 1 + 3 + 2 + 1);
-  for (std::size_t i = 0; i < key.size(); ++i) CHECK(key[i].instance == static_cast<int>(i) + 1);
+  CHECK(static_cast<int>(key.size()) == drawn_links(scene) + 1 + 3 + 2 + 1);
+  CHECK(key.back().instance == static_cast<int>(scene.robot.body.parts.size()) + 1 + 3 + 2 + 1);
+  for (std::size_t i = 1; i < key.size(); ++i) CHECK(key[i].instance > key[i - 1].instance);
   std::set<std::string> names;
   for (const MaskEntry& e : key) names.insert(e.name);
   CHECK(names.size() == key.size());
   CHECK(names.count("hidden") == 0);
   CHECK(scene.regions[1].instance == 0);
   CHECK(entry(key, "patch").instance == scene.regions[0].instance);
+}
+
+TEST_CASE("what is seen through or not at all has no number; an older scene keeps those it has") {
+  Scene scene = world_scene(2, true);
+  scene.regions[0].colour.alpha = 0.3;
+  Body& chest = scene.bodies.back();
+  for (Shape& shape : chest.parts[1].shapes) shape.visible = false;
+  number_masks(scene, RandomKey("glass"));
+  CHECK(scene.regions[0].instance == 0);
+  CHECK(chest.parts[1].instance == 0);
+  CHECK(chest.parts[0].instance > 0);
+  std::set<std::string> names;
+  for (const MaskEntry& e : mask_key(scene)) names.insert(e.name);
+  CHECK(names.count("patch") + names.count("chest.drawer") == 0);
+  scene.regions[0].instance = 40;
+  CHECK(entry(mask_key(scene), "patch").instance == 40);
 }
 
 TEST_CASE("classes are sorted, counted from 1, and tell a drawer from its chest and the hand from the arm") {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/symbolic/drawn_choice.h"
 #include "engine/symbolic/external_planner.h"
 #include "kitchen.h"
 
@@ -127,4 +128,31 @@ TEST_CASE("another planner's program: its plan is read and checked, its failures
   CHECK_THROWS_WITH(answer("/nowhere/planner {domain} {problem} {plan}"), Catch::Contains("could not be started"));
   CHECK_THROWS_WITH(answer("echo '(open cup1)' > {plan} # {domain} {problem}"), Catch::Contains("must be a drawer"));
   CHECK_THROWS_WITH(answer("echo 'nonsense' > {plan} # {domain} {problem}"), Catch::Contains("expected one (action"));
+}
+
+TEST_CASE("of equal things a plan takes any, in any order, and is as long as before") {
+  const Domain domain = domain_from_pddl(
+      "(define (domain trays) (:types block) (:predicates (loose ?b - block) (stored ?b - block) (red ?b - block)) "
+      "(:action store :parameters (?b - block) :precondition (loose ?b) :effect (and (stored ?b) (not (loose ?b)))))",
+      "trays.pddl");
+  const Problem problem = problem_from_pddl(
+      "(define (problem two) (:domain trays) (:objects a b c d e - block) (:init (loose a) (loose b) (loose c) "
+      "(loose d) (loose e) (red e)) (:goal (exists (?x ?y - block) (and (not (= ?x ?y)) (stored ?x) (stored ?y) "
+      "(not (red ?x)) (not (red ?y))))))",
+      "two.pddl", domain);
+  std::set<std::string> plans, first;
+  for (int seed = 0; seed < 40; ++seed) {
+    const RandomKey key = RandomKey("plan").with(seed);
+    const PlanOutcome outcome = solve_drawn(domain, problem, {}, key);
+    REQUIRE(outcome.solved);
+    CHECK(outcome.plan.size() == 2);
+    CHECK(validate(domain, problem, outcome.plan).valid);
+    CHECK(solve_drawn(domain, problem, {}, key).plan == outcome.plan);
+    plans.insert(to_text(outcome.plan));
+    first.insert(outcome.plan.front().arguments[0]);
+  }
+  CHECK(first == std::set<std::string>{"a", "b", "c", "d"});
+  CHECK(plans.size() > 6);
+  CHECK_FALSE(
+      solve_drawn(domain, problem, {{"store", {"a"}}, {"store", {"b"}}, {"store", {"c"}}}, RandomKey("x")).solved);
 }

@@ -110,6 +110,26 @@ TEST_CASE("golden: fields") {
         "    such as label = \"pick up the {obj}\"\n");
 }
 
+TEST_CASE("golden: how an episode starts") {
+  const std::string only = said("worlds/predicates/on.lua", "  sample", "  start_only = true,\n  sample");
+  INFO(only);
+  CHECK(only.find("tasks/take.lua") == std::string::npos);  // its init may name it
+  CHECK(only.find("skills/pick.lua:4: precondition: 'on' is only asked of starts and is no fact\n"
+                  "    name it in init, or take start_only out of its file") != std::string::npos);
+  CHECK(only.find("worlds/predicates/clear.lua") != std::string::npos);
+  CHECK(said("worlds/predicates/holding.lua", "  holds", "  start_only = true, static = true,\n  holds")
+            .find("static: a predicate that is only asked of starts has no 'static'\n"
+                  "    leave it out, or leave start_only out") != std::string::npos);
+  CHECK(said("worlds/lab.lua", "{ \"panda\" }", "{ \"panda\", joints = { joint1 = between(0, 1), jiont = 1 } }") ==
+        "worlds/lab.lua:3: robot.joints: the arm has no joint 'jiont'\n    did you mean 'joint1'?\n");
+  CHECK(said("worlds/lab.lua", "{ \"panda\" }", "{ \"panda\", joints = { joint1 = \"far\" } }")
+            .find("robot.joints.joint1: expects a number, this is") != std::string::npos);
+  const std::string place =
+      "{ \"cube\", place = one_of { { at = { 0, 0, 1 }, yaw = between(0, 1) }, { att = { 1, 0, 1 } } } }";
+  CHECK(said("tasks/take.lua", "lone = { \"cube\" }", "lone = " + place)
+            .find("objects.lone.place.att: a place has no field 'att'\n    did you mean 'at'?") != std::string::npos);
+}
+
 TEST_CASE("golden: names") {
   CHECK(said("worlds/predicates/on.lua", "obj: movable", "obj: movible") ==
         "worlds/predicates/on.lua:3: params: 'movible' is neither a type nor a trait\n    did you mean 'movable'?\n");

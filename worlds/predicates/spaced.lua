@@ -1,0 +1,10 @@
+-- The two are at least 12 cm from each other, middle to middle. A condition on starts.
+return predicate {
+  params = { "a", "b" },
+  label = "the {a} keeps its distance from the {b}",
+  start_only = true,
+  holds = function(w, a, b)
+    local beyond = w:distance(a, b) - 0.12
+    return beyond >= 0, beyond -- m
+  end,
+}
