@@ -1,10 +1,6 @@
 #include "db/catalogue.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "db/catalogue_impl.h"
-#include "db/embedded_sql.h"
 #include "db/episode_writer.h"
 
 namespace stampede {
@@ -14,127 +10,7 @@ void roll_back(const sql::Database& database) {
     sqlite3_exec(database.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-enum class Content { nothing, catalogue };
-
-// Looks before anything is changed. Throws CatalogueError for every file that is not ours to use.
-Content inspect(const sql::Database& database) {
-  const std::int64_t id = database.number("PRAGMA application_id");
-  const std::int64_t version = database.number("PRAGMA user_version");
-  const std::int64_t tables = database.number("SELECT count(*) FROM sqlite_master");
-  if (id == 0 && version == 0 && tables == 0) return Content::nothing;
-  if (id != kApplicationId)
-    throw CatalogueError(database.path(), "this database belongs to another application",
-                         "name a catalogue, or another file to write to");
-  const std::string versions =
-      "its schema is " + std::to_string(version) + ", this program knows " + std::to_string(schema_version());
-  if (version > schema_version())
-    throw CatalogueError(database.path(), "this catalogue was made by a newer version: " + versions,
-                         "use that version of stampede, or generate the episodes again with this one");
-  if (version < schema_version())
-    throw CatalogueError(database.path(), "this catalogue was made by an older version: " + versions,
-                         "generate the episodes again with this one");
-  return Content::catalogue;
-}
-
-std::string schema_script() {
-  std::string script = "BEGIN IMMEDIATE;\n";
-  for (const SqlFile& file : embedded_schema()) script += file.text;
-  script += "PRAGMA application_id = " + std::to_string(kApplicationId) + ";\n";
-  script += "PRAGMA user_version = " + std::to_string(schema_version()) + ";\nCOMMIT;\n";
-  return script;
-}
-
-// All views of the file go; those of this build come.
-std::string views_script(const sql::Database& database) {
-  std::string script = "BEGIN IMMEDIATE;\n";
-  sql::Statement views(database, "SELECT name FROM sqlite_master WHERE type = 'view' ORDER BY name");
-  for (views.start(); views.step();) {
-    std::string name;
-    views.read(name);
-    script += "DROP VIEW \"" + name + "\";\n";
-  }
-  for (const SqlFile& file : embedded_views()) script += file.text;
-  return script + "COMMIT;\n";
-}
-
-// The same views for a file that may not be written: temporary ones win over those of the file.
-std::string temporary_views_script() {
-  std::string script = "PRAGMA temp_store = MEMORY;\nBEGIN;\n";
-  for (const SqlFile& file : embedded_views()) {
-    const std::string head = "CREATE VIEW ";
-    script += "CREATE TEMP VIEW " + file.text.substr(head.size());
-  }
-  return script + "COMMIT;\n";
-}
-
-// Runs a script that is one transaction; a failure leaves nothing of it.
-void transact(const sql::Database& database, const std::string& script) {
-  try {
-    database.run(script);
-  } catch (...) {
-    roll_back(database);
-    throw;
-  }
-}
-
-std::string uri_of(const fs::path& path) {
-  std::string uri = "file:";
-  for (const char c : fs::absolute(path).string()) {
-    if (c == '?' || c == '#' || c == '%') {
-      uri += c == '?' ? "%3f" : c == '#' ? "%23" : "%25";
-    } else {
-      uri += c;
-    }
-  }
-  return uri;
-}
-
-bool has_log(const fs::path& path) {  // pages that are not in the file itself yet
-  struct stat status {};
-  return ::stat((path.string() + "-wal").c_str(), &status) == 0 && status.st_size > 0;
-}
-
-void check_path(const fs::path& path, bool writing) {
-  std::error_code ignored;
-  if (path == ":memory:")
-    throw CatalogueError(path.string(), "a catalogue is a file, and is never kept in memory",
-                         "name a file, such as demos.db");
-  if (fs::is_directory(path, ignored))
-    throw CatalogueError(path.string(), "this is a folder", "name a file, such as demos.db");
-  if (!writing && !fs::exists(path, ignored))
-    throw CatalogueError(path.string(), "there is no such file", "name a catalogue that `stampede run --out` has made");
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (writing && !fs::is_directory(folder, ignored))
-    throw CatalogueError(path.string(), "the folder " + folder.string() + " does not exist", "make it first");
-}
-
-// A file in WAL mode wants to write beside itself even to be read. Where that is refused and there is no log, the
-// file holds everything and nobody can change it.
-sql::Database open_to_read(const fs::path& path) {
-  const std::string shown = path.string();
-  const int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
-  sql::Database database(uri_of(path), flags, shown);
-  const int code = sqlite3_exec(database.handle(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
-  if (code == SQLITE_OK) return database;
-  const int kind = code & 0xff;
-  if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) database.fail(code);
-  if (::access(shown.c_str(), R_OK) != 0)
-    throw CatalogueError(shown, "this file may not be read", "change its permissions, or copy it");
-  if (has_log(path))
-    throw CatalogueError(shown, "a run that was killed left pages in " + shown + "-wal, and this folder is read-only",
-                         "copy the file together with its -wal to a folder that you may write in");
-  return sql::Database(uri_of(path) + "?immutable=1", flags, shown);
-}
-
-}  // namespace
-
-int schema_version() {
-  return std::stoi(embedded_schema().back().name);  // 005_images
-}
+int schema_version() { return 6; }  // raised with every change of a table; see db/README.md
 
 Catalogue::Impl::Impl() = default;
 Catalogue::Impl::~Impl() = default;
@@ -142,32 +18,6 @@ Catalogue::Impl::~Impl() = default;
 Catalogue::Catalogue(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Catalogue::Catalogue(Catalogue&&) noexcept = default;
 Catalogue& Catalogue::operator=(Catalogue&&) noexcept = default;
-
-Catalogue Catalogue::open(const fs::path& path) {
-  check_path(path, false);
-  auto impl = std::make_unique<Impl>();
-  impl->database = open_to_read(path);
-  if (inspect(impl->database) == Content::nothing)
-    throw CatalogueError(path.string(), "this file is empty: no run has written to it",
-                         "run some tasks first: `stampede run TASK --out " + path.string() + "`");
-  impl->database.run(temporary_views_script());
-  return Catalogue(std::move(impl));
-}
-
-Catalogue Catalogue::write(const fs::path& path) {
-  check_path(path, true);
-  auto impl = std::make_unique<Impl>();
-  sql::Database& database = impl->database;
-  database = sql::Database(fs::absolute(path).string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, path.string());
-  const Content content = inspect(database);
-  if (sqlite3_db_readonly(database.handle(), "main")) database.fail(SQLITE_READONLY);
-  database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536;");
-  if (content == Content::nothing) transact(database, schema_script());
-  transact(database, views_script(database));
-  database.run("PRAGMA foreign_keys = ON");
-  impl->writable = true;
-  return Catalogue(std::move(impl));
-}
 
 Catalogue::~Catalogue() {
   try {
@@ -191,15 +41,22 @@ void Catalogue::close() {
 }
 
 std::int64_t Catalogue::add(const EpisodeRecord& episode, const EngineInfo& engine) {
+  if (const auto id = add_if_new(episode, engine)) return *id;
+  throw CatalogueError(impl_->database.path(), "an episode with the key " + episode.key + " is already there",
+                       "its task, variation, seed and options are the same: nothing needs to be added");
+}
+
+std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, const EngineInfo& engine) {
   check_record(episode);
   const sql::Database& database = impl_->database;
   if (!impl_->writable) database.fail(SQLITE_READONLY);
   if (!impl_->writer) impl_->writer = std::make_unique<EpisodeWriter>(database);
   try {
     database.run("BEGIN IMMEDIATE");
-    if (find(episode.key))
-      throw CatalogueError(database.path(), "an episode with the key " + episode.key + " is already there",
-                           "its task, variation, seed and options are the same: nothing needs to be added");
+    if (find(episode.key)) {
+      database.run("ROLLBACK");
+      return std::nullopt;
+    }
     const std::int64_t id = database.number("SELECT coalesce(max(id), 0) + 1 FROM episode");
     impl_->writer->write(id, episode, engine);
     database.run("COMMIT");

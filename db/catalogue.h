@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@
 namespace stampede {
 
 inline constexpr std::int64_t kApplicationId = 0x53746d70;  // `Stmp`, at byte 68 of the file
-int schema_version();                                       // number of the last file in db/schema
+int schema_version();                                       // raised whenever a table changes
 
 // What made the episodes; part of table engine_run.
 struct EngineInfo {
@@ -55,8 +56,9 @@ struct AddedImages {
 };
 
 // Lifetime: one thread at a time, but for interrupt().
-// Throws: CatalogueError with the cure when the file cannot serve: another application's, another schema version,
-// not a database, not there, read-only, a full disk. A file that was not ours is never changed.
+// Throws: CatalogueError with the cure when the file cannot serve: another application's, a newer schema's, one of no
+// release, not a database, not there, read-only, a full disk. A file that was not ours is never changed.
+// A catalogue of an earlier release opens: read, it stays as it is; written, it is migrated first, all or nothing.
 class Catalogue {
  public:
   static Catalogue open(const std::filesystem::path& path);   // read-only; works in a read-only folder
@@ -78,6 +80,8 @@ class Catalogue {
   // One transaction; all or nothing. Result: its id, one above the greatest. Throws CatalogueError when the key is
   // there already, and Error when the record contradicts itself.
   std::int64_t add(const EpisodeRecord& episode, const EngineInfo& engine);
+  // The same, but nothing where the key is there already: another run may write to the file too.
+  std::optional<std::int64_t> add_if_new(const EpisodeRecord& episode, const EngineInfo& engine);
 
   // Pictures made later, in one transaction; all or nothing. ImageRecord::camera counts in `cameras`. A camera that the
   // episode does not have is added to it; one of a known name must be the known one, at any size. Throws Error for
@@ -88,12 +92,21 @@ class Catalogue {
   std::vector<std::uint8_t> read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
                                        std::string_view kind) const;
 
+  // Copies episodes of another catalogue of this release: `ids` of that file, whose keys are not here yet, with all
+  // that they refer to. A transaction for some dozens of them. `copied` is called after each transaction with how many
+  // were copied so far; when it says false, the rest is left. Throws CatalogueError when the two disagree about a
+  // variation.
+  void copy_episodes(const std::filesystem::path& file, const std::vector<std::int64_t>& ids,
+                     const std::function<bool(std::int64_t)>& copied);
+
   // Of all data, whatever the ids: two catalogues of the same episodes agree. Host and wall times are left out.
   std::string content_hash() const;
   std::string episode_hash(std::int64_t id) const;
 
   // `question`: one SELECT, or a query's name. Throws Error with SQLite's complaint, or when it would write.
   QueryResult query(std::string_view question, const QueryOptions& options = {}) const;
+  // The same row by row: nothing is held. QueryOptions::most_rows ends it too.
+  void query(std::string_view question, RowReceiver& receiver, const QueryOptions& options = {}) const;
   void interrupt() const;  // from any thread: the running query throws Error
 
   void close();  // as the destructor, but throws CatalogueError when the last pages cannot be written

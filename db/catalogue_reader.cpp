@@ -1,6 +1,7 @@
 #include <array>
 #include <charconv>
 
+#include "db/check_numbers.h"
 #include "db/episode_reader.h"
 #include "db/table_text.h"
 
@@ -62,14 +63,21 @@ void EpisodeReader::read_episode() {
       "SELECT e.key, e.task, e.world, coalesce(e.variation, ''), coalesce(e.seed, 0), e.split, e.outcome, "
       "e.reason, e.detail, e.beside_goal, e.physics_hz, e.frame_hz, e.steps, e.draws, coalesce(e.state_hash, ''), "
       "e.engine_run, coalesce(s.document, ''), coalesce(t.wall_s, 0), coalesce(t.physics_wall_s, 0), "
-      "e.frames FROM episode e LEFT JOIN scene s ON s.hash = e.scene "
+      "e.frames, (SELECT count(*) FROM frame f WHERE f.episode = e.id) FROM episode e LEFT JOIN scene s ON s.hash = "
+      "e.scene "
       "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
   if (!row.start(id_).step()) throw_no_episode(database_, id_);
   EpisodeRecord& e = record_;
   std::string outcome, reason, scene;
-  std::int64_t frames = 0;
-  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.beside_goal, e.physics_hz,
-           e.frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames);
+  std::int64_t frames = 0, stored = 0, physics_hz = 0, frame_hz = 0;
+  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.beside_goal, physics_hz,
+           frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames, stored);
+  const std::string here = "episode " + std::to_string(id_) + ", ";
+  require_within(database_.path(), here + "physics_hz", physics_hz, 1, kMostHz);
+  require_within(database_.path(), here + "frame_hz", frame_hz, 1, physics_hz);
+  require_within(database_.path(), here + "frames", frames, stored, stored);  // memory is taken for as many
+  require_within(database_.path(), here + "steps", e.steps, 0, std::int64_t{1} << 40);
+  e.physics_hz = static_cast<int>(physics_hz), e.frame_hz = static_cast<int>(frame_hz);
   e.outcome = outcome_from(outcome);
   e.reason = reason_from(reason).value_or(Reason::none);
   e.scene_document = unpack_scene(database_, scene);
@@ -208,25 +216,36 @@ void EpisodeReader::read_frames() {
   read_poses();
 }
 
-// Rows are there where a pose changed: each is carried forward to the end.
-void EpisodeReader::read_poses() {
-  each(std::string("posed, frame, ") + kPoseColumns, "object_state", "posed, frame", [&](sql::Statement& row) {
-    std::int64_t object = 0, frame = 0;
+// Rows are there where a pose changed, by thing and frame: each is carried forward to the next one of its thing.
+template <typename Place>
+void EpisodeReader::read_track(const std::string& thing, const std::string& table, std::size_t things,
+                               const Place& place) {
+  std::string columns = thing;
+  columns.append(", frame, ").append(kPoseColumns);
+  std::int64_t last_thing = -1, next_frame = 0;
+  Pose last;
+  const auto carry_to = [&](std::size_t end) {
+    for (auto i = static_cast<std::size_t>(next_frame); last_thing >= 0 && i < end; ++i)
+      place(record_.frames[i])[static_cast<std::size_t>(last_thing)] = last;
+  };
+  each(columns, table, thing + ", frame", [&](sql::Statement& row) {
+    std::int64_t which = 0, frame = 0;
     Pose pose;
-    row.read(object, frame, pose);
-    at(record_.frames, frame, "object_state");
-    for (auto i = static_cast<std::size_t>(frame); i < record_.frames.size(); ++i)
-      at(record_.frames[i].object_pose, object, "object_state") = pose;
+    row.read(which, frame, pose);
+    at(record_.frames, frame, table);
+    if (which < 0 || which >= static_cast<std::int64_t>(things)) damaged(table);
+    carry_to(which == last_thing ? static_cast<std::size_t>(frame) : record_.frames.size());
+    last_thing = which, next_frame = frame, last = pose;
   });
-  each(std::string("camera, frame, ") + kPoseColumns, "camera_pose", "camera, frame", [&](sql::Statement& row) {
-    std::int64_t camera = 0, frame = 0;
-    Pose pose;
-    row.read(camera, frame, pose);
-    at(record_.frames, frame, "camera_pose");
-    for (auto i = static_cast<std::size_t>(frame); i < record_.frames.size(); ++i) {
-      record_.frames[i].camera_pose.resize(record_.cameras.size());
-      at(record_.frames[i].camera_pose, camera, "camera_pose") = pose;
-    }
+  carry_to(record_.frames.size());
+}
+
+void EpisodeReader::read_poses() {
+  read_track("posed", "object_state", record_.posed.size(),
+             [](FrameRecord& frame) -> std::vector<Pose>& { return frame.object_pose; });
+  read_track("camera", "camera_pose", record_.cameras.size(), [this](FrameRecord& frame) -> std::vector<Pose>& {
+    frame.camera_pose.resize(record_.cameras.size());
+    return frame.camera_pose;
   });
 }
 
@@ -235,18 +254,17 @@ void EpisodeReader::read_actions() {
        "(SELECT a.episode, a.frame, a.channel, a.value, c.space, c.component FROM action a JOIN action_channel c "
        "ON c.episode = a.episode AND c.ordinal = a.channel) AS a",
        "frame, channel", [&](sql::Statement& row) {
-         std::int64_t frame = 0;
-         std::size_t component = 0;
+         std::int64_t frame = 0, place = 0;
          std::string space;
-         std::int64_t place = 0;
          double value = 0;
          row.read(frame, space, place, value);
-         component = static_cast<std::size_t>(place);
          std::optional<ActionRecord>& action = at(record_.frames, frame, "action").action;
          if (!action) action.emplace();
          if (space == "joint_position") action->joint_position.push_back(value);
          if (space == "gripper") action->gripper = value;
          if (space != "tool_pose") return;
+         if (place < 0 || place > 6) damaged("action_channel");
+         const auto component = static_cast<std::size_t>(place);
          (component < 3 ? action->tool_pose.position.at(component) : action->tool_pose.quaternion.at(component - 3)) =
              value;
        });
@@ -261,6 +279,10 @@ void EpisodeReader::read_commands() {
   });
 }
 
-EpisodeRecord Catalogue::read_episode(std::int64_t id) const { return EpisodeReader(impl_->database, id).read(); }
+EpisodeRecord Catalogue::read_episode(std::int64_t id) const {
+  EpisodeRecord episode = EpisodeReader(impl_->database, id).read();
+  check_numbers(episode, impl_->database.path(), id);
+  return episode;
+}
 
 }  // namespace stampede

@@ -34,6 +34,16 @@ std::int64_t bytes_of(const EpisodeRecord& episode) {
   return static_cast<std::int64_t>(bytes) + 400 * static_cast<std::int64_t>(episode.facts.size());
 }
 
+// Of episodes stored since the last call, another run's too: it may write to the same file.
+std::vector<std::string> keys_after(const Catalogue& catalogue, std::int64_t& last_id) {
+  std::vector<std::string> keys;
+  for (const auto& row : catalogue.query("SELECT id, key FROM episode WHERE id > ?1", {{last_id}, 0}).rows) {
+    last_id = std::max(last_id, std::get<std::int64_t>(row[0]));
+    keys.push_back(std::get<std::string>(row[1]));
+  }
+  return keys;
+}
+
 }  // namespace
 
 struct CatalogueWriter::Impl {
@@ -44,7 +54,7 @@ struct CatalogueWriter::Impl {
 
   Impl(const std::filesystem::path& path, CatalogueWriterOptions chosen)
       : options(std::move(chosen)), catalogue(Catalogue::write(path)) {
-    for (const EpisodeSummary& episode : catalogue.episodes()) known.insert(episode.key);
+    for (std::string& key : keys_after(catalogue, last_seen)) known.insert(std::move(key));
   }
 
   // What can be committed now; all calls hold the mutex.
@@ -62,13 +72,14 @@ struct CatalogueWriter::Impl {
   void write_one(std::unique_lock<std::mutex>& lock, std::map<std::int64_t, Waiting>::iterator ready);
 
   CatalogueWriterOptions options;
-  Catalogue catalogue;  // of the writing thread once that runs
+  Catalogue catalogue;         // of the writing thread once that runs
+  std::int64_t last_seen = 0;  // greatest id whose key is known
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::set<std::string, std::less<>> known;  // keys that are stored or received
   std::set<std::int64_t> gone;               // places from `next` on that were abandoned or committed
   std::map<std::int64_t, Waiting> waiting;   // by place
-  std::int64_t next = 0;  // first place that is neither committed nor abandoned
+  std::int64_t next = 0;                     // first place that is neither committed nor abandoned
   std::int64_t queued = 0;
   bool ending = false;
   std::exception_ptr failure;
@@ -81,9 +92,11 @@ void CatalogueWriter::Impl::write_one(std::unique_lock<std::mutex>& lock,
   const Waiting item = std::move(ready->second);
   waiting.erase(ready);
   lock.unlock();
-  const std::int64_t id = catalogue.add(item.episode, options.engine);
-  if (options.committed) options.committed(id, item.episode);
+  const std::optional<std::int64_t> id = catalogue.add_if_new(item.episode, options.engine);
+  if (id && options.committed) options.committed(*id, item.episode);
+  std::vector<std::string> others = keys_after(catalogue, last_seen);
   lock.lock();
+  known.insert(std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
   queued -= item.bytes;
   changed.notify_all();
 }

@@ -26,9 +26,9 @@ class CatalogueWriter {
   CatalogueWriter(const std::filesystem::path& path, CatalogueWriterOptions options);
   ~CatalogueWriter();  // as finish(), but throws nothing
 
-  bool has(std::string_view key) const;  // stored already, or received
+  bool has(std::string_view key) const;  // stored already, by another run too, or received
 
-  // One whose key is stored, or that was interrupted, leaves no trace. Throws CatalogueError once writing has failed.
+  // One whose key is stored (by another run too), or that was interrupted, leaves no trace. Throws CatalogueError once writing has failed.
   void finished(std::int64_t place, EpisodeRecord episode);
   void abandon(std::int64_t place);  // it will not come: do not wait for it
 

@@ -1,55 +1,17 @@
 // One digest of all data, whatever the ids and the order of commits. Tables are found in the schema, so that a new
 // one takes part by itself.
-#include <algorithm>
-
 #include "db/catalogue_impl.h"
+#include "db/schema.h"
 #include "engine/base/hash.h"
 
 namespace stampede {
 namespace {
 
-struct Table {
-  std::string name;
-  std::vector<std::string> columns, order;
-  bool of_episode = false;
-};
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + ('"' + word + '"');
-  return text;
-}
-
-Table describe(const sql::Database& database, const std::string& name) {
-  Table table{name, {}, {}, false};
-  std::vector<std::pair<int, std::string>> key;
-  sql::Statement info(database, "SELECT name, pk FROM pragma_table_info(?1) ORDER BY cid");
-  for (info.start(name); info.step();) {
-    std::string column;
-    int place = 0;
-    info.read(column, place);
-    if (column == "episode" || (name == "episode" && column == "id")) {
-      table.of_episode = true;
-      continue;
-    }
-    table.columns.push_back(column);
-    if (place > 0) key.emplace_back(place, column);
-  }
-  std::sort(key.begin(), key.end());
-  for (const auto& [place, column] : key) table.order.push_back(column);
-  if (table.order.empty()) table.order = table.columns;
-  return table;
-}
-
-// `timing` holds times of the host, sqlite_ tables are SQLite's own.
+// `timing` holds times of the host, `reason` what words there are, `mask_pixels` what follows from the pictures.
 std::vector<Table> data_tables(const sql::Database& database) {
-  std::vector<std::string> names;
-  sql::Statement list(database,
-                      "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite!_%' ESCAPE '!' "
-                      "AND name <> 'timing' ORDER BY name");
-  for (list.start(); list.step();) list.read(names.emplace_back());
   std::vector<Table> tables;
-  for (const std::string& name : names) tables.push_back(describe(database, name));
+  for (const std::string& name : current_tables())
+    if (name != "timing" && name != "reason" && name != "mask_pixels") tables.push_back(describe(database, name));
   return tables;
 }
 

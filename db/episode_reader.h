@@ -42,11 +42,14 @@ class EpisodeReader {
   }
   template <typename Item>
   Item& at(std::vector<Item>& list, std::int64_t index, const std::string& table) {
-    if (index < 0 || index >= static_cast<std::int64_t>(list.size()))
-      throw CatalogueError(database_.path(),
-                           "a row of " + table + " of episode " + std::to_string(id_) + " names what is not there",
-                           "the file is damaged: generate it again");
+    if (index < 0 || index >= static_cast<std::int64_t>(list.size())) damaged(table);
     return list[static_cast<std::size_t>(index)];
+  }
+
+  [[noreturn]] void damaged(const std::string& table) const {  // a row of it names what is not there
+    throw CatalogueError(database_.path(),
+                         "a row of " + table + " of episode " + std::to_string(id_) + " names what is not there",
+                         "the file is damaged: generate it again");
   }
 
   void read_episode();
@@ -58,6 +61,8 @@ class EpisodeReader {
   void read_channels();
   void read_frames();
   void read_poses();
+  template <typename Place>
+  void read_track(const std::string& thing, const std::string& table, std::size_t things, const Place& place);
   void read_actions();
   void read_commands();
   void read_segments();

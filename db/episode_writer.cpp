@@ -34,13 +34,6 @@ std::string_view name_of(ObjectKind kind) {
   return "body";
 }
 
-// Of (episode, body, part). An object's parts have objects, by which they are named; those of the robot, which is no
-// object, have the first mask numbers, in order.
-constexpr const char* kMountLink =
-    "SELECT name FROM object WHERE episode = ?1 AND body = ?2 AND part = ?3 AND kind IN ('body', 'part') UNION ALL "
-    "SELECT name FROM mask WHERE episode = ?1 AND instance = ?3 + 1 AND substr(name, 1, length(?2) + 1) = ?2 || '.' "
-    "AND NOT EXISTS (SELECT 1 FROM object WHERE episode = ?1 AND body = ?2 AND kind = 'body')";
-
 void require(bool condition, const EpisodeRecord& episode, const std::string& complaint) {
   if (!condition)
     throw Error("episode of " + episode.task + ", seed " + std::to_string(episode.seed), complaint,
@@ -74,37 +67,6 @@ void check_record(const EpisodeRecord& episode) {
   if (episode.images)
     check_images(*episode.images, static_cast<std::int64_t>(episode.frames.size()), episode.cameras.size(),
                  "episode of " + episode.task + ", seed " + std::to_string(episode.seed));
-}
-
-sql::Statement EpisodeWriter::insert(const std::string& table, const std::string& ending) const {
-  const std::int64_t columns = database_.number("SELECT count(*) FROM pragma_table_info('" + table + "')");
-  std::string text = "INSERT INTO " + table + " VALUES (?";
-  for (std::int64_t i = 1; i < columns; ++i) text += ",?";
-  return {database_, text + ")" + ending, true};
-}
-
-EpisodeWriter::EpisodeWriter(const sql::Database& database) : database_(database) {
-  const std::string once = " ON CONFLICT DO NOTHING";  // what many episodes share, keyed by hash or by name
-  definition_ = insert("definition", once), engine_run_ = insert("engine_run", once);
-  engine_run_definition_ = insert("engine_run_definition", once), predicate_ = insert("predicate", once);
-  variation_ = insert("variation", once), variation_axis_ = insert("variation_axis", once);
-  scene_ = insert("scene", once), asset_ = insert("asset", once), text_store_ = insert("text_store", once);
-  episode_ = insert("episode"), timing_ = insert("timing"), object_ = insert("object");
-  object_trait_ = insert("object_trait"), object_attribute_ = insert("object_attribute");
-  posed_ = insert("posed"), joint_ = insert("joint"), hand_ = insert("hand"), camera_ = insert("camera");
-  frame_ = insert("frame"), joint_state_ = insert("joint_state"), hand_state_ = insert("hand_state");
-  object_state_ = insert("object_state"), camera_pose_ = insert("camera_pose");
-  action_channel_ = insert("action_channel"), action_ = insert("action"), command_ = insert("command");
-  channel_ = insert("channel"), sample_ = insert("sample");
-  segment_ = insert("segment"), attempt_ = insert("attempt"), parameter_ = insert("segment_parameter");
-  effect_ = insert("segment_effect"), via_ = insert("via"), fact_ = insert("fact"),
-  observed_fact_ = insert("observed_fact"), contact_ = insert("contact");
-  grasp_ = insert("grasp"), language_ = insert("language"), document_ = insert("document"),
-  verdict_ = insert("verdict");
-  keyframe_ = insert("keyframe"), mask_ = insert("mask"), image_ = insert("image");
-  stored_image_ = {database_, "SELECT data FROM image WHERE episode = ?1 AND frame = ?2 AND camera = ?3 AND kind = ?4",
-                   true};
-  mount_link_ = {database_, kMountLink, true};
 }
 
 void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine) {

@@ -45,6 +45,7 @@ class EpisodeWriter {
   void write_images(const EpisodeRecord& episode);
   std::string mount_link(const Camera& camera);
   int place_camera(const CameraTrack& track, std::int64_t frames);
+  void write_image(const ImageRecord& image, int camera, const std::vector<std::uint8_t>& bytes);
   bool is_stored(const ImageRecord& image, int camera, const std::string& name, std::string_view bytes);
 
   // write_labels.cpp: what happened, in words
@@ -56,7 +57,12 @@ class EpisodeWriter {
   void write_passages(const EpisodeRecord& episode);  // vias, grasps, contacts
   void write_language(const EpisodeRecord& episode);
 
-  sql::Statement insert(const std::string& table, const std::string& ending = "") const;
+  // episode_statements.cpp
+  sql::Statement insert(const std::string& table, const std::string& columns, const std::string& ending = "") const;
+  void prepare_shared();
+  void prepare_scene();
+  void prepare_frames();
+  void prepare_labels();
 
   const sql::Database& database_;
   std::int64_t id_ = 0;  // of the episode being written
@@ -65,9 +71,9 @@ class EpisodeWriter {
   sql::Statement episode_, timing_, object_, object_trait_, object_attribute_, posed_, joint_, hand_, camera_;
   sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_, command_,
       channel_, sample_;
-  sql::Statement mask_, image_, stored_image_, mount_link_;
-  sql::Statement segment_, attempt_, parameter_, effect_, via_, fact_, observed_fact_, contact_, grasp_, language_,
-      document_, verdict_, keyframe_;
+  sql::Statement mask_, image_, visible_, stored_image_, mount_link_;
+  sql::Statement segment_, parameter_, effect_, via_, fact_, observed_fact_, contact_, grasp_, language_, document_,
+      verdict_, keyframe_;
 };
 
 // Throws Error for pictures of frames and cameras that are not there, of unknown kinds, or without size.

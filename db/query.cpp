@@ -66,7 +66,8 @@ using Prepared = std::unique_ptr<sqlite3_stmt, Finalizer>;
 // All tables and views with their columns.
 std::map<std::string, std::vector<std::string>> columns_of_all(sqlite3* handle) {
   constexpr const char* kAll =
-      "SELECT m.name, p.name FROM sqlite_master m, pragma_table_info(m.name) p WHERE m.type IN ('table', 'view')";
+      "SELECT m.name, p.name FROM (SELECT DISTINCT name FROM pragma_table_list WHERE name NOT LIKE 'sqlite%') m, "
+      "pragma_table_info(m.name) p ORDER BY m.name, p.cid";
   sqlite3_stmt* statement = nullptr;
   sqlite3_prepare_v2(handle, kAll, -1, &statement, nullptr);
   const Prepared prepared(statement);
@@ -205,25 +206,39 @@ const NamedQuery* find_named_query(std::string_view name) {
   return nullptr;
 }
 
-QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {
+void Catalogue::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
   sqlite3* handle = impl_->database.handle();
   const ReadOnly guard(handle);
   const Prepared statement = prepare(handle, text_of(question));
   bind(handle, statement.get(), options.parameters);
-  QueryResult result;
   const int columns = sqlite3_column_count(statement.get());
-  for (int i = 0; i < columns; ++i) result.columns.emplace_back(sqlite3_column_name(statement.get(), i));
+  std::vector<std::string> names;
+  for (int i = 0; i < columns; ++i) names.emplace_back(sqlite3_column_name(statement.get(), i));
+  receiver.columns(names);
+  std::vector<SqlValue> values(names.size());
   int code = SQLITE_OK;
-  while ((code = sqlite3_step(statement.get())) == SQLITE_ROW) {
-    if (options.most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == options.most_rows) {
-      result.cut = true;
-      return result;
-    }
-    auto& row = result.rows.emplace_back();
-    for (int i = 0; i < columns; ++i) row.push_back(value_of(statement.get(), i));
+  for (std::int64_t rows = 1; (code = sqlite3_step(statement.get())) == SQLITE_ROW; ++rows) {
+    for (int i = 0; i < columns; ++i) values[static_cast<std::size_t>(i)] = value_of(statement.get(), i);
+    if (!receiver.row(values) || rows == options.most_rows) return;
   }
   if (code != SQLITE_DONE) refuse(code, sqlite3_errmsg(handle));
-  return result;
+}
+
+QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {
+  struct Keeper : RowReceiver {
+    void columns(const std::vector<std::string>& names) override { result.columns = names; }
+    bool row(const std::vector<SqlValue>& values) override {
+      result.cut = most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == most_rows;
+      if (!result.cut) result.rows.push_back(values);
+      return !result.cut;
+    }
+    QueryResult result;
+    std::int64_t most_rows = 0;
+  };
+  Keeper keeper;
+  keeper.most_rows = options.most_rows;
+  query(question, keeper, {options.parameters, 0});
+  return std::move(keeper.result);
 }
 
 void Catalogue::interrupt() const { sqlite3_interrupt(impl_->database.handle()); }

@@ -12,6 +12,14 @@ namespace stampede {
 
 using QueryResult = Rows;
 
+// Receives an answer row by row, as it is made.
+class RowReceiver {
+ public:
+  virtual ~RowReceiver() = default;
+  virtual void columns(const std::vector<std::string>& names) = 0;  // once, first
+  virtual bool row(const std::vector<SqlValue>& values) = 0;        // false: no more are wanted
+};
+
 struct QueryOptions {
   std::vector<SqlValue> parameters;  // for ?1, ?2 …
   std::int64_t most_rows = 0;        // 0: all

@@ -20,15 +20,16 @@ Fact fact_from(const std::string& text) {  // (on block1 table)
 }
 
 constexpr const char* kSegmentColumns =
-    "kind, coalesce(parent, -1), robot, skill, case_name, arguments, controller, start_step, end_step, first_frame, "
-    "end_frame, outcome, reason, detail, precondition_held, effect_held, missing_effects, forgotten, label";
+    "undone, coalesce(was_ordinal, ordinal), coalesce(before_segment, 0), try_number, kind, coalesce(parent, -1), "
+    "robot, skill, case_name, arguments, controller, start_step, end_step, first_frame, end_frame, outcome, reason, "
+    "detail, precondition_held, effect_held, missing_effects, forgotten, label";
 
-template <typename... Own>
-void read_segment(const sql::Database& database, sql::Statement& row, SegmentRecord& s, Own&... own) {
+void read_segment(const sql::Database& database, sql::Statement& row, AttemptRecord& a, bool& undone) {
+  SegmentRecord& s = a.segment;
   std::string arguments, outcome, reason, missing, forgotten;
-  row.read(own..., s.kind, s.parent, s.robot, s.skill, s.case_name, arguments, s.controller, s.span.start_step,
-           s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason, s.detail, s.precondition_held,
-           s.effect_held, missing, forgotten, s.label);
+  row.read(undone, s.ordinal, a.before_segment, a.try_number, s.kind, s.parent, s.robot, s.skill, s.case_name,
+           arguments, s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome,
+           reason, s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label);
   s.arguments = from_json_list(database, arguments);
   s.outcome = outcome_from(outcome);
   s.reason = reason_from(reason).value_or(Reason::none);
@@ -39,24 +40,22 @@ void read_segment(const sql::Database& database, sql::Statement& row, SegmentRec
 }  // namespace
 
 void EpisodeReader::read_segments() {
-  std::string columns = "ordinal, ";
-  columns += kSegmentColumns;
-  each(columns, "segment", "ordinal", [&](sql::Statement& row) {
-    SegmentRecord& segment = record_.segments.emplace_back();
-    read_segment(database_, row, segment, segment.ordinal);
-    segment_at_[segment.ordinal] = record_.segments.size() - 1;
-  });
-  columns = "segment_ordinal, before_segment, try_number, ";
-  columns += kSegmentColumns;
-  each(columns, "attempt", "ordinal", [&](sql::Statement& row) {
-    AttemptRecord& a = record_.attempts.emplace_back();
-    read_segment(database_, row, a.segment, a.segment.ordinal, a.before_segment, a.try_number);
+  each(kSegmentColumns, "segment", "undone, segment.ordinal", [&](sql::Statement& row) {
+    bool undone = false;
+    AttemptRecord tried;
+    read_segment(database_, row, tried, undone);
+    if (undone) {
+      record_.attempts.push_back(std::move(tried));
+    } else {
+      segment_at_[tried.segment.ordinal] = record_.segments.size();
+      record_.segments.push_back(std::move(tried.segment));
+    }
   });
   read_segment_details();
 }
 
 SegmentRecord& EpisodeReader::owner(bool undone, std::int64_t ordinal) {
-  if (undone) return at(record_.attempts, ordinal, "attempt").segment;
+  if (undone) return at(record_.attempts, ordinal, "segment").segment;
   const auto found = segment_at_.find(ordinal);
   return at(record_.segments, found == segment_at_.end() ? -1 : static_cast<std::int64_t>(found->second), "segment");
 }

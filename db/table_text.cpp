@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
+#include <sstream>
 
 namespace stampede {
 namespace {
@@ -122,6 +124,110 @@ void end_line(std::string& text) {
   text += '\n';
 }
 
+class TableWriter : public RowWriter {
+ public:
+  explicit TableWriter(std::ostream& out) : out_(out) {}
+  void columns(const std::vector<std::string>& names) override {
+    names_ = names;
+    right_.resize(names.size());
+    for (const std::string& name : names) width_.push_back(width_of(name));
+  }
+  bool row(const std::vector<SqlValue>& values) override {
+    std::vector<std::string> line;
+    for (const SqlValue& value : values) line.push_back(std::visit(TableCell{}, value));
+    if (shown_) {
+      write(line);
+    } else {
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        width_[i] = std::max(width_[i], width_of(line[i]));
+        if (is_number(values[i])) right_[i] = true;
+      }
+      waiting_.push_back(std::move(line));
+      if (waiting_.size() == kRowsThatDecide) show();
+    }
+    return out_.good();
+  }
+  void finish() override {
+    if (!shown_) show();
+  }
+
+ private:
+  static constexpr std::size_t kRowsThatDecide = 1000;
+  void show() {
+    shown_ = true;
+    write(names_);
+    std::vector<std::string> lines;
+    for (const std::size_t width : width_) lines.emplace_back(width, '-');
+    write(lines);
+    for (const auto& line : waiting_) write(line);
+    waiting_.clear();
+  }
+  void write(const std::vector<std::string>& cells) {
+    std::string text;
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "  " : "") + padded(cells[i], width_[i], right_[i]);
+    end_line(text);
+    out_ << text;
+  }
+  std::ostream& out_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> width_;
+  std::vector<bool> right_;
+  std::vector<std::vector<std::string>> waiting_;
+  bool shown_ = false;
+};
+
+class CsvWriter : public RowWriter {
+ public:
+  explicit CsvWriter(std::ostream& out) : out_(out) {}
+  void columns(const std::vector<std::string>& names) override {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) text += (i ? "," : "") + csv_text(names[i]);
+    out_ << text << '\n';
+  }
+  bool row(const std::vector<SqlValue>& values) override {
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i) text += (i ? "," : "") + std::visit(CsvCell{}, values[i]);
+    out_ << text << '\n';
+    return out_.good();
+  }
+  void finish() override {}
+
+ private:
+  std::ostream& out_;
+};
+
+class JsonWriter : public RowWriter {
+ public:
+  explicit JsonWriter(std::ostream& out) : out_(out) {}
+  void columns(const std::vector<std::string>& names) override {
+    for (const std::string& name : names) keys_.push_back(json_text(name) + ": ");
+    out_ << '[';
+  }
+  bool row(const std::vector<SqlValue>& values) override {
+    std::string text = any_ ? ",\n {" : "\n {";
+    any_ = true;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += (i ? ", " : "") + keys_[i] + std::visit(JsonCell{}, values[i]);
+    out_ << text << '}';
+    return out_.good();
+  }
+  void finish() override { out_ << (any_ ? "\n]\n" : "]\n"); }
+
+ private:
+  std::ostream& out_;
+  std::vector<std::string> keys_;
+  bool any_ = false;
+};
+
+std::string all_of(const QueryResult& result, TextFormat format) {
+  std::ostringstream out;
+  const std::unique_ptr<RowWriter> writer = row_writer(format, out);
+  writer->columns(result.columns);
+  for (const auto& row : result.rows) writer->row(row);
+  writer->finish();
+  return std::move(out).str();
+}
+
 }  // namespace
 
 std::string json_text(std::string_view text) {
@@ -145,53 +251,18 @@ std::string json_text(std::string_view text) {
   return json + "\"";
 }
 
+std::unique_ptr<RowWriter> row_writer(TextFormat format, std::ostream& out) {
+  if (format == TextFormat::csv) return std::make_unique<CsvWriter>(out);
+  if (format == TextFormat::json) return std::make_unique<JsonWriter>(out);
+  return std::make_unique<TableWriter>(out);
+}
+
 std::string to_table(const QueryResult& result) {
-  const std::size_t columns = result.columns.size();
-  std::vector<std::vector<std::string>> cells;
-  std::vector<std::size_t> width(columns);
-  std::vector<bool> right(columns, false);
-  for (std::size_t i = 0; i < columns; ++i) width[i] = width_of(result.columns[i]);
-  for (const auto& row : result.rows) {
-    auto& line = cells.emplace_back();
-    for (std::size_t i = 0; i < columns; ++i) {
-      line.push_back(std::visit(TableCell{}, row[i]));
-      width[i] = std::max(width[i], width_of(line.back()));
-      if (is_number(row[i])) right[i] = true;
-    }
-  }
-  std::string text;
-  for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + padded(result.columns[i], width[i], right[i]);
-  end_line(text);
-  for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + std::string(width[i], '-');
-  end_line(text);
-  for (const auto& line : cells) {
-    for (std::size_t i = 0; i < columns; ++i) text += (i ? "  " : "") + padded(line[i], width[i], right[i]);
-    end_line(text);
-  }
-  if (result.cut) text += "… and more rows\n";
-  return text;
+  return all_of(result, TextFormat::table) + (result.cut ? "… and more rows\n" : "");
 }
 
-std::string to_csv(const QueryResult& result) {
-  std::string text;
-  for (std::size_t i = 0; i < result.columns.size(); ++i) text += (i ? "," : "") + csv_text(result.columns[i]);
-  text += "\r\n";
-  for (const auto& row : result.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + std::visit(CsvCell{}, row[i]);
-    text += "\r\n";
-  }
-  return text;
-}
+std::string to_csv(const QueryResult& result) { return all_of(result, TextFormat::csv); }
 
-std::string to_json(const QueryResult& result) {
-  std::string text = "[";
-  for (std::size_t r = 0; r < result.rows.size(); ++r) {
-    text += r ? ",\n {" : "\n {";
-    for (std::size_t i = 0; i < result.columns.size(); ++i)
-      text += (i ? ", " : "") + json_text(result.columns[i]) + ": " + std::visit(JsonCell{}, result.rows[r][i]);
-    text += "}";
-  }
-  return text + (result.rows.empty() ? "]\n" : "\n]\n");
-}
+std::string to_json(const QueryResult& result) { return all_of(result, TextFormat::json); }
 
 }  // namespace stampede

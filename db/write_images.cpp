@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "db/catalogue_impl.h"
+#include "db/count_visible.h"
 #include "db/episode_writer.h"
 #include "engine/episode/observation.h"
 #include "engine/model/camera.h"
@@ -55,13 +56,18 @@ void EpisodeWriter::write_masks(const EpisodeRecord& episode) {
   for (const MaskEntry& m : episode.masks) mask_.run(id_, m.instance, m.name, m.object, m.class_name, m.semantic);
 }
 
+void EpisodeWriter::write_image(const ImageRecord& image, int camera, const std::vector<std::uint8_t>& bytes) {
+  image_.run(id_, image.frame, camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+  if (image.kind != "instance") return;
+  for (const auto& [instance, pixels] : visible_pixels(bytes)) visible_.run(id_, image.frame, camera, instance, pixels);
+}
+
 // One picture in memory at a time.
 void EpisodeWriter::write_images(const EpisodeRecord& episode) {
   if (!episode.images) return;
   for (std::size_t i = 0; i < episode.images->count(); ++i) {
     const ImageRecord& image = episode.images->record(i);
-    const std::vector<std::uint8_t> bytes = episode.images->read(i);
-    image_.run(id_, image.frame, image.camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+    write_image(image, image.camera, episode.images->read(i));
   }
 }
 
@@ -137,7 +143,7 @@ AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
       ++result.skipped;
       continue;
     }
-    image_.run(id_, image.frame, *ordinals[camera], image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+    write_image(image, *ordinals[camera], bytes);
     ++result.added;
   }
   return result;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "db/catalogue_impl.h"
 #include "db/episode_writer.h"
 
@@ -16,18 +18,27 @@ std::optional<std::int64_t> index(int ordinal) {
   return result;
 }
 
-// The columns that segments and attempts share, after those of their own.
-template <typename... Own>
-void run_segment(sql::Statement& statement, const SegmentRecord& s, const Own&... own) {
+// Columns of a segment after those that say whether it was undone.
+void run_segment(sql::Statement& statement, std::int64_t episode, bool undone, int ordinal,
+                 const std::optional<std::int64_t>& was_ordinal, const std::optional<std::int64_t>& before_segment,
+                 int try_number, const SegmentRecord& s) {
   const std::string list = to_json_list(s.arguments), missing = to_json_list(s.missing_effects);
   const std::string forgotten = to_json_list(s.forgotten);
   const auto arg1 = argument(s.arguments, 0), arg2 = argument(s.arguments, 1), arg3 = argument(s.arguments, 2),
              arg4 = argument(s.arguments, 3);
-  const std::optional<std::int64_t> parent = index(s.parent);
-  statement.run(own..., s.kind, parent, s.robot, s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller,
-                s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame,
-                s.outcome == Outcome::success ? "success" : "failure", to_string(s.reason), s.detail,
-                s.precondition_held, s.effect_held, missing, forgotten, s.label, "simulator");
+  statement.run(episode, undone, ordinal, was_ordinal, before_segment, try_number, s.kind, index(s.parent), s.robot,
+                s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller, s.span.start_step, s.span.end_step,
+                s.span.first_frame, s.span.end_frame, s.outcome == Outcome::success ? "success" : "failure",
+                to_string(s.reason), s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label,
+                "simulator");
+}
+
+// From 1: the tries of the same at its place that were undone go before it.
+int try_number(const EpisodeRecord& episode, const SegmentRecord& segment) {
+  return 1 + static_cast<int>(std::count_if(episode.attempts.begin(), episode.attempts.end(), [&](const auto& a) {
+           return a.before_segment == segment.ordinal && a.segment.kind == segment.kind &&
+                  a.segment.skill == segment.skill;
+         }));
 }
 
 }  // namespace
@@ -43,14 +54,15 @@ void EpisodeWriter::write_labels(const EpisodeRecord& episode) {
 
 void EpisodeWriter::write_segments(const EpisodeRecord& episode) {
   for (const SegmentRecord& segment : episode.segments) {
-    run_segment(segment_, segment, id_, segment.ordinal);
+    run_segment(segment_, id_, false, segment.ordinal, std::nullopt, std::nullopt, try_number(episode, segment),
+                segment);
     write_parameters(segment, false, segment.ordinal);
     write_effects(segment, false, segment.ordinal);
   }
   int ordinal = 0;
   for (const AttemptRecord& attempt : episode.attempts) {
-    run_segment(attempt_, attempt.segment, id_, ordinal, attempt.segment.ordinal, attempt.before_segment,
-                attempt.try_number);
+    run_segment(segment_, id_, true, ordinal, attempt.segment.ordinal, attempt.before_segment, attempt.try_number,
+                attempt.segment);
     write_parameters(attempt.segment, true, ordinal);
     write_effects(attempt.segment, true, ordinal);
     ++ordinal;

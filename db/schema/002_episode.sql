@@ -1,4 +1,8 @@
 -- One row an episode, and what is in its scene. Child rows are keyed (episode, ordinal).
+CREATE TABLE reason (  -- why something failed: engine/base/reason.h, filled whenever a catalogue is opened to write
+  name TEXT NOT NULL PRIMARY KEY
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE episode (
   id INTEGER PRIMARY KEY,
   key TEXT NOT NULL UNIQUE,  -- hash of definitions, task, variation, seed and every option that alters data
@@ -8,11 +12,7 @@ CREATE TABLE episode (
   seed INTEGER,
   split TEXT NOT NULL CHECK (split IN ('train', 'test')),
   outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
-  reason TEXT NOT NULL CHECK (reason IN (
-      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
-      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
-      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
-      'budget', 'interrupted')),
+  reason TEXT NOT NULL REFERENCES reason (name),
   detail TEXT NOT NULL,
   beside_goal TEXT NOT NULL,  -- what success asks and the PDDL goal does not say
   frames INTEGER NOT NULL,
@@ -32,7 +32,6 @@ CREATE TABLE episode (
   CHECK (seed < 1000000 OR split = 'test'),
   CHECK ((outcome = 'success') = (reason = 'none'))
 ) STRICT;
-CREATE INDEX episode_by_task ON episode (task, variation, seed);
 
 CREATE TABLE timing (  -- of the host: the only table outside the content hash
   episode INTEGER PRIMARY KEY REFERENCES episode (id),

@@ -54,10 +54,10 @@ CREATE TABLE camera_pose (  -- a row only where the pose changed
   FOREIGN KEY (episode, camera) REFERENCES camera (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE action_channel (
+CREATE TABLE action_channel (  -- the action spaces of an episode: names of their components, and units
   episode INTEGER NOT NULL REFERENCES episode (id),
   ordinal INTEGER NOT NULL,
-  space TEXT NOT NULL CHECK (space IN ('joint_position', 'tool_pose', 'gripper')),
+  space TEXT NOT NULL,
   component INTEGER NOT NULL,
   name TEXT NOT NULL,
   unit TEXT NOT NULL,
@@ -79,6 +79,7 @@ CREATE TABLE command (  -- every operation on the simulated world: what replay a
   step INTEGER NOT NULL,
   kind TEXT NOT NULL,
   payload BLOB NOT NULL,
+  robot INTEGER NOT NULL DEFAULT 0,  -- which robot it is for, counted from 0
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 

@@ -1,8 +1,13 @@
--- What happened, in words: segments, undone tries, facts, contacts, language, documents.
+-- What happened, in words: segments with undone tries, facts, contacts, language, documents.
 CREATE TABLE segment (
   episode INTEGER NOT NULL REFERENCES episode (id),
-  ordinal INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion')),
+  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),  -- 1: a try that was undone; its steps and frames count on a time
+                                                     -- line that no longer exists
+  ordinal INTEGER NOT NULL,     -- in the episode; of what was undone: among what was undone
+  was_ordinal INTEGER,          -- of an undone one: of the segment that it was, while it was
+  before_segment INTEGER,       -- of an undone one: the segment that took its place, or the number of segments
+  try_number INTEGER NOT NULL,  -- at its place, from 1
+  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion', 'hold', 'control')),
   parent INTEGER,
   robot TEXT NOT NULL,
   skill TEXT NOT NULL,
@@ -18,11 +23,7 @@ CREATE TABLE segment (
   first_frame INTEGER NOT NULL,
   end_frame INTEGER NOT NULL,
   outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
-  reason TEXT NOT NULL CHECK (reason IN (
-      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
-      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
-      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
-      'budget', 'interrupted')),
+  reason TEXT NOT NULL REFERENCES reason (name),
   detail TEXT NOT NULL,
   precondition_held INTEGER CHECK (precondition_held IN (0, 1)),
   effect_held INTEGER CHECK (effect_held IN (0, 1)),
@@ -31,52 +32,13 @@ CREATE TABLE segment (
   label TEXT NOT NULL,
   labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
   CHECK (start_step <= end_step AND first_frame <= end_frame),
-  PRIMARY KEY (episode, ordinal)
+  CHECK ((was_ordinal IS NOT NULL) = undone AND (before_segment IS NOT NULL) = undone),
+  PRIMARY KEY (episode, undone, ordinal)
 ) STRICT, WITHOUT ROWID;
-CREATE INDEX segment_by_skill ON segment (skill, kind, outcome);
-
-CREATE TABLE attempt (  -- a try that was undone; its steps and frames count on a time line that no longer exists
-  episode INTEGER NOT NULL REFERENCES episode (id),
-  ordinal INTEGER NOT NULL,
-  segment_ordinal INTEGER NOT NULL,  -- of the segment that it was, while it was
-  before_segment INTEGER NOT NULL,   -- the segment that took its place, or the number of segments
-  try_number INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion')),
-  parent INTEGER,
-  robot TEXT NOT NULL,
-  skill TEXT NOT NULL,
-  case_name TEXT NOT NULL,
-  arg1 TEXT,
-  arg2 TEXT,
-  arg3 TEXT,
-  arg4 TEXT,
-  arguments TEXT NOT NULL,  -- JSON list of names
-  controller TEXT NOT NULL,
-  start_step INTEGER NOT NULL,
-  end_step INTEGER NOT NULL,
-  first_frame INTEGER NOT NULL,
-  end_frame INTEGER NOT NULL,
-  outcome TEXT NOT NULL CHECK (outcome IN ('success', 'failure')),
-  reason TEXT NOT NULL CHECK (reason IN (
-      'none', 'no_plan', 'no_path', 'no_grasp', 'no_placement', 'unreachable', 'dropped', 'grasp_missed',
-      'timeout', 'effect_mismatch', 'precondition_false', 'out_of_order', 'goal_false', 'goal_unstable',
-      'init_impossible', 'failed_by_task', 'tracking_error', 'start_in_collision', 'stuck', 'script_error',
-      'budget', 'interrupted')),
-  detail TEXT NOT NULL,
-  precondition_held INTEGER CHECK (precondition_held IN (0, 1)),
-  effect_held INTEGER CHECK (effect_held IN (0, 1)),
-  missing_effects TEXT NOT NULL,  -- JSON list of literals
-  forgotten TEXT NOT NULL,        -- JSON list of predicates
-  label TEXT NOT NULL,
-  labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
-  CHECK (start_step <= end_step AND first_frame <= end_frame),
-  PRIMARY KEY (episode, ordinal)
-) STRICT, WITHOUT ROWID;
-CREATE INDEX attempt_by_skill ON attempt (skill, kind, outcome);
 
 CREATE TABLE segment_parameter (
   episode INTEGER NOT NULL REFERENCES episode (id),
-  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),  -- 1: segment is the ordinal of an attempt
+  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),  -- with segment: whose it is
   segment INTEGER NOT NULL,
   ordinal INTEGER NOT NULL,
   component INTEGER NOT NULL,
@@ -85,7 +47,7 @@ CREATE TABLE segment_parameter (
   text TEXT,
   unit TEXT NOT NULL,
   frame TEXT NOT NULL,
-  chosen_by TEXT NOT NULL CHECK (chosen_by IN ('default', 'stream', 'planner', 'agent')),
+  chosen_by TEXT NOT NULL CHECK (chosen_by IN ('default', 'stream', 'planner', 'agent', 'policy', 'task', 'caller')),
   PRIMARY KEY (episode, undone, segment, ordinal, component)
 ) STRICT, WITHOUT ROWID;
 
@@ -137,7 +99,6 @@ CREATE TABLE fact (
   PRIMARY KEY (episode, ordinal),
   CHECK (start_step <= end_step AND first_frame <= end_frame)
 ) STRICT, WITHOUT ROWID;
-CREATE INDEX fact_by_predicate ON fact (predicate, arg1, arg2);
 
 CREATE TABLE observed_fact (  -- of predicates that can hide: when they were known to hold
   episode INTEGER NOT NULL REFERENCES episode (id),

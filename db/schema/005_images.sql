@@ -21,3 +21,13 @@ CREATE TABLE image (  -- with rowids: rows are too long for a key's tree
   FOREIGN KEY (episode, frame) REFERENCES frame (episode, frame),
   FOREIGN KEY (episode, camera) REFERENCES camera (episode, ordinal)
 ) STRICT;
+
+CREATE TABLE mask_pixels (  -- pixels in instance masks: a row for each thing that a mask shows. Follows from image
+  episode INTEGER NOT NULL,
+  frame INTEGER NOT NULL,
+  camera INTEGER NOT NULL,
+  instance INTEGER NOT NULL,
+  pixels INTEGER NOT NULL CHECK (pixels > 0),
+  PRIMARY KEY (episode, frame, camera, instance),
+  FOREIGN KEY (episode, instance) REFERENCES mask (episode, instance)
+) STRICT, WITHOUT ROWID;

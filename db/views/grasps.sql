@@ -1,6 +1,8 @@
-CREATE VIEW grasps AS
-SELECT g.episode, e.task, e.variation, e.seed, g.ordinal, g.segment, s.skill, g.object, g.x, g.y, g.z, g.qx, g.qy, g.qz,
-       g.qw, g.width, g.held
+CREATE VIEW grasps AS  -- a grasp belongs to the motion that closed the hand, and that to a skill
+SELECT g.episode, e.task, e.variation, e.seed, g.ordinal, s.ordinal AS segment, g.segment AS motion, s.skill, g.object,
+       g.x, g.y, g.z, g.qx, g.qy, g.qz, g.qw, g.width, g.held
 FROM grasp g
 JOIN episode e ON e.id = g.episode
-LEFT JOIN segment s ON s.episode = g.episode AND s.ordinal = g.segment;
+LEFT JOIN segment m ON m.episode = g.episode AND m.undone = 0 AND m.ordinal = g.segment
+LEFT JOIN segment s ON s.episode = g.episode AND s.undone = 0
+  AND s.ordinal = CASE m.kind WHEN 'motion' THEN m.parent ELSE m.ordinal END;

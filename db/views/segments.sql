@@ -6,4 +6,5 @@ SELECT s.episode, e.task, e.variation, e.seed, s.ordinal AS segment, s.kind, s.p
        s.start_step, s.end_step, s.first_frame, s.end_frame, s.outcome, s.reason, s.detail, s.precondition_held,
        s.effect_held, s.missing_effects, s.forgotten, s.label, s.labelled_by
 FROM segment s
-JOIN episode e ON e.id = s.episode;
+JOIN episode e ON e.id = s.episode
+WHERE s.undone = 0;

@@ -5,5 +5,5 @@ SELECT v.episode, v.ordinal, v.segment, s.parent AS skill_segment, k.skill, v.na
        v.step * 1.0 / e.physics_hz AS time_s, v.step * e.frame_hz / e.physics_hz AS frame, v.speed, v.tool_speed
 FROM via v
 JOIN episode e ON e.id = v.episode
-LEFT JOIN segment s ON s.episode = v.episode AND s.ordinal = v.segment
-LEFT JOIN segment k ON k.episode = v.episode AND k.ordinal = s.parent;
+LEFT JOIN segment s ON s.episode = v.episode AND s.undone = 0 AND s.ordinal = v.segment
+LEFT JOIN segment k ON k.episode = v.episode AND k.undone = 0 AND k.ordinal = s.parent;

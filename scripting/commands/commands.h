@@ -20,6 +20,7 @@ CommandRow validate_command();
 CommandRow export_command();
 CommandRow import_command();
 CommandRow query_command();
+CommandRow merge_command();
 CommandRow replay_command();
 CommandRow render_command();
 CommandRow new_command();

@@ -1,6 +1,6 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run show plan validate query export import replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run show plan validate query merge export import replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --root --path --json --help" ;;
     check) words="--physics --episodes --seed --randomise --workers --root --path --json --help" ;;
@@ -9,6 +9,7 @@ _stampede() {
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --hash --root --path --json --help" ;;
+    merge) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;

@@ -39,31 +39,41 @@ QueryResult names() {
   return table;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
-  const std::string format = arguments.flag("--json") ? "json" : arguments.text("--format");
-  QueryResult result;
-  if (arguments.flag("--list")) {
-    result = names();
-  } else if (arguments.flag("--hash")) {
-    if (!arguments.has("FILE")) throw UsageError("stampede query --hash needs FILE", "name a catalogue");
-    result.columns = {"content_hash"};
-    result.rows = {{Catalogue::open(arguments.text("FILE")).content_hash()}};
-  } else {
-    if (!arguments.has("FILE") || !arguments.has("QUESTION")) {
-      throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");
-    }
-    const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
-    try {
-      const StopsQuestion stops(catalogue, console);
-      result = catalogue.query(arguments.text("QUESTION"));
-    } catch (const Error&) {
-      if (!console.stopped()) throw;
-      console.err << "interrupted: the question was not answered\n";
-      return kNo;
-    }
+TextFormat format_of(const Arguments& arguments) {
+  const std::string name = arguments.flag("--json") ? "json" : arguments.text("--format");
+  return name == "json" ? TextFormat::json : name == "csv" ? TextFormat::csv : TextFormat::table;
+}
+
+ExitCode answer(const Arguments& arguments, RowWriter& writer, Console& console) {
+  const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
+  try {
+    const StopsQuestion stops(catalogue, console);
+    catalogue.query(arguments.text("QUESTION"), writer);
+  } catch (const Error&) {
+    if (!console.stopped()) throw;
+    console.err << "interrupted: the question was not answered to its end\n";
+    return kNo;
   }
-  console.out << (format == "json" ? to_json(result) : format == "csv" ? to_csv(result) : to_table(result));
+  writer.finish();
   return kDone;
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const std::unique_ptr<RowWriter> writer = row_writer(format_of(arguments), console.out);
+  const auto write = [&](const QueryResult& result) {
+    writer->columns(result.columns);
+    for (const auto& row : result.rows) writer->row(row);
+    writer->finish();
+    return kDone;
+  };
+  if (arguments.flag("--list")) return write(names());
+  if (arguments.flag("--hash")) {
+    if (!arguments.has("FILE")) throw UsageError("stampede query --hash needs FILE", "name a catalogue");
+    return write({{"content_hash"}, {{Catalogue::open(arguments.text("FILE")).content_hash()}}});
+  }
+  if (!arguments.has("FILE") || !arguments.has("QUESTION"))
+    throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");
+  return answer(arguments, *writer, console);
 }
 
 }  // namespace

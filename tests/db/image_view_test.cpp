@@ -33,23 +33,23 @@ struct Seen {
 TEST_CASE("the numbers of masks are named, and objects know their own") {
   const Seen seen;
   CHECK(seen.text("SELECT instance, name, object, class, semantic, colour FROM masks") ==
-        "instance,name,object,class,semantic,colour\r\n1,panda.link0,panda,panda,3,\r\n"
-        "2,panda.link1,panda.hand,hand,2,\r\n3,block2,block2,cube,1,blue\r\n4,block1,block1,cube,1,red\r\n");
-  CHECK(seen.text("SELECT object, mask_id FROM objects") == "object,mask_id\r\nblock1,4\r\nblock2,3\r\n");
+        "instance,name,object,class,semantic,colour\n1,panda.link0,panda,panda,3,\n"
+        "2,panda.link1,panda.hand,hand,2,\n3,block2,block2,cube,1,blue\n4,block1,block1,cube,1,red\n");
+  CHECK(seen.text("SELECT object, mask_id FROM objects") == "object,mask_id\nblock1,4\nblock2,3\n");
   EpisodeRecord hidden = sample_episode("lift", "colour=red", 2);
   Object region;
   region.name = "goal", region.kind = ObjectKind::region, region.class_name = region.type = "region";
   hidden.objects.push_back(region);
   Catalogue other = Catalogue::write(seen.folder / "b.db");
   other.add(hidden, kEngine);
-  CHECK(to_csv(other.query("SELECT mask_id FROM objects WHERE object = 'goal'")) == "mask_id\r\n0\r\n");
-  CHECK_THAT(seen.text("mask_key"), Contains("1,4,block1,block1,cube,1,red\r\n"));
+  CHECK(to_csv(other.query("SELECT mask_id FROM objects WHERE object = 'goal'")) == "mask_id\n0\n");
+  CHECK_THAT(seen.text("mask_key"), Contains("1,4,block1,block1,cube,1,red\n"));
 }
 
 TEST_CASE("cameras say how they see and what they hang on") {
   const Seen seen;
   CHECK(seen.text("SELECT camera, width, height, mount FROM cameras") ==
-        "camera,width,height,mount\r\nfront,128,128,world\r\nwrist,160,120,panda.link1\r\n");
+        "camera,width,height,mount\nfront,128,128,world\nwrist,160,120,panda.link1\n");
   CHECK(seen.number("SELECT vertical_fov_rad FROM cameras WHERE camera = 'wrist'") == Approx(1.2));
   CHECK(seen.number("SELECT focal_y FROM cameras WHERE camera = 'wrist'") == Approx(60 / std::tan(0.6)));
   CHECK(seen.number("SELECT k2 FROM cameras WHERE camera = 'wrist'") == -0.2);
@@ -74,7 +74,7 @@ TEST_CASE("a camera on furniture is named by the object of that part") {
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   catalogue.add(e, kEngine);
   CHECK(to_csv(catalogue.query("SELECT camera, mount FROM cameras")) ==
-        "camera,mount\r\nfront,chest\r\nwrist,chest.drawer\r\n");
+        "camera,mount\nfront,chest\nwrist,chest.drawer\n");
 }
 
 TEST_CASE("a picture of another size has the focal length of that size") {
@@ -92,15 +92,15 @@ TEST_CASE("a picture of another size has the focal length of that size") {
   CHECK(value("centre_x") == Approx(larger.centre_x));
   CHECK(value("centre_y") == Approx(larger.centre_y));
   CHECK(seen.text("SELECT camera, time_s, width, bytes, data FROM images WHERE frame = 1") ==
-        "camera,time_s,width,bytes,data\r\nwrist,0.05,500,2,0102\r\n");
+        "camera,time_s,width,bytes,data\nwrist,0.05,500,2,0102\n");
 }
 
 TEST_CASE("images_by_episode counts pictures and bytes") {
   const Seen seen;  // 4 frames of 2 cameras and 2 kinds, 1500 bytes each
   CHECK(seen.text("images_by_episode") ==
-        "episode,task,camera,kind,pictures,size,kb,kb_a_frame\r\n1,lift,front,depth,4,128x128,6.0,1.5\r\n"
-        "1,lift,front,rgb,4,128x128,6.0,1.5\r\n1,lift,wrist,depth,4,160x120,6.0,1.5\r\n"
-        "1,lift,wrist,rgb,4,160x120,6.0,1.5\r\n");
+        "episode,task,camera,kind,pictures,size,kb,kb_a_frame\n1,lift,front,depth,4,128x128,6.0,1.5\n"
+        "1,lift,front,rgb,4,128x128,6.0,1.5\n1,lift,wrist,depth,4,160x120,6.0,1.5\n"
+        "1,lift,wrist,rgb,4,160x120,6.0,1.5\n");
 }
 
 TEST_CASE("keyframe_images shows each skill's start and end") {
@@ -109,7 +109,6 @@ TEST_CASE("keyframe_images shows each skill's start and end") {
     std::string sql = find_named_query("keyframe_images")->sql;
     return sql.substr(0, sql.find_last_of(';'));
   }() + ") WHERE camera = 'wrist'");
-  CHECK(answer == "skill,moment,frame\r\npick,start,0\r\npick,end,6\r\nwait,start,6\r\nwait,end,11\r\n");
-  CHECK_THAT(seen.text("keyframe_images"),
-             Contains("pick up the \"\"red\"\" block\",end,6,0.3,front,128,128,1500\r\n"));
+  CHECK(answer == "skill,moment,frame\npick,start,0\npick,end,6\nwait,start,6\nwait,end,11\n");
+  CHECK_THAT(seen.text("keyframe_images"), Contains("pick up the \"\"red\"\" block\",end,6,0.3,front,128,128,1500\n"));
 }

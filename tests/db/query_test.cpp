@@ -73,19 +73,18 @@ TEST_CASE("every named query runs and describes itself") {
 TEST_CASE("named queries answer what they promise") {
   const Filled filled;  // one episode: a pick that was undone once, then succeeded, and a wait
   CHECK(to_csv(filled.catalogue.query("failures_by_reason")) ==
-        "level,kind,skill,reason,failures,undone\r\ntry,skill,pick,grasp_missed,1,1\r\n");
+        "level,kind,skill,reason,failures,undone\ntry,skill,pick,grasp_missed,1,1\n");
   CHECK(to_csv(filled.catalogue.query("success_by_task")) ==
-        "task,split,episodes,successes,success_rate\r\nlift,train,1,1,1.0\r\n");
-  CHECK_THAT(to_csv(filled.catalogue.query("first_try_success")), Contains("pick,off_surface,1,0.0,2,0.5\r\n"));
-  CHECK_THAT(to_csv(filled.catalogue.query("effects_by_skill")), Contains("pick,off_surface,1,1,1,1.0\r\n"));
-  CHECK_THAT(to_csv(filled.catalogue.query("undeclared_changes")),
-             Contains("pick,off_surface,(lifted block1),1,1\r\n"));
+        "task,split,episodes,successes,success_rate\nlift,train,1,1,1.0\n");
+  CHECK_THAT(to_csv(filled.catalogue.query("first_try_success")), Contains("pick,off_surface,1,0.0,2,0.5\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("effects_by_skill")), Contains("pick,off_surface,1,1,1,1.0\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("undeclared_changes")), Contains("pick,off_surface,(lifted block1),1,1\n"));
   CHECK_THAT(to_csv(filled.catalogue.query("missing_effects")),
-             Contains("pick,off_surface,success,(open chest),1,1\r\n"));
-  CHECK_THAT(to_csv(filled.catalogue.query("longest_facts")), Contains("(on block2 table),1,lift,0.0,0.55,0.55,1\r\n"));
-  CHECK_THAT(to_csv(filled.catalogue.query("slowest_segments")), Contains("0.3,joint_impedance\r\n"));
+             Contains("pick,off_surface,success,(open chest),1,1\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("longest_facts")), Contains("(on block2 table),1,lift,0.0,0.55,0.55,1\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("slowest_segments")), Contains("0.3,joint_impedance\n"));
   CHECK(filled.catalogue.query("red_picks").rows.size() == 1);
-  CHECK_THAT(to_csv(filled.catalogue.query("via_speeds")), Contains("pick,approach,1,0.7,0.7\r\n"));
+  CHECK_THAT(to_csv(filled.catalogue.query("via_speeds")), Contains("pick,approach,1,0.7,0.7\n"));
   CHECK(to_csv(filled.catalogue.query("hardest_contacts")).find("12.5") != std::string::npos);
   // The via is passed in frame 1 and 18/240 s; keyframe 0 is within one frame.
   CHECK(filled.catalogue.query("keyframes_without_vias").rows.empty());
@@ -152,7 +151,7 @@ TEST_CASE("answers as table, CSV and JSON") {
                  {std::monostate{}, std::int64_t{-1}, 2.0},
                  {std::string(), std::monostate{}, SqlBlob{std::string("\x01\xff", 2)}},
                  {std::string("größe\x80"), std::int64_t{3}, INFINITY}};
-  CHECK(to_csv(result) == "name,n,x\r\n\"a,\"\"b\"\"\nc\",10,0.1\r\n,-1,2.0\r\n\"\",,01ff\r\ngröße\x80,3,Infinity\r\n");
+  CHECK(to_csv(result) == "name,n,x\n\"a,\"\"b\"\"\nc\",10,0.1\n,-1,2.0\n\"\",,01ff\ngröße\x80,3,Infinity\n");
   CHECK(to_json(result) ==
         "[\n {\"name\": \"a,\\\"b\\\"\\nc\", \"n\": 10, \"x\": 0.1},\n {\"name\": null, \"n\": -1, \"x\": 2.0},\n"
         " {\"name\": \"\", \"n\": null, \"x\": \"01ff\"},\n {\"name\": \"größe\\ufffd\", \"n\": 3, \"x\": "

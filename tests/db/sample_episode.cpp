@@ -7,6 +7,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/model/camera.h"
+#include "engine/render/png.h"
 
 namespace stampede::test {
 namespace {
@@ -139,6 +140,15 @@ void add_labels(EpisodeRecord& e) {
   e.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
 }
 
+// 8 x 6 pixels, each of one of the `things`, or of none.
+std::vector<std::uint8_t> mask_png(Random& random, std::size_t things) {
+  Picture picture;
+  picture.width = 8, picture.height = 6;
+  for (int i = 0; i < 48; ++i)
+    picture.instance.push_back(static_cast<std::uint16_t>(random.below(static_cast<std::int64_t>(things + 1))));
+  return to_png(picture, PictureKind::instance);
+}
+
 }  // namespace
 
 EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
@@ -172,6 +182,7 @@ std::shared_ptr<ImageStore> sample_images(const EpisodeRecord& episode, const st
             RandomKey("sample").with(episode.seed).with(frame).with(static_cast<std::int64_t>(camera)).with(kind));
         std::vector<std::uint8_t> data(bytes);
         for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random.below(256));
+        if (kind == "instance") data = mask_png(random, episode.masks.size());
         store->append(image, data);
       }
   return store;

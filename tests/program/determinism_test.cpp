@@ -45,7 +45,7 @@ TEST_CASE("two workers write what one writes; a second run adds nothing; replay 
   CHECK(shown.out.find("reach_target") != std::string::npos);
 
   const Said counted = say({"query", folder / "one.db", "SELECT count(*) AS n FROM episodes", "--format", "csv"});
-  CHECK(counted.out == "n\r\n4\r\n");
+  CHECK(counted.out == "n\n4\n");
   CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
 }
 

@@ -1,0 +1,17 @@
+// How many pixels of each thing an instance mask shows. Inside this room only.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+
+#include "db/sqlite.h"
+
+namespace stampede {
+
+// Of a PNG of kind `instance`: number in the mask -> pixels; the background is left out. Throws Error when it is none.
+std::map<int, std::int64_t> visible_pixels(std::span<const std::uint8_t> png);
+
+void count_stored_masks(const sql::Database& database);  // all that table image holds, into table mask_pixels
+
+}  // namespace stampede

@@ -1,0 +1,28 @@
+// Many catalogues into one, by key.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stampede {
+
+struct MergedFile {
+  std::string path;
+  std::int64_t added = 0, existing = 0;  // existing: the same episodes were there already
+};
+struct MergeResult {
+  std::vector<MergedFile> files;  // as given
+  bool interrupted = false;       // the same call goes on from there
+};
+
+// Adds the episodes of `from` to `into`, which is made when it is not there. Catalogues of earlier releases are
+// migrated in a temporary copy. Repeatable: the content hash is that of one run which made all episodes. Throws:
+// CatalogueError, before anything is written, when two files have other content under the same key; it names both. What
+// Catalogue::open() throws.
+MergeResult merge(const std::filesystem::path& into, const std::vector<std::filesystem::path>& from,
+                  const std::atomic<bool>* stop = nullptr);
+
+}  // namespace stampede

@@ -1,0 +1,91 @@
+#include "db/migrations.h"
+
+#include <sstream>
+
+#include "db/catalogue.h"
+#include "db/count_visible.h"
+#include "db/embedded_sql.h"
+
+namespace stampede {
+namespace {
+
+int first_number(const SqlFile& migration) { return std::stoi(migration.name); }  // 005_to_006
+
+// The words after `-- changes` in the first line.
+std::vector<std::string> changed_tables(const SqlFile& migration) {
+  std::istringstream line(migration.text.substr(0, migration.text.find('\n')));
+  std::string dashes, changes;
+  line >> dashes >> changes;
+  std::vector<std::string> tables;
+  for (std::string table; line >> table;) tables.push_back(table);
+  return tables;
+}
+
+bool has_table(const sql::Database& database, const std::string& schema, const std::string& table) {
+  sql::Statement found(database, "SELECT 1 FROM " + schema + ".sqlite_master WHERE type = 'table' AND name = ?1");
+  return found.start(table).step();
+}
+
+// From the attached file into the temporary database, once.
+void copy_table(const sql::Database& database, const std::string& table) {
+  if (has_table(database, "main", table) || !has_table(database, "file", table)) return;
+  database.run(database.text("SELECT sql FROM file.sqlite_master WHERE type = 'table' AND name = '" + table + "'"));
+  database.run("INSERT INTO main." + table + " SELECT * FROM file." + table);
+}
+
+}  // namespace
+
+const std::vector<Release>& earlier_releases() {
+  static const std::vector<Release> releases = {{5, "SCHEMA5HASH"}};
+  return releases;
+}
+
+void migrate(const sql::Database& database, int schema) {
+  for (const SqlFile& migration : embedded_migrations()) {
+    const int from = first_number(migration);
+    if (from < schema) continue;
+    database.run(migration.text);
+    if (from == 5) count_stored_masks(database);
+  }
+  database.run("PRAGMA user_version = " + std::to_string(schema_version()));
+}
+
+sql::Database migrated_to_read(const std::string& uri, int flags, const std::string& shown_path, int schema) {
+  // An empty name is a database of its own on disk, without a file that others see; it goes when it is closed.
+  sql::Database database("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | (flags & SQLITE_OPEN_URI), shown_path);
+  sql::Statement(database, "ATTACH ?1 AS file").run(uri);
+  database.run("BEGIN");
+  for (const SqlFile& migration : embedded_migrations()) {
+    if (first_number(migration) < schema) continue;
+    for (const std::string& table : changed_tables(migration)) copy_table(database, table);
+    database.run(migration.text);
+  }
+  database.run("COMMIT");
+  return database;
+}
+
+void copy_database(const std::filesystem::path& file, const std::filesystem::path& copy) {
+  const sql::Database from(std::filesystem::absolute(file).string(), SQLITE_OPEN_READONLY, file.string());
+  const sql::Database to(copy.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, copy.string());
+  sqlite3_backup* backup = sqlite3_backup_init(to.handle(), "main", from.handle(), "main");
+  if (backup == nullptr) to.fail(sqlite3_errcode(to.handle()));
+  sqlite3_backup_step(backup, -1);
+  const int code = sqlite3_backup_finish(backup);
+  if (code == SQLITE_OK) return;
+  std::error_code ignored;
+  std::filesystem::remove(copy, ignored);
+  to.fail(code);
+}
+
+KeptCopy::KeptCopy(const std::filesystem::path& file, int schema)
+    : path_(file.string() + ".schema" + std::to_string(schema)) {
+  remove();  // of a migration that was killed: the file is as it was then
+  copy_database(file, path_);
+}
+
+void KeptCopy::remove() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace stampede

@@ -1,0 +1,42 @@
+// How a catalogue of an earlier release becomes one of this release. Inside this room only.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "db/sqlite.h"
+
+namespace stampede {
+
+// A schema that users have files of, and its tables_hash(). The current one joins when the next is begun.
+struct Release {
+  int schema = 0;
+  std::string tables;
+};
+const std::vector<Release>& earlier_releases();
+
+// Runs the numbered migrations from `schema` up, inside the caller's transaction.
+void migrate(const sql::Database& database, int schema);
+
+// A database that shows the file at `uri` as one of this release without changing it: the tables that migrations
+// change are copied into a temporary database and migrated there, the others are read where they are. What is counted
+// from pictures is left out. Lifetime: reads the file as long as it lives.
+sql::Database migrated_to_read(const std::string& uri, int flags, const std::string& shown_path, int schema);
+
+// Everything that is committed in `file`, in a new file. Throws CatalogueError when there is no room for it.
+void copy_database(const std::filesystem::path& file, const std::filesystem::path& copy);
+
+// A copy of the file that stays until remove() or, when the program dies, beside the file: SQLite's own log brings the
+// file back, the copy is for disks that lie. Throws CatalogueError when there is no room for it.
+class KeptCopy {
+ public:
+  KeptCopy(const std::filesystem::path& file, int schema);
+  void remove();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace stampede

@@ -1,0 +1,207 @@
+// Opening a catalogue: whose file it is, of which release, and what must be done before it serves.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "db/catalogue.h"
+#include "db/catalogue_impl.h"
+#include "db/episode_writer.h"
+#include "db/migrations.h"
+#include "db/schema.h"
+#include "engine/base/reason.h"
+
+namespace stampede {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAgain = "generate the episodes again with this one";
+
+struct Content {
+  int schema = 0;  // 0: nothing is in the file
+  bool empty() const { return schema == 0; }
+  bool older() const { return schema != 0 && schema != schema_version(); }
+};
+
+// What made the episodes, for complaints; empty when the file does not say.
+std::string engine_of(const sql::Database& database) {
+  try {
+    return database.text("SELECT group_concat(DISTINCT engine_version) FROM engine_run");
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+void check_tables(const sql::Database& database, int schema) {
+  std::string expected = schema == schema_version() ? current_tables_hash() : "";
+  for (const Release& release : earlier_releases())
+    if (release.schema == schema) expected = release.tables;
+  const std::string found = tables_hash(database);
+  if (found == expected) return;
+  const std::string engine = engine_of(database);
+  throw CatalogueError(database.path(),
+                       "its tables are those of no release: it says schema " + std::to_string(schema) +
+                           ", and they are " + found.substr(0, 8) + ", not " + expected.substr(0, 8),
+                       "read it with the build that made it" + (engine.empty() ? "" : " (" + engine + ")") +
+                           ", which lay between two releases, or " + kAgain);
+}
+
+// Looks before anything is changed. Throws CatalogueError for every file that is not ours to use.
+Content inspect(const sql::Database& database) {
+  const std::int64_t id = database.number("PRAGMA application_id");
+  const std::int64_t version = database.number("PRAGMA user_version");
+  const std::int64_t tables = database.number("SELECT count(*) FROM sqlite_master");
+  if (id == 0 && version == 0 && tables == 0) return {};
+  if (id != kApplicationId)
+    throw CatalogueError(database.path(), "this database belongs to another application",
+                         "name a catalogue, or another file to write to");
+  const std::string versions =
+      "its schema is " + std::to_string(version) + ", this program knows " + std::to_string(schema_version());
+  if (version > schema_version())
+    throw CatalogueError(database.path(), "this catalogue was made by a newer version: " + versions,
+                         std::string("use that version of stampede, or ") + kAgain);
+  const int oldest = earlier_releases().front().schema;
+  if (version < oldest)
+    throw CatalogueError(database.path(),
+                         "this catalogue was made by an older version: " + versions + " and those from " +
+                             std::to_string(oldest) + " up",
+                         kAgain);
+  check_tables(database, static_cast<int>(version));
+  return {static_cast<int>(version)};
+}
+
+std::string uri_of(const fs::path& path) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(path).string()) {
+    if (c == '?' || c == '#' || c == '%') {
+      uri += c == '?' ? "%3f" : c == '#' ? "%23" : "%25";
+    } else {
+      uri += c;
+    }
+  }
+  return uri;
+}
+
+bool has_log(const fs::path& path) {  // pages that are not in the file itself yet
+  struct stat status {};
+  return ::stat((path.string() + "-wal").c_str(), &status) == 0 && status.st_size > 0;
+}
+
+void check_path(const fs::path& path, bool writing) {
+  std::error_code ignored;
+  if (path == ":memory:")
+    throw CatalogueError(path.string(), "a catalogue is a file, and is never kept in memory",
+                         "name a file, such as demos.db");
+  if (fs::is_directory(path, ignored))
+    throw CatalogueError(path.string(), "this is a folder", "name a file, such as demos.db");
+  if (!writing && !fs::exists(path, ignored))
+    throw CatalogueError(path.string(), "there is no such file", "name a catalogue that `stampede run --out` has made");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))  // a pipe would be waited for without end
+    throw CatalogueError(path.string(), "this is a pipe or a device, and no file", "name a file, such as demos.db");
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (writing && !fs::is_directory(folder, ignored))
+    throw CatalogueError(path.string(), "the folder " + folder.string() + " does not exist", "make it first");
+}
+
+struct ReadFile {
+  sql::Database database;
+  std::string uri;
+};
+
+constexpr int kReading = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+
+// A file in WAL mode wants to write beside itself even to be read. Where that is refused and there is no log, the
+// file holds everything and nobody can change it.
+ReadFile open_to_read(const fs::path& path) {
+  const std::string shown = path.string(), uri = uri_of(path) + "?mode=ro";
+  sql::Database database(uri, kReading, shown);
+  const int code = sqlite3_exec(database.handle(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+  if (code == SQLITE_OK) return {std::move(database), uri};
+  const int kind = code & 0xff;
+  if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) database.fail(code);
+  if (::access(shown.c_str(), R_OK) != 0)
+    throw CatalogueError(shown, "this file may not be read", "change its permissions, or copy it");
+  if (has_log(path))
+    throw CatalogueError(shown, "a run that was killed left pages in " + shown + "-wal, and this folder is read-only",
+                         "copy the file together with its -wal to a folder that you may write in");
+  const std::string immutable = uri_of(path) + "?immutable=1";
+  return {sql::Database(immutable, kReading, shown), immutable};
+}
+
+// Two runs may open the same new file at once: SQLite does not wait while the mode changes.
+void use_log(const sql::Database& database) {
+  for (int tries = 0;; ++tries) {
+    const int code = sqlite3_exec(database.handle(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    if (code == SQLITE_OK) break;
+    if (((code & 0xff) != SQLITE_BUSY && (code & 0xff) != SQLITE_LOCKED) || tries == 200) database.fail(code);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  database.run("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536;");
+}
+
+void add_reasons(const sql::Database& database) {
+  sql::Statement reason(database, "INSERT INTO reason (name) VALUES (?1) ON CONFLICT DO NOTHING");
+  for (const Reason one : all_reasons()) reason.run(to_string(one));
+}
+
+// One transaction makes what is missing: tables, the migration of an older file, views and indexes. Another run may
+// have done it meanwhile, so all is asked again inside.
+void make_ready(const sql::Database& database, const fs::path& path) {
+  std::optional<KeptCopy> copy;
+  try {
+    database.run("BEGIN IMMEDIATE");
+    const Content content = inspect(database);
+    if (content.older()) copy.emplace(path, content.schema);
+    const bool stale = content.empty() || content.older() || !has_current_views(database);
+    if (content.empty()) database.run(schema_script());
+    if (content.older()) {
+      database.run(drop_views_script(database));
+      migrate(database, content.schema);
+    }
+    add_reasons(database);
+    if (stale) database.run(views_script(database));
+    database.run("COMMIT");
+  } catch (...) {
+    roll_back(database);
+    if (copy) copy->remove();  // the file is as it was
+    throw;
+  }
+  if (copy) copy->remove();
+}
+
+}  // namespace
+
+Catalogue Catalogue::open(const fs::path& path) {
+  check_path(path, false);
+  auto impl = std::make_unique<Impl>();
+  ReadFile file = open_to_read(path);
+  const Content content = inspect(file.database);
+  if (content.empty())
+    throw CatalogueError(path.string(), "this file is empty: no run has written to it",
+                         "run some tasks first: `stampede run TASK --out " + path.string() + "`");
+  if (content.older()) {
+    file.database.close();
+    file.database = migrated_to_read(file.uri, kReading, path.string(), content.schema);
+  }
+  impl->database = std::move(file.database);
+  impl->database.run(temporary_views_script());
+  return Catalogue(std::move(impl));
+}
+
+Catalogue Catalogue::write(const fs::path& path) {
+  check_path(path, true);
+  auto impl = std::make_unique<Impl>();
+  sql::Database& database = impl->database;
+  database = sql::Database(fs::absolute(path).string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, path.string());
+  inspect(database);
+  if (sqlite3_db_readonly(database.handle(), "main")) database.fail(SQLITE_READONLY);
+  use_log(database);
+  make_ready(database, path);
+  database.run("PRAGMA foreign_keys = ON");
+  impl->writable = true;
+  return Catalogue(std::move(impl));
+}
+
+}  // namespace stampede

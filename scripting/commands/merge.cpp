@@ -1,0 +1,54 @@
+#include "db/merge.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+
+namespace stampede::program {
+namespace {
+
+void print_json(const std::string& out, const MergeResult& result, Console& console) {
+  JsonText text;
+  text.object().field("out", out).field("interrupted", result.interrupted).key("files").array();
+  for (const MergedFile& file : result.files)
+    text.object().field("file", file.path).field("added", file.added).field("existing", file.existing).end();
+  console.out << text.end().end().text();
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const std::string out = arguments.text("OUT");
+  std::vector<std::filesystem::path> from;
+  for (const std::string& path : arguments.list("IN")) from.emplace_back(path);
+  const MergeResult result = merge(out, from, console.stop);
+  if (arguments.flag("--json")) {
+    print_json(out, result, console);
+  } else {
+    for (const MergedFile& file : result.files) {
+      console.out << fmt::format("{}: {} episodes added", file.path, file.added);
+      if (file.existing > 0) console.out << fmt::format(", {} were there already", file.existing);
+      console.out << "\n";
+    }
+  }
+  if (result.interrupted) console.err << "interrupted: the same command goes on from there\n";
+  return result.interrupted ? kNo : kDone;
+}
+
+}  // namespace
+
+CommandRow merge_command() {
+  return {"merge",
+          "Put the episodes of many catalogues into one",
+          "By key: an episode that is there already is not added again, and two that have the same key and other "
+          "content are an error that names both files, before anything is written. Catalogues of earlier releases are "
+          "migrated in a temporary copy. The content hash of OUT is that of one run that made all the episodes.",
+          {{"OUT", "the catalogue to write; made when it is not there", true, false},
+           {"IN", "catalogues to read", true, true}},
+          {},
+          {"stampede merge demos.db part1.db part2.db", "stampede merge now.db old.db"},
+          run};
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,81 @@
+// Catalogues that pass SQLite's own check but lie: an error with the place, at once and in little memory.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "db/sqlite.h"
+#include "sample_episode.h"
+
+using namespace stampede;
+using namespace stampede::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void change(const std::filesystem::path& path, const std::string& statement) {
+  const sql::Database database(path.string(), SQLITE_OPEN_READWRITE, path.string());
+  database.run(statement);
+}
+
+}  // namespace
+
+TEST_CASE("a number that cannot be is told with its place, whichever it is") {
+  const Folder folder;
+  const auto good = folder / "good.db";
+  Catalogue::write(good).add(sample_episode("lift", "colour=red", 1), kEngine);
+  REQUIRE_NOTHROW(Catalogue::open(good).read_episode(1));
+  const std::vector<std::pair<std::string, std::string>> lies{
+      {"UPDATE episode SET physics_hz = 0", "physics_hz is 0, and can be 1 to 1000000"},
+      {"UPDATE episode SET physics_hz = 9000000000", "physics_hz"},
+      {"UPDATE episode SET frame_hz = 0", "frame_hz"},
+      {"UPDATE episode SET frame_hz = 100000", "frame_hz"},
+      {"UPDATE episode SET frames = 5000000000", "frames is 5000000000, and can be 12 to 12"},
+      {"UPDATE episode SET frames = -1", "frames"},
+      {"UPDATE episode SET steps = -5", "steps"},
+      {"UPDATE frame SET frame = 400 WHERE frame = 11", "a row of frame"},
+      {"UPDATE frame SET step = -12 WHERE frame = 3", "a frame's step"},
+      {"UPDATE frame SET step = 1000000000000 WHERE frame = 11", "a frame's step"},
+      {"UPDATE segment SET end_step = 4000000000000000 WHERE undone = 0", "a segment's span"},
+      {"UPDATE segment SET first_frame = -3 WHERE undone = 0", "a segment's span"},
+      {"UPDATE segment SET end_step = 4000000000000000 WHERE undone = 1", "an undone try's span"},
+      {"UPDATE segment SET parent = 2 WHERE undone = 0 AND ordinal = 1", "a segment's parent"},
+      {"UPDATE segment SET ordinal = 99 WHERE undone = 0 AND ordinal = 2", "a segment's ordinal"},
+      {"UPDATE segment SET before_segment = 77 WHERE undone = 1", "an undone try's place"},
+      {"UPDATE fact SET end_step = 9000000000", "a fact"},
+      {"UPDATE observed_fact SET end_frame = 9000000000", "an observed fact"},
+      {"UPDATE via SET segment = 50", "a via-point's segment"},
+      {"UPDATE via SET step = -1", "a via-point's step"},
+      {"UPDATE contact SET end_frame = 999", "a contact"},
+      {"UPDATE grasp SET segment = -2", "a grasp's segment"},
+      {"UPDATE language SET segment = 12 WHERE level = 'skill'", "a sentence's segment"},
+      {"UPDATE keyframe SET frame = 12 WHERE frame = 11", "a keyframe"},
+      {"UPDATE command SET step = 123456789", "a command's step"},
+      {"UPDATE sample SET step = -1", "a sample's step"},
+      {"UPDATE camera SET width = 0", "a camera's width"},
+      {"UPDATE object_state SET frame = 5000 WHERE frame = 0 AND posed = 0", "a row of object_state"},
+      {"UPDATE object_state SET posed = 7 WHERE posed = 1", "a row of object_state"},
+      {"UPDATE joint_state SET joint = 9 WHERE joint = 2", "a row of joint_state"},
+      {"UPDATE action SET frame = -1 WHERE frame = 0 AND channel = 0", "a row of action"},
+      {"UPDATE action_channel SET component = 70 WHERE space = 'tool_pose' AND component = 6",
+       "a row of action_channel"},
+      {"DELETE FROM sample WHERE component = 1", "a sensor's number of values"},
+  };
+  for (const auto& [statement, complaint] : lies) {
+    INFO(statement);
+    const auto path = folder / "lie.db";
+    std::filesystem::remove(path);
+    std::filesystem::copy(good, path);
+    change(path, statement);
+    const Catalogue catalogue = Catalogue::open(path);
+    CHECK_THROWS_WITH(catalogue.read_episode(1), Contains(complaint) && Contains("generate it again"));
+    CHECK_THROWS_AS(catalogue.read_episode(1), CatalogueError);
+    CHECK_NOTHROW(catalogue.query("SELECT * FROM segments"));
+  }
+}
+
+TEST_CASE("a pipe as catalogue is refused at once") {
+  const Folder folder;
+  REQUIRE(::mkfifo((folder / "pipe.db").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(Catalogue::open(folder / "pipe.db"), Contains("a pipe or a device"));
+  CHECK_THROWS_WITH(Catalogue::write(folder / "pipe.db"), Contains("a pipe or a device"));
+}
