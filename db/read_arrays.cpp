@@ -144,9 +144,10 @@ void ArrayReader::read_segment_heads() {
       "label",
       "segment", "ordinal", [&](sql::Statement& row) {
         SegmentRecord& s = record_.segments.emplace_back();
-        std::string arguments, outcome, reason;
-        row.read(s.ordinal, s.parent, s.kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
+        std::string kind, arguments, outcome, reason;
+        row.read(s.ordinal, s.parent, kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
                  outcome, reason, s.label);
+        s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
         s.arguments = from_json_list(database_, arguments);
         s.outcome = outcome_from(outcome);
         s.reason = reason_from(reason).value_or(Reason::none);

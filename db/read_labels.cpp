@@ -26,10 +26,11 @@ constexpr const char* kSegmentColumns =
 
 void read_segment(const sql::Database& database, sql::Statement& row, AttemptRecord& a, bool& undone) {
   SegmentRecord& s = a.segment;
-  std::string arguments, outcome, reason, missing, forgotten;
-  row.read(undone, s.ordinal, a.before_segment, a.try_number, s.kind, s.parent, s.robot, s.skill, s.case_name,
-           arguments, s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome,
-           reason, s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label);
+  std::string kind, arguments, outcome, reason, missing, forgotten;
+  row.read(undone, s.ordinal, a.before_segment, a.try_number, kind, s.parent, s.robot, s.skill, s.case_name, arguments,
+           s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason,
+           s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label);
+  s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
   s.arguments = from_json_list(database, arguments);
   s.outcome = outcome_from(outcome);
   s.reason = reason_from(reason).value_or(Reason::none);
@@ -67,7 +68,9 @@ void EpisodeReader::read_segment_details() {
          std::int64_t segment = 0, component = 0;
          std::optional<double> value;
          ParameterRecord p;
-         row.read(undone, segment, component, p.name, value, p.text, p.unit, p.frame, p.chosen_by);
+         std::string chosen_by;
+         row.read(undone, segment, component, p.name, value, p.text, p.unit, p.frame, chosen_by);
+         p.chosen_by = chosen_by_from(chosen_by).value_or(ChosenBy::default_value);
          auto& parameters = owner(undone, segment).parameters;
          if (component == 0) parameters.push_back(p);
          if (value) parameters.back().values.push_back(*value);

@@ -26,11 +26,11 @@ void run_segment(sql::Statement& statement, std::int64_t episode, bool undone, i
   const std::string forgotten = to_json_list(s.forgotten);
   const auto arg1 = argument(s.arguments, 0), arg2 = argument(s.arguments, 1), arg3 = argument(s.arguments, 2),
              arg4 = argument(s.arguments, 3);
-  statement.run(episode, undone, ordinal, was_ordinal, before_segment, try_number, s.kind, index(s.parent), s.robot,
-                s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller, s.span.start_step, s.span.end_step,
-                s.span.first_frame, s.span.end_frame, s.outcome == Outcome::success ? "success" : "failure",
-                to_string(s.reason), s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label,
-                "simulator");
+  statement.run(episode, undone, ordinal, was_ordinal, before_segment, try_number, to_string(s.kind), index(s.parent),
+                s.robot, s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller, s.span.start_step,
+                s.span.end_step, s.span.first_frame, s.span.end_frame,
+                s.outcome == Outcome::success ? "success" : "failure", to_string(s.reason), s.detail,
+                s.precondition_held, s.effect_held, missing, forgotten, s.label, "simulator");
 }
 
 // From 1: the tries of the same at its place that were undone go before it.
@@ -73,12 +73,13 @@ void EpisodeWriter::write_parameters(const SegmentRecord& segment, bool undone, 
   int place = 0;
   for (const ParameterRecord& p : segment.parameters) {
     if (p.values.empty()) {
-      parameter_.run(id_, undone, ordinal, place, 0, p.name, std::nullopt, p.text, p.unit, p.frame, p.chosen_by);
+      parameter_.run(id_, undone, ordinal, place, 0, p.name, std::nullopt, p.text, p.unit, p.frame,
+                     to_string(p.chosen_by));
     } else {
       for (std::size_t component = 0; component < p.values.size(); ++component)
         parameter_.run(id_, undone, ordinal, place, component, p.name, p.values[component],
                        p.text.empty() ? std::nullopt : std::optional<std::string>(p.text), p.unit, p.frame,
-                       p.chosen_by);
+                       to_string(p.chosen_by));
     }
     ++place;
   }

@@ -76,7 +76,7 @@ CREATE TABLE segment (
   was_ordinal INTEGER,
   before_segment INTEGER,
   try_number INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion', 'hold', 'control')),
+  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion', 'control')),
   parent INTEGER,
   robot TEXT NOT NULL,
   skill TEXT NOT NULL,

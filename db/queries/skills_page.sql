@@ -1,7 +1,7 @@
 -- One row a skill for tasks/README.md: success at first try, and what the segments that were kept did beside it.
 WITH first AS (
   SELECT skill, count(*) AS tries, sum(outcome = 'success') AS good FROM tries
-  WHERE kind = 'skill' AND skill <> 'wait' AND try_number = 1 GROUP BY skill
+  WHERE kind = 'skill' AND try_number = 1 GROUP BY skill
 ), kept AS (
   SELECT skill, count(*) AS segments, count(effect_held) AS tested, sum(effect_held) AS held FROM segments
   WHERE kind = 'skill' AND outcome = 'success' GROUP BY skill

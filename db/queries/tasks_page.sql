@@ -1,10 +1,10 @@
 -- One row a task for tasks/README.md: variations, skills, plan length, success, seconds an episode, demonstrations an hour.
 WITH used AS (
   SELECT DISTINCT e.task, s.skill FROM segment s JOIN episode e ON e.id = s.episode
-  WHERE s.undone = 0 AND s.kind = 'skill' AND s.skill <> 'wait' AND s.outcome = 'success'
+  WHERE s.undone = 0 AND s.kind = 'skill' AND s.outcome = 'success'
 ), steps AS (
   SELECT e.id, count(*) AS length FROM episode e JOIN segment s ON s.episode = e.id
-  WHERE e.outcome = 'success' AND s.undone = 0 AND s.kind = 'skill' AND s.skill <> 'wait' AND s.outcome = 'success'
+  WHERE e.outcome = 'success' AND s.undone = 0 AND s.kind = 'skill' AND s.outcome = 'success'
     AND NOT EXISTS (SELECT 1 FROM segment p WHERE p.episode = s.episode AND p.undone = 0 AND p.ordinal = s.parent AND p.kind = 'skill')
   GROUP BY e.id
 )

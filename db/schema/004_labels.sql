@@ -7,7 +7,7 @@ CREATE TABLE segment (
   was_ordinal INTEGER,          -- of an undone one: of the segment that it was, while it was
   before_segment INTEGER,       -- of an undone one: the segment that took its place, or the number of segments
   try_number INTEGER NOT NULL,  -- at its place, from 1
-  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion', 'hold', 'control')),
+  kind TEXT NOT NULL CHECK (kind IN ('subgoal', 'skill', 'motion', 'control')),
   parent INTEGER,
   robot TEXT NOT NULL,
   skill TEXT NOT NULL,

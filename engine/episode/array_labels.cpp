@@ -109,7 +109,7 @@ void ArrayMaker::goal() {
 void ArrayMaker::segments() {
   for (const SegmentRecord& one : episode_.segments) {
     ArraySegment& segment = arrays_.segments.emplace_back();
-    segment.id = one.ordinal, segment.parent = one.parent, segment.kind = one.kind;
+    segment.id = one.ordinal, segment.parent = one.parent, segment.kind = to_string(one.kind);
     segment.name = one.skill, segment.case_name = one.case_name, segment.arguments = one.arguments;
     segment.first_frame = one.span.first_frame, segment.end_frame = one.span.end_frame;
     segment.success = one.outcome == Outcome::success;

@@ -1,9 +1,8 @@
-// What was in the way of a skill: found by imagining one thing after the other away.
+#include "engine/episode/blockers.h"
+
 #include <algorithm>
 #include <set>
 #include <tuple>
-
-#include "engine/episode/skill_driver.h"
 
 namespace stampede {
 namespace {
@@ -64,24 +63,24 @@ std::vector<Candidate> candidates(const std::vector<std::string>& arguments, con
 
 }  // namespace
 
-// Each thing without which `works` says yes; where there is none, all near ones together, when that helps.
-void SkillDriver::name_blockers(const Context& context, SkillResult& result, const std::function<bool()>& works) {
+void name_blockers(Rollout& rollout, const SkillContext& context, SkillResult& result,
+                   const std::function<bool()>& works) {
   if (!context.mode.find_blockers || context.arguments.empty()) return;
-  const int held = rollout_.keep ? rollout_.keep->body : -1;
-  const std::vector<Candidate> near = candidates(context.arguments, rollout_.view(), held);
+  const int held = rollout.keep ? rollout.keep->body : -1;
+  const std::vector<Candidate> near = candidates(context.arguments, rollout.view(), held);
   for (const auto& [distance, name, part] : near) {
-    rollout_.imagined_away = {part};
+    rollout.imagined_away = {part};
     if (works()) result.blockers.push_back({name});
   }
   if (result.blockers.empty() && near.size() > 1) {
-    rollout_.imagined_away.clear();
-    for (const auto& [distance, name, part] : near) rollout_.imagined_away.push_back(part);
+    rollout.imagined_away.clear();
+    for (const auto& [distance, name, part] : near) rollout.imagined_away.push_back(part);
     if (works()) {
       std::vector<std::string>& all = result.blockers.emplace_back();
       for (const auto& [distance, name, part] : near) all.push_back(name);
     }
   }
-  rollout_.imagined_away.clear();
+  rollout.imagined_away.clear();
   for (std::size_t way = 0; way < result.blockers.size(); ++way)
     for (std::size_t i = 0; i < result.blockers[way].size(); ++i)
       result.detail += (i > 0 ? ", " : way > 0 ? " or " : "; in the way: ") + result.blockers[way][i];

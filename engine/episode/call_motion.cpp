@@ -13,6 +13,15 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 
+int robot_of(const RobotCall& call) {
+  return std::visit(
+      [](const auto& one) {
+        if constexpr (requires { one.robot; }) return one.robot;
+        return 0;
+      },
+      call);
+}
+
 PlannedCall from(PlannedMotion planned, FollowOptions options) {
   if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
   options.vias = std::move(planned.vias);
@@ -24,7 +33,7 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
   const World& world = rollout.world();
   const PartRef ref = rollout.view().part_of(call.object);
   const double from_position = world.joint_position(ref);
-  const Transform part_from_tip = world.world_from_part(ref).inverse() * world.arm().world_from_tip(start);
+  const Transform part_from_tip = world.world_from_part(ref).inverse() * world.arm(call.robot).world_from_tip(start);
   const auto path = [&](double s) {
     return Transform(rollout.view().part_at(call.object, from_position + s * (call.position - from_position)) *
                      part_from_tip);
@@ -38,23 +47,23 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
 }
 
 // The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
-PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
+PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held, int robot) {
   if (!call.expect.empty())
-    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect)), Reason::none, {}};
+    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect), robot), Reason::none, {}};
   double opening = call.opening;
-  if (opening > rollout.world().opening()) {
+  if (opening > rollout.world().opening(robot)) {
     CollisionState released = held;
     released.release();
     if (rollout.keep) released.allow(*rollout.keep);
-    opening = widest_opening(released, rollout.world().arm_position(), opening);
+    opening = widest_opening(released, rollout.world().arm_position(robot), opening);
   }
-  return {make_hand(opening, call.force, std::nullopt), Reason::none, {}};
+  return {make_hand(opening, call.force, std::nullopt, robot), Reason::none, {}};
 }
 
 }  // namespace
 
-JointVector planning_start(const World& world) {
-  const JointVector reference = world.reference().position, actual = world.arm_position();
+JointVector planning_start(const World& world, int robot) {
+  const JointVector reference = world.reference(robot).position, actual = world.arm_position(robot);
   return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
 }
 
@@ -78,9 +87,11 @@ bool yields(const RobotCall& call) {
 
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
   World& world = rollout.world();
-  const JointVector start = planning_start(world);
+  const int robot = robot_of(call);
+  const JointVector start = planning_start(world, robot);
   FollowOptions options;
   options.keep = rollout.keep;
+  options.robot = robot;
   const auto space = [&] { return planning_space(rollout, touchable); };
   const auto free_space = [&] {  // a hand that is shut is not about to grasp anything
     const bool shut = !rollout.keep && world.commanded_opening() < kShut;
@@ -106,7 +117,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                    options.kind = "move_joints";
                    return from(plan_joints(*space(), start, move.target, {}, key), options);
                  },
-                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
+                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space(), robot); },
                  [&](const robot_call::MovePart& move) {
                    return plan_move_part(rollout, move, *space(), start, options, key);
                  },

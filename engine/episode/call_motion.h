@@ -27,6 +27,6 @@ bool yields(const RobotCall& call);
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
 
 // Where plans start: the reference, or the arm itself where contact keeps it away from its reference.
-JointVector planning_start(const World& world);
+JointVector planning_start(const World& world, int robot = 0);
 
 }  // namespace stampede

@@ -31,32 +31,53 @@ struct Placement {
   std::variant<Transform, double> value;  // world_from_object, or position of the part's joint
 };
 
-class Task {
- public:
-  virtual ~Task() = default;
-  virtual std::string name() const = 0;
-  virtual std::string variation() const = 0;  // canonical text
-  virtual std::map<std::string, std::string> axes() const = 0;
-  // The scene of draw number `draw`, all drawn values in it; literals of init() then place what has no pose.
-  virtual Scene scene(int draw) = 0;
-  virtual std::optional<Randomisation> randomisation() const { return std::nullopt; }  // of the world
-  virtual ObservationChoice observation() const { return {}; }  // what the run asks for goes before it
-  virtual std::vector<std::string> unplaced() const = 0;        // free objects that a literal of init must place
-  virtual std::vector<Literal> init() const = 0;                // in the order in which they are made true
-  // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
-  virtual std::optional<Formula> where() const { return std::nullopt; }
-  virtual Formula goal() const = 0;
-  virtual std::vector<Formula> stages() const { return {}; }  // in_order { … }; goal() is their conjunction
-  virtual std::optional<std::vector<PlanStep>> steps() const { return std::nullopt; }  // action or skill, arguments
-  virtual std::vector<std::pair<std::string, Formula>> subgoals() const { return {}; }
-  virtual bool also(const WorldView&) { return true; }    // a further test beside the goal
-  virtual bool has_also() const { return false; }         // whether also() asks for anything
-  virtual bool fails(const WorldView&) { return false; }  // ends the episode as failed
-  virtual double reward(const WorldView&) { return 0; }   // shaped, added to 1 at success
-  virtual double hold_s() const { return 1.0; }           // the goal must stay true for this long at the end
-  virtual double horizon_s() const { return 120; }
-  virtual std::vector<std::string> instructions() const = 0;  // filled in for this variation
+// What a caller sets of a skill's call instead of leaving it to be drawn.
+struct CallSettings {
+  struct Value {
+    std::string parameter;  // a declared continuous one
+    int component = 0;      // from 1; 0: all of it
+    std::vector<double> values;
+    friend bool operator==(const Value&, const Value&) = default;
+  };
+  std::vector<Value> values;  // later ones win
+  std::optional<ControllerKind> controller;
+  bool empty() const { return values.empty() && !controller; }
+  friend bool operator==(const CallSettings&, const CallSettings&) = default;
 };
+
+struct TaskStep {
+  PlanStep step;  // action or skill; trailing arguments may be missing or empty
+  CallSettings set;
+};
+
+// One draw of a task: all that is decided before physics runs. What a run asks for changes these values (altered_task).
+struct Task {
+  std::string name;
+  std::string variation;  // canonical text
+  std::map<std::string, std::string> axes;
+  Scene scene;                                 // all drawn values in it; literals of init then place what has no pose
+  std::optional<Randomisation> randomisation;  // of the world
+  ObservationChoice observation;               // what the run asks for goes before it
+  std::vector<std::string> unplaced;           // free objects that a literal of init must place
+  std::vector<Literal> init;                   // in the order in which they are made true
+  // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
+  std::optional<Formula> where;
+  Formula goal;
+  std::vector<Formula> stages;  // in_order { … }; goal is their conjunction
+  std::optional<std::vector<TaskStep>> steps;
+  std::vector<std::pair<std::string, Formula>> subgoals;
+  double hold_s = 1.0;  // the goal must stay true for this long at the end
+  double horizon_s = 120;
+  std::vector<std::string> instructions;  // filled in for this variation
+
+  // What only the running world tells. Empty: asks for nothing, never, 0.
+  std::function<bool(const WorldView&)> also;      // a further test beside the goal
+  std::function<bool(const WorldView&)> fails;     // ends the episode as failed
+  std::function<double(const WorldView&)> reward;  // shaped, added to 1 at success
+};
+
+// Draw number `draw` of one task, variation and seed. Repeatable; other draws may be asked for in between.
+using TaskDraw = std::function<Task(int draw)>;
 
 // Of which arguments a predicate can hold at all: pairs that touch or are near each other; held: the last argument is
 // what the pads grasp.
@@ -126,10 +147,18 @@ struct SkillCall {
   double stiffness = 0;
 };
 
-// What a skill asks of the robot, one at a time. Frames: poses are of the tip in the world.
+// A skill as a task's steps or another skill's script ask for it.
+struct AskedCall {
+  std::string skill, case_name;
+  std::vector<std::string> arguments;  // one per parameter; empty: left open
+  CallSettings set;
+};
+
+// What a skill asks of a robot of the scene, one at a time. Frames: poses are of the tip in the world.
 namespace robot_call {
 struct MoveThrough {
   std::vector<ToolTarget> targets;
+  int robot = 0;
 };  // planned; stops at the last only
 struct MoveLine {
   Transform target;
@@ -140,26 +169,30 @@ struct MoveLine {
   bool collide = false;   // plan around nothing, but refuse a line that touches
   double most_force = 0;  // N: the arm gives way, and stops where contact asks for more; 0: it does not
   std::string kind = "move_line";
+  int robot = 0;
 };
 struct MoveJoints {
   JointVector target;
+  int robot = 0;
 };  // planned
 struct Hand {
   double opening = 0;
   double force = 20;
   std::string expect;
+  int robot = 0;
 };  // expect: object to be grasped
 struct MovePart {
   std::string object;
   double position = 0;
   double speed = 0.1;
   double most_force = 0;  // as of MoveLine
-};                        // the held handle's joint; arcs too
+  int robot = 0;
+};  // the held handle's joint; arcs too
 struct Wait {
   double seconds = 0;
 };
 struct RunSkill {
-  SkillCall call;
+  AskedCall call;
 };  // a child skill segment
 struct Done {};
 struct Fail {
@@ -184,13 +217,6 @@ class SkillLibrary {
   virtual ~SkillLibrary() = default;
   virtual const SkillInfo* skill(const std::string& name) const = 0;
   virtual std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) = 0;
-};
-
-// Where a finished episode goes. Called from the thread that ran the episode.
-class EpisodeSink {
- public:
-  virtual ~EpisodeSink() = default;
-  virtual void finished(EpisodeRecord episode) = 0;
 };
 
 }  // namespace stampede

@@ -54,9 +54,41 @@ Number number_from(std::string_view text) {
   return value;
 }
 
-template <typename Value>
-void fill(std::optional<Value>& value, const std::optional<Value>& otherwise) {
-  if (!value) value = otherwise;
+std::string text_of(bool value) { return value ? "1" : "0"; }
+std::string text_of(double value) { return number(value); }
+std::string text_of(WhichFrames value) { return std::string(to_string(value)); }
+std::string text_of(const std::vector<std::string>& value) { return joined(value); }
+std::string text_of(const PictureKinds& value) { return kinds_text(value); }
+std::string text_of(const std::array<int, 2>& value) {
+  return std::to_string(value[0]) + "x" + std::to_string(value[1]);
+}
+
+void read(const std::string& text, std::optional<bool>& value) { value = text == "1"; }
+void read(const std::string& text, std::optional<double>& value) { value = number_from<double>(text); }
+void read(const std::string& text, std::optional<WhichFrames>& value) { value = which_frames_from(text); }
+void read(const std::string& text, std::optional<std::vector<std::string>>& value) { value = words_of(text); }
+void read(const std::string& text, std::optional<PictureKinds>& value) { value = kinds_from(text); }
+void read(const std::string& text, std::optional<std::array<int, 2>>& value) {
+  const std::vector<std::string> numbers = split(text, 'x');
+  if (numbers.size() == 2) value = {number_from<int>(numbers[0]), number_from<int>(numbers[1])};
+}
+
+// The one list of what can be asked for: its name in options, where the choice has it, and what it does to what is
+// observed.
+template <typename Visit>
+void each_option(Visit&& visit) {
+  using C = ObservationChoice;
+  using O = Observation;
+  visit("images", &C::images, [](O& o, WhichFrames value) { o.images = value; });
+  visit("cameras", &C::cameras, [](O& o, const std::vector<std::string>& value) { o.cameras = value; });
+  visit("size", &C::size, [](O& o, const std::array<int, 2>& value) { o.width = value[0], o.height = value[1]; });
+  visit("kinds", &C::kinds, [](O& o, const PictureKinds& value) { o.kinds = value; });
+  visit("points", &C::points, [](O& o, bool value) { o.points = value; });
+  visit("shadows", &C::shadows, [](O& o, bool value) { o.shadows = value; });
+  visit("rgb_noise", &C::rgb_noise, [](O& o, double value) { o.noise.rgb = value; });
+  visit("depth_noise", &C::depth_noise, [](O& o, double value) { o.noise.depth = value; });
+  visit("torque_noise", &C::torque_noise, [](O& o, double value) { o.torque_noise = value; });
+  visit("channels", &C::channels, [](O& o, const std::vector<std::string>& value) { o.channels = value; });
 }
 
 }  // namespace
@@ -71,69 +103,34 @@ std::optional<WhichFrames> which_frames_from(std::string_view text) {
 
 std::map<std::string, std::string> ObservationChoice::as_text() const {
   std::map<std::string, std::string> text;
-  const auto put = [&](const char* name, std::string value) { text[std::string(kPrefix) + name] = std::move(value); };
-  if (images) put("images", std::string(to_string(*images)));
-  if (cameras) put("cameras", joined(*cameras));
-  if (size) put("size", std::to_string((*size)[0]) + "x" + std::to_string((*size)[1]));
-  if (kinds) put("kinds", kinds_text(*kinds));
-  if (points) put("points", *points ? "1" : "0");
-  if (shadows) put("shadows", *shadows ? "1" : "0");
-  if (rgb_noise) put("rgb_noise", number(*rgb_noise));
-  if (depth_noise) put("depth_noise", number(*depth_noise));
-  if (torque_noise) put("torque_noise", number(*torque_noise));
-  if (channels) put("channels", joined(*channels));
+  each_option([&](const char* name, auto field, const auto&) {
+    if (const auto& value = this->*field) text[std::string(kPrefix) + name] = text_of(*value);
+  });
   return text;
 }
 
 ObservationChoice before(const ObservationChoice& first, const ObservationChoice& otherwise) {
   ObservationChoice choice = first;
-  fill(choice.images, otherwise.images);
-  fill(choice.cameras, otherwise.cameras);
-  fill(choice.size, otherwise.size);
-  fill(choice.kinds, otherwise.kinds);
-  fill(choice.points, otherwise.points);
-  fill(choice.shadows, otherwise.shadows);
-  fill(choice.rgb_noise, otherwise.rgb_noise);
-  fill(choice.depth_noise, otherwise.depth_noise);
-  fill(choice.torque_noise, otherwise.torque_noise);
-  fill(choice.channels, otherwise.channels);
+  each_option([&](const char*, auto field, const auto&) {
+    if (!(choice.*field)) choice.*field = otherwise.*field;
+  });
   return choice;
 }
 
 Observation chosen(const ObservationChoice& choice) {
   Observation observation;
-  observation.images = choice.images.value_or(observation.images);
-  observation.cameras = choice.cameras.value_or(observation.cameras);
-  if (choice.size) observation.width = (*choice.size)[0], observation.height = (*choice.size)[1];
-  observation.kinds = choice.kinds.value_or(observation.kinds);
-  observation.points = choice.points.value_or(observation.points);
-  observation.shadows = choice.shadows.value_or(observation.shadows);
-  observation.noise.rgb = choice.rgb_noise.value_or(0);
-  observation.noise.depth = choice.depth_noise.value_or(0);
-  observation.torque_noise = choice.torque_noise.value_or(0);
-  observation.channels = choice.channels.value_or(observation.channels);
+  each_option([&](const char*, auto field, const auto& apply) {
+    if (const auto& value = choice.*field) apply(observation, *value);
+  });
   return observation;
 }
 
 ObservationChoice observation_of(const EpisodeRecord& episode) {
   ObservationChoice choice;
-  const auto get = [&](const char* name) -> std::optional<std::string> {
+  each_option([&](const char* name, auto field, const auto&) {
     const auto found = episode.options.find(std::string(kPrefix) + name);
-    return found == episode.options.end() ? std::nullopt : std::optional(found->second);
-  };
-  if (const auto text = get("images")) choice.images = which_frames_from(*text);
-  if (const auto text = get("cameras")) choice.cameras = words_of(*text);
-  if (const auto text = get("size")) {
-    const std::vector<std::string> numbers = split(*text, 'x');
-    if (numbers.size() == 2) choice.size = {number_from<int>(numbers[0]), number_from<int>(numbers[1])};
-  }
-  if (const auto text = get("kinds")) choice.kinds = kinds_from(*text);
-  if (const auto text = get("points")) choice.points = *text == "1";
-  if (const auto text = get("shadows")) choice.shadows = *text == "1";
-  if (const auto text = get("rgb_noise")) choice.rgb_noise = number_from<double>(*text);
-  if (const auto text = get("depth_noise")) choice.depth_noise = number_from<double>(*text);
-  if (const auto text = get("torque_noise")) choice.torque_noise = number_from<double>(*text);
-  if (const auto text = get("channels")) choice.channels = words_of(*text);
+    if (found != episode.options.end()) read(found->second, choice.*field);
+  });
   return choice;
 }
 

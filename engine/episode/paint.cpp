@@ -128,7 +128,8 @@ std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrame
     frames = {0, count - 1};
     for (const auto& [method, list] : episode.keyframes) frames.insert(list.begin(), list.end());
     for (const SegmentRecord& segment : episode.segments)
-      if (segment.kind == "skill" && segment.span.first_frame < count) frames.insert(segment.span.first_frame);
+      if (segment.kind == SegmentKind::skill && segment.span.first_frame < count)
+        frames.insert(segment.span.first_frame);
   }
   return {frames.begin(), frames.end()};
 }

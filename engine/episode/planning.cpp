@@ -114,17 +114,17 @@ void advance_stages(Action& action, const std::vector<std::vector<Literal>>& sta
 
 Problem world_problem(const Task& task, const FactTracker& facts) {
   Problem problem;
-  problem.name = task.name();
+  problem.name = task.name;
   problem.objects = facts.objects();
   problem.init = facts.basic();
-  problem.goal = task.goal();
+  problem.goal = task.goal;
   return problem;
 }
 
 std::string beside_goal(const Task& task) {
   std::string text;
-  if (!task.stages().empty()) text = "the parts of the goal must come true in the order in which they are written";
-  if (task.has_also()) text += std::string(text.empty() ? "" : "; ") + "the task's own test `also` must hold too";
+  if (!task.stages.empty()) text = "the parts of the goal must come true in the order in which they are written";
+  if (task.also) text += std::string(text.empty() ? "" : "; ") + "the task's own test `also` must hold too";
   return text;
 }
 
@@ -133,7 +133,7 @@ PlanningTask planning_task(const Task& task, const Domain& domain, const FactTra
   PlanningTask planning{domain, world_problem(task, facts)};
   for (std::size_t i = 0; i < obstructions.size(); ++i)
     obstruct(planning, obstructions[i], "obstructed_" + std::to_string(i + 1), facts.objects());
-  const std::vector<Formula> stages = task.stages();
+  const std::vector<Formula>& stages = task.stages;
   if (stages.empty()) return planning;
 
   std::vector<std::vector<Literal>> literals(stages.size());
@@ -143,7 +143,7 @@ PlanningTask planning_task(const Task& task, const Domain& domain, const FactTra
   for (const auto& stage : literals)
     for (const Literal& literal : stage) named.insert(literal.fact.arguments.begin(), literal.fact.arguments.end());
   add_constants(named, facts.objects(), planning.domain);
-  std::vector<Formula> goal = {task.goal(), atom(stage_name(stages.size()), {}), negation(atom("out_of_order", {}))};
+  std::vector<Formula> goal = {task.goal, atom(stage_name(stages.size()), {}), negation(atom("out_of_order", {}))};
   for (std::size_t i = 1; i <= stages.size(); ++i)
     planning.domain.predicates.push_back({stage_name(i), {}, {}, {}, {}});
   planning.domain.predicates.push_back({"out_of_order", {}, {}, {}, {}});

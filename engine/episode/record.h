@@ -28,12 +28,27 @@ struct Span {
   std::int64_t first_frame = 0, end_frame = 0;
 };
 
+enum class ChosenBy {
+  default_value,  // as the skill declares it
+  stream,         // drawn among what the world allows
+  planner,
+  agent,   // who draws or decides skill by skill
+  task,    // its `steps` say so
+  caller,  // who asked for the run or the call says so: `--set`, EpisodeRequest::set, another skill
+};
+std::string_view to_string(ChosenBy value);  // the stored name: `default`, `stream` …
+std::optional<ChosenBy> chosen_by_from(std::string_view name);
+
+enum class SegmentKind { subgoal, skill, motion };
+std::string_view to_string(SegmentKind kind);
+std::optional<SegmentKind> segment_kind_from(std::string_view name);
+
 struct ParameterRecord {  // a continuous parameter of a segment
   std::string name;       // `height`, `grasp`, `controller`
   std::vector<double> values;
   std::string text;  // instead of values: the controller's name
   std::string unit, frame;
-  std::string chosen_by;  // default stream planner agent
+  ChosenBy chosen_by = ChosenBy::default_value;
 };
 
 struct EffectRecord {  // a literal that an action's effect declares, ground for this call
@@ -43,9 +58,9 @@ struct EffectRecord {  // a literal that an action's effect declares, ground for
 };
 
 struct SegmentRecord {
-  std::string kind;  // subgoal skill motion
-  int ordinal = 0;   // in the episode, by start then depth
-  int parent = -1;   // ordinal, -1: none
+  SegmentKind kind = SegmentKind::motion;
+  int ordinal = 0;  // in the episode, by start then depth
+  int parent = -1;  // ordinal, -1: none
   std::string robot;
   std::string skill;  // name of subgoal, skill or motion
   std::string case_name;

@@ -23,7 +23,7 @@ void add_joints(std::vector<JointName>& joints, const Body& body, int index, con
 
 // The most exact name for a part: the part object if there is one, else its body; robot parts keep their link name.
 std::pair<std::string, std::string> name_of(const Scene& scene, PartRef ref) {
-  if (ref.body < 0) return {scene.robot.name, scene.robot.body.parts[static_cast<std::size_t>(ref.part)].name};
+  if (ref.on_robot()) return {scene.robot.name, scene.robot.body.parts[static_cast<std::size_t>(ref.part)].name};
   const Body& body = scene.bodies[static_cast<std::size_t>(ref.body)];
   return {body.name, body.parts[static_cast<std::size_t>(ref.part)].name};
 }
@@ -67,7 +67,7 @@ FrameRecord FrameReader::read(const WorldView& view) const {
   const auto& pads = view.scene().robot.pads;
   for (const Contact& contact : world.contacts())
     for (std::size_t pad = 0; pad < std::min<std::size_t>(2, pads.size()); ++pad)
-      if (contact.a == PartRef{-1, pads[pad]} || contact.b == PartRef{-1, pads[pad]})
+      if (contact.a == PartRef::of_robot(pads[pad]) || contact.b == PartRef::of_robot(pads[pad]))
         hand.touch[pad] += contact.mean_force;
   frame.hands.push_back(hand);
   return frame;

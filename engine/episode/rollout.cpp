@@ -5,9 +5,8 @@
 
 namespace stampede {
 
-Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, SensorReader sensors,
-                 const std::atomic<bool>* stop)
-    : task_(task),
+Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sensors, const std::atomic<bool>* stop)
+    : task_(start.task),
       symbols_(symbols),
       stop_(stop),
       world_(start.scene),
@@ -16,9 +15,7 @@ Rollout::Rollout(Task& task, Symbols& symbols, const PreparedStart& start, Senso
       recorder_(view_),
       sensors_(std::move(sensors)),
       steps_per_frame_(start.scene->physics_hz / start.scene->frame_hz),
-      horizon_steps_(std::llround(task.horizon_s() * start.scene->physics_hz)),
-      stages_(task.stages()),
-      goal_(task.goal()) {
+      horizon_steps_(std::llround(start.task.horizon_s * start.scene->physics_hz)) {
   view_.set_facts(&facts_);
   view_.restore(start.history);
   facts_.begin(start.values);
@@ -32,6 +29,10 @@ Reason Rollout::advance() {
   physics_wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   sensors_.step(world_);
   facts_.step(view_);
+  return ended_ = close_step();
+}
+
+Reason Rollout::close_step() {
   if (at_frame())
     if (const Reason reason = close_frame(); reason != Reason::none) return reason;
   return check_stages();
@@ -42,17 +43,17 @@ Reason Rollout::close_frame() {
   view_.close_frame();
   facts_.frame(view_);
   recorder_.contacts(view_);
-  recorder_.frame(view_, task_.reward(view_));
+  recorder_.frame(view_, task_.reward ? task_.reward(view_) : 0);
   if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return Reason::interrupted;
-  if (task_.fails(view_)) return Reason::failed_by_task;
+  if (task_.fails && task_.fails(view_)) return Reason::failed_by_task;
   return step() >= horizon_steps_ ? Reason::timeout : Reason::none;
 }
 
 Reason Rollout::check_stages() {
-  const int count = static_cast<int>(stages_.size());
-  while (stage_ < count && holds_now(stages_[static_cast<std::size_t>(stage_)])) ++stage_;
+  const int count = static_cast<int>(task_.stages.size());
+  while (stage_ < count && holds_now(task_.stages[static_cast<std::size_t>(stage_)])) ++stage_;
   for (int later = stage_ + 1; later < count; ++later)
-    if (holds_now(stages_[static_cast<std::size_t>(later)])) return Reason::out_of_order;
+    if (holds_now(task_.stages[static_cast<std::size_t>(later)])) return Reason::out_of_order;
   return Reason::none;
 }
 
@@ -61,12 +62,12 @@ bool Rollout::holds_now(const Formula& formula) const {
 }
 
 bool Rollout::goal_holds() {
-  return stage_ == static_cast<int>(stages_.size()) && holds_now(goal_) && task_.also(view_);
+  return stage_ == static_cast<int>(task_.stages.size()) && holds_now(task_.goal) && (!task_.also || task_.also(view_));
 }
 
 std::string Rollout::unmet_goal() const {
   std::string text;
-  for (const std::string& literal : unmet(goal_, facts_.facts(), symbols_.domain(), facts_.objects()))
+  for (const std::string& literal : unmet(task_.goal, facts_.facts(), symbols_.domain(), facts_.objects()))
     text += (text.empty() ? "" : ", ") + literal;
   return text.empty() ? text : text + " does not hold";
 }
@@ -84,6 +85,7 @@ void Rollout::restore(const Checkpoint& checkpoint) {
   sensors_.cut(checkpoint.sensors);
   keep = checkpoint.keep;
   stage_ = checkpoint.stage;
+  ended_ = Reason::none;
 }
 
 }  // namespace stampede

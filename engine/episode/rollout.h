@@ -12,15 +12,18 @@ namespace stampede {
 
 class Rollout {
  public:
-  Rollout(Task& task, Symbols& symbols, const PreparedStart& start, SensorReader sensors,
-          const std::atomic<bool>* stop);
+  // `stop`: when true, the next frame ends with Reason::interrupted. Lifetime: refers to symbols and stop.
+  Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sensors, const std::atomic<bool>* stop);
   Rollout(const Rollout&) = delete;  // the view knows the facts by their address
   Rollout& operator=(const Rollout&) = delete;
 
   World& world() { return world_; }
   const WorldView& view() const { return view_; }
+  const World& world() const { return world_; }
   FactTracker& facts() { return facts_; }
+  const FactTracker& facts() const { return facts_; }
   Recorder& recorder() { return recorder_; }
+  const Task& task() const { return task_; }
   const SensorReader& sensors() const { return sensors_; }
   const Domain& domain() const { return symbols_.domain(); }
   std::int64_t step() const { return world_.step_count(); }
@@ -29,6 +32,7 @@ class Rollout {
 
   // One physics step and what follows from it. A reason other than none ends the episode.
   Reason advance();
+  Reason ended() const { return ended_; }  // what the last step said
   bool at_frame() const { return step() % steps_per_frame_ == 0; }
   bool goal_holds();               // formula, stages and `also`, on debounced facts
   std::string unmet_goal() const;  // for people; empty when the formula holds
@@ -38,6 +42,9 @@ class Rollout {
 
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
+
+  // A skill's call is under way; there is one at a time.
+  bool calling = false;
 
   // What planning takes to be elsewhere: to find out what is in the way.
   std::vector<PartRef> imagined_away;
@@ -51,14 +58,16 @@ class Rollout {
     std::optional<PartRef> keep;
     int stage = 0;
   };
-  Checkpoint checkpoint();  // at a skill boundary: drops contact caches first
+  // Both between two calls, not while one is under way.
+  Checkpoint checkpoint();  // drops contact caches first
   void restore(const Checkpoint& checkpoint);
 
  private:
+  Reason close_step();
   Reason close_frame();
   Reason check_stages();
 
-  Task& task_;
+  Task task_;
   Symbols& symbols_;
   const std::atomic<bool>* stop_;
   World world_;
@@ -68,9 +77,8 @@ class Rollout {
   SensorReader sensors_;
   int steps_per_frame_;
   std::int64_t horizon_steps_;
-  std::vector<Formula> stages_;
-  Formula goal_;
   int stage_ = 0;
+  Reason ended_ = Reason::none;
   double physics_wall_s_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "engine/base/hash.h"
+#include "engine/episode/call_settings.h"
 #include "engine/episode/runner.h"
 #include "engine/symbolic/pddl.h"
 
@@ -67,8 +68,6 @@ std::optional<Behaviour> behaviour_from(std::string_view text) {
   return std::nullopt;
 }
 
-std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
-
 std::map<std::string, std::string> RunOptions::as_text() const {
   std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},
                                              {"tries_per_skill", std::to_string(tries_per_skill)},
@@ -76,6 +75,7 @@ std::map<std::string, std::string> RunOptions::as_text() const {
                                              {"plans", std::to_string(plans)},
                                              {"draws", std::to_string(draws)}};
   if (!controller.empty()) text["controller"] = controller;
+  if (!set.empty()) text["set"] = to_text(set);
   if (where) text["where"] = to_pddl(*where);
   if (goal) text["goal"] = to_pddl(*goal);
   if (behaviour != Behaviour::plan) {

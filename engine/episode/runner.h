@@ -25,11 +25,12 @@ struct RunOptions {
   OnFailure on_failure = OnFailure::undo;
   int tries_per_skill = 6;  // runs of one skill before the one before it is undone too
   int tries_per_episode = 60;
-  int plans = 4;                 // different plans tried
-  int draws = 100;               // starts drawn until init holds
-  std::string controller;        // empty: each skill's own
-  std::optional<Formula> where;  // must hold at the start, beside the task's init
-  std::optional<Formula> goal;   // instead of the task's
+  int plans = 4;                            // different plans tried
+  int draws = 100;                          // starts drawn until init holds
+  std::string controller;                   // empty: each skill's own
+  std::map<std::string, CallSettings> set;  // by skill: of all its calls, before what tasks and scripts say
+  std::optional<Formula> where;             // must hold at the start, beside the task's init
+  std::optional<Formula> goal;              // instead of the task's
   Behaviour behaviour = Behaviour::plan;
   int skills = 20;  // of a random behaviour: how many it draws
   // Asked instead of our own planner; `planner_name` stands for it in the key.
@@ -44,7 +45,7 @@ struct RunOptions {
 
 // Runs one episode to its end, good or bad. Repeatable: the same record, bit for bit, but for host times.
 // `stop`: ends early with Reason::interrupted when true (checked between skills and every frame).
-EpisodeRecord run_episode(Task& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
+EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
                           const std::atomic<bool>* stop = nullptr);
 
 // Makes and settles a start in which init holds, without running it. Throws nothing; a reason when none was found.
@@ -54,7 +55,7 @@ struct Start {
   std::shared_ptr<const Scene> scene;
   int draws = 0;
 };
-Start make_start(Task& task, Symbols& symbols, const RunOptions& options);
+Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options);
 
 // Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
 // difference in words (frame, value, stored, now).

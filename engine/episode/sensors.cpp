@@ -46,7 +46,7 @@ std::vector<double> SensorReader::read(const Source& source, const World& world)
     values.insert(values.end(), wrench.force.data(), wrench.force.data() + 3);
     values.insert(values.end(), wrench.torque.data(), wrench.torque.data() + 3);
   } else {
-    for (const int part : arm_) values.push_back(world.joint_effort({-1, part}));
+    for (const int part : arm_) values.push_back(world.joint_effort(PartRef::of_robot(part)));
   }
   return values;
 }

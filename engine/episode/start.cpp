@@ -108,8 +108,8 @@ Scene settled(const WorldView& view) {
 
 class StartMaker {
  public:
-  StartMaker(Task& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
-      : task_(task), symbols_(symbols), options_(options), stop_(stop) {}
+  StartMaker(const TaskDraw& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
+      : draw_task_(task), symbols_(symbols), options_(options), stop_(stop) {}
 
   PreparedStart make() {
     PreparedStart start;
@@ -119,8 +119,14 @@ class StartMaker {
         return start;
       }
       start.draws = draw + 1;
-      if (try_draw(draw, start)) return start;
+      task_ = draw_task_(draw);
+      const bool taken = try_draw(draw, start);
+      if (taken) {
+        start.task = std::move(task_);
+        return start;
+      }
     }
+    start.task = std::move(task_);
     start.reason = Reason::init_impossible;
     for (const auto& [text, count] : failures_)
       start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
@@ -134,9 +140,9 @@ class StartMaker {
   }
 
   bool try_draw(int draw, PreparedStart& start) {
-    Scene scene = task_.scene(draw);
+    Scene scene = task_.scene;
     dress(scene, draw);
-    park(scene, task_.unplaced());
+    park(scene, task_.unplaced);
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
     if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
@@ -158,24 +164,24 @@ class StartMaker {
   // What a run adds to a task's scene.
   void dress(Scene& scene, int draw) {
     put_cameras(scene, options_.cameras);
-    const RandomKey key = RandomKey("dress").with(task_.name()).with(task_.variation()).with(options_.seed);
-    const std::optional<Randomisation> own = task_.randomisation();
+    const RandomKey key = RandomKey("dress").with(task_.name).with(task_.variation).with(options_.seed);
+    const std::optional<Randomisation> own = task_.randomisation;
     if (const auto& ranges = own ? own : options_.randomise) randomise(scene, *ranges, key.with("looks").with(draw));
     number_masks(scene, key.with("masks"));
   }
 
   // Init, and then what `where` was drawn to mean; a literal of init gives way where `where` places the same thing.
   bool choose_literals(const Draft& draft, RandomKey key) {
-    literals_ = task_.init();
+    literals_ = task_.init;
     replaced_.clear();
-    where_ = task_.where();
+    where_ = task_.where;
     if (!where_) return true;
     FactTracker tracker(symbols_, draft.view());
     tracker.begin({});
     where_ = checked_formula(*where_, symbols_.domain(), tracker.objects(), options_.where ? "--where" : "init");
     const auto drawn = draw_literals(*where_, symbols_, tracker.objects(), tracker.facts(), key);
     if (!drawn) return refuse(contradiction(tracker));
-    const std::vector<std::string> waiting = task_.unplaced();
+    const std::vector<std::string> waiting = task_.unplaced;
     for (const Literal& literal : *drawn) {
       const bool free = is_free(draft.view(), subject(literal)), part = is_part(draft.view(), subject(literal));
       if (literal.negated || literal.fact.arguments.empty() || (!free && !part)) continue;
@@ -210,9 +216,9 @@ class StartMaker {
   }
 
   bool place_all(Draft& draft, int draw) {
-    const RandomKey key = RandomKey("init").with(task_.name()).with(task_.variation()).with(options_.seed).with(draw);
+    const RandomKey key = RandomKey("init").with(task_.name).with(task_.variation).with(options_.seed).with(draw);
     if (!choose_literals(draft, key.with("where"))) return false;
-    std::vector<std::string> unplaced = task_.unplaced();
+    std::vector<std::string> unplaced = task_.unplaced;
     unplaced.insert(unplaced.end(), replaced_.begin(), replaced_.end());
     int number = 0;
     std::vector<Literal> waiting_literals = literals_;
@@ -238,7 +244,7 @@ class StartMaker {
       return std::find(replaced_.begin(), replaced_.end(), name) != replaced_.end();
     });
     if (unplaced.empty()) return true;
-    throw Error("task " + task_.name(), "no literal of init places '" + unplaced.front() + "'",
+    throw Error("task " + task_.name, "no literal of init places '" + unplaced.front() + "'",
                 "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
   }
 
@@ -297,7 +303,8 @@ class StartMaker {
     tracker.look(view);
     WorldView with_facts = view;
     with_facts.set_facts(&tracker);
-    if (holds(task_.goal(), tracker.facts(), symbols_.domain(), tracker.objects()) && task_.also(with_facts))
+    if (holds(task_.goal, tracker.facts(), symbols_.domain(), tracker.objects()) &&
+        (!task_.also || task_.also(with_facts)))
       return refuse("the goal not holding at the start");
     start.scene = std::make_shared<const Scene>(settled(view));
     start.values = std::move(values);
@@ -305,7 +312,8 @@ class StartMaker {
     return true;
   }
 
-  Task& task_;
+  const TaskDraw& draw_task_;
+  Task task_;  // of the present draw
   Symbols& symbols_;
   const RunOptions& options_;
   const std::atomic<bool>* stop_;
@@ -317,13 +325,13 @@ class StartMaker {
 
 }  // namespace
 
-PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop) {
+PreparedStart prepare_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options,
+                            const std::atomic<bool>* stop) {
   return StartMaker(task, symbols, options, stop).make();
 }
 
-Start make_start(Task& task, Symbols& symbols, const RunOptions& options) {
-  AlteredTask altered(task, symbols, options);
-  return prepare_start(altered, symbols, options);
+Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options) {
+  return prepare_start(altered(task, symbols, options), symbols, options);
 }
 
 }  // namespace stampede

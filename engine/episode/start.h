@@ -9,11 +9,12 @@
 namespace stampede {
 
 struct PreparedStart : Start {
+  Task task;                              // the draw that was taken, or the last one
   std::map<Fact, Symbols::Value> values;  // facts read after settling, as the episode begins with them
   WorldView::History history;
 };
 // `stop`: looked at before every draw; set, the reason is `interrupted`.
-PreparedStart prepare_start(Task& task, Symbols& symbols, const RunOptions& options,
+PreparedStart prepare_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options,
                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace stampede

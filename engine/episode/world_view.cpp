@@ -96,7 +96,7 @@ PartRef WorldView::part_of(std::string_view name) const {
     case ObjectKind::part:
       return {body_of(thing), thing.part};
     case ObjectKind::hand:
-      return {-1, scene().robot.tip_part};
+      return PartRef::of_robot(scene().robot.tip_part);
     case ObjectKind::region:
       break;
   }
@@ -111,7 +111,7 @@ bool WorldView::owns(const Object& thing, PartRef part) const {
     case ObjectKind::part:
       return part.body >= 0 && part == PartRef{body_of(thing), thing.part};
     case ObjectKind::hand:
-      return part.body == -1 &&
+      return part.on_robot() && part.robot() == 0 &&
              (std::count(robot.pads.begin(), robot.pads.end(), part.part) > 0 ||
               std::count(robot.fingers.begin(), robot.fingers.end(), part.part) > 0 || part.part == robot.tip_part);
     case ObjectKind::region:

@@ -34,6 +34,8 @@ class Motion {
   // (and nothing else). done/failed: no further call; the motion ends before that step.
   virtual MotionResult step(World& world) = 0;
   virtual std::vector<PlannedVia> vias() const { return {}; }
+  // Between two steps: it is over now, before its end. What it set going must come to rest by itself.
+  virtual void interrupt(World&) {}
 };
 
 // Follows a planned trajectory; done when its end is reached and the arm is within tolerance of it (or fails with
@@ -46,7 +48,8 @@ struct FollowOptions {
   double settle_s = 0.5;         // allowance after the trajectory's end
   bool stop_on_contact = false;  // done at the first new contact of hand or held part above contact_force
   double contact_force = 3;      // N
-  bool tolerate_error = false;   // arriving short of the target is no failure (pressing, pushing, pulling)
+  int robot = 0;
+  bool tolerate_error = false;  // arriving short of the target is no failure (pressing, pushing, pulling)
   // N, above 0: the arm gives way to contact (Cartesian impedance for the time of this motion), and the motion is done
   // where the hand or what it holds meets more than this. It stays where contact has left it.
   double most_force = 0;
@@ -55,8 +58,12 @@ std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options
 
 // Opens or closes the hand. Closing on an object (`expect`) is done when it is grasped steadily for 0.1 s and
 // fails with grasp_missed when the fingers stop without it.
-std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<PartRef> expect);
+std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<PartRef> expect, int robot = 0);
 
 std::unique_ptr<Motion> make_wait(std::int64_t steps);
+
+// Brings a moving reference to rest, in a tenth of a second or as fast as the joints can; done when it is.
+std::unique_ptr<Motion> make_brake(int robot = 0);
+bool reference_moves(const World& world, int robot = 0);
 
 }  // namespace stampede

@@ -28,10 +28,10 @@ std::int64_t steps_of(double seconds, const World& world) {
 }
 
 // From the reference's present state to rest, at a tenth of a second or as fast as the joints can.
-Trajectory brake(const World& world) {
-  const JointState now = world.reference();
+Trajectory brake(const World& world, int robot) {
+  const JointState now = world.reference(robot);
   double time_s = 0.1;
-  const auto& limits = world.arm().limits();
+  const auto& limits = world.arm(robot).limits();
   for (Eigen::Index i = 0; i < now.position.size(); ++i) {
     const double acceleration = limits[static_cast<std::size_t>(i)].acceleration;
     if (acceleration > 0) time_s = std::max(time_s, 2 * std::abs(now.velocity[i]) / acceleration);
@@ -46,13 +46,13 @@ Trajectory brake(const World& world) {
 }
 
 // The parts that hang on the arm's last joint: the last link and the hand.
-std::set<PartRef> hand_parts(const Robot& robot) {
+std::set<PartRef> hand_parts(const Robot& robot, int index) {
   std::set<PartRef> parts;
   if (robot.arm.empty()) return parts;
   for (int part = 0; part < static_cast<int>(robot.body.parts.size()); ++part) {
     int up = part;
     while (up >= 0 && up != robot.arm.back()) up = robot.body.parts[static_cast<std::size_t>(up)].parent;
-    if (up >= 0) parts.insert({-1, part});
+    if (up >= 0) parts.insert(PartRef::of_robot(part, index));
   }
   return parts;
 }
@@ -71,28 +71,32 @@ class FollowMotion : public Motion {
     return result;
   }
 
+  void interrupt(World& world) override {
+    world.apply(operation::Follow{brake(world, options_.robot), options_.robot});
+  }
+
  private:
   void start(World& world) {
-    hand_ = hand_parts(world.scene().robot);
+    hand_ = hand_parts(world.scene().robot, options_.robot);
     if (options_.stop_on_contact)
       for (const Contact& contact : world.contacts()) known_.insert({contact.a, contact.b});
-    if (options_.most_force > 0 && world.controller().kind == ControllerKind::joint_position) {
-      stiff_ = world.controller();
-      world.apply(operation::Controller{ControllerKind::cartesian_impedance, kYieldingStiffness});
+    if (options_.most_force > 0 && world.controller(options_.robot).kind == ControllerKind::joint_position) {
+      stiff_ = world.controller(options_.robot);
+      world.apply(operation::Controller{ControllerKind::cartesian_impedance, kYieldingStiffness, options_.robot});
     }
-    world.apply(operation::Follow{trajectory_});
+    world.apply(operation::Follow{trajectory_, options_.robot});
   }
 
   MotionResult look(World& world) {
     const std::int64_t elapsed = count_++;
     if (lost(world)) {
-      world.apply(operation::Follow{brake(world)});
+      world.apply(operation::Follow{brake(world, options_.robot), options_.robot});
       return failed(Reason::dropped);
     }
     if (!stopping_ && met(world)) {
       stopping_ = true;
-      trajectory_ = brake(world);
-      world.apply(operation::Follow{trajectory_});
+      trajectory_ = brake(world, options_.robot);
+      world.apply(operation::Follow{trajectory_, options_.robot});
       count_ = 1;
       return kRunning;
     }
@@ -107,19 +111,23 @@ class FollowMotion : public Motion {
   // An arm that gave way stays where contact has left it: stiff again, it must not jump back to its reference.
   void stay(World& world) {
     if (!stiff_) return;
-    world.apply(operation::Setpoint{world.arm_position(), JointVector::Zero(world.arm().joints())});
+    world.apply(operation::Setpoint{world.arm_position(options_.robot),
+                                    JointVector::Zero(world.arm(options_.robot).joints()), options_.robot});
     world.apply(*stiff_);
   }
 
   bool arrived(const World& world) const {
-    return (world.arm_position() - trajectory_.knots.back().position).cwiseAbs().maxCoeff() <= options_.tolerance_rad;
+    return (world.arm_position(options_.robot) - trajectory_.knots.back().position).cwiseAbs().maxCoeff() <=
+           options_.tolerance_rad;
   }
 
-  static bool at_rest(const World& world) { return world.arm_velocity().cwiseAbs().maxCoeff() <= kRest_rad_s; }
+  bool at_rest(const World& world) const {
+    return world.arm_velocity(options_.robot).cwiseAbs().maxCoeff() <= kRest_rad_s;
+  }
 
   bool lost(const World& world) {
     if (!options_.keep) return false;
-    missing_ = world.grasped() == options_.keep ? 0 : missing_ + 1;
+    missing_ = world.grasped(options_.robot) == options_.keep ? 0 : missing_ + 1;
     return missing_ > steps_of(kLost_s, world);
   }
 
@@ -147,25 +155,25 @@ class FollowMotion : public Motion {
 
 class HandMotion : public Motion {
  public:
-  HandMotion(double opening_m, double force, std::optional<PartRef> expect)
-      : opening_m_(opening_m), force_(force), expect_(expect) {}
+  HandMotion(double opening_m, double force, std::optional<PartRef> expect, int robot)
+      : opening_m_(opening_m), force_(force), expect_(expect), robot_(robot) {}
 
   std::string kind() const override { return expect_ || opening_m_ < 0.01 ? "close_hand" : "open_hand"; }
 
   MotionResult step(World& world) override {
     if (count_ == 0) {
-      world.apply(operation::Hand{opening_m_, force_});
-      last_m_ = world.opening();
+      world.apply(operation::Hand{opening_m_, force_, robot_});
+      last_m_ = world.opening(robot_);
     }
     const std::int64_t elapsed = count_++;
-    still_ = std::abs(world.opening() - last_m_) > kStill_m ? 0 : still_ + 1;
-    if (still_ == 0) last_m_ = world.opening();
+    still_ = std::abs(world.opening(robot_) - last_m_) > kStill_m ? 0 : still_ + 1;
+    if (still_ == 0) last_m_ = world.opening(robot_);
     const bool stopped = still_ > steps_of(kStopped_s, world) || elapsed > steps_of(kHandTimeout_s, world);
     if (!expect_) {
-      const bool arrived = std::abs(world.opening() - opening_m_) <= kOpeningTolerance_m;
+      const bool arrived = std::abs(world.opening(robot_) - opening_m_) <= kOpeningTolerance_m;
       return arrived || stopped ? kDone : kRunning;
     }
-    held_ = world.grasped() == expect_ ? held_ + 1 : 0;
+    held_ = world.grasped(robot_) == expect_ ? held_ + 1 : 0;
     if (held_ > steps_of(kGrasped_s, world)) return kDone;
     return stopped && held_ == 0 ? failed(Reason::grasp_missed) : kRunning;
   }
@@ -173,8 +181,27 @@ class HandMotion : public Motion {
  private:
   double opening_m_, force_;
   std::optional<PartRef> expect_;
+  int robot_;
   double last_m_ = 0;
   std::int64_t count_ = 0, still_ = 0, held_ = 0;
+};
+
+class BrakeMotion : public Motion {
+ public:
+  explicit BrakeMotion(int robot) : robot_(robot) {}
+  std::string kind() const override { return "brake"; }
+  MotionResult step(World& world) override {
+    if (count_++ == 0) {
+      const Trajectory stop = brake(world, robot_);
+      steps_ = stop.steps();
+      world.apply(operation::Follow{stop, robot_});
+    }
+    return count_ > steps_ ? kDone : kRunning;
+  }
+
+ private:
+  int robot_;
+  std::int64_t count_ = 0, steps_ = 0;
 };
 
 class WaitMotion : public Motion {
@@ -194,9 +221,16 @@ std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options
   return std::make_unique<FollowMotion>(std::move(trajectory), std::move(options));
 }
 
-std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<PartRef> expect) {
+std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<PartRef> expect, int robot) {
   if (!(opening_m >= 0) || !(force > 0)) throw Error("hand", "the opening must not be negative, the force positive");
-  return std::make_unique<HandMotion>(opening_m, force, expect);
+  return std::make_unique<HandMotion>(opening_m, force, expect, robot);
+}
+
+std::unique_ptr<Motion> make_brake(int robot) { return std::make_unique<BrakeMotion>(robot); }
+
+bool reference_moves(const World& world, int robot) {
+  constexpr double kStill = 1e-9;  // rad/s
+  return world.reference(robot).velocity.cwiseAbs().maxCoeff() > kStill;
 }
 
 std::unique_ptr<Motion> make_wait(std::int64_t steps) {

@@ -80,7 +80,6 @@ struct World::Impl {
 
   // controllers.cpp
   void control();
-  void apply_controller(const operation::Controller& controller);
   JointState reference_at(std::int64_t step) const;
   void control_position(const JointState& now, const JointState& next);
   void control_joint_impedance(const JointState& next);
@@ -108,6 +107,7 @@ struct World::Impl {
   Vector3 velocity(PartRef ref, Vector3* linear) const;  // angular; linear of the centre of mass
   double position(PartRef ref) const;
   bool strained() const;
+  void check_robot(int robot) const;  // throws Error for an index that the scene does not have
   JointVector arm_position_now() const;
   JointVector arm_velocity_now() const;
   void read_efforts();

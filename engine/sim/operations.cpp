@@ -140,6 +140,23 @@ std::string_view operation_kind(const Operation& operation) {
   return kNames[operation.index()];
 }
 
+std::optional<int> robot_of(const Operation& operation) {
+  return std::visit(
+      [](const auto& one) -> std::optional<int> {
+        if constexpr (requires { one.robot; }) return one.robot;
+        return std::nullopt;
+      },
+      operation);
+}
+
+void set_robot(Operation& operation, int robot) {
+  std::visit(
+      [robot](auto& one) {
+        if constexpr (requires { one.robot; }) one.robot = robot;
+      },
+      operation);
+}
+
 std::string operation_to_bytes(const Operation& operation) {
   Encoder encoder;
   encoder.out.number(kVersion);

@@ -87,6 +87,10 @@ JointVector World::Impl::arm_velocity_now() const {
   return v;
 }
 
+void World::Impl::check_robot(int robot) const {
+  if (robot != 0) throw Error("robot", "there is no robot " + std::to_string(robot), "the scene has one: robot 0");
+}
+
 Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
   if (linear) linear->setZero();
   const BodySlot& mine = body_slot(ref.body);
@@ -133,7 +137,10 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 const Scene& World::scene() const { return *impl_->scene; }
-const Arm& World::arm() const { return impl_->arm; }
+const Arm& World::arm(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->arm;
+}
 std::int64_t World::step_count() const { return impl_->steps; }
 double World::dt() const { return impl_->dt; }
 const std::vector<Command>& World::log() const { return impl_->log; }
@@ -181,6 +188,7 @@ void check_joints(const JointVector& v, int joints, const char* operation) {
 
 void World::apply(const Operation& operation) {
   Impl& w = *impl_;
+  w.check_robot(robot_of(operation).value_or(0));
   if (std::holds_alternative<operation::Boundary>(operation)) {
     w.canonicalise();
   } else if (const auto* controller = std::get_if<operation::Controller>(&operation)) {
@@ -236,29 +244,50 @@ bool World::latched(PartRef part) const {
                      [&](const Mechanism& m) { return m.part == part && m.locked; });
 }
 
-JointVector World::arm_position() const { return impl_->arm_position_now(); }
-JointVector World::arm_velocity() const { return impl_->arm_velocity_now(); }
-JointState World::reference() const { return impl_->reference_now; }
+JointVector World::arm_position(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->arm_position_now();
+}
 
-const operation::Controller& World::controller() const { return impl_->controller; }
+const operation::Controller& World::controller(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->controller;
+}
 
-bool World::following() const {
+JointVector World::arm_velocity(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->arm_velocity_now();
+}
+
+JointState World::reference(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->reference_now;
+}
+
+bool World::following(int robot) const {
+  impl_->check_robot(robot);
   const Reference& reference = impl_->reference;
   return reference.trajectory && impl_->steps - reference.start_step < reference.trajectory->steps();
 }
 
-Transform World::world_from_tip() const {
-  const Robot& robot = impl_->scene->robot;
-  return impl_->world_from_part({kRobot, robot.tip_part}) * robot.tip_part_from_tip;
+Transform World::world_from_tip(int robot) const {
+  impl_->check_robot(robot);
+  const Robot& its = impl_->scene->robot;
+  return impl_->world_from_part(PartRef::of_robot(its.tip_part, robot)) * its.tip_part_from_tip;
 }
 
-double World::opening() const {
+double World::opening(int robot) const {
+  impl_->check_robot(robot);
   double sum = 0;
   for (const int finger : impl_->scene->robot.fingers) sum += impl_->position({kRobot, finger});
   return sum;
 }
 
-double World::commanded_opening() const { return impl_->hand.opening; }
+double World::commanded_opening(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->hand.opening;
+}
+
 const std::vector<Contact>& World::contacts() const { return impl_->contacts.closed(); }
 void World::close_window() { impl_->contacts.close(); }
 
@@ -275,6 +304,9 @@ CollisionState World::collision_state() const {
   return {w.collision_model, world_from_part, std::move(robot_positions)};
 }
 
-std::optional<PartRef> World::grasped() const { return impl_->contacts.grasped(impl_->scene->robot.pads); }
+std::optional<PartRef> World::grasped(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->contacts.grasped(impl_->scene->robot.pads);
+}
 
 }  // namespace stampede

@@ -19,22 +19,26 @@ std::string_view to_string(ControllerKind kind);
 std::optional<ControllerKind> controller_from(std::string_view name);
 
 // Everything that changes a world from outside is one of these: writer, reader and replayer share the list.
-// Operations take effect at the step at which they are applied.
+// Operations take effect at the step at which they are applied. `robot`: which robot of the scene, from 0.
 namespace operation {
 struct Boundary {};  // drops all contact caches, so that a snapshot taken here restores bit for bit
 struct Controller {
   ControllerKind kind = ControllerKind::joint_position;
   double stiffness = 0;  // 0: the default of the kind (N m/rad; cartesian: N/m); damping is critical
+  int robot = 0;
 };
 struct Follow {  // the arm's reference from this step on; every controller derives its set-points from it
   Trajectory trajectory;
+  int robot = 0;
 };
 struct Hand {
   double opening = 0;  // m, both fingers together
   double force = 20;   // N
+  int robot = 0;
 };
 struct Setpoint {  // a reference for this step on, from an agent
   JointVector position, velocity;
+  int robot = 0;
 };
 struct Place {  // teleports a free body (scene sampling only)
   int body = 0;
@@ -48,9 +52,13 @@ struct Command {
   std::int64_t step = 0;  // applied before this physics step
   Operation operation;
 };
-std::string_view operation_kind(const Operation& operation);                    // `boundary`, `follow` …
-std::string operation_to_bytes(const Operation& operation);                     // full precision, little-endian
+std::string_view operation_kind(const Operation& operation);  // `boundary`, `follow` …
+// Full precision, little-endian, without the robot's index, which is stored beside them.
+std::string operation_to_bytes(const Operation& operation);
 Operation operation_from_bytes(std::string_view kind, std::string_view bytes);  // throws Error
+
+std::optional<int> robot_of(const Operation& operation);  // nothing: it is for no robot
+void set_robot(Operation& operation, int robot);          // of one that is for a robot
 
 // A touching pair over the last closed window (one frame). a < b.
 struct Contact {
@@ -90,7 +98,8 @@ class World {
   World& operator=(World&&) noexcept;
 
   const Scene& scene() const;
-  const Arm& arm() const;
+  // `robot`: an index; throws Error for one that the scene does not have.
+  const Arm& arm(int robot = 0) const;
   std::int64_t step_count() const;
   double dt() const;
 
@@ -107,21 +116,21 @@ class World {
   double joint_effort(PartRef part) const;  // applied by the motor or controller in the last step
   bool latched(PartRef part) const;
 
-  JointVector arm_position() const;
-  JointVector arm_velocity() const;
-  JointState reference() const;  // the arm's set-point at this step
-  bool following() const;        // the reference has not reached its trajectory's end
-  const operation::Controller& controller() const;
-  Transform world_from_tip() const;
-  double opening() const;  // m
-  double commanded_opening() const;
+  JointVector arm_position(int robot = 0) const;
+  JointVector arm_velocity(int robot = 0) const;
+  JointState reference(int robot = 0) const;  // the arm's set-point at this step
+  bool following(int robot = 0) const;        // the reference has not reached its trajectory's end
+  const operation::Controller& controller(int robot = 0) const;
+  Transform world_from_tip(int robot = 0) const;
+  double opening(int robot = 0) const;  // m
+  double commanded_opening(int robot = 0) const;
 
   // Contacts of the last closed window; close_window() ends one (called once per frame).
   const std::vector<Contact>& contacts() const;
   void close_window();
   // The body held by friction in the last window: both pads touch it, at least 0.5 N mean each, normals opposed
   // within 45 degrees. Nothing: std::nullopt.
-  std::optional<PartRef> grasped() const;
+  std::optional<PartRef> grasped(int robot = 0) const;
 
   // What contacts did in the last step to `robot_part` and all parts beyond it, from the outside: the hand, the fingers
   // and, through the pads, what they hold. As a wrist sensor reads that was tared with an empty hand: weight and

@@ -89,7 +89,7 @@ struct Seen {
     undone += static_cast<std::int64_t>(episode.attempts.size());
     simulated_s += episode.duration_s();
     for (const SegmentRecord& segment : episode.segments) {
-      if (segment.kind != "skill" || segment.skill == "wait") continue;
+      if (segment.kind != SegmentKind::skill) continue;
       auto& [seconds, count] = skills[segment.skill];
       seconds += static_cast<double>(segment.span.end_step - segment.span.start_step) / episode.physics_hz;
       ++count;

@@ -34,7 +34,7 @@ struct Judged {
 Scene scene_of_world(const std::shared_ptr<const Library>& library, const std::string& world) {
   for (const ScriptFile* file : library->files(DefinitionKind::task)) {
     const Library::TaskInfo& task = task_info(*library, file->name);
-    if (task.world == world) return EpisodeScripts(library, task.name, task.variation_texts.at(0), 0).task().scene(0);
+    if (task.world == world) return EpisodeScripts(library, task.name, task.variation_texts.at(0), 0).task()(0).scene;
   }
   std::vector<std::string> names;
   for (const ScriptFile* file : library->files(DefinitionKind::world)) names.push_back(file->name);

@@ -2,7 +2,6 @@
 
 #include <ostream>
 
-#include "engine/episode/altered_task.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/plan_output.h"
@@ -24,15 +23,15 @@ FoundPlans plans_for(const Arguments& arguments, const StartQuestion& question) 
 
 // The start in the words of a BDDL dialect. Throws Error where the dialect cannot say it.
 std::string bddl_of(const Arguments& arguments, const Library& library, const StartQuestion& question,
-                    const Domain& own, const Task& task) {
+                    const Domain& own, const std::string& task) {
   EpisodeRecord record;
-  record.task = task.name();
-  record.language = {{"task", task.instructions().front(), -1}};
+  record.task = task;
+  record.language = {{"task", question.instructions.front(), -1}};
   std::string refusals;
   std::string text =
       bddl_text(record, *question.start.scene, {own, question.plain}, question.state,
                 bddl_mappings_of(library, arguments.text("--bddl")), arguments.list("--leave-out"), refusals);
-  if (!refusals.empty()) throw Error(task.name(), refusals.substr(0, refusals.size() - 1));
+  if (!refusals.empty()) throw Error(task, refusals.substr(0, refusals.size() - 1));
   return text;
 }
 
@@ -59,8 +58,7 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
     return kNo;
   }
   if (arguments.has("--bddl")) {
-    AlteredTask task(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options());
-    console.out << bddl_of(arguments, *library, question, prepared.scripts().symbols().domain(), task);
+    console.out << bddl_of(arguments, *library, question, prepared.scripts().symbols().domain(), job.task);
     return kDone;
   }
   const FoundPlans found = plans_for(arguments, question);

@@ -56,7 +56,7 @@ std::string instruction_of(const EpisodeRecord& episode) {
 const SegmentRecord* skill_at(const EpisodeRecord& episode, std::int64_t frame) {
   const SegmentRecord* found = nullptr;
   for (const SegmentRecord& segment : episode.segments)
-    if (segment.kind == "skill" && segment.span.first_frame <= frame &&
+    if (segment.kind == SegmentKind::skill && segment.span.first_frame <= frame &&
         (frame < segment.span.end_frame || segment.span.end_frame >= static_cast<std::int64_t>(episode.frames.size())))
       found = &segment;
   return found;

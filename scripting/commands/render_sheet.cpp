@@ -34,9 +34,9 @@ std::vector<Moment> moments_of(const EpisodeRecord& episode) {
   for (const SegmentRecord& segment : episode.segments) {
     const bool inner =
         segment.parent >= 0 && std::any_of(episode.segments.begin(), episode.segments.end(), [&](const auto& other) {
-          return other.ordinal == segment.parent && other.kind == "skill";
+          return other.ordinal == segment.parent && other.kind == SegmentKind::skill;
         });
-    if (segment.kind != "skill" || segment.skill == "wait" || inner) continue;
+    if (segment.kind != SegmentKind::skill || inner) continue;
     moments.push_back({std::min(segment.span.first_frame, last), label_of(segment),
                        verdict(segment.outcome, segment.reason), segment.outcome == Outcome::success});
   }

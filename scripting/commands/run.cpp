@@ -66,7 +66,7 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
   if (!given("--camera") && !given("--camera-file") && !given("--add-camera") && !given("--channels")) return cameras;
   const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
   for (const EpisodeJob& job : jobs.first_of_each_task()) {
-    Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task().scene(0);
+    Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task()(0).scene;
     const std::vector<Camera> further = cameras[job.task] = further_cameras(arguments, scene);
     put_cameras(scene, further);
     check_choice(choice, scene);
@@ -115,6 +115,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
   const auto library = load_usable_library(arguments);
+  read_settings(arguments, *library, settings.options);
   leave_out_misfits(library, settings.options, request, console);
   const JobList jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
@@ -191,11 +192,13 @@ CommandRow run_command() {
        "stampede run stack_blocks --variation colour=red --seed 7",
        "stampede run stack_blocks --episodes 100000 --shard 3/100 --out part3.db",
        "stampede run put_item_in_drawer --where '(open chest.top_drawer)' --goal '(closed chest.top_drawer)'",
+       "stampede run pick_and_lift --set pick.height=0.2 --set pick.controller=cartesian_impedance",
        "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",
        "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},
       run};
   add_options(row.options, constraint_options());
   add_options(row.options, behaviour_options());
+  add_options(row.options, setting_options());
   add_options(row.options, planner_options());
   for (OptionRow& option : picture_options(PictureUse::run)) row.options.push_back(std::move(option));
   return row;

@@ -5,6 +5,7 @@
 #include "engine/symbolic/external_planner.h"
 #include "scripting/commands/commands.h"
 #include "scripting/session/constraints_fit.h"
+#include "scripting/session/settings_fit.h"
 
 namespace stampede::program {
 namespace {
@@ -40,6 +41,25 @@ std::vector<OptionRow> behaviour_options() {
            {"plan", "random_skills", "random_applicable"},
            false},
           {"--skills", "N", "how many skills a random behaviour draws", Takes::integer, "20", {}, false}};
+}
+
+std::vector<OptionRow> setting_options() {
+  return {{"--set",
+           "SKILL.NAME=VALUE",
+           "a continuous parameter of a skill or its controller, instead of what is drawn: pick.height=0.2, "
+           "pick.controller=cartesian_impedance; vectors 0,0,1 or one component direction.3=1",
+           Takes::text,
+           "",
+           {},
+           true}};
+}
+
+void read_settings(const Arguments& arguments, const Library& library, RunOptions& options) {
+  try {
+    options.set = settings_from(arguments.list("--set"), library, "--set");
+  } catch (const Error& error) {
+    throw UsageError(error.where() + ": " + error.message(), error.hint());
+  }
 }
 
 std::vector<OptionRow> planner_options() {

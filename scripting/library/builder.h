@@ -103,6 +103,7 @@ class LibraryBuilder {
                     const SceneObjects& objects);
   void check_light(const Definition& definition);
   void check_randomise(const Definition& definition, const SceneObjects& objects);
+  void check_setting(const SkillInfo& skill, const std::string& name, const Node& value, const std::string& place);
   void check_observe(const Definition& definition, const Node& world);
   void check_one_of(const Definition& definition, const std::string& path, const Node& text, const char* what,
                     const std::vector<std::string>& known);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/bddl/bddl.h"
+#include "engine/episode/call_settings.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
 #include "scripting/library/source_lines.h"
@@ -224,6 +225,26 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
       if (objects.contains(argument.text)) continue;
       add(Error(place, "steps: there is no object '" + argument.text + "'", did_you_mean(argument.text, known)));
     }
+    for (const auto& [parameter, value] : call["set"].fields) check_setting(*skill, parameter, value, place);
+  }
+}
+
+// Poses are read when the task is.
+void LibraryBuilder::check_setting(const SkillInfo& skill, const std::string& name, const Node& value,
+                                   const std::string& place) {
+  CallSettings set;
+  try {
+    if (value.is_text()) {
+      add_setting(name, value.text, set, place + ": steps");
+    } else if (value.is_number()) {
+      set.values.push_back({name, 0, {value.number}});
+    } else if (value.is_table() && !value.items.empty()) {
+      set.values.push_back({name, 0, {}});
+      for (const Node& item : value.items) set.values.back().values.push_back(item.number);
+    }
+    check_settings(skill, set, place + ": steps");
+  } catch (const Error& error) {
+    add(error);
   }
 }
 

@@ -2,7 +2,7 @@
 -- Every value that the engine must understand is a table with a field `tag`:
 --   definition  { kind = "task" | "skill" | …, line, <the author's fields> }        (kind instead of tag)
 --   literal     { tag = "literal", predicate, negated, line, "arg1", … }            is.on("a", "b")
---   call        { tag = "call", skill, line, "arg1", …, <named arguments> }         act.pick("a", "b")
+--   call        { tag = "call", skill, line, "arg1", …, <named arguments>, set }    act.pick("a", "b", { height = 0.2 })
 --   formula     { tag = "all_of" | "any_of" | "in_order", line, part1, … }
 --               { tag = "not", line, part }
 --               { tag = "forall" | "exists", variables = { "?x: type", … }, line, part }
@@ -89,10 +89,21 @@ words.act = setmetatable({}, {
       local value = { tag = "call", skill = name, line = here() }
       local list = { ... }
       if #list == 1 and type(list[1]) == "table" then list = list[1] end -- act.place{ "cup", to = "shelf" }
-      for key, argument in pairs(list) do
-        if type(argument) ~= "string" then say("%s: arguments are names of objects, '%s' is a %s", name, key, type(argument)) end
-        value[key] = argument
+      local set = {}
+      if type(list[#list]) == "table" then -- act.pick("cup", { height = 0.2 })
+        for key, choice in pairs(list[#list]) do set[key] = choice end
+        list[#list] = nil
       end
+      for key, argument in pairs(list) do
+        if type(key) == "string" and (key == "controller" or type(argument) ~= "string") then
+          set[key] = argument
+        elseif type(argument) ~= "string" then
+          say("%s: arguments are names of objects, '%s' is a %s", name, key, type(argument))
+        else
+          value[key] = argument
+        end
+      end
+      if next(set) ~= nil then value.set = set end
       return value
     end
   end),

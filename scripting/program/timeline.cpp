@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/episode/goal_watch.h"
 #include "scripting/program/console.h"
 
 namespace stampede::program {
@@ -126,7 +127,8 @@ std::string parameters_text(const SegmentRecord& segment) {
     std::string text = parameter.name + " = ";
     text += parameter.values.empty() ? parameter.text : fmt::format("{:.4g}", parameter.values[0]);
     if (!parameter.unit.empty()) text += " " + parameter.unit;
-    if (!parameter.chosen_by.empty() && parameter.chosen_by != "default") text += " (" + parameter.chosen_by + ")";
+    if (parameter.chosen_by != ChosenBy::default_value)
+      text += " (" + std::string(to_string(parameter.chosen_by)) + ")";
     texts.push_back(text);
   }
   return joined(texts, ", ");
@@ -151,7 +153,7 @@ std::string failure_text(const SegmentRecord& segment) {
 std::string undone(const EpisodeRecord& episode, int before_segment, const TimelineStyle& style, int indent) {
   std::string text;
   for (const AttemptRecord& attempt : episode.attempts) {
-    if (attempt.before_segment != before_segment || attempt.segment.kind != "skill") continue;
+    if (attempt.before_segment != before_segment) continue;
     const Span& span = attempt.segment.span;
     const double seconds = static_cast<double>(span.end_step - span.start_step) / episode.physics_hz;
     text += note(fmt::format("↶ undone after {:.2f} s: {} ({})", seconds, call_text(attempt.segment),
@@ -164,8 +166,8 @@ std::string undone(const EpisodeRecord& episode, int before_segment, const Timel
 void add_segment(std::string& text, const EpisodeRecord& episode, const SegmentRecord& segment, int depth,
                  const Painter& painter, const TimelineStyle& style) {
   const int indent = 2 * depth;
-  const bool skill = segment.kind != "motion";
-  if (skill) text += undone(episode, segment.ordinal, style, indent + 2);
+  const bool skill = segment.kind != SegmentKind::motion || segment.skill == kHold;  // what can fail by itself
+  text += undone(episode, segment.ordinal, style, indent + 2);
   std::vector<std::int64_t> marks;
   std::string passed;
   for (const ViaRecord& via : episode.vias) {
@@ -179,7 +181,7 @@ void add_segment(std::string& text, const EpisodeRecord& episode, const SegmentR
   text += painter.line(label, segment.span.start_step, segment.span.end_step, skill ? "█" : "▂", marks);
   if (!passed.empty()) text += note(passed, style, indent + 4);
   if (skill && segment.outcome != Outcome::success) text += note(failure_text(segment), style, indent + 4);
-  if (segment.kind == "skill") {
+  if (segment.kind == SegmentKind::skill) {
     const std::string changed = changes(episode, segment.span);
     if (!changed.empty()) text += note(changed, style, indent + 4);
     const std::string parameters = parameters_text(segment);

@@ -11,7 +11,9 @@ void strings(JsonText& json, const char* name, const std::vector<std::string>& v
 }
 
 void segment_fields(JsonText& json, const SegmentRecord& segment, double hz) {
-  json.field("kind", segment.kind).field("skill", segment.skill).field("case", segment.case_name);
+  json.field("kind", std::string(to_string(segment.kind)))
+      .field("skill", segment.skill)
+      .field("case", segment.case_name);
   strings(json, "arguments", segment.arguments);
   json.field("start", static_cast<double>(segment.span.start_step) / hz);
   json.field("end", static_cast<double>(segment.span.end_step) / hz);

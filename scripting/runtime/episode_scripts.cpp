@@ -36,7 +36,9 @@ EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::stri
 
 EpisodeScripts::~EpisodeScripts() = default;
 
-Task& EpisodeScripts::task() { return impl_->task; }
+TaskDraw EpisodeScripts::task() {
+  return [impl = impl_.get()](int number) { return impl->task.draw(number); };
+}
 Symbols& EpisodeScripts::symbols() { return impl_->symbols; }
 SkillLibrary& EpisodeScripts::skills() { return impl_->skills; }
 

@@ -1,4 +1,4 @@
-// The Lua side of one episode: implements Task, Symbols and SkillLibrary over one fresh state.
+// The Lua side of one episode: draws its task, and implements Symbols and SkillLibrary over one fresh state.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class EpisodeScripts {
   EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task, std::string_view variation,
                  std::int64_t seed);
   ~EpisodeScripts();
-  Task& task();
+  TaskDraw task();  // lifetime: until these scripts end
   Symbols& symbols();
   SkillLibrary& skills();
   // Files that took part: the task, its world, robot, objects, all predicates and skills of the domain, modules.

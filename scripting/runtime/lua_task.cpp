@@ -37,8 +37,8 @@ LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view varia
       seed_(seed),
       axes_(axes_of(info_of(*tests.library(), name), variation)),
       assets_(FileScope(tests.library()->roots().folders)),
-      drawn_(make(0)) {
-  tests_.set_hand(drawn_.hand);
+      first_(make(0)) {
+  tests_.set_hand(first_.hand);
 }
 
 LuaTask::Drawn LuaTask::make(int draw) {
@@ -48,15 +48,20 @@ LuaTask::Drawn LuaTask::make(int draw) {
   const RandomKey key = RandomKey("draw").with(name_).with(variation_).with(seed_).with(draw);
   Drawn drawn;
   scripts.protect([&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, assets_).read(state); });
+  drawn.task.name = name_;
+  drawn.task.variation = variation_;
+  drawn.task.axes = axes_;
   return drawn;
 }
 
-Scene LuaTask::scene(int draw) {
-  if (draw != draw_) {
-    drawn_ = make(draw);
-    draw_ = draw;
-  }
-  return drawn_.scene;
+Task LuaTask::draw(int number) { return with_functions(number == 0 ? first_ : make(number)); }
+
+Task LuaTask::with_functions(const Drawn& drawn) {
+  Task task = drawn.task;
+  if (drawn.also) task.also = [this](const WorldView& view) { return ask("also", view); };
+  if (drawn.fails) task.fails = [this](const WorldView& view) { return ask("fails", view); };
+  if (drawn.reward) task.reward = [this](const WorldView& view) { return number("reward", view); };
+  return task;
 }
 
 int LuaTask::keep_variation() {
@@ -64,24 +69,13 @@ int LuaTask::keep_variation() {
   int reference = 0;
   scripts.protect([&](lua_State* state) {
     scripts.definitions().push(DefinitionKind::task, name_);
-    push_variation(state, lua_gettop(state), axes_, drawn_.files.front()->shown_path);
+    push_variation(state, lua_gettop(state), axes_, first_.files.front()->shown_path);
     reference = luaL_ref(state, LUA_REGISTRYINDEX);
   });
   return reference;
 }
 
-bool LuaTask::has_also() const {
-  ScriptState& scripts = tests_.get();
-  bool found = false;
-  scripts.protect([&](lua_State* state) {
-    scripts.definitions().push(DefinitionKind::task, name_);
-    found = lua_getfield(state, -1, "also") == LUA_TFUNCTION;
-    lua_pop(state, 2);
-  });
-  return found;
-}
-
-bool LuaTask::call_test(const char* field, const WorldView& view) {
+void LuaTask::call_function(const char* field, const WorldView& view) {
   ScriptState& scripts = tests_.get();
   if (generation_ != tests_.generation()) {
     functions_.clear();
@@ -89,10 +83,8 @@ bool LuaTask::call_test(const char* field, const WorldView& view) {
     generation_ = tests_.generation();
   }
   auto found = functions_.find(field);
-  if (found == functions_.end()) {
+  if (found == functions_.end())
     found = functions_.emplace(field, scripts.function_of(DefinitionKind::task, name_, field)).first;
-  }
-  if (found->second == 0) return false;
   if (v_ == 0) v_ = keep_variation();
   const ViewScope scope(scripts.view, view, ViewScope::Facts::readable);
   scripts.push_kept(found->second);
@@ -103,34 +95,25 @@ bool LuaTask::call_test(const char* field, const WorldView& view) {
   } catch (const Error& error) {
     throw ScriptError(error.where(), error.message(), error.hint());
   }
-  return true;
 }
 
-bool LuaTask::also(const WorldView& view) {
-  if (!call_test("also", view)) return true;
+bool LuaTask::ask(const char* field, const WorldView& view) {
+  call_function(field, view);
   lua_State* const state = tests_.get().lua();
   const bool result = lua_toboolean(state, -1) != 0;
   lua_pop(state, 1);
   return result;
 }
 
-bool LuaTask::fails(const WorldView& view) {
-  if (!call_test("fails", view)) return false;
-  lua_State* const state = tests_.get().lua();
-  const bool result = lua_toboolean(state, -1) != 0;
-  lua_pop(state, 1);
-  return result;
-}
-
-double LuaTask::reward(const WorldView& view) {
-  if (!call_test("reward", view)) return 0;
+double LuaTask::number(const char* field, const WorldView& view) {
+  call_function(field, view);
   lua_State* const state = tests_.get().lua();
   const bool number = lua_type(state, -1) == LUA_TNUMBER;
   const double result = lua_tonumber(state, -1);
   const std::string found = number ? "" : luaL_typename(state, -1);
   lua_pop(state, 1);
   if (number && std::isfinite(result)) return result;
-  throw ScriptError(drawn_.files.front()->shown_path,
+  throw ScriptError(first_.files.front()->shown_path,
                     "reward gives " + (number ? "a number that is not finite" : "a " + found) + " at " +
                         std::to_string(view.time_s()) + " s",
                     "return a number; look for divisions by 0");

@@ -12,67 +12,41 @@
 
 namespace stampede {
 
-class LuaTask : public Task {
+// Makes the draws of one task, variation and seed. Lifetime: outlives the tasks it draws, whose functions ask it.
+class LuaTask {
  public:
   // Throws Error for an unknown task or variation and for mistakes in its files. Sets the hand of `tests`.
   LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed);
+  LuaTask(const LuaTask&) = delete;
+  LuaTask& operator=(const LuaTask&) = delete;
 
-  std::string name() const override { return name_; }
-  std::string variation() const override { return variation_; }
-  std::map<std::string, std::string> axes() const override { return axes_; }
-  Scene scene(int draw) override;
-  std::optional<Randomisation> randomisation() const override { return drawn_.randomisation; }
-  ObservationChoice observation() const override { return drawn_.observation; }
-  std::vector<std::string> unplaced() const override { return drawn_.unplaced; }
-  std::vector<Literal> init() const override { return drawn_.init; }
-  std::optional<Formula> where() const override { return drawn_.where; }
-  Formula goal() const override { return drawn_.goal; }
-  std::vector<Formula> stages() const override { return drawn_.stages; }
-  std::optional<std::vector<PlanStep>> steps() const override { return drawn_.steps; }
-  std::vector<std::pair<std::string, Formula>> subgoals() const override { return drawn_.subgoals; }
-  bool also(const WorldView& view) override;
-  bool has_also() const override;
-  bool fails(const WorldView& view) override;
-  double reward(const WorldView& view) override;
-  double hold_s() const override { return drawn_.hold_s; }
-  double horizon_s() const override { return drawn_.horizon_s; }
-  std::vector<std::string> instructions() const override { return drawn_.instructions; }
+  Task draw(int number);
+  std::vector<const ScriptFile*> files() const { return first_.files; }  // that took part, beside predicates and skills
 
-  std::vector<const ScriptFile*> files() const { return drawn_.files; }  // that took part, beside predicates and skills
-
-  // All that depends on the draw.
+  // A draw as its file is read.
   struct Drawn {
-    Scene scene;
-    std::optional<Randomisation> randomisation;
-    ObservationChoice observation;
+    Task task;  // without its functions
     std::string hand;
     std::map<std::string, std::vector<std::string>> groups;  // `block` -> block1 …
-    std::vector<std::string> unplaced;
-    std::vector<Literal> init;
-    std::optional<Formula> where;
-    Formula goal;
-    std::vector<Formula> stages;
-    std::optional<std::vector<PlanStep>> steps;
-    std::vector<std::pair<std::string, Formula>> subgoals;
-    std::vector<std::string> instructions;
     std::vector<const ScriptFile*> files;
-    double hold_s = 1, horizon_s = 120;
+    bool also = false, fails = false, reward = false;  // does the file have these functions?
   };
 
  private:
-  // Calls the task's own test and leaves its result on the stack; false (and nothing) where it has none.
-  bool call_test(const char* field, const WorldView& view);
+  // Calls a function of the file, which it has, and leaves its result on the stack.
+  void call_function(const char* field, const WorldView& view);
+  bool ask(const char* field, const WorldView& view);
+  double number(const char* field, const WorldView& view);
   Drawn make(int draw);
+  Task with_functions(const Drawn& drawn);
+  int keep_variation();
 
   TestState& tests_;
   std::string name_, variation_;
   std::int64_t seed_;
   std::map<std::string, std::string> axes_;
-  int draw_ = 0;
   Assets assets_;
-  Drawn drawn_;
-  int keep_variation();
-
+  Drawn first_;                           // draw 0: it says which files take part
   std::map<std::string, int> functions_;  // registry references of the tests' state
   int v_ = 0;
   int generation_ = -1;

@@ -227,7 +227,7 @@ int wait(lua_State* state) {
 // Another skill as a part of this one. All its arguments are named, but for the hand.
 int run(lua_State* state) {
   const RobotContext& context = context_of(state);
-  SkillCall call = skill_call_at(state, 2, *context.library, "robot:run");
+  AskedCall call = asked_call_at(state, 2, *context.library, "robot:run");
   const SkillInfo& info = *context.library->skill(call.skill);
   for (std::size_t i = 0; i < call.arguments.size(); ++i) {
     if (!call.arguments[i].empty()) continue;

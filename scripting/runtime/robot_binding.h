@@ -24,7 +24,8 @@ struct RobotContext {
 // Pushes `robot`, one userdata for each state. README.md lists the methods.
 void push_robot(lua_State* state, RobotContext& context, int view_index);
 
-// The call act.place("cup", "shelf") at a stack index. Arguments not named are empty: the runner binds them.
-SkillCall skill_call_at(lua_State* state, int index, const Library& library, const std::string& place);
+// The call act.place("cup", "shelf", { height = 0.2 }) at a stack index. Arguments not named are empty: the runner
+// binds them. Throws Error, at `place`, for what the skill does not have and for values out of their bounds.
+AskedCall asked_call_at(lua_State* state, int index, const Library& library, const std::string& place);
 
 }  // namespace stampede

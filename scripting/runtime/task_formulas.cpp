@@ -25,9 +25,9 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
   context.hand = drawn_.hand;
   context.expand = [this](const std::string& group) { return members(group); };
   context.object_fault = [this](const std::string& name) -> std::optional<std::string> {
-    if (drawn_.scene.object(name) != nullptr) return std::nullopt;
+    if (drawn_.task.scene.object(name) != nullptr) return std::nullopt;
     std::vector<std::string> known;
-    for (const Object& object : drawn_.scene.objects) known.push_back(object.name);
+    for (const Object& object : drawn_.task.scene.objects) known.push_back(object.name);
     return did_you_mean(name, known);
   };
   return context;
@@ -36,16 +36,16 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
 void TaskReader::read_init() {
   if (!push_field("init")) return;
   Beginning beginning = beginning_from(read_node(state_, -1, file_.shown_path + ": init"), context_of("init"));
-  drawn_.init = std::move(beginning.literals);
-  drawn_.where = std::move(beginning.constraint);
+  drawn_.task.init = std::move(beginning.literals);
+  drawn_.task.where = std::move(beginning.constraint);
   lua_pop(state_, 1);
 }
 
 void TaskReader::read_goal() {
   if (!push_field("goal")) throw Error(file_.shown_path, "a task needs a goal");
   const Node goal = read_node(state_, -1, file_.shown_path + ": goal");
-  drawn_.goal = formula_from(goal, context_of("goal"));
-  drawn_.stages = stages_from(goal, context_of("goal"));
+  drawn_.task.goal = formula_from(goal, context_of("goal"));
+  drawn_.task.stages = stages_from(goal, context_of("goal"));
   lua_pop(state_, 1);
 }
 
@@ -58,14 +58,14 @@ void TaskReader::read_subgoals() {
   for (const auto& [name, node] : subgoals.fields) order.emplace_back(node.line(), name);
   std::sort(order.begin(), order.end());
   for (const auto& [line, name] : order) {
-    drawn_.subgoals.emplace_back(name, formula_from(subgoals[name], context_of("subgoals." + name)));
+    drawn_.task.subgoals.emplace_back(name, formula_from(subgoals[name], context_of("subgoals." + name)));
   }
   for (const Node& pair : subgoals.items) {  // { { "open_it", is.open(…) }, … }
     if (pair.items.size() != 2 || !pair.items[0].is_text()) {
       throw Error(file_.shown_path + ": subgoals", "expected { \"name\", formula }");
     }
     const std::string& name = pair.items[0].text;
-    drawn_.subgoals.emplace_back(name, formula_from(pair.items[1], context_of("subgoals." + name)));
+    drawn_.task.subgoals.emplace_back(name, formula_from(pair.items[1], context_of("subgoals." + name)));
   }
 }
 
@@ -73,7 +73,7 @@ void TaskReader::read_steps() {
   if (!push_field("steps")) return;
   const int steps = lua_gettop(state_);
   const std::string place = file_.shown_path + ": steps";
-  drawn_.steps.emplace();
+  drawn_.task.steps.emplace();
   lua_getfield(state_, steps, "tag");
   const bool single = !lua_isnil(state_, -1);  // one call, not a list of them
   lua_pop(state_, 1);
@@ -84,8 +84,8 @@ void TaskReader::read_steps() {
     } else {
       lua_rawgeti(state_, steps, i);
     }
-    SkillCall call = skill_call_at(state_, lua_gettop(state_), scripts_.library(), place);
-    drawn_.steps->push_back({call.skill, std::move(call.arguments)});
+    AskedCall call = asked_call_at(state_, lua_gettop(state_), scripts_.library(), place);
+    drawn_.task.steps->push_back({{call.skill, std::move(call.arguments)}, std::move(call.set)});
     lua_pop(state_, 1);
   }
   lua_pop(state_, 1);

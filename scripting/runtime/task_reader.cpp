@@ -62,17 +62,17 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   drawn_.files.push_back(&file_);
   push_variation(state, task_, axes_, file_.shown_path);
   variation_ = lua_gettop(state);
-  drawn_.hold_s = field("hold").present() ? field("hold").as_number() : drawn_.hold_s;
-  drawn_.horizon_s = field("horizon").present() ? field("horizon").as_number() : drawn_.horizon_s;
+  drawn_.task.hold_s = field("hold").present() ? field("hold").as_number() : drawn_.task.hold_s;
+  drawn_.task.horizon_s = field("horizon").present() ? field("horizon").as_number() : drawn_.task.horizon_s;
   const Value name = field("world");
   const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
   const std::filesystem::path folder = used(DefinitionKind::world, name.text, name).path.parent_path();
   read_world(world);
   read_objects();
   read_looks(world, folder);
-  drawn_.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
-  drawn_.unplaced = builder_->unplaced();
-  drawn_.scene = builder_->build();
+  drawn_.task.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
+  drawn_.task.unplaced = builder_->unplaced();
+  drawn_.task.scene = builder_->build();
   if (world["calibration"].present()) read_calibration(world["calibration"], folder);
   forget_absent_classes();
   read_init();
@@ -80,6 +80,9 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   read_subgoals();
   read_steps();
   read_instructions();
+  drawn_.also = has_function("also");
+  drawn_.fails = has_function("fails");
+  drawn_.reward = has_function("reward");
   return std::move(drawn_);
 }
 
@@ -92,6 +95,12 @@ bool TaskReader::push_field(const char* name) {
   if (!lua_isnil(state_, -1)) return true;
   lua_pop(state_, 1);
   return false;
+}
+
+bool TaskReader::has_function(const char* name) {
+  const bool found = lua_getfield(state_, task_, name) == LUA_TFUNCTION;
+  lua_pop(state_, 1);
+  return found;
 }
 
 Value TaskReader::field(const char* name) {
@@ -159,7 +168,7 @@ void TaskReader::read_looks(const Value& world, const std::filesystem::path& fol
   builder_->set_light(world["light"]);
   if (world["randomise"].present()) {
     DrawnAssets drawn;
-    drawn_.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn});
+    drawn_.task.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn});
     builder_->add_drawn(drawn);
   }
   // All that a scene of this library could have, so that a class has one number in all of its tasks.
@@ -174,7 +183,7 @@ void TaskReader::read_looks(const Value& world, const std::filesystem::path& fol
 void TaskReader::read_calibration(const Value& file, const std::filesystem::path& folder) {
   try {
     FileScope(scripts_.library().roots().folders).check(folder / file.as_text());
-    put_cameras(drawn_.scene, load_calibration(folder / file.as_text(), drawn_.scene));
+    put_cameras(drawn_.task.scene, load_calibration(folder / file.as_text(), drawn_.task.scene));
   } catch (const Error& error) {
     throw Error(file.place, (error.where().empty() ? "" : error.where() + ": ") + error.message(), error.hint());
   }
@@ -182,14 +191,15 @@ void TaskReader::read_calibration(const Value& file, const std::filesystem::path
 
 // A world may randomise things that only some of its tasks have.
 void TaskReader::forget_absent_classes() {
-  if (!drawn_.randomisation) return;
+  if (!drawn_.task.randomisation) return;
   const auto absent = [&](const std::string& name) {
-    return scripts_.library().file(DefinitionKind::object, name) != nullptr && drawn_.scene.object(name) == nullptr &&
-           std::none_of(drawn_.scene.objects.begin(), drawn_.scene.objects.end(),
+    return scripts_.library().file(DefinitionKind::object, name) != nullptr &&
+           drawn_.task.scene.object(name) == nullptr &&
+           std::none_of(drawn_.task.scene.objects.begin(), drawn_.task.scene.objects.end(),
                         [&](const Object& object) { return object.class_name == name; });
   };
-  std::erase_if(drawn_.randomisation->looks, absent);
-  std::erase_if(drawn_.randomisation->dynamics, absent);
+  std::erase_if(drawn_.task.randomisation->looks, absent);
+  std::erase_if(drawn_.task.randomisation->dynamics, absent);
 }
 
 void TaskReader::read_objects() {
@@ -243,7 +253,7 @@ void TaskReader::add_group(const std::string& name, int index) {
 void TaskReader::read_instructions() {
   const Value value = field("instructions");
   if (!value.present()) return;
-  for (const std::string& text : value.as_texts()) drawn_.instructions.push_back(filled(text, axes_));
+  for (const std::string& text : value.as_texts()) drawn_.task.instructions.push_back(filled(text, axes_));
 }
 
 }  // namespace stampede

@@ -14,7 +14,8 @@ class TaskReader {
   LuaTask::Drawn read(lua_State* state);
 
  private:
-  Value field(const char* name);      // of the task, drawn
+  Value field(const char* name);  // of the task, drawn
+  bool has_function(const char* name);
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
   void read_world(const Value& world);
   void read_robot(const Value& robot);

@@ -40,14 +40,16 @@ Formula formula_option(const std::string& text, const std::string& place) {
 
 std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options) {
   EpisodeScripts scripts(library, job.task, job.variation, job.seed);
-  const AlteredTask altered(scripts.task(), scripts.symbols(), options);
-  const std::optional<Formula> asked = altered.where();
+  const TaskDraw task = scripts.task();
+  Task drawn = task(0);
+  const std::optional<Formula> asked = altered(drawn, scripts.symbols(), options).where;
   if (!asked) return {};
   const Domain& domain = scripts.symbols().domain();
   std::set<Facts> seen;
   std::map<std::string, int> failures;  // draws in which a part failed
   for (int draw = 0; draw < options.draws && (draw < kEqualDraws || seen.size() > 1); ++draw) {
-    const StaticFacts known = static_facts(scripts.task().scene(draw), domain);  // the rest is open: no world is needed
+    if (draw > 0) drawn = task(draw);
+    const StaticFacts known = static_facts(drawn.scene, domain);  // the rest is open: no world is needed
     const Formula where = checked_formula(*asked, domain, known.objects, "--where");
     const std::vector<std::string> failed = contradictions(where, scripts.symbols(), known);
     if (failed.empty()) return {};

@@ -166,7 +166,7 @@ EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
   try {
     record = run_episode(scripts_.task(), scripts_.symbols(), scripts_.skills(), options_, stop);
   } catch (const ScriptError& error) {
-    record.axes = scripts_.task().axes();
+    record.axes = scripts_.task()(0).axes;
     record.options = options_.as_text();
     record.reason = Reason::script_error;
     record.detail = error.what();

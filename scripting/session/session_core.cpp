@@ -8,6 +8,7 @@
 #include "scripting/session/episode_job.h"
 #include "scripting/session/numerics.h"
 #include "scripting/session/roots.h"
+#include "scripting/session/settings_fit.h"
 #include "scripting/session/start_question.h"
 
 namespace stampede {
@@ -127,6 +128,7 @@ std::optional<Episode> SessionCore::stored(const std::string& key) {
 
 PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
   RunOptions options = options_of(request);
+  options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
   const std::vector<std::string> variations = fitting_variations(
       library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
   return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};

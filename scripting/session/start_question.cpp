@@ -7,8 +7,10 @@ namespace stampede {
 
 StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop) {
   StartQuestion question;
-  AlteredTask task(scripts.task(), scripts.symbols(), options);
-  const PreparedStart start = prepare_start(task, scripts.symbols(), options, stop);
+  const PreparedStart start =
+      prepare_start(altered(scripts.task(), scripts.symbols(), options), scripts.symbols(), options, stop);
+  const Task& task = start.task;
+  question.instructions = task.instructions;
   question.start = start;
   if (question.start.reason != Reason::none) return question;
   World world(question.start.scene);
@@ -22,11 +24,11 @@ StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& optio
   for (const Object& thing : view.scene().objects)
     if (thing.kind == ObjectKind::body) question.state.poses[thing.name] = to_pose(view.world_from(thing.name));
   question.beside_goal = beside_goal(task);
-  if (const auto steps = task.steps()) {
+  if (task.steps) {
     question.said.emplace();
     question.said->solved = true;
     question.said->end = PlanEnd::solved;
-    question.said->plan = *steps;
+    for (const TaskStep& one : *task.steps) question.said->plan.push_back(one.step);
   }
   return question;
 }

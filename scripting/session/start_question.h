@@ -19,6 +19,7 @@ struct StartQuestion {
   Problem plain;       // of the world's own domain
   AbstractState state;
   std::string beside_goal;
+  std::vector<std::string> instructions;
   std::optional<PlanOutcome> said;  // the steps of a task that says them itself: nothing is to be planned
 };
 StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop);

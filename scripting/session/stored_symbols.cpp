@@ -233,9 +233,9 @@ std::vector<Boundary> skill_boundaries(const EpisodeRecord& episode, const Domai
   };
   std::vector<Done> skills;  // children of skills are part of them
   for (const SegmentRecord& segment : episode.segments) {
-    if (segment.kind != "skill") continue;
+    if (segment.kind != SegmentKind::skill) continue;
     const bool child = segment.parent >= 0 && static_cast<std::size_t>(segment.parent) < episode.segments.size() &&
-                       episode.segments[static_cast<std::size_t>(segment.parent)].kind == "skill";
+                       episode.segments[static_cast<std::size_t>(segment.parent)].kind == SegmentKind::skill;
     const std::string name = segment.case_name.empty() ? segment.skill : segment.skill + "_" + segment.case_name;
     if (child || domain.action(name) == nullptr) continue;  // `wait` changes nothing
     skills.push_back({segment.span.first_frame, segment.span.end_frame, {name, segment.arguments}});

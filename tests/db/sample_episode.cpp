@@ -89,14 +89,14 @@ void add_commands(EpisodeRecord& e) {
 
 SegmentRecord pick_segment() {
   SegmentRecord s;
-  s.kind = "skill", s.ordinal = 0, s.robot = "panda", s.skill = "pick", s.case_name = "off_surface";
+  s.kind = SegmentKind::skill, s.ordinal = 0, s.robot = "panda", s.skill = "pick", s.case_name = "off_surface";
   s.arguments = {"block1", "table", "panda.hand"};
   s.controller = "joint_impedance";
   s.span = {0, 72, 0, 6};
   s.precondition_held = true, s.effect_held = true;
   s.label = "pick up the \"red\" block";
-  s.parameters = {{"grasp", {0.1, 0.2, 0.3}, "", "m", "object", "stream"},
-                  {"controller", {}, "joint_impedance", "", "", "default"}};
+  s.parameters = {{"grasp", {0.1, 0.2, 0.3}, "", "m", "object", ChosenBy::stream},
+                  {"controller", {}, "joint_impedance", "", "", ChosenBy::default_value}};
   s.declared_effects = {{fact("holding", {"panda.hand", "block1"}), false},
                         {fact("on", {"block1", "table"}), true},
                         {fact("open", {"chest"}), false}};
@@ -108,10 +108,10 @@ SegmentRecord pick_segment() {
 // near is forgotten, clear follows from others.
 void add_labels(EpisodeRecord& e) {
   SegmentRecord motion;
-  motion.kind = "motion", motion.ordinal = 1, motion.parent = 0, motion.robot = "panda";
+  motion.kind = SegmentKind::motion, motion.ordinal = 1, motion.parent = 0, motion.robot = "panda";
   motion.skill = "move_through", motion.span = {0, 36, 0, 3};
   SegmentRecord wait;
-  wait.kind = "skill", wait.ordinal = 2, wait.robot = "panda", wait.skill = "wait";
+  wait.kind = SegmentKind::skill, wait.ordinal = 2, wait.robot = "panda", wait.skill = "wait";
   wait.span = {72, e.steps, 6, static_cast<std::int64_t>(e.frames.size())};
   e.segments = {pick_segment(), motion, wait};
   AttemptRecord undone{pick_segment(), 0, 1};

@@ -75,7 +75,7 @@ TEST_CASE("checks refuse what is on no list") {
   const Folder folder;
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   EpisodeRecord odd = sample_episode("lift", "colour=red", 1);
-  odd.segments[0].kind = "skil";
+  odd.language[0].level = "skil";
   CHECK_THROWS_AS(catalogue.add(odd, kEngine), CatalogueError);
   EpisodeRecord leak = sample_episode("lift", "colour=red", 1'000'000);
   leak.split = "train";  // seeds from a million up are for tests

@@ -101,6 +101,38 @@ TEST_CASE("a key tells apart seed, variation, options and definitions, and nothi
   CHECK(key != episode_key(edited, {"a", "v", 1}, {}));
 }
 
+TEST_CASE("--set: what a caller chooses is used and named as the caller's") {
+  const Folder mine;
+  const Said run = say({"run", "pick_up_cup", "--seed", "3", "--set", "pick.height=0.2", "--set",
+                        "pick.controller=joint_impedance", "--root", kRoot, "--out", mine / "o.db"});
+  INFO(run.err);
+  REQUIRE(run.code == kDone);
+  const std::string question =
+      "SELECT name, value, text, chosen_by FROM parameters WHERE undone = 0 AND name IN ('height', 'controller')";
+  CHECK(say({"query", mine / "o.db", question, "--format", "csv"}).out ==
+        "name,value,text,chosen_by\r\nheight,0.2,,caller\r\ncontroller,,joint_impedance,caller\r\n");
+}
+
+TEST_CASE("--set: what there is not is a wrong use, before anything runs") {
+  const Folder mine;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"pik.height=0.2", "there is no skill 'pik'\n    did you mean 'pick'?"},
+      {"pick.hight=0.2", "did you mean 'height'?"},
+      {"pick.height=2", "pick.height is at most 0.3m, not 2"},
+      {"pick.height=", "is no number"},
+      {"pick.height.2=0.1", "components 1 to 1"},
+      {"pick.controller=magic", "there is no controller 'magic'"},
+      {"height=0.2", "SKILL.PARAMETER=VALUE"},
+  };
+  for (const auto& [text, complaint] : cases) {
+    const Said run = say({"run", "pick_up_cup", "--set", text, "--root", kRoot, "--out", mine / "o.db"});
+    INFO(text << "\n" << run.err);
+    CHECK(run.code == kUsage);
+    CHECK(run.err.find(complaint) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(mine / "o.db"));
+  }
+}
+
 TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends with 3") {
   const Folder mine;
   for (const char* kind : {"task", "skill", "predicate", "object"}) {

@@ -22,11 +22,11 @@ EpisodeRecord small_episode() {
   e.reason = Reason::dropped;
   e.language = {{"task", "stack red blocks", -1}};
   SegmentRecord pick, motion, place, tried;
-  pick.kind = place.kind = tried.kind = "skill";
+  pick.kind = place.kind = tried.kind = SegmentKind::skill;
   pick.skill = tried.skill = "pick";
   pick.arguments = tried.arguments = {"block1", "table"};
   pick.span = span(0, 960);
-  motion.kind = "motion";
+  motion.kind = SegmentKind::motion;
   motion.skill = "move_through";
   motion.ordinal = 1;
   motion.parent = 0;

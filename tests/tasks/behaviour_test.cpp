@@ -21,7 +21,7 @@ TEST_CASE("random skills run in every kind of world, fail with reasons, and repl
   CHECK(episode.reason != Reason::script_error);
   std::size_t skills = 0, unmet = 0;
   for (const SegmentRecord& segment : episode.segments) {
-    if (segment.kind != "skill" || segment.skill == "wait") continue;
+    if (segment.kind != SegmentKind::skill) continue;
     INFO(segment.label << ": " << to_string(segment.reason) << " " << segment.detail);
     ++skills;
     unmet += segment.precondition_held == false;

@@ -19,7 +19,7 @@ TEST_CASE("thirty blocks are sorted in at least sixty skills, subgoal by subgoal
   std::vector<std::string> subgoals;
   std::int64_t end = 0;
   for (const SegmentRecord& segment : episode.segments) {
-    if (segment.kind != "subgoal") continue;
+    if (segment.kind != SegmentKind::subgoal) continue;
     CHECK(segment.span.first_frame == end);
     end = segment.span.end_frame;
     subgoals.push_back(segment.skill);

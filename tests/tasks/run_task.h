@@ -47,7 +47,7 @@ inline std::string first_variation(const std::string& task) {
 inline std::vector<std::string> skills_of(const EpisodeRecord& episode) {
   std::vector<std::string> skills;
   for (const SegmentRecord& segment : episode.segments)
-    if (segment.kind == "skill" && segment.skill != "wait")
+    if (segment.kind == SegmentKind::skill)
       skills.push_back(segment.skill + (segment.arguments.empty() ? "" : " " + segment.arguments[0]));
   return skills;
 }

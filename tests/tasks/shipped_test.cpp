@@ -78,7 +78,7 @@ TEST_CASE("each skill that ships is run by a task that ships") {
   for (const ScriptFile* file : shipped().files(DefinitionKind::task)) {
     if (unused.empty()) break;
     for (const SegmentRecord& segment : run_shipped(file->name).segments)
-      if (segment.kind == "skill" && segment.outcome == Outcome::success) unused.erase(segment.skill);
+      if (segment.kind == SegmentKind::skill && segment.outcome == Outcome::success) unused.erase(segment.skill);
   }
   std::string names;
   for (const std::string& name : unused) names += name + " ";

@@ -47,8 +47,8 @@ class Measurement {
     motion_ = nullptr;
     for (const SegmentRecord& segment : episode_.segments) {
       const bool runs = segment.span.start_step <= step && step < segment.span.end_step;
-      if (runs && segment.kind == "motion") motion_ = &segment;
-      if (runs && segment.kind == "skill") skill_ = &segment;
+      if (runs && segment.kind == SegmentKind::motion) motion_ = &segment;
+      if (runs && segment.kind == SegmentKind::skill) skill_ = &segment;
     }
     if (motion_ != known_motion_) {
       known_motion_ = motion_;
@@ -84,7 +84,7 @@ class Measurement {
     }
     saturated_steps_ += saturated;
     for (const SegmentRecord& segment : episode_.segments)
-      if (segment.kind == "skill" && segment.span.end_step == world_.step_count() && segment.skill != "wait")
+      if (segment.kind == SegmentKind::skill && segment.span.end_step == world_.step_count())
         strain_.end_speed.meet(speed.cwiseAbs().maxCoeff(), "the end of: " + segment.label);
   }
 

@@ -81,7 +81,7 @@ TEST_CASE("furniture with an open side stands behind the table and on either sid
     double least = 10, most = -10;
     for (int seed = 0; seed < 24; ++seed) {
       EpisodeScripts scripts(all_tasks(), task, first_variation(task), seed);
-      const Scene scene = scripts.task().scene(0);
+      const Scene scene = scripts.task()(0).scene;
       for (const Body& body : scene.bodies) {
         const Object* thing = scene.object(body.name);
         if (body.fixture || thing == nullptr || thing->type != "furniture") continue;
@@ -106,7 +106,7 @@ TEST_CASE("things that are taken in few ways are taken a little differently each
     std::set<std::string> ways;
     for (int seed = 0; seed < 6; ++seed) {
       EpisodeScripts scripts(all_tasks(), task, first_variation(task), seed);
-      ways.insert(taken(scripts.task().scene(0), name));
+      ways.insert(taken(scripts.task()(0).scene, name));
     }
     INFO(task);
     CHECK(ways.size() == 6);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "stampede/outcome.h"
 #include "stampede/picture.h"
@@ -17,6 +18,9 @@ struct EpisodeRequest {
   std::int64_t seed = 0;       // from 1'000'000 up: the test split
   OnFailure on_failure = OnFailure::undo;
   std::string controller = {};  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
+  // Continuous parameters and controllers of skills, instead of what is drawn: `pick.height=0.2`, `push.direction=1,0`,
+  // `push.direction.2=0.5`, `pick.controller=joint_impedance`.
+  std::vector<std::string> set = {};
   std::optional<PictureStorage> pictures = {};  // nothing: what the task and its world say in `observe`
   std::string where = {};  // PDDL: what must hold at the start, beside the task's init: `(not (open chest.top_drawer))`
   std::string goal = {};   // PDDL: instead of the task's own

@@ -19,7 +19,7 @@ class DarkSymbols : public PlainSymbols {
 
 const EpisodeRecord& dark() {
   static const EpisodeRecord episode = [] {
-    StackTask task;
+    const TaskDraw task = stack_draw();
     DarkSymbols symbols;
     PlainSkills skills;
     RunOptions options;

@@ -25,7 +25,7 @@ std::optional<std::vector<Literal>> draw(const char* text, int n = 0) {
 }
 
 Start start_where(const char* text, std::int64_t seed = 1) {
-  StackTask task;
+  const TaskDraw task = stack_draw();
   PlainSymbols symbols;
   RunOptions options;
   options.seed = seed;
@@ -130,7 +130,7 @@ TEST_CASE("a constraint that cannot be met says which part failed how often") {
 }
 
 TEST_CASE("any goal over the predicates makes a task: planned, executed and said in words") {
-  StackTask task;
+  const TaskDraw task = stack_draw();
   PlainSymbols symbols;
   PlainSkills skills;
   RunOptions options;
@@ -149,7 +149,7 @@ TEST_CASE("any goal over the predicates makes a task: planned, executed and said
 }
 
 TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repeats") {
-  StackTask task;
+  const TaskDraw task = stack_draw();
   PlainSymbols symbols;
   PlainSkills skills;
   RunOptions options;
@@ -161,7 +161,7 @@ TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repea
   CHECK(a.state_hash == b.state_hash);
   int drawn = 0;
   for (const SegmentRecord& segment : a.segments)
-    if (segment.kind == "skill" && segment.skill != "wait") {
+    if (segment.kind == SegmentKind::skill) {
       ++drawn;
       CHECK(segment.precondition_held == true);
     }

@@ -14,39 +14,31 @@ using namespace stampede::plain;
 namespace {
 
 // Two cameras: one that stands, one in the hand.
-class SeenTask : public StackTask {
- public:
-  SeenTask() : StackTask(2) {}
-  Scene scene(int draw) override {
-    Scene scene = StackTask::scene(draw);
-    Camera front;
-    front.name = "front";
-    front.mount_from_camera = looking_at({1.2, 0, 0.6}, {0.35, 0, 0});
-    set_field_of_view(front, 0.8, 48, 32);
-    Camera wrist = front;
-    wrist.name = "wrist";
-    wrist.mount_body = scene.robot.name;
-    wrist.mount_part = scene.robot.tip_part;
-    wrist.mount_from_camera = translation(0.06, 0, 0.02);
-    scene.cameras = {front, wrist};
-    return scene;
-  }
-  ObservationChoice observation() const override {
-    ObservationChoice choice;
-    choice.kinds = PictureKinds{true, true, true, false};
-    return choice;
-  }
-};
+Task seen_task(int) {
+  Task task = stack_task(2);
+  Scene& scene = task.scene;
+  Camera front;
+  front.name = "front";
+  front.mount_from_camera = looking_at({1.2, 0, 0.6}, {0.35, 0, 0});
+  set_field_of_view(front, 0.8, 48, 32);
+  Camera wrist = front;
+  wrist.name = "wrist";
+  wrist.mount_body = scene.robot.name;
+  wrist.mount_part = scene.robot.tip_part;
+  wrist.mount_from_camera = translation(0.06, 0, 0.02);
+  scene.cameras = {front, wrist};
+  task.observation.kinds = PictureKinds{true, true, true, false};
+  return task;
+}
 
 EpisodeRecord run_seen(WhichFrames images, const ObservationChoice& more = {}) {
-  SeenTask task;
   PlainSymbols symbols;
   PlainSkills skills;
   RunOptions options;
   options.seed = 3;
   options.observation = more;
   options.observation.images = images;
-  return run_episode(task, symbols, skills, options);
+  return run_episode(seen_task, symbols, skills, options);
 }
 
 const EpisodeRecord& seen() {
@@ -166,7 +158,7 @@ TEST_CASE("keyframe pictures are some of all pictures, and the first, the last a
   CHECK(has(0));
   CHECK(has(static_cast<std::int64_t>(all.frames.size()) - 1));
   for (const SegmentRecord& segment : all.segments)
-    if (segment.kind == "skill") CHECK(has(segment.span.first_frame));
+    if (segment.kind == SegmentKind::skill) CHECK(has(segment.span.first_frame));
 }
 
 TEST_CASE("where things are by kinematics is where physics had them") {
@@ -212,7 +204,6 @@ TEST_CASE("an unknown camera is named, with the one that was meant") {
 
 TEST_CASE("what is randomised is in the stored scene, and the same seed draws the same") {
   const auto start = [](std::int64_t seed) {
-    SeenTask task;
     PlainSymbols symbols;
     RunOptions options;
     options.seed = seed;
@@ -220,14 +211,14 @@ TEST_CASE("what is randomised is in the stored scene, and the same seed draws th
     options.randomise->dynamics = {"cube1"};
     options.randomise->mass = {2, 3};
     options.randomise->ambient = {0.2, 0.8};
-    return make_start(task, symbols, options).scene;
+    return make_start(seen_task, symbols, options).scene;
   };
   const auto a = start(3), b = start(3), c = start(4);
   REQUIRE(a);
   REQUIRE(c);
   CHECK(scene_to_document(*a) == scene_to_document(*b));
   CHECK(a->light.ambient != c->light.ambient);
-  const double mass = SeenTask().scene(0).bodies[static_cast<std::size_t>(a->body_index("cube1"))].parts[0].mass;
+  const double mass = seen_task(0).scene.bodies[static_cast<std::size_t>(a->body_index("cube1"))].parts[0].mass;
   const double drawn = a->bodies[static_cast<std::size_t>(a->body_index("cube1"))].parts[0].mass;
   CHECK(drawn >= 2 * mass);
   CHECK(drawn < 3 * mass);

@@ -10,50 +10,45 @@ using namespace stampede::plain;
 namespace {
 
 // cube1 stands between two walls; the fingers need the other two sides, and cube2 stands 8 mm off one of these.
-class NicheTask : public StackTask {
- public:
-  explicit NicheTask(int cubes = 2) : StackTask(cubes) {}
-  Scene scene(int draw) override {
-    Scene scene = StackTask::scene(draw);
-    const auto cube = [&](const char* name) -> Body& {
-      return scene.bodies[static_cast<std::size_t>(scene.body_index(name))];
-    };
-    cube("cube1").world_from_body = translation(0.45, 0, 0.02);
-    cube("cube2").world_from_body = translation(0.498, 0, 0.02);
-    for (Object& object : scene.objects)  // nothing is put down on cubes here
-      if (object.type == "cube") object.traits = {"graspable", "movable"};
-    for (const double side : {-1.0, 1.0}) {
-      Body wall = cube("cube1");
-      wall.name = side < 0 ? "wall1" : "wall2";
-      wall.free = false;
-      wall.parts[0].shapes[0].size = {0.04, 0.03, 0.04};
-      wall.world_from_body = translation(0.45, side * 0.042, 0.02);
-      scene.bodies.insert(scene.bodies.begin() + 1, wall);
-    }
-    return scene;
+Task niche_of(int cubes) {
+  Task task = stack_task(cubes);
+  Scene& scene = task.scene;
+  const auto cube = [&](const char* name) -> Body& {
+    return scene.bodies[static_cast<std::size_t>(scene.body_index(name))];
+  };
+  cube("cube1").world_from_body = translation(0.45, 0, 0.02);
+  cube("cube2").world_from_body = translation(0.498, 0, 0.02);
+  for (Object& object : scene.objects)  // nothing is put down on cubes here
+    if (object.type == "cube") object.traits = {"graspable", "movable"};
+  for (const double side : {-1.0, 1.0}) {
+    Body wall = cube("cube1");
+    wall.name = side < 0 ? "wall1" : "wall2";
+    wall.free = false;
+    wall.parts[0].shapes[0].size = {0.04, 0.03, 0.04};
+    wall.world_from_body = translation(0.45, side * 0.042, 0.02);
+    scene.bodies.insert(scene.bodies.begin() + 1, wall);
   }
-  std::vector<std::string> unplaced() const override { return {}; }
-  std::vector<Literal> init() const override { return {{{"on", {"cube1", "table"}}, false}}; }
-  Formula goal() const override { return atom("holding", {{false, "panda.hand"}, {false, "cube1"}}); }
-};
+  task.unplaced.clear();
+  task.init = {{{"on", {"cube1", "table"}}, false}};
+  task.goal = atom("holding", {{false, "panda.hand"}, {false, "cube1"}});
+  return task;
+}
+
+Task niche_task(int) { return niche_of(2); }
 
 // As before, and cube3 keeps the fingers from the one side of cube2 that cube1 leaves free.
-class CornerTask : public NicheTask {
- public:
-  CornerTask() : NicheTask(3) {}
-  Scene scene(int draw) override {
-    Scene scene = NicheTask::scene(draw);
-    for (Body& body : scene.bodies) {
-      if (body.name == "wall2") body.parts[0].shapes[0].size.y() = 0.006;
-      if (body.name == "wall2") body.world_from_body = translation(0.45, 0.03, 0.02);
-      if (body.name == "cube3") body.world_from_body = translation(0.498, 0.05, 0.02);
-    }
-    return scene;
+Task corner_task(int) {
+  Task task = niche_of(3);
+  for (Body& body : task.scene.bodies) {
+    if (body.name == "wall2") body.parts[0].shapes[0].size.y() = 0.006;
+    if (body.name == "wall2") body.world_from_body = translation(0.45, 0.03, 0.02);
+    if (body.name == "cube3") body.world_from_body = translation(0.498, 0.05, 0.02);
   }
-};
+  return task;
+}
 
 EpisodeRecord run_niche(OnFailure on_failure) {
-  NicheTask task;
+  const TaskDraw task = niche_task;
   PlainSymbols symbols;
   PlainSkills skills;
   RunOptions options;
@@ -65,7 +60,7 @@ EpisodeRecord run_niche(OnFailure on_failure) {
 std::vector<std::string> done(const EpisodeRecord& episode) {
   std::vector<std::string> steps;
   for (const SegmentRecord& segment : episode.segments)
-    if (segment.kind == "skill" && segment.skill != "wait" && segment.outcome == Outcome::success)
+    if (segment.kind == SegmentKind::skill && segment.outcome == Outcome::success)
       steps.push_back(segment.skill + " " + segment.arguments[0]);
   return steps;
 }
@@ -85,7 +80,7 @@ TEST_CASE("undo: the plan that failed is kept with its reason, and what was in t
 }
 
 TEST_CASE("what is in the way of what is in the way is moved before both") {
-  CornerTask task;
+  const TaskDraw task = corner_task;
   PlainSymbols symbols;
   PlainSkills skills;
   RunOptions options;
@@ -93,7 +88,7 @@ TEST_CASE("what is in the way of what is in the way is moved before both") {
   const EpisodeRecord episode = run_episode(task, symbols, skills, options);
   std::string tries;
   for (const AttemptRecord& attempt : episode.attempts)
-    if (attempt.segment.kind == "skill")
+    if (attempt.segment.kind == SegmentKind::skill)
       tries += attempt.segment.skill + " " + attempt.segment.arguments[0] + ": " + attempt.segment.detail + "\n";
   INFO(to_string(episode.reason) << " " << episode.detail << "\n" << tries);
   REQUIRE(episode.outcome == Outcome::success);
@@ -108,12 +103,12 @@ TEST_CASE("recover: the failed try stays, and the blocker is moved afterwards") 
   CHECK(episode.attempts.empty());
   int failed = 0;
   for (const SegmentRecord& segment : episode.segments)
-    failed += segment.kind == "skill" && segment.reason == Reason::no_grasp;
+    failed += segment.kind == SegmentKind::skill && segment.reason == Reason::no_grasp;
   CHECK(failed == 1);
 }
 
 TEST_CASE("a problem without obstructions is the plain one; with one the action waits for the move") {
-  NicheTask task;
+  const TaskDraw task = niche_task;
   PlainSymbols symbols;
   RunOptions options;
   const Start start = make_start(task, symbols, options);
@@ -125,11 +120,11 @@ TEST_CASE("a problem without obstructions is the plain one; with one the action 
                {{"on", {"cube2", "table"}}, {true, {}}},
                {{"hand_empty", {"panda.hand"}}, {true, {}}}});
   const PlanStep pick{"pick", {"cube1", "table", "panda.hand"}};
-  const PlanningTask plain = planning_task(task, symbols.domain(), facts, 0);
+  const PlanningTask plain = planning_task(task(0), symbols.domain(), facts, 0);
   CHECK(plain.domain == symbols.domain());
   CHECK(solve(plain.domain, plain.problem).plan == Plan{pick});
   const PlanningTask aware =
-      planning_task(task, symbols.domain(), facts, 0, {{pick, "cube2", {{"on", {"cube2", "table"}}}}});
+      planning_task(task(0), symbols.domain(), facts, 0, {{pick, "cube2", {{"on", {"cube2", "table"}}}}});
   CHECK_FALSE(validate(aware.domain, aware.problem, {pick}).valid);
   const PlanOutcome outcome = solve(aware.domain, aware.problem);
   REQUIRE(outcome.solved);

@@ -89,7 +89,8 @@ class PlainSkills : public SkillLibrary {
     const Domain vocabulary = plain::domain();
     pick_ = {"pick",
              vocabulary.actions[0].parameters,
-             {{"grasp", ContinuousInfo::Source::grasps, {}, {}, {}, "", "", "obj", {}}},
+             {{"grasp", ContinuousInfo::Source::grasps, {}, {}, {}, "", "", "obj", {}},
+              {"height", ContinuousInfo::Source::value, {0.1}, {0.02}, {0.3}, "m", "world", "", {}}},
              ControllerKind::joint_position,
              0,
              "pick up the {obj}",
@@ -114,7 +115,7 @@ class PlainSkills : public SkillLibrary {
       const GraspCandidate& grasp = *call.continuous[0].grasp;
       return std::make_unique<CallList>(std::vector<RobotCall>{
           Hand{wide, 20, ""}, MoveThrough{{{"approach", grasp.world_from_approach}, {"grasp", grasp.world_from_tip}}},
-          Hand{0, grasp.force, call.arguments[0]}, MoveLine{translation(0, 0, 0.1)}});
+          Hand{0, grasp.force, call.arguments[0]}, MoveLine{translation(0, 0, call.continuous[1].record.values[0])}});
     }
     const Transform object_from_tip = view.world_from(call.arguments[0]).inverse() * view.world().world_from_tip();
     const Transform down = translation(0, 0, 0.001) * *call.continuous[0].pose * object_from_tip;
@@ -128,33 +129,23 @@ class PlainSkills : public SkillLibrary {
 };
 
 // Stack cube1 on cube2, among others.
-class StackTask : public Task {
- public:
-  explicit StackTask(int cubes = 3) : cubes_(cubes) {}
-  std::string name() const override { return "plain_stack"; }
-  std::string variation() const override { return ""; }
-  std::map<std::string, std::string> axes() const override { return {}; }
-  Scene scene(int) override {
-    Scene scene = table_scene(cubes_);
-    for (Body& body : scene.bodies)
-      if (body.name == "table") body.parts[0].shapes[0].size = {0.36, 0.6, 0.05};
-    return scene;
+inline Task stack_task(int cubes = 3) {
+  Task task;
+  task.name = "plain_stack";
+  task.scene = table_scene(cubes);
+  for (Body& body : task.scene.bodies)
+    if (body.name == "table") body.parts[0].shapes[0].size = {0.36, 0.6, 0.05};
+  for (int i = 1; i <= cubes; ++i) {
+    task.unplaced.push_back("cube" + std::to_string(i));
+    task.init.push_back({{"on", {task.unplaced.back(), "table"}}, false});
   }
-  std::vector<std::string> unplaced() const override {
-    std::vector<std::string> names;
-    for (int i = 1; i <= cubes_; ++i) names.push_back("cube" + std::to_string(i));
-    return names;
-  }
-  std::vector<Literal> init() const override {
-    std::vector<Literal> literals;
-    for (const std::string& name : unplaced()) literals.push_back({{"on", {name, "table"}}, false});
-    return literals;
-  }
-  Formula goal() const override { return atom("on", {{false, "cube1"}, {false, "cube2"}}); }
-  std::vector<std::string> instructions() const override { return {"stack the first cube on the second"}; }
+  task.goal = atom("on", {{false, "cube1"}, {false, "cube2"}});
+  task.instructions = {"stack the first cube on the second"};
+  return task;
+}
 
- private:
-  int cubes_;
-};
+inline TaskDraw stack_draw(int cubes = 3) {
+  return [cubes](int) { return stack_task(cubes); };
+}
 
 }  // namespace stampede::plain

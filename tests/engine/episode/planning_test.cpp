@@ -13,18 +13,10 @@ namespace {
 Term object(const char* name) { return {false, name}; }
 
 // cube1 on cube2 first, then cube3 on cube1: or the other way round, which no plan can do with the last one buried.
-class Ordered : public plain::StackTask {
- public:
-  explicit Ordered(std::vector<Formula> stages) : stages_(std::move(stages)) {}
-  std::vector<Formula> stages() const override { return stages_; }
-  Formula goal() const override { return conjunction(stages_); }
-
- private:
-  std::vector<Formula> stages_;
-};
-
 Plan plan_for(const std::vector<Formula>& stages) {
-  Ordered task(stages);
+  Task task = plain::stack_task();
+  task.stages = stages;
+  task.goal = conjunction(stages);
   plain::PlainSymbols symbols;
   World world(std::make_shared<const Scene>(table_scene(3)));
   WorldView view(world);

@@ -61,7 +61,7 @@ Agreement compare(const World& world, const Picture& picture, const View& view) 
 }  // namespace
 
 TEST_CASE("depth and masks agree with rays through the physics") {
-  plain::StackTask task(8);
+  const TaskDraw task = plain::stack_draw(8);
   plain::PlainSymbols symbols;
   const Start start = make_start(task, symbols, {});
   REQUIRE(start.scene);

@@ -96,6 +96,19 @@ std::string said(const std::string& file, const std::string& from, const std::st
 
 TEST_CASE("the sound root has no complaints") { CHECK(Root(sound_files()).complaints().empty()); }
 
+TEST_CASE("what a step sets is one of the skill's parameters, within its bounds") {
+  const auto steps = [](const std::string& call) {
+    return said("tasks/take.lua", "  goal", "  steps = { " + call + " },\n  goal");
+  };
+  CHECK(steps("act.pick(\"lone\", \"table\", { spot = { 0, 0, 1, 0, 0, 0, 1 } })").empty());
+  CHECK(steps("act.pick { \"lone\", controller = \"joint_impedance\" }").empty());
+  const std::string unknown = steps("act.pick(\"lone\", { spt = 1 })");
+  CHECK(unknown.find("tasks/take.lua:7: steps: skill 'pick' has no continuous parameter 'spt'") == 0);
+  CHECK(unknown.find("did you mean 'spot'?") != std::string::npos);
+  CHECK(steps("act.pick(\"lone\", { spot = 1 })").find("pick.spot has 7 values, not 1") != std::string::npos);
+  CHECK(steps("act.pick(\"lone\", { controller = \"magic\" })").find("no controller 'magic'") != std::string::npos);
+}
+
 TEST_CASE("golden: fields") {
   CHECK(said("tasks/take.lua", "  objects =", "  object =")
             .find("tasks/take.lua:5: object: a task has no field 'object'\n    did you mean 'objects'?\n") == 0);

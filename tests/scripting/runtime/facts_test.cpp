@@ -22,7 +22,7 @@ struct Watched {
     view.set_facts(&tracker);
   }
   EpisodeScripts scripts;
-  World world{std::make_shared<const Scene>(scripts.task().scene(0))};
+  World world{std::make_shared<const Scene>(scripts.task()(0).scene)};
   WorldView view{world};
   FactTracker tracker{scripts.symbols(), view};
 };
@@ -45,13 +45,13 @@ TEST_CASE("only predicates that say so hide, and a closed drawer hides what is i
 
 TEST_CASE("a task's tests read facts and what is known of them, the hand filled in") {
   Watched watched("watch_drawer", "pulled=0");
-  CHECK(watched.scripts.task().also(watched.view));
-  CHECK_FALSE(watched.scripts.task().fails(watched.view));    // inside, but not seen
-  CHECK(watched.scripts.task().reward(watched.view) == 3.0);  // three drawers are closed
+  CHECK(watched.scripts.task()(0).also(watched.view));
+  CHECK_FALSE(watched.scripts.task()(0).fails(watched.view));    // inside, but not seen
+  CHECK(watched.scripts.task()(0).reward(watched.view) == 3.0);  // three drawers are closed
   Watched pulled("watch_drawer", "pulled=0.16");
-  CHECK(pulled.scripts.task().also(pulled.view));
-  CHECK(pulled.scripts.task().fails(pulled.view));  // now it is seen
-  CHECK(pulled.scripts.task().reward(pulled.view) == 2.0);
+  CHECK(pulled.scripts.task()(0).also(pulled.view));
+  CHECK(pulled.scripts.task()(0).fails(pulled.view));  // now it is seen
+  CHECK(pulled.scripts.task()(0).reward(pulled.view) == 2.0);
 }
 
 TEST_CASE("a predicate may not read facts, nor may anybody where none are kept") {
@@ -59,11 +59,11 @@ TEST_CASE("a predicate may not read facts, nor may anybody where none are kept")
   CHECK_THROWS_WITH(watched.scripts.symbols().value({"peeks", {"item"}}, watched.view),
                     Catch::Contains("facts are made of predicates"));
   const WorldView plain(watched.world);
-  CHECK_THROWS_WITH(watched.scripts.task().also(plain), Catch::Contains("no facts here"));
+  CHECK_THROWS_WITH(watched.scripts.task()(0).also(plain), Catch::Contains("no facts here"));
 }
 
 TEST_CASE("an unknown predicate and a wrong number of things are errors, not false") {
   Watched watched("ask_wrongly");
-  CHECK_THROWS_WITH(watched.scripts.task().also(watched.view), Catch::Contains("did you mean 'on'"));
-  CHECK_THROWS_WITH(watched.scripts.task().fails(watched.view), Catch::Contains("2 things, not 1"));
+  CHECK_THROWS_WITH(watched.scripts.task()(0).also(watched.view), Catch::Contains("did you mean 'on'"));
+  CHECK_THROWS_WITH(watched.scripts.task()(0).fails(watched.view), Catch::Contains("2 things, not 1"));
 }

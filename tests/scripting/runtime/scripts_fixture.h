@@ -19,7 +19,7 @@ inline std::shared_ptr<const Library> small_library() {
 // The task `steps`: a cube and a second one on the bench, a chest with a drawer.
 struct SmallWorld {
   EpisodeScripts scripts{small_library(), "steps", "", 7};
-  World world{std::make_shared<const Scene>(scripts.task().scene(0))};
+  World world{std::make_shared<const Scene>(scripts.task()(0).scene)};
   WorldView view{world};
 };
 

@@ -87,7 +87,7 @@ TEST_CASE("each robot method yields its call, one at a time") {
   CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2));
   CHECK(next<robot_call::Wait>(*run, view).seconds == 0.5);
   CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
-  const SkillCall child = next<robot_call::RunSkill>(*run, view).call;
+  const AskedCall child = next<robot_call::RunSkill>(*run, view).call;
   CHECK(child.skill == "counting");
   CHECK(child.arguments == std::vector<std::string>{"top", "bench", "mini.hand"});
   // The tip must rise by what the held object rises.

@@ -33,7 +33,7 @@ std::string canonical_variation() {  // of height 3 and red, in whatever order t
 
 TEST_CASE("groups follow the variation, and names and colours reach the scene") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   for (const std::string name : {"block1", "block2", "block3"}) {
     const Object& block = object(scene, name);
     CHECK(block.attributes.at("colour") == "red");
@@ -55,7 +55,7 @@ TEST_CASE("groups follow the variation, and names and colours reach the scene") 
 
 TEST_CASE("one_of is drawn for each member of a group, sample_of is dealt out") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   std::set<std::string> others;
   for (int i = 1; i <= 20; ++i) {
     others.insert(object(scene, "other" + std::to_string(i)).attributes.at("colour"));
@@ -64,7 +64,7 @@ TEST_CASE("one_of is drawn for each member of a group, sample_of is dealt out") 
   CHECK(others.size() > 1);
   CHECK(others.count("red") == 0);
   for (int draw = 0; draw < 20; ++draw) {
-    const Scene drawn = scripts.task().scene(draw);
+    const Scene drawn = scripts.task()(draw).scene;
     CHECK(object(drawn, "pair1").attributes.at("colour") != object(drawn, "pair2").attributes.at("colour"));
   }
 }
@@ -73,16 +73,16 @@ TEST_CASE("draws are a pure function of task, variation, seed and draw number") 
   EpisodeScripts one(small_library(), "tower", canonical_variation(), 1);
   EpisodeScripts again(small_library(), "tower", canonical_variation(), 1);
   EpisodeScripts other(small_library(), "tower", canonical_variation(), 2);
-  const std::string third = scene_to_document(one.task().scene(3));
-  CHECK(scene_to_document(one.task().scene(0)) != third);
-  CHECK(scene_to_document(again.task().scene(3)) == third);  // without the draws before it
-  CHECK(scene_to_document(one.task().scene(3)) == third);
-  CHECK(scene_to_document(other.task().scene(3)) != third);
+  const std::string third = scene_to_document(one.task()(3).scene);
+  CHECK(scene_to_document(one.task()(0).scene) != third);
+  CHECK(scene_to_document(again.task()(3).scene) == third);  // without the draws before it
+  CHECK(scene_to_document(one.task()(3).scene) == third);
+  CHECK(scene_to_document(other.task()(3).scene) != third);
 }
 
 TEST_CASE("an articulation gets its joints, parts, regions and names") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   const Body& chest = body(scene, "chest");
   CHECK_FALSE(chest.free);
   REQUIRE(chest.parts.size() == 3);
@@ -112,7 +112,7 @@ TEST_CASE("an articulation gets its joints, parts, regions and names") {
 
 TEST_CASE("a box of uniform density has the inertia of the textbook") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   const Part& cube = body(scene, "block1").parts[0];
   const double expected = 0.1 / 6 * 0.04 * 0.04;  // m a^2 / 6
   CHECK(cube.mass == 0.1);
@@ -121,7 +121,7 @@ TEST_CASE("a box of uniform density has the inertia of the textbook") {
 
 TEST_CASE("the robot takes limits from its URDF and from its Lua file") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Robot& robot = scripts.task().scene(0).robot;
+  const Robot& robot = scripts.task()(0).scene.robot;
   REQUIRE(robot.limits.size() == 3);
   CHECK(robot.limits[1].upper == 2.0);
   CHECK(robot.limits[1].velocity == 2.0);
@@ -135,7 +135,7 @@ TEST_CASE("the robot takes limits from its URDF and from its Lua file") {
 
 TEST_CASE("a camera above the bench looks straight down") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   REQUIRE(scene.cameras.size() == 2);
   const Camera& above = scene.cameras[0];
   CHECK((above.mount_from_camera.linear().col(2) - Vector3(0, 0, -1)).norm() < 1e-12);
@@ -146,14 +146,14 @@ TEST_CASE("a camera above the bench looks straight down") {
 
 TEST_CASE("init speaks of every member of a group and of the hand") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  const std::vector<Literal> init = scripts.task().init();
+  const std::vector<Literal> init = scripts.task()(0).init;
   // 3 blocks, 20 others, 2 of a pair on the bench; the spot; the empty hand; neither of the pair held
   REQUIRE(init.size() == 3 + 20 + 2 + 1 + 1 + 2);
   CHECK(init[0].fact == Fact{"on", {"block1", "bench"}});
   CHECK(init[26].fact == Fact{"hand_empty", {"mini.hand"}});
   CHECK(init[27].fact == Fact{"holding", {"mini.hand", "pair1"}});
   CHECK(init[27].negated);
-  std::vector<std::string> unplaced = scripts.task().unplaced();
+  std::vector<std::string> unplaced = scripts.task()(0).unplaced;
   CHECK(unplaced.size() == 3 + 20 + 2 + 1);
   CHECK(std::count(unplaced.begin(), unplaced.end(), "spot") == 1);
   CHECK(std::count(unplaced.begin(), unplaced.end(), "chest") == 0);
@@ -163,52 +163,58 @@ TEST_CASE("goal: any two of three blocks, whichever; none while they lie side by
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
   const Domain& domain = scripts.symbols().domain();
   std::vector<TypedObject> objects;
-  for (const Object& thing : scripts.task().scene(0).objects) objects.push_back({thing.name, thing.type});
+  for (const Object& thing : scripts.task()(0).scene.objects) objects.push_back({thing.name, thing.type});
   Facts facts{{"hand_empty", {"mini.hand"}}, {"movable", {"block1"}}};
   for (const std::string block : {"block1", "block2", "block3"}) {
     for (const std::string trait : {"movable", "graspable", "surface"}) facts.insert({trait, {block}});
   }
-  CHECK_FALSE(holds(scripts.task().goal(), facts, domain, objects));
+  CHECK_FALSE(holds(scripts.task()(0).goal, facts, domain, objects));
   facts.insert({"on", {"block3", "block1"}});
-  CHECK_FALSE(holds(scripts.task().goal(), facts, domain, objects));  // height is 3
+  CHECK_FALSE(holds(scripts.task()(0).goal, facts, domain, objects));  // height is 3
   facts.insert({"on", {"block2", "block3"}});
-  CHECK(holds(scripts.task().goal(), facts, domain, objects));
+  CHECK(holds(scripts.task()(0).goal, facts, domain, objects));
   facts.erase({"hand_empty", {"mini.hand"}});
-  CHECK_FALSE(holds(scripts.task().goal(), facts, domain, objects));
+  CHECK_FALSE(holds(scripts.task()(0).goal, facts, domain, objects));
 }
 
 TEST_CASE("fields that are functions of the variation, sentences, and subgoals in the order written") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
-  Task& task = scripts.task();
-  CHECK(task.hold_s() == 1.5);
-  CHECK(task.horizon_s() == 33.0);
-  CHECK(task.axes() == std::map<std::string, std::string>{{"colour", "red"}, {"height", "3"}});
-  CHECK(task.instructions() == std::vector<std::string>{"stack 3 red blocks", "a tower of 3"});
-  REQUIRE(task.subgoals().size() == 2);
-  CHECK(task.subgoals()[0].first == "zebra");
-  CHECK(task.subgoals()[0].second == atom("holding", {{false, "mini.hand"}, {false, "block1"}}));
-  CHECK_FALSE(task.steps().has_value());
-  CHECK(task.stages().empty());
+  const Task task = scripts.task()(0);
+  CHECK(task.hold_s == 1.5);
+  CHECK(task.horizon_s == 33.0);
+  CHECK(task.axes == std::map<std::string, std::string>{{"colour", "red"}, {"height", "3"}});
+  CHECK(task.instructions == std::vector<std::string>{"stack 3 red blocks", "a tower of 3"});
+  REQUIRE(task.subgoals.size() == 2);
+  CHECK(task.subgoals[0].first == "zebra");
+  CHECK(task.subgoals[0].second == atom("holding", {{false, "mini.hand"}, {false, "block1"}}));
+  CHECK_FALSE(task.steps.has_value());
+  CHECK(task.stages.empty());
 }
 
 TEST_CASE("steps leave open what they do not name; an ordered goal has stages") {
   EpisodeScripts scripts(small_library(), "steps", "", 1);
-  REQUIRE(scripts.task().steps().has_value());
-  const std::vector<PlanStep> steps = *scripts.task().steps();
+  REQUIRE(scripts.task()(0).steps.has_value());
+  const std::vector<TaskStep> steps = *scripts.task()(0).steps;
   REQUIRE(steps.size() == 2);
-  CHECK(steps[0] == PlanStep{"everything", {"cube", "", ""}});
-  CHECK(steps[1] == PlanStep{"counting", {"", "bench", ""}});
-  CHECK(scripts.task().stages().size() == 2);
-  CHECK(scripts.task().goal().parts.size() == 2);
+  CHECK(steps[0].step == PlanStep{"everything", {"cube", "", ""}});
+  CHECK(steps[1].step == PlanStep{"counting", {"", "bench", ""}});
+  REQUIRE(steps[0].set.values.size() == 3);  // in alphabetical order
+  CHECK(steps[0].set.values[0] == CallSettings::Value{"grasp", 0, {0, 0, 0.1, 0, 0, 0, 1}});
+  CHECK(steps[0].set.values[1] == CallSettings::Value{"height", 0, {0.2}});
+  CHECK(steps[0].set.values[2] == CallSettings::Value{"push", 0, {3, 2, 1}});
+  CHECK(steps[0].set.controller == ControllerKind::joint_position);
+  CHECK(steps[1].set == CallSettings{{}, ControllerKind::cartesian_impedance});
+  CHECK(scripts.task()(0).stages.size() == 2);
+  CHECK(scripts.task()(0).goal.parts.size() == 2);
 }
 
 TEST_CASE("tests beside the goal see the world and the variation") {
   EpisodeScripts tower(small_library(), "tower", canonical_variation(), 1);
   test::SmallWorld small;
-  CHECK(tower.task().reward(small.view) == 0.75);
-  CHECK_FALSE(tower.task().fails(small.view));
-  CHECK_FALSE(small.scripts.task().also(small.view));  // the cube is white
-  CHECK(small.scripts.task().reward(small.view) == 0.0);
+  CHECK(tower.task()(0).reward(small.view) == 0.75);
+  CHECK_FALSE(tower.task()(0).fails(small.view));
+  CHECK_FALSE(small.scripts.task()(0).also(small.view));  // the cube is white
+  CHECK(small.scripts.task()(0).reward(small.view) == 0.0);
 }
 
 TEST_CASE("unknown tasks and variations are told with a cure") {

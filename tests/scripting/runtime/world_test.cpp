@@ -147,7 +147,7 @@ TEST_CASE("sensors sit on links and have rates that divide the physics rate") {
 
 TEST_CASE("a task's scene carries looks, light, sensors and measured cameras") {
   EpisodeScripts scripts(small_library(), "seen", "", 7);
-  const Scene scene = scripts.task().scene(0);
+  const Scene scene = scripts.task()(0).scene;
   REQUIRE(scene.cameras.size() == 2);
   CHECK(scene.cameras[0].name == "above");  // by the calibration file, not the world
   CHECK(scene.cameras[0].focal_y == 110);
@@ -173,21 +173,21 @@ TEST_CASE("a task's scene carries looks, light, sensors and measured cameras") {
 
 TEST_CASE("randomisation and observation are what world and task say, the task first") {
   EpisodeScripts scripts(small_library(), "seen", "", 7);
-  const std::optional<Randomisation> ranges = scripts.task().randomisation();
+  const std::optional<Randomisation> ranges = scripts.task()(0).randomisation;
   REQUIRE(ranges);
   CHECK(ranges->looks == std::vector<std::string>{"bench", "wedge"});  // no chest in this task
   CHECK(ranges->colours.size() == 4);
   REQUIRE(ranges->textures.size() == 2);
   CHECK(ranges->textures[0] == "plain");
-  CHECK(scripts.task().scene(0).textures.contains(ranges->textures[1]));
+  CHECK(scripts.task()(0).scene.textures.contains(ranges->textures[1]));
   CHECK(ranges->ambient == Range{0.2, 0.6});
   CHECK(ranges->diffuse == Randomisation{}.diffuse);
   CHECK(ranges->light_direction_rad == Approx(0.349066).epsilon(1e-5));
   CHECK(ranges->mass == Range{0.5, 2});
-  Scene scene = scripts.task().scene(0);
+  Scene scene = scripts.task()(0).scene;
   CHECK_NOTHROW(randomise(scene, *ranges, RandomKey("test")));
 
-  const Observation seen = chosen(scripts.task().observation());
+  const Observation seen = chosen(scripts.task()(0).observation);
   CHECK(seen.images == WhichFrames::all);  // the task's
   CHECK(seen.shadows);
   CHECK(seen.cameras == std::vector<std::string>{"above"});  // the world's
@@ -197,13 +197,13 @@ TEST_CASE("randomisation and observation are what world and task say, the task f
   CHECK(seen.channels == std::vector<std::string>{"wrench"});
 
   EpisodeScripts silent(small_library(), "steps", "", 7);
-  CHECK_FALSE(silent.task().randomisation());
-  CHECK(silent.task().observation().as_text().empty());
+  CHECK_FALSE(silent.task()(0).randomisation);
+  CHECK(silent.task()(0).observation.as_text().empty());
 }
 
 TEST_CASE("semantic numbers are the same for all tasks of one library") {
-  const Scene one = EpisodeScripts(small_library(), "seen", "", 7).task().scene(0);
-  const Scene two = EpisodeScripts(small_library(), "steps", "", 7).task().scene(0);
+  const Scene one = EpisodeScripts(small_library(), "seen", "", 7).task()(0).scene;
+  const Scene two = EpisodeScripts(small_library(), "steps", "", 7).task()(0).scene;
   CHECK(one.classes == two.classes);
   for (const char* name : {"bench", "chest", "cube", "drawer", "hand", "mini", "region", "spot", "wedge"})
     CHECK(std::count(one.classes.begin(), one.classes.end(), name) == 1);

@@ -1,0 +1,178 @@
+#include "engine/episode/skill_draws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/episode/call_motion.h"
+
+namespace stampede {
+namespace {
+
+// The argument bound to a parameter's name; a name that is no parameter stands for itself.
+std::string argument(const std::vector<Parameter>& parameters, const std::vector<std::string>& arguments,
+                     const std::string& name) {
+  for (std::size_t i = 0; i < parameters.size() && i < arguments.size(); ++i)
+    if (parameters[i].name == name) return arguments[i];
+  return name;
+}
+
+std::vector<double> seven(const Transform& transform) {
+  const Pose pose = to_pose(transform);
+  std::vector<double> values(pose.position.begin(), pose.position.end());
+  values.insert(values.end(), pose.quaternion.begin(), pose.quaternion.end());
+  return values;
+}
+
+// Uniform where both bounds are finite; else it stays at its default.
+void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& record) {
+  if (info.source != ContinuousInfo::Source::value) return;
+  Random random(key);
+  for (std::size_t i = 0; i < record.values.size(); ++i) {
+    if (!std::isfinite(info.lower[i]) || !std::isfinite(info.upper[i])) continue;
+    record.values[i] = random.between(info.lower[i], info.upper[i]);
+    record.chosen_by = ChosenBy::agent;
+  }
+}
+
+Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
+                  std::string& detail) {
+  const std::string name = argument(context.info->parameters, context.arguments, info.object);
+  const auto space = planning_space(rollout, touchable(rollout, context));
+  const auto candidates =
+      grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
+                       context.key.with(info.name), kGraspCandidates);
+  if (candidates.empty()) {
+    detail = "no grasp of " + name + " is reachable and free";
+    return Reason::no_grasp;
+  }
+  const GraspCandidate& grasp = candidates[static_cast<std::size_t>(context.attempt) % candidates.size()];
+  value.grasp = grasp;
+  value.record.values = seven(grasp.object_from_tip);
+  value.record.values.push_back(grasp.width);
+  value.record.frame = name;
+  value.record.chosen_by = ChosenBy::stream;
+  return Reason::none;
+}
+
+Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& context, const ContinuousInfo& info,
+                   ContinuousValue& value, std::string& detail) {
+  constexpr int kSamples = 64;
+  Fact fact{info.literal.predicate, {}};
+  for (const std::string& name : info.literal.arguments)
+    fact.arguments.push_back(argument(context.info->parameters, context.arguments, name));
+  const auto space = planning_space(rollout, touchable(rollout, context));
+  const World& world = rollout.world();
+  int wanted = context.attempt % 6;
+  for (const Placement& placement :
+       symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples)) {
+    const Transform* pose = std::get_if<Transform>(&placement.value);
+    if (pose == nullptr) continue;
+    if (space->held() && rollout.view().part_of(placement.object).body == *space->held()) {
+      const Transform object_from_tip = rollout.view().world_from(placement.object).inverse() * world.world_from_tip();
+      const auto ways =  // as many as a grasp is given: the nearest one may touch something
+          world.arm().solutions(*pose * object_from_tip, planning_start(world), context.key.with("ik"), 3, 12);
+      if (std::none_of(ways.begin(), ways.end(), [&](const JointVector& q) { return space->free(q); })) continue;
+    }
+    if (!value.pose || wanted-- > 0) value.pose = *pose;
+    if (wanted < 0 || context.attempt == 0) break;
+  }
+  if (!value.pose) {
+    detail = "no reachable and free pose makes " + to_text(fact) + " true";
+    return Reason::no_placement;
+  }
+  value.record.values = seven(*value.pose);
+  value.record.frame = "world";
+  value.record.chosen_by = ChosenBy::stream;
+  return Reason::none;
+}
+
+Transform pose_of(const std::vector<double>& values) {
+  Pose pose;
+  std::copy_n(values.begin(), 3, pose.position.begin());
+  std::copy_n(values.begin() + 3, 4, pose.quaternion.begin());
+  return to_transform(pose);
+}
+
+// The grasp that somebody wants, seen from where the object is now.
+GraspCandidate wanted_grasp(const Rollout& rollout, const std::string& name, const std::vector<double>& values) {
+  constexpr double kApproach_m = 0.1, kRoom_m = 0.04;
+  const Robot& robot = rollout.view().scene().robot;
+  GraspCandidate grasp;
+  grasp.object_from_tip = pose_of(values);
+  grasp.world_from_tip = rollout.view().world_from(name) * grasp.object_from_tip;
+  grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -kApproach_m);
+  if (values.size() > 7) grasp.width = values[7];
+  grasp.opening = std::min(robot.opening_max, grasp.width + kRoom_m);
+  grasp.force = robot.grip_force;
+  return grasp;
+}
+
+// What was set goes over what is there; false: nothing was.
+bool set_value(const Rollout& rollout, const SkillContext& context, const ContinuousInfo& info,
+               ContinuousValue& value) {
+  bool found = false;
+  for (const GivenSettings& given : context.given)
+    for (const CallSettings::Value& one : given.set.values) {
+      if (one.parameter != info.name) continue;
+      found = true;
+      value.record.chosen_by = given.by;
+      if (one.component > 0)
+        value.record.values[static_cast<std::size_t>(one.component) - 1] = one.values[0];
+      else
+        value.record.values = one.values;
+    }
+  if (!found || info.source == ContinuousInfo::Source::value) return found;
+  if (info.source == ContinuousInfo::Source::sample) {
+    value.pose = pose_of(value.record.values);
+    value.record.frame = "world";
+    return true;
+  }
+  const std::string name = argument(context.info->parameters, context.arguments, info.object);
+  value.grasp = wanted_grasp(rollout, name, value.record.values);
+  value.record.values = seven(value.grasp->object_from_tip);
+  value.record.values.push_back(value.grasp->width);
+  value.record.frame = name;
+  return true;
+}
+
+}  // namespace
+
+std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context) {
+  std::vector<std::string> names;
+  if (rollout.keep) {
+    names = context.arguments;
+  } else {
+    for (const ContinuousInfo& info : context.info->continuous)
+      if (info.source == ContinuousInfo::Source::grasps)
+        names.push_back(argument(context.info->parameters, context.arguments, info.object));
+  }
+  std::vector<PartRef> parts;
+  for (const std::string& name : names) {
+    const Object* thing = rollout.view().scene().object(name);
+    if (thing == nullptr || thing->body.empty()) continue;
+    const bool region = thing->kind == ObjectKind::region;  // then: the part that it is fixed to
+    parts.push_back(region ? PartRef{rollout.view().scene().body_index(thing->body), thing->part}
+                           : rollout.view().part_of(name));
+  }
+  return parts;
+}
+
+Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
+                       std::string& detail) {
+  for (const ContinuousInfo& info : context.info->continuous) {
+    ContinuousValue value;
+    value.record = {info.name, info.initial, {}, info.unit, info.frame, ChosenBy::default_value};
+    if (context.mode.random_parameters) draw_within(info, context.key.with(info.name), value.record);
+    Reason reason = Reason::none;
+    if (!set_value(rollout, context, info, value)) {
+      if (info.source == ContinuousInfo::Source::grasps) reason = draw_grasp(rollout, context, info, value, detail);
+      if (info.source == ContinuousInfo::Source::sample)
+        reason = draw_sample(rollout, symbols, context, info, value, detail);
+    }
+    if (reason != Reason::none) return reason;
+    call.continuous.push_back(std::move(value));
+  }
+  return Reason::none;
+}
+
+}  // namespace stampede

@@ -1,0 +1,23 @@
+// What a skill's call leaves open: continuous parameters, drawn from their streams, bounds or defaults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/episode/rollout.h"
+#include "engine/episode/skill_call.h"
+
+namespace stampede {
+
+// Fills call.continuous, in the order of declaration: what the context's settings say, else drawn. Repeatable: a pure
+// function of the rollout's state and the context. Result: none, or why a stream has nothing, said in `detail`.
+Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
+                       std::string& detail);
+
+// What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
+std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context);
+
+// How many grasps are looked at; a random call takes any of them.
+inline constexpr int kGraspCandidates = 6;
+
+}  // namespace stampede

@@ -1,0 +1,380 @@
+#include "engine/episode/skill_execution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/episode/blockers.h"
+#include "engine/episode/call_motion.h"
+#include "engine/episode/call_settings.h"
+#include "engine/episode/effects.h"
+#include "engine/episode/language.h"
+#include "engine/episode/skill_draws.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kEffectWait = 1.0;  // s, at most, for declared effects to become steady
+constexpr int kCallsPerSkill = 200;  // a skill that asks for more is a runaway
+
+Outcome outcome_of(Reason reason) { return reason == Reason::none ? Outcome::success : Outcome::failure; }
+
+std::string text_of(const EffectRecord& effect) {
+  return effect.negated ? "(not " + to_text(effect.fact) + ")" : to_text(effect.fact);
+}
+
+std::string names_of(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const Parameter& parameter : parameters) text += (text.empty() ? "" : ", ") + parameter.name;
+  return text;
+}
+
+}  // namespace
+
+SkillExecution::~SkillExecution() {
+  if (owns_ && phase_ != Phase::over) rollout_.calling = false;
+}
+
+SkillStatus SkillExecution::status() const {
+  if (phase_ != Phase::over) return SkillStatus::running;
+  return result_.ok() ? SkillStatus::done : SkillStatus::failed;
+}
+
+std::optional<Error> SkillExecution::mistake_in(const SkillRequest& request) const {
+  const std::string& name = request.step.action;
+  const Action* action = rollout_.domain().action(name);
+  if (action == nullptr || skills_.skill(action->skill) == nullptr)
+    return Error("plan", "there is no skill for the action '" + name + "'");
+  const std::vector<std::string>& arguments = request.step.arguments;
+  if (arguments.size() != action->parameters.size())
+    return Error(name,
+                 "takes " + std::to_string(action->parameters.size()) + " arguments, was given " +
+                     std::to_string(arguments.size()),
+                 "they are: " + names_of(action->parameters));
+  const auto& objects = rollout_.facts().objects();
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const auto is_it = [&](const TypedObject& object) { return object.name == arguments[i]; };
+    const auto found = std::find_if(objects.begin(), objects.end(), is_it);
+    if (found == objects.end()) return Error(name, "there is no '" + arguments[i] + "' here");
+    const Parameter& parameter = action->parameters[i];
+    const auto wants = [&](const std::string& what) {
+      return Error(name, "'" + arguments[i] + "' cannot be its " + parameter.name + ", which is a " + what);
+    };
+    if (!parameter.type.empty() && !rollout_.domain().is_a(found->type, parameter.type)) return wants(parameter.type);
+    for (const std::string& trait : parameter.traits)
+      if (!rollout_.facts().facts().contains({trait, {arguments[i]}})) return wants(trait);
+  }
+  try {
+    check_settings(*skills_.skill(action->skill), request.set, name);
+  } catch (const Error& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> SkillExecution::begin(const SkillRequest& request) {
+  if (phase_ != Phase::over || rollout_.calling)
+    return Error(request.step.action, "another skill is being executed", "end it, or interrupt it");
+  if (const Reason reason = rollout_.ended(); reason != Reason::none)
+    return Error(request.step.action, "the episode has ended: " + std::string(describe(reason)), "begin another one");
+  if (auto mistake = mistake_in(request)) return mistake;
+  const Action* action = rollout_.domain().action(request.step.action);
+  SkillContext context{action,
+                       skills_.skill(action->skill),
+                       request.step.arguments,
+                       request.key,
+                       request.attempt,
+                       -1,
+                       {{request.set, request.set_by}},
+                       request.mode};
+  if (request.mode.random_parameters)  // which of the candidates
+    context.attempt = static_cast<int>(Random(context.key.with("candidate")).below(kGraspCandidates));
+  owns_ = rollout_.calling = true;
+  start(std::move(context), request.parent_segment);
+  result_.step = request.step;
+  return std::nullopt;
+}
+
+void SkillExecution::start(SkillContext context, int parent) {
+  context_ = std::move(context);
+  if (const auto set = options_.set.find(context_.info->name); set != options_.set.end())
+    context_.given.push_back({set->second, ChosenBy::caller});
+  result_ = {};
+  calls_ = 0;
+  step_asked_ = false;
+  phase_ = Phase::calling;
+  const Facts before = rollout_.facts().facts();
+  open_segment(parent, before);
+  const auto unmet_literals = unmet(context_.action->precondition, before, rollout_.domain(),
+                                    rollout_.facts().objects(), binding_of(*context_.action, context_.arguments));
+  rollout_.recorder().segment(context_.segment).precondition_held = unmet_literals.empty();
+  if (!unmet_literals.empty() && context_.mode.refuse) {
+    finish({Reason::precondition_false, unmet_literals.front() + " does not hold"});
+    return;
+  }
+  SkillCall call = undrawn_call();
+  std::string detail;
+  const SkillCall undrawn = call;
+  const Reason drawn = draw_continuous(rollout_, symbols_, context_, call, detail);
+  SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
+  segment.controller = std::string(to_string(call.controller));
+  for (const ContinuousValue& value : call.continuous) segment.parameters.push_back(value.record);
+  for (const GivenSettings& given : context_.given)
+    if (given.set.controller == call.controller)
+      segment.parameters.push_back({"controller", {}, segment.controller, {}, {}, given.by});
+  if (drawn != Reason::none) {
+    SkillResult failed{drawn, detail};
+    name_blockers(rollout_, context_, failed, [&] {
+      SkillCall again = undrawn;
+      std::string ignored;
+      return draw_continuous(rollout_, symbols_, context_, again, ignored) == Reason::none;
+    });
+    finish(std::move(failed));
+    return;
+  }
+  rollout_.world().apply(operation::Controller{call.controller, call.stiffness});
+  run_ = skills_.start(call, rollout_.view());
+  if (reference_moves(rollout_.world())) follow(make_brake());
+}
+
+// The run's own words go first: of this skill, then of all; then those of the call; then the skill's.
+SkillCall SkillExecution::undrawn_call() const {
+  const SkillInfo& info = *context_.info;
+  SkillCall call{info.name, context_.action->case_name, context_.arguments, {}, info.controller, info.stiffness};
+  for (const GivenSettings& given : context_.given) call.controller = given.set.controller.value_or(call.controller);
+  const auto set = options_.set.find(info.name);
+  if (set == options_.set.end() || !set->second.controller)
+    call.controller = controller_from(options_.controller).value_or(call.controller);
+  return call;
+}
+
+void SkillExecution::open_segment(int parent, const Facts& before) {
+  SegmentRecord segment;
+  segment.kind = SegmentKind::skill;
+  segment.parent = parent;
+  segment.robot = rollout_.view().scene().robot.name;
+  segment.skill = context_.info->name;
+  segment.case_name = context_.action->case_name;
+  segment.arguments = context_.arguments;
+  segment.label = fill(context_.info->label, context_.info->parameters, context_.arguments, rollout_.view().scene());
+  segment.forgotten = context_.info->forgets;
+  for (const Literal& literal :
+       ground_effects(*context_.action, context_.arguments, before, rollout_.domain(), rollout_.facts().objects()))
+    segment.declared_effects.push_back({literal.fact, literal.negated});
+  context_.segment = rollout_.recorder().open_segment(std::move(segment), rollout_.step());
+}
+
+SkillStatus SkillExecution::tick() {
+  if (phase_ == Phase::over) return status();
+  if (step_asked_) after_step();
+  while (phase_ != Phase::over && !step_due()) {
+  }
+  step_asked_ = phase_ != Phase::over;
+  return status();
+}
+
+// Why the step just made has ended the episode, if it has.
+std::optional<SkillResult> SkillExecution::ended() const {
+  const Reason reason = rollout_.ended();
+  if (reason == Reason::none) return std::nullopt;
+  return SkillResult{reason, std::string(describe(reason)), true};
+}
+
+void SkillExecution::after_step() {
+  if (phase_ == Phase::moving) {
+    if (auto end = ended())
+      end_motion(std::move(*end));
+    else
+      passages_->look(rollout_.world());
+  } else if (phase_ == Phase::settling) {
+    if (rollout_.at_frame()) lacking_ = missing_effects();
+    if (auto end = ended()) end_settling(std::move(*end));
+  }
+}
+
+// True: a physics step is due before anything else. False: the phase has changed.
+bool SkillExecution::step_due() {
+  switch (phase_) {
+    case Phase::calling:
+      return ask_script();
+    case Phase::moving:
+      return step_motion();
+    case Phase::child:
+      if (child_->tick() == SkillStatus::running) return true;
+      if (!child_->result().ok()) return finish(child_->result());
+      phase_ = Phase::calling;
+      return false;
+    case Phase::settling:
+      return !settled();
+    case Phase::over:
+      break;
+  }
+  return false;
+}
+
+bool SkillExecution::ask_script() {
+  if (calls_ == kCallsPerSkill)
+    return finish({Reason::budget, "the skill asked for more than " + std::to_string(kCallsPerSkill) + " motions"});
+  const RobotCall next = run_->next(rollout_.view());
+  const RandomKey key = context_.key.with("call").with(calls_++);
+  if (std::holds_alternative<robot_call::Done>(next)) return begin_settling();
+  if (const auto* fail = std::get_if<robot_call::Fail>(&next)) return finish({fail->reason, fail->detail});
+  if (const auto* child = std::get_if<robot_call::RunSkill>(&next)) return start_child(child->call, key);
+  return plan_motion(next, key);
+}
+
+bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
+  const SkillInfo* info = skills_.skill(call.skill);
+  if (info == nullptr || info->actions.empty())
+    return finish({Reason::script_error, "there is no skill '" + call.skill + "'"});
+  std::string name = info->actions.front();
+  if (!call.case_name.empty()) name = call.skill + "_" + call.case_name;
+  const Action* action = rollout_.domain().action(name);
+  if (action == nullptr)
+    return finish({Reason::script_error, "skill '" + call.skill + "' has no case '" + call.case_name + "'"});
+  SkillContext context{action, info, call.arguments, key, context_.attempt, -1, {{call.set, ChosenBy::caller}}};
+  context.mode.find_blockers = context_.mode.find_blockers;
+  child_ = std::make_unique<SkillExecution>(rollout_, symbols_, skills_, options_);
+  child_->start(std::move(context), context_.segment);
+  phase_ = Phase::child;
+  return false;
+}
+
+bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
+  const auto plan = [&] { return plan_call(rollout_, call, touchable(rollout_, context_), key); };
+  PlannedCall planned = plan();
+  if (!planned.motion) {
+    SkillResult failed{planned.reason, planned.detail};
+    name_blockers(rollout_, context_, failed, [&] { return plan().motion != nullptr; });
+    return finish(std::move(failed));
+  }
+  const auto* hand = std::get_if<robot_call::Hand>(&call);
+  hand_ = hand == nullptr ? std::nullopt : std::optional(*hand);
+  follow(std::move(planned.motion));
+  std::string& controller = rollout_.recorder().segment(motion_segment_).controller;
+  if (yields(call) && controller == to_string(ControllerKind::joint_position))
+    controller = to_string(ControllerKind::cartesian_impedance);
+  return false;
+}
+
+void SkillExecution::follow(std::unique_ptr<Motion> motion) {
+  motion_ = std::move(motion);
+  motion_segment_ = open_motion_segment(motion_->kind());
+  passages_.emplace(motion_->vias(), motion_segment_);
+  if (hand_ && hand_->expect.empty()) rollout_.keep.reset();
+  phase_ = Phase::moving;
+}
+
+bool SkillExecution::step_motion() {
+  const MotionResult moved = motion_->step(rollout_.world());
+  if (moved.status == MotionStatus::running) return true;
+  SkillResult result;
+  if (moved.status == MotionStatus::failed) result = {moved.reason, std::string(describe(moved.reason))};
+  end_motion(std::move(result));
+  return false;
+}
+
+void SkillExecution::end_motion(SkillResult result) {
+  keep_vias();
+  if (hand_) after_hand(*hand_, result.ok());
+  hand_.reset();
+  motion_.reset();
+  close(motion_segment_, result);
+  if (result.ok())
+    phase_ = Phase::calling;
+  else
+    finish(std::move(result));
+}
+
+void SkillExecution::after_hand(const robot_call::Hand& hand, bool ok) {
+  if (hand.expect.empty()) return;
+  const WorldView& view = rollout_.view();
+  GraspRecord grasp{motion_segment_, hand.expect,
+                    to_pose(view.world_from(hand.expect).inverse() * view.world().world_from_tip()), view.opening(),
+                    ok};
+  rollout_.recorder().grasps.push_back(std::move(grasp));
+  if (ok) rollout_.keep = view.part_of(hand.expect);
+}
+
+std::vector<std::string> SkillExecution::missing_effects() {
+  std::vector<std::string> texts;
+  pending_ = false;
+  for (const EffectRecord& effect : rollout_.recorder().segment(context_.segment).declared_effects) {
+    if (rollout_.facts().facts().contains(effect.fact) == effect.negated) texts.push_back(text_of(effect));
+    pending_ = pending_ || rollout_.facts().pending(effect.fact);
+  }
+  return texts;
+}
+
+bool SkillExecution::begin_settling() {
+  settle_until_ = rollout_.step() + static_cast<std::int64_t>(kEffectWait / rollout_.world().dt());
+  lacking_ = missing_effects();
+  motion_segment_ = open_motion_segment("settle");
+  phase_ = Phase::settling;
+  return false;
+}
+
+// At a frame at which all that was declared is steady, or at the end of patience.
+bool SkillExecution::settled() {
+  const bool waiting = (pending_ || !lacking_.empty()) && rollout_.step() < settle_until_;
+  if (!rollout_.at_frame() || waiting) return false;
+  end_settling({});
+  return true;
+}
+
+void SkillExecution::end_settling(SkillResult result) {
+  close(motion_segment_, result);
+  SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
+  segment.effect_held = lacking_.empty();
+  segment.missing_effects = lacking_;
+  if (result.ok() && !lacking_.empty()) result = {Reason::effect_mismatch, lacking_.front() + " did not come true"};
+  finish(std::move(result));
+}
+
+void SkillExecution::interrupt(const std::string& why) {
+  if (phase_ == Phase::over) return;
+  const SkillResult result{Reason::interrupted, why};
+  if (phase_ == Phase::child) child_->interrupt(why);
+  if (phase_ == Phase::settling) close(motion_segment_, result);
+  if (phase_ == Phase::moving) {
+    motion_->interrupt(rollout_.world());
+    keep_vias();
+    if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect));
+    hand_.reset();
+    motion_.reset();
+    close(motion_segment_, result);
+  }
+  finish(result);
+}
+
+void SkillExecution::keep_vias() {
+  for (ViaRecord& via : passages_->in_order()) rollout_.recorder().vias.push_back(std::move(via));
+}
+
+int SkillExecution::open_motion_segment(const std::string& kind) {
+  SegmentRecord segment;
+  segment.kind = SegmentKind::motion;
+  segment.parent = context_.segment;
+  segment.robot = rollout_.view().scene().robot.name;
+  segment.skill = kind;
+  segment.controller = rollout_.recorder().segment(context_.segment).controller;
+  return rollout_.recorder().open_segment(std::move(segment), rollout_.step());
+}
+
+void SkillExecution::close(int segment, const SkillResult& result) {
+  rollout_.recorder().close_segment(segment, rollout_.step(), outcome_of(result.reason), result.reason, result.detail);
+}
+
+// Always false, as step_due says that no step is due.
+bool SkillExecution::finish(SkillResult result) {
+  result.segment = context_.segment;
+  result.step = result_.step;
+  close(context_.segment, result);
+  result_ = std::move(result);
+  run_.reset();
+  child_.reset();
+  phase_ = Phase::over;
+  if (owns_) rollout_.calling = false;
+  return false;
+}
+
+}  // namespace stampede

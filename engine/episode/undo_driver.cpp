@@ -1,0 +1,166 @@
+// Behaviour with undo: a depth-first search over draws, whose states are snapshots at skill boundaries.
+#include <algorithm>
+#include <map>
+
+#include "engine/episode/drivers.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::size_t kMostDetours = 3;  // one within the other: what is in the way of what is in the way
+
+// Where an undone episode stands. places_[i] is before step i of the plan, failures_[i] counts what failed there.
+class Undo {
+ public:
+  explicit Undo(Drive& drive) : drive_(drive), plan_(drive.plan), track_(drive.track), start_(drive.track.here()) {}
+  SkillResult run();
+
+ private:
+  using Place = SkillTrack::Place;
+  struct Detour {  // a plan that moves something out of the way first
+    std::size_t index = 0;
+    Plan before;  // the plan that it took the place of
+    std::size_t obstructions = 0;
+  };
+
+  SkillResult step();
+  void restart();
+  void step_done();
+  bool try_again(const SkillResult& failed);
+  bool go_round(const SkillResult& blocked);
+  void leave_detour(int most);
+  bool other_plan();
+
+  Drive& drive_;
+  CurrentPlan& plan_;
+  SkillTrack& track_;
+  const Place start_;
+  std::vector<Place> places_;
+  std::vector<int> failures_;
+  std::map<std::size_t, SkillResult> blocked_;  // what was found in the way of a step
+  std::vector<Detour> detours_;                 // the later ones within the earlier ones
+  std::map<PlanStep, int> blame_;               // failures of each ground action
+  std::size_t i_ = 0;
+};
+
+void Undo::restart() {
+  places_ = {start_};
+  failures_.assign(plan_.size() + 1, 0);
+  blocked_.clear();
+  detours_.clear();
+  i_ = 0;
+}
+
+SkillResult Undo::step() {
+  if (i_ == plan_.size()) return track_.finish_goal(i_);
+  return track_.run(plan_.next(i_), i_, plan_.set(i_));
+}
+
+SkillResult Undo::run() {
+  SkillResult last;
+  int tries = 0;
+  for (int plans = 0; plans < drive_.options.plans; ++plans) {
+    restart();
+    while (true) {
+      last = step();
+      if (last.ok() && i_ == plan_.size()) return last;
+      if (last.ok()) last = plan_.watch(i_ + 1);
+      if (last.ok()) {
+        step_done();
+        continue;
+      }
+      if (last.reason == Reason::interrupted || ++tries >= drive_.options.tries_per_episode) return last;
+      if (i_ == plan_.size() && i_ > 0) --i_;
+      if (i_ < plan_.size()) ++blame_[plan_.steps[i_]];
+      if (!try_again(last)) break;
+    }
+    const Plan failed = plan_.steps;
+    drive_.documents.push_back(
+        {"failed_plan", to_text(failed) + "; " + std::string(to_string(last.reason)) + ": " + last.detail + "\n"});
+    if (plan_.given() || plan_.steps.empty()) return last;
+    if (!other_plan()) {
+      plan_.steps = failed;  // no other way: what failed stays the episode's result
+      const SkillResult again = follow_plan(drive_);
+      return again.ok() ? again : last;
+    }
+  }
+  return last;
+}
+
+void Undo::step_done() {
+  places_.resize(++i_);
+  places_.push_back(track_.here());
+  failures_.resize(plan_.size() + 1, 0);
+  failures_[i_] = 0;
+  blocked_.erase(blocked_.lower_bound(i_), blocked_.end());
+  if (detours_.empty()) return;
+  const std::size_t first = detours_.back().obstructions;  // of those that the last detour is for
+  if (first < plan_.obstructions.size() && plan_.steps[i_ - 1] == plan_.obstructions[first].action)
+    detours_.pop_back();  // it led where it should
+}
+
+// Chooses where to go on after a failure, and goes there: the same step with other draws; a detour around what was
+// found in the way; back from a detour that did not work; else the step before. False: this plan is used up.
+bool Undo::try_again(const SkillResult& failed) {
+  // Where nothing can be grasped, other draws seldom help: what came before has to change.
+  const int allowed = drive_.options.tries_per_skill;
+  const int most = failed.reason == Reason::no_grasp ? std::min(2, allowed) : allowed;
+  if (!failed.blockers.empty()) blocked_[i_] = failed;
+  if (++failures_[i_] < most) {
+    track_.back_to(places_[i_]);
+    return true;
+  }
+  if (const auto found = blocked_.find(i_); found != blocked_.end() && detours_.size() < kMostDetours) {
+    const SkillResult blocked = found->second;
+    blocked_.erase(found);
+    if (go_round(blocked)) return true;
+  }
+  leave_detour(most);
+  while (failures_[i_] >= most && i_ > 0) {
+    failures_[i_--] = 0;
+    ++failures_[i_];
+  }
+  if (failures_[i_] >= most) return false;
+  places_.resize(i_ + 1);
+  track_.back_to(places_[i_]);
+  return true;
+}
+
+bool Undo::go_round(const SkillResult& blocked) {
+  track_.back_to(places_[i_]);
+  Detour detour{i_, plan_.steps, plan_.obstructions.size()};
+  if (!plan_.avoid(blocked, i_)) return false;
+  detours_.push_back(std::move(detour));
+  failures_.assign(plan_.size() + 1, 0);
+  return true;
+}
+
+void Undo::leave_detour(int most) {
+  if (detours_.empty()) return;
+  const Detour failed = std::move(detours_.back());
+  detours_.pop_back();
+  i_ = std::min(i_, failed.index);  // it may have been left backwards
+  plan_.steps = failed.before;
+  plan_.obstructions.resize(std::min(plan_.obstructions.size(), failed.obstructions));
+  failures_.assign(plan_.size() + 1, 0);
+  places_.resize(i_ + 1);
+  failures_[i_] = most;
+}
+
+// The next plan does without the action that failed most.
+bool Undo::other_plan() {
+  const auto worst =
+      std::max_element(blame_.begin(), blame_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  plan_.forbidden.insert(worst == blame_.end() ? plan_.steps.front() : worst->first);
+  if (worst != blame_.end()) blame_.erase(worst);
+  plan_.obstructions.clear();
+  track_.back_to(start_);
+  return plan_.again(0).ok();
+}
+
+}  // namespace
+
+SkillResult follow_with_undo(Drive& drive) { return Undo(drive).run(); }
+
+}  // namespace stampede

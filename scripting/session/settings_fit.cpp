@@ -1,0 +1,23 @@
+#include "scripting/session/settings_fit.h"
+
+#include "engine/base/nearest.h"
+
+namespace stampede {
+
+std::map<std::string, CallSettings> settings_from(const std::vector<std::string>& texts, const Library& library,
+                                                  const std::string& place) {
+  std::map<std::string, CallSettings> all;
+  for (const std::string& text : texts) add_skill_setting(text, all, place);
+  for (const auto& [name, set] : all) {
+    if (const SkillInfo* skill = library.skill(name)) {
+      check_settings(*skill, set, place);
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const ScriptFile* file : library.files(DefinitionKind::skill)) names.push_back(file->name);
+    throw Error(place, "there is no skill '" + name + "'", did_you_mean(name, names));
+  }
+  return all;
+}
+
+}  // namespace stampede

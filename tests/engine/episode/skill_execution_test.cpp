@@ -1,0 +1,181 @@
+// One call of one skill, ticked by whoever drives it: here the test.
+#include "engine/episode/skill_execution.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/engine/episode/plain_task.h"
+
+using namespace stampede;
+
+namespace {
+
+const PlanStep kPick{"pick", {"cube1", "table", "panda.hand"}};
+
+// A running episode whose loop is the test's.
+struct Running {
+  explicit Running(double horizon_s = 60) {
+    const TaskDraw draw = [horizon_s](int) {
+      Task task = plain::stack_task(2);
+      task.horizon_s = horizon_s;
+      return task;
+    };
+    options.seed = 1;
+    start = prepare_start(draw, symbols, options);
+    REQUIRE(start.reason == Reason::none);
+    rollout.emplace(symbols, start, SensorReader(*start.scene, {}, RandomKey("test")), nullptr);
+    execution.emplace(*rollout, symbols, skills, options);
+  }
+
+  SkillRequest request(const PlanStep& step) const {
+    SkillRequest request;
+    request.step = step;
+    return request;
+  }
+
+  double height() const { return rollout->view().world_from("cube1").translation().z(); }
+
+  const ParameterRecord& parameter(const std::string& name) {
+    const auto& all = rollout->recorder().segment(execution->result().segment).parameters;
+    return *std::find_if(all.begin(), all.end(), [&](const ParameterRecord& one) { return one.name == name; });
+  }
+
+  plain::PlainSymbols symbols;
+  plain::PlainSkills skills;
+  RunOptions options;
+  PreparedStart start;
+  std::optional<Rollout> rollout;
+  std::optional<SkillExecution> execution;
+};
+
+// All that begin() could have touched.
+auto traces(Running& running) {
+  Rollout& rollout = *running.rollout;
+  return std::make_tuple(rollout.world().state_hash(), rollout.world().log().size(), rollout.recorder().segments.size(),
+                         rollout.step(), running.execution->status());
+}
+
+}  // namespace
+
+TEST_CASE("a skill is ticked to its end, a physics step at a time") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  std::int64_t ticks = 0;
+  while (running.execution->tick() == SkillStatus::running) {
+    CHECK(running.rollout->step() == ticks++);
+    running.rollout->advance();
+  }
+  INFO(running.execution->result().detail);
+  REQUIRE(running.execution->status() == SkillStatus::done);
+  CHECK(running.rollout->facts().facts().contains({"holding", {"panda.hand", "cube1"}}));
+  CHECK(running.execution->tick() == SkillStatus::done);  // once over, ticks change nothing
+  CHECK(running.rollout->step() == ticks);
+  REQUIRE_FALSE(running.execution->begin(running.request({"place", {"cube1", "cube2", "panda.hand"}})));
+  CHECK(run_to_end(*running.execution, *running.rollout).ok());
+}
+
+TEST_CASE("a call that cannot be is an error value, and nothing has changed") {
+  Running running;
+  const auto before = traces(running);
+  const auto refused = [&](const SkillRequest& request) {
+    const std::optional<Error> refusal = running.execution->begin(request);
+    REQUIRE(refusal);
+    CHECK(traces(running) == before);
+    return std::string(refusal->what());
+  };
+  CHECK_THAT(refused(running.request({"jump", {}})), Catch::Contains("no skill for the action 'jump'"));
+  CHECK_THAT(refused(running.request({"pick", {"cube1"}})), Catch::Contains("takes 3 arguments"));
+  CHECK_THAT(refused(running.request({"pick", {"cube9", "table", "panda.hand"}})), Catch::Contains("no 'cube9'"));
+  CHECK_THAT(refused(running.request({"pick", {"table", "table", "panda.hand"}})), Catch::Contains("movable"));
+  SkillRequest high = running.request(kPick);
+  high.set.values = {{"height", 0, {0.9}}};
+  CHECK_THAT(refused(high), Catch::Contains("pick.height is at most 0.3m, not 0.9"));
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));  // none of it was in the way
+}
+
+TEST_CASE("while one call is under way, and after the episode has ended, there is no other") {
+  Running running(0.5);
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  SkillExecution other(*running.rollout, running.symbols, running.skills, running.options);
+  const auto refusal = other.begin(running.request(kPick));
+  REQUIRE(refusal);
+  CHECK_THAT(refusal->what(), Catch::Contains("another skill is being executed"));
+  const SkillResult& result = run_to_end(*running.execution, *running.rollout);
+  CHECK(result.reason == Reason::timeout);
+  CHECK(result.ends_episode);
+  const auto before = traces(running);
+  const auto late = running.execution->begin(running.request(kPick));
+  REQUIRE(late);
+  CHECK_THAT(late->what(), Catch::Contains("the episode has ended"));
+  CHECK(traces(running) == before);
+}
+
+TEST_CASE("a call can be cut off between two ticks; the next one begins from rest") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  for (int i = 0; i < 120; ++i) {
+    REQUIRE(running.execution->tick() == SkillStatus::running);
+    running.rollout->advance();
+  }
+  REQUIRE(running.rollout->world().arm_velocity().cwiseAbs().maxCoeff() > 0.1);
+  running.execution->interrupt("something better to do");
+  CHECK(running.execution->status() == SkillStatus::failed);
+  CHECK(running.execution->result().reason == Reason::interrupted);
+  CHECK_FALSE(running.execution->result().ends_episode);
+  for (const SegmentRecord& segment : running.rollout->recorder().segments) {
+    INFO(segment.skill);
+    CHECK(segment.reason == (segment.skill == "open_hand" ? Reason::none : Reason::interrupted));
+    CHECK(segment.span.end_step <= running.rollout->step());
+  }
+  const std::size_t cut = running.rollout->recorder().segments.size();
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  const SkillResult& again = run_to_end(*running.execution, *running.rollout);
+  INFO(again.detail);
+  CHECK(again.ok());
+  CHECK(running.rollout->recorder().segments.at(cut + 1).skill == "brake");
+}
+
+TEST_CASE("left alone after it was cut off, the arm comes to rest") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  for (int i = 0; i < 120 && running.execution->tick() == SkillStatus::running; ++i) running.rollout->advance();
+  running.execution->interrupt("enough");
+  for (int i = 0; i < 240; ++i) running.rollout->advance();
+  CHECK(running.rollout->world().arm_velocity().cwiseAbs().maxCoeff() < 0.01);
+}
+
+TEST_CASE("what a caller sets is not drawn, and says who chose it; the run's own words go first") {
+  Running running;
+  SkillRequest request = running.request(kPick);
+  request.set.values = {{"height", 0, {0.2}}};
+  request.set.controller = ControllerKind::joint_impedance;
+  SECTION("the task's step") {
+    const double before = running.height();
+    REQUIRE_FALSE(running.execution->begin(request));
+    REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+    CHECK(running.parameter("height").values == std::vector<double>{0.2});
+    CHECK(running.parameter("height").chosen_by == ChosenBy::task);
+    CHECK(running.parameter("grasp").chosen_by == ChosenBy::stream);
+    CHECK(running.parameter("controller").text == "joint_impedance");
+    CHECK(running.height() - before == Approx(0.2).margin(0.02));
+  }
+  SECTION("the run") {
+    running.options.set["pick"].values = {{"height", 1, {0.05}}};
+    REQUIRE_FALSE(running.execution->begin(request));
+    REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+    CHECK(running.parameter("height").values == std::vector<double>{0.05});
+    CHECK(running.parameter("height").chosen_by == ChosenBy::caller);
+  }
+  SECTION("a grasp that was drawn before is the same grasp when it is set") {
+    REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+    REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+    const std::vector<double> drawn = running.parameter("grasp").values;
+    Running second;
+    SkillRequest same = second.request(kPick);
+    same.set.values = {{"grasp", 0, drawn}};
+    REQUIRE_FALSE(second.execution->begin(same));
+    REQUIRE(run_to_end(*second.execution, *second.rollout).ok());
+    CHECK(second.parameter("grasp").chosen_by == ChosenBy::task);
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+      CHECK(second.parameter("grasp").values[i] == Approx(drawn[i]).margin(1e-9));
+  }
+}
