@@ -142,7 +142,7 @@ void ArrayReader::read_segment_heads() {
   each(
       "ordinal, coalesce(parent, -1), kind, skill, case_name, arguments, first_frame, end_frame, outcome, reason, "
       "label",
-      "segment", "ordinal", [&](sql::Statement& row) {
+      "(SELECT * FROM segment WHERE undone = 0)", "ordinal", [&](sql::Statement& row) {
         SegmentRecord& s = record_.segments.emplace_back();
         std::string kind, arguments, outcome, reason;
         row.read(s.ordinal, s.parent, kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
