@@ -28,7 +28,8 @@ class CatalogueWriter {
 
   bool has(std::string_view key) const;  // stored already, by another run too, or received
 
-  // One whose key is stored (by another run too), or that was interrupted, leaves no trace. Throws CatalogueError once writing has failed.
+  // One whose key is stored (by another run too), or that was interrupted, leaves no trace. Throws CatalogueError once
+  // writing has failed.
   void finished(std::int64_t place, EpisodeRecord episode);
   void abandon(std::int64_t place);  // it will not come: do not wait for it
 

@@ -13,8 +13,8 @@
 namespace stampede {
 namespace {
 
-// Only what reads; functions of SQLite that touch files are not compiled in, but loading some is refused all the same, as is
-// what prints addresses.
+// Only what reads; functions of SQLite that touch files are not compiled in, but loading some is refused all the same,
+// as is what prints addresses.
 int allow_reading(void*, int action, const char* first, const char* second, const char*, const char*) {
   const auto is_one_of = [](const char* name, std::initializer_list<std::string_view> names) {
     return name && std::find(names.begin(), names.end(), std::string_view(name)) != names.end();
@@ -25,7 +25,8 @@ int allow_reading(void*, int action, const char* first, const char* second, cons
     case SQLITE_RECURSIVE:
       return SQLITE_OK;
     case SQLITE_FUNCTION:
-      return is_one_of(second, {"load_extension", "writefile", "readfile", "edit", "fts3_tokenizer"}) ? SQLITE_DENY : SQLITE_OK;
+      return is_one_of(second, {"load_extension", "writefile", "readfile", "edit", "fts3_tokenizer"}) ? SQLITE_DENY
+                                                                                                      : SQLITE_OK;
     case SQLITE_PRAGMA: {
       const bool harmless = is_one_of(first, {"table_info", "table_xinfo", "table_list", "index_list", "index_info",
                                               "foreign_key_list", "application_id", "user_version"});

@@ -6,7 +6,6 @@
 namespace stampede {
 namespace {
 
-constexpr int kRobot = 0;  // the only one of a scene
 constexpr std::array<const char*, 7> kPoseNames{"x", "y", "z", "qx", "qy", "qz", "qw"};
 
 // The innermost segment of a kind at each frame: children start no earlier than their parents and come later.
@@ -107,7 +106,8 @@ void EpisodeWriter::write_commands(const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const Command& command : episode.commands) {
     const std::string bytes = operation_to_bytes(command.operation);
-    command_.run(id_, ordinal++, command.step, operation_kind(command.operation), sql::Blob{bytes}, kRobot);
+    command_.run(id_, ordinal++, command.step, operation_kind(command.operation), sql::Blob{bytes},
+                 robot_of(command.operation).value_or(0));
   }
 }
 

@@ -1,24 +1,11 @@
 #include "engine/episode/altered_task.h"
 
-#include <set>
-
 #include "engine/episode/constraints.h"
-#include "engine/episode/fact_tracker.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
-
-// The scene's objects, and the values of attributes that predicates speak of.
-std::vector<TypedObject> objects_of(const Scene& scene, const Domain& domain) {
-  std::vector<TypedObject> objects;
-  for (const Object& thing : scene.objects) objects.push_back({thing.name, thing.type});
-  std::set<std::string> values;
-  for (const auto& [fact, type] : attribute_facts(scene, domain))
-    if (values.insert(fact.arguments[1]).second) objects.push_back({fact.arguments[1], type});
-  return objects;
-}
 
 // `the red block is on the table and the hand is empty`; nothing for what templates cannot say.
 std::string sentence(const Formula& formula, const Domain& domain, const Scene& scene) {
@@ -50,7 +37,7 @@ Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
   if (options.where) task.where = task.where ? conjunction({*options.where, *task.where}) : *options.where;
   if (!options.goal) return task;
   const Domain& domain = symbols.domain();
-  task.goal = checked_formula(*options.goal, domain, objects_of(task.scene, domain), "--goal");
+  task.goal = checked_formula(*options.goal, domain, static_facts(task.scene, domain).objects, "--goal");
   const std::string text = sentence(task.goal, domain, task.scene);
   task.instructions = {text.empty() ? "make this true: " + to_text(task.goal) : "make sure that " + text};
   task.stages.clear();

@@ -47,17 +47,17 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
 }
 
 // The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
-PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held, int robot) {
+PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
   if (!call.expect.empty())
-    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect), robot), Reason::none, {}};
+    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect), call.robot), Reason::none, {}};
   double opening = call.opening;
-  if (opening > rollout.world().opening(robot)) {
+  if (opening > rollout.world().opening(call.robot)) {
     CollisionState released = held;
     released.release();
     if (rollout.keep) released.allow(*rollout.keep);
-    opening = widest_opening(released, rollout.world().arm_position(robot), opening);
+    opening = widest_opening(released, rollout.world().arm_position(call.robot), opening);
   }
-  return {make_hand(opening, call.force, std::nullopt, robot), Reason::none, {}};
+  return {make_hand(opening, call.force, std::nullopt, call.robot), Reason::none, {}};
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
   options.robot = robot;
   const auto space = [&] { return planning_space(rollout, touchable); };
   const auto free_space = [&] {  // a hand that is shut is not about to grasp anything
-    const bool shut = !rollout.keep && world.commanded_opening() < kShut;
+    const bool shut = !rollout.keep && world.commanded_opening(robot) < kShut;
     return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
   };
   return std::visit(
@@ -117,7 +117,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                    options.kind = "move_joints";
                    return from(plan_joints(*space(), start, move.target, {}, key), options);
                  },
-                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space(), robot); },
+                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
                  [&](const robot_call::MovePart& move) {
                    return plan_move_part(rollout, move, *space(), start, options, key);
                  },

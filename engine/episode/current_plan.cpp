@@ -47,6 +47,7 @@ PlanOutcome CurrentPlan::ask_planner() const {
   const PlanningTask planning =
       planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage(), standing);
   if (options_.planner) return options_.planner(planning.domain, planning.problem);
+  // Of equal plans one is drawn, the same for the same seed.
   const Task& task = rollout_.task();
   const RandomKey key = RandomKey("plan").with(task.name).with(task.variation).with(options_.seed);
   return solve_drawn(planning.domain, planning.problem, forbidden, key);

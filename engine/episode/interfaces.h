@@ -185,9 +185,9 @@ struct MovePart {
   std::string object;
   double position = 0;
   double speed = 0.1;
-  double most_force = 0;  // as of MoveLine
   int robot = 0;
-};  // the held handle's joint; arcs too
+  double most_force = 0;  // as of MoveLine
+};                        // the held handle's joint; arcs too
 struct Wait {
   double seconds = 0;
 };

@@ -250,9 +250,9 @@ bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
   const auto* hand = std::get_if<robot_call::Hand>(&call);
   hand_ = hand == nullptr ? std::nullopt : std::optional(*hand);
   follow(std::move(planned.motion));
-  std::string& controller = rollout_.recorder().segment(motion_segment_).controller;
-  if (yields(call) && controller == to_string(ControllerKind::joint_position))
-    controller = to_string(ControllerKind::cartesian_impedance);
+  SegmentRecord& segment = rollout_.recorder().segment(motion_segment_);
+  if (yields(call) && segment.controller == to_string(ControllerKind::joint_position))
+    segment.controller = to_string(ControllerKind::cartesian_impedance);
   return false;
 }
 
@@ -274,7 +274,7 @@ bool SkillExecution::step_motion() {
 }
 
 void SkillExecution::end_motion(SkillResult result) {
-  keep_vias();
+  keep_passages();
   if (hand_) after_hand(*hand_, result.ok());
   hand_.reset();
   motion_.reset();
@@ -283,6 +283,10 @@ void SkillExecution::end_motion(SkillResult result) {
     phase_ = Phase::calling;
   else
     finish(std::move(result));
+}
+
+void SkillExecution::keep_passages() {
+  for (ViaRecord& via : passages_->in_order()) rollout_.recorder().vias.push_back(std::move(via));
 }
 
 void SkillExecution::after_hand(const robot_call::Hand& hand, bool ok) {
@@ -337,17 +341,13 @@ void SkillExecution::interrupt(const std::string& why) {
   if (phase_ == Phase::settling) close(motion_segment_, result);
   if (phase_ == Phase::moving) {
     motion_->interrupt(rollout_.world());
-    keep_vias();
+    keep_passages();
     if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect));
     hand_.reset();
     motion_.reset();
     close(motion_segment_, result);
   }
   finish(result);
-}
-
-void SkillExecution::keep_vias() {
-  for (ViaRecord& via : passages_->in_order()) rollout_.recorder().vias.push_back(std::move(via));
 }
 
 int SkillExecution::open_motion_segment(const std::string& kind) {

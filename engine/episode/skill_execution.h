@@ -61,12 +61,12 @@ class SkillExecution {
   void follow(std::unique_ptr<Motion> motion);
   bool step_motion();
   void end_motion(SkillResult result);
+  void keep_passages();
   void after_hand(const robot_call::Hand& hand, bool ok);
   bool begin_settling();
   bool settled();
   void end_settling(SkillResult result);
   std::vector<std::string> missing_effects();
-  void keep_vias();
   int open_motion_segment(const std::string& kind);
   void close(int segment, const SkillResult& result);
   bool finish(SkillResult result);

@@ -146,7 +146,8 @@ class StartMaker {
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
     if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
-    if (!draft.space().free(arm_at_start(draft.scene().robot))) return refuse("the arm being free where it starts");
+    if (!draft.collision_state().free(arm_at_start(draft.scene().robot)))
+      return refuse("the arm being free where it starts");
 
     World world(std::make_shared<const Scene>(draft.scene()));
     WorldView view(world);

@@ -106,8 +106,8 @@ struct World::Impl {
   const Transform& world_from_part(PartRef ref) const;
   Vector3 velocity(PartRef ref, Vector3* linear) const;  // angular; linear of the centre of mass
   double position(PartRef ref) const;
-  bool strained() const;
   void check_robot(int robot) const;  // throws Error for an index that the scene does not have
+  bool strained() const;
   JointVector arm_position_now() const;
   JointVector arm_velocity_now() const;
   void read_efforts();

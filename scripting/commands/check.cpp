@@ -22,9 +22,7 @@ void build_scenes(const std::shared_ptr<const Library>& library, std::vector<Err
   for (const ScriptFile* file : library->files(DefinitionKind::task)) {
     const Library::TaskInfo& task = task_info(*library, file->name);
     try {
-      EpisodeScripts(library, task.name, task.variation_texts.empty() ? "" : task.variation_texts.front(), 0)
-          .task()
-          .scene(0);
+      EpisodeScripts(library, task.name, task.variation_texts.empty() ? "" : task.variation_texts.front(), 0).task()(0);
     } catch (const Error& error) {
       if (said.insert(error.what()).second) complaints.push_back(error);
     }

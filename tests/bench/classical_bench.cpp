@@ -1,5 +1,5 @@
-// Six classical domains at three sizes: CPU time, steps and states of `solve`, each plan validated. `classical_bench`: all;
-// `classical_bench NAME...`: these; `classical_bench write FOLDER`: the same problems as PDDL files, for other
+// Six classical domains at three sizes: CPU time, steps and states of `solve`, each plan validated. `classical_bench`:
+// all; `classical_bench NAME...`: these; `classical_bench write FOLDER`: the same problems as PDDL files, for other
 // planners.
 #include <cstdio>
 #include <cstring>

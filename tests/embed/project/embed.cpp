@@ -1,5 +1,6 @@
-#include <cstdio>
 #include <stampede/session.h>
+
+#include <cstdio>
 
 int main() {
   stampede::Session session({.catalogue = "demos.db"});

@@ -23,7 +23,7 @@ class DimSymbols : public PlainSymbols {
 
 const EpisodeRecord& stacked() {
   static const EpisodeRecord episode = [] {
-    StackTask task;
+    const TaskDraw task = stack_draw();
     DimSymbols symbols;
     PlainSkills skills;
     RunOptions options;

@@ -37,9 +37,8 @@ Start start_where(const char* text, std::int64_t seed = 1) {
 }  // namespace
 
 TEST_CASE("what is known of a scene without a world is what a tracker knows before it looks") {
-  StackTask task;
   PlainSymbols symbols;
-  const Scene scene = task.scene(0);
+  const Scene scene = stack_task().scene;
   World world(std::make_shared<const Scene>(scene));
   FactTracker tracker(symbols, WorldView(world));
   tracker.begin({});
