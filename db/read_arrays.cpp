@@ -23,12 +23,6 @@ class ArrayReader : private EpisodeReader {
   EpisodeArrays read(const ArrayRequest& request);
 
  private:
-  [[noreturn]] void damaged(const std::string& table) const {
-    throw CatalogueError(
-        database_.path(),
-        "the rows of " + table + " of episode " + std::to_string(id_) + " contradict what else the file says",
-        "the file is damaged: generate it again");
-  }
   double* slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items, std::size_t width,
                const char* name) const;
   void read_head();
@@ -55,12 +49,14 @@ double* ArrayReader::slot(std::vector<double>& table, std::int64_t frame, std::i
 void ArrayReader::read_head() {
   sql::Statement row(database_,
                      "SELECT task, coalesce(variation, ''), coalesce(seed, 0), physics_hz, frame_hz, frames, "
+                     "(SELECT count(*) FROM frame f WHERE f.episode = e.id), "
                      "(SELECT count(*) FROM action_channel a WHERE a.episode = e.id AND a.space = 'joint_position') "
                      "FROM episode e WHERE id = ?1");
   if (!row.start(id_).step()) throw_no_episode(database_, id_);
-  std::int64_t frames = 0, commanded = 0;
-  row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, commanded);
-  if (frames < 0 || record_.physics_hz < 1 || record_.frame_hz < 1) damaged("episode");
+  std::int64_t frames = 0, rows = 0, commanded = 0;
+  row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, rows,
+           commanded);
+  if (frames != rows || record_.physics_hz < 1 || record_.frame_hz < 1) damaged("episode");
   tables_.frames = static_cast<std::size_t>(frames);
   tables_.commanded = static_cast<std::size_t>(commanded);
 }
@@ -116,7 +112,7 @@ void ArrayReader::read_pose_rows(const std::string& which, const char* table, st
 
 void ArrayReader::read_action_rows() {
   constexpr std::size_t kWidth = FrameTables::kPose;
-  const std::size_t joints = tables_.commanded, width = joints + kWidth + 1;
+  const std::size_t joints = tables_.commanded;
   tables_.action_joint_position.assign(tables_.frames * joints, kUnknown);
   tables_.action_tool_pose.assign(tables_.frames * kWidth, kUnknown);
   tables_.action_gripper.assign(tables_.frames, kUnknown);
@@ -125,16 +121,17 @@ void ArrayReader::read_action_rows() {
     std::string space;
     int component = 0;
     row.read(space, component);
-    const auto at = static_cast<std::size_t>(component);
-    if (space == "joint_position") places.push_back({&tables_.action_joint_position, {joints, at}});
-    if (space == "tool_pose") places.push_back({&tables_.action_tool_pose, {kWidth, at}});
-    if (space == "gripper") places.push_back({&tables_.action_gripper, {1, at}});
+    auto& [table, shape] = places.emplace_back();  // no table: a space that has no column
+    if (space == "joint_position") table = &tables_.action_joint_position, shape.first = joints;
+    if (space == "tool_pose") table = &tables_.action_tool_pose, shape.first = kWidth;
+    if (space == "gripper") table = &tables_.action_gripper, shape.first = 1;
+    shape.second = static_cast<std::size_t>(component);
   });
-  if (places.size() > width) damaged("action_channel");
   each("frame, channel, value", "action", "frame, channel", [&](sql::Statement& row) {
     const std::int64_t frame = sqlite3_column_int64(row.handle(), 0);
     const auto& [table, shape] = at(places, sqlite3_column_int64(row.handle(), 1), "action");
-    take(row, 2, 1, slot(*table, frame, static_cast<std::int64_t>(shape.second), shape.first, 1, "action"));
+    if (table != nullptr)
+      take(row, 2, 1, slot(*table, frame, static_cast<std::int64_t>(shape.second), shape.first, 1, "action"));
   });
 }
 
