@@ -107,8 +107,7 @@ std::string moment_text(const Arguments& arguments, const StoredEpisode& stored,
            to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
   std::string text;
   for (const BddlMapping& mapping : bddl_mappings_of(*words_of(arguments), form))
-    text += (text.empty() ? "" : "
-") +
+    text += (text.empty() ? "" : "\n") +
             bddl_moment(stored, symbols, state, mapping, arguments.list("--leave-out"), refusals);
   return text;
 }

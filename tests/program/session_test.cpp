@@ -12,7 +12,7 @@ namespace {
 // `(inside item chest.top_drawer)` as the views `facts` and `observed_facts` would name it.
 std::string text_of(const StateFact& fact) { return to_text(Fact{fact.predicate, fact.arguments}); }
 
-std::set<std::string> facts_at(const SessionCore& session, const std::string& view, std::int64_t frame) {
+std::set<std::string> facts_at(SessionCore& session, const std::string& view, std::int64_t frame) {
   std::set<std::string> facts;
   const std::string at = std::to_string(frame);
   for (const auto& row :
