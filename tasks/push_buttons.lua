@@ -2,8 +2,10 @@
 local function sequences()
   local names, list = colours.names, {}
   for i = 1, #names do
-    local a, b, c = names[i], names[(i + 6) % #names + 1], names[(i + 12) % #names + 1]
-    list[#list + 1] = { count = i % 3 + 1, first = a, second = b, third = c }
+    local second = colours.except(names[i]) -- nobody takes one of the three for another
+    local b = second[(i + 6) % #second + 1]
+    local third = colours.except(names[i], b)
+    list[#list + 1] = { count = i % 3 + 1, first = names[i], second = b, third = third[(i + 12) % #third + 1] }
   end
   return list
 end

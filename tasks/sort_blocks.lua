@@ -2,7 +2,10 @@
 local function triples()
   local names, list = colours.names, {}
   for i = 1, #names do
-    list[i] = { first = names[i], second = names[(i + 6) % #names + 1], third = names[(i + 12) % #names + 1] }
+    local second = colours.except(names[i]) -- nobody takes one of the three for another
+    local b = second[(i + 6) % #second + 1]
+    local third = colours.except(names[i], b)
+    list[i] = { first = names[i], second = b, third = third[(i + 12) % #third + 1] }
   end
   return list
 end

@@ -242,13 +242,72 @@ function colours.rgb(name)
   if rgb == nil then say("there is no colour '%s' in worlds/colours.lua", tostring(name)) end
   return { rgb[1], rgb[2], rgb[3] }
 end
-function colours.except(...)
-  local left_out, result = {}, {}
-  for _, name in ipairs { ... } do
-    for _, one in ipairs(type(name) == "table" and name or { name }) do left_out[one] = true end
+
+-- CIELAB under D65 (IEC 61966-2-1, CIE 15).
+local labs = {}
+local function lab_of(name)
+  local lab = labs[name]
+  if lab then return lab end
+  local linear = colours.rgb(name)
+  for i = 1, 3 do
+    local v = linear[i]
+    linear[i] = v <= 0.04045 and v / 12.92 or ((v + 0.055) / 1.055) ^ 2.4
   end
+  local r, g, b = linear[1], linear[2], linear[3]
+  local function f(t) return t > 216 / 24389 and t ^ (1 / 3) or (24389 / 27 * t + 16) / 116 end
+  local x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047)
+  local y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b)
+  local z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883)
+  lab = { 116 * y - 16, 500 * (x - y), 200 * (y - z) }
+  labs[name] = lab
+  return lab
+end
+
+-- How different two colours look: CIEDE2000 (Sharma, Wu, Dalal 2005, doi:10.1002/col.20070).
+function colours.difference(first, second)
+  local p, q = lab_of(first), lab_of(second)
+  local sqrt, sin, cos, rad, pi = math.sqrt, math.sin, math.cos, math.rad, math.pi
+  local function length(a, b) return sqrt(a * a + b * b) end
+  local mean = (length(p[2], p[3]) + length(q[2], q[3])) / 2
+  local stretch = 1 + 0.5 * (1 - sqrt(mean ^ 7 / (mean ^ 7 + 25 ^ 7)))
+  local function polar(lab)
+    local a = lab[2] * stretch
+    local hue = math.atan(lab[3], a)
+    return length(a, lab[3]), hue < 0 and hue + 2 * pi or hue
+  end
+  local c1, h1 = polar(p)
+  local c2, h2 = polar(q)
+  local grey = c1 * c2 == 0
+  local turn, hue = h2 - h1, (h1 + h2) / 2
+  if math.abs(turn) > pi then
+    turn, hue = turn > 0 and turn - 2 * pi or turn + 2 * pi, (hue + pi) % (2 * pi)
+  end
+  if grey then turn, hue = 0, h1 + h2 end
+  local lightness, chroma = (p[1] + q[1]) / 2, (c1 + c2) / 2
+  local t = 1 - 0.17 * cos(hue - rad(30)) + 0.24 * cos(2 * hue) + 0.32 * cos(3 * hue + rad(6)) - 0.20 * cos(4 * hue - rad(63))
+  local far = (lightness - 50) ^ 2
+  local dl = (q[1] - p[1]) / (1 + 0.015 * far / sqrt(20 + far))
+  local dc = (c2 - c1) / (1 + 0.045 * chroma)
+  local dh = 2 * sqrt(c1 * c2) * sin(turn / 2) / (1 + 0.015 * chroma * t)
+  local spread = rad(60) * math.exp(-((math.deg(hue) - 275) / 25) ^ 2)
+  local rotation = -2 * sqrt(chroma ^ 7 / (chroma ^ 7 + 25 ^ 7)) * sin(spread)
+  return sqrt(dl * dl + dc * dc + dh * dh + rotation * dc * dh)
+end
+
+-- Colours nearer than this are taken for one another, in shade or by name: cyan and azure are 31.8 apart.
+local confused = 32
+function colours.except(...)
+  local others = {}
+  for _, name in ipairs { ... } do
+    for _, one in ipairs(type(name) == "table" and name or { name }) do others[#others + 1] = one end
+  end
+  local result = {}
   for _, name in ipairs(colours.names) do
-    if not left_out[name] then result[#result + 1] = name end
+    local apart = true
+    for _, other in ipairs(others) do
+      apart = apart and name ~= other and (by_colour[other] == nil or colours.difference(name, other) >= confused)
+    end
+    if apart then result[#result + 1] = name end
   end
   return result
 end

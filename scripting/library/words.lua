@@ -122,7 +122,8 @@ function range(first, last, step) end
 -- The colours of worlds/colours.lua, by name
 ---@class stampede.colours
 ---@field names string[]  in alphabetical order
----@field except fun(...: string|string[]): string[]  all others
+---@field except fun(...: string|string[]): string[]  all others that nobody takes for one of these: at least 32 apart
+---@field difference fun(first: string, second: string): number  how different they look: CIEDE2000, 0 … 100
 ---@field rgb fun(name: string): number[]  sRGB, 0 … 1
 colours = {}
 
