@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl_text.h"
+#include "engine/symbolic/rule_parts.h"
 
 namespace stampede::symbolic {
 namespace {
@@ -317,22 +318,6 @@ class Lifter {
     add_plain_rule(head, body);
   }
 
-  // The variable that the fewest others stand beside, of those that the head does not have.
-  int least_bound(const Conjunct& body, const std::set<int>& kept, std::set<int>& beside) const {
-    int best = -1;
-    for (const int id : variables_of(body)) {
-      if (kept.contains(id)) continue;
-      Conjunct mine = body, rest;
-      take_apart(mine, rest, id);
-      std::set<int> others = variables_of(mine);
-      others.erase(id);
-      if (best >= 0 && others.size() >= beside.size()) continue;
-      best = id;
-      beside = std::move(others);
-    }
-    return best;
-  }
-
   void split(Conjunct& body, int id, const std::set<int>& beside) {
     Conjunct rest;
     take_apart(body, rest, id);
@@ -340,31 +325,6 @@ class Lifter {
     add_plain_rule(head, body);
     body = std::move(rest);
     body.positive.push_back(head);
-  }
-
-  // Leaves in `mine` what speaks of the variable; the rest goes to `rest`.
-  static void take_apart(Conjunct& mine, Conjunct& rest, int id) {
-    const auto is_it = [&](const LiftedTerm& one) { return one.variable && one.id == id; };
-    const auto speaks = [&](const LiftedAtom& one) { return std::any_of(one.terms.begin(), one.terms.end(), is_it); };
-    const auto move = [](auto& from, auto& to, const auto& stays) {
-      std::copy_if(from.begin(), from.end(), std::back_inserter(to), [&](const auto& one) { return !stays(one); });
-      std::erase_if(from, [&](const auto& one) { return !stays(one); });
-    };
-    move(mine.positive, rest.positive, speaks);
-    move(mine.negative, rest.negative, speaks);
-    move(mine.equalities, rest.equalities, [&](const Equality& one) { return is_it(one.left) || is_it(one.right); });
-    move(mine.extra, rest.extra, [&](int one) { return one == id; });
-  }
-
-  static std::set<int> variables_of(const Conjunct& one) {
-    std::set<int> found(one.extra.begin(), one.extra.end());
-    const auto note = [&](const LiftedTerm& t) {
-      if (t.variable) found.insert(t.id);
-    };
-    for (const LiftedAtom& at : one.positive) std::for_each(at.terms.begin(), at.terms.end(), note);
-    for (const LiftedAtom& at : one.negative) std::for_each(at.terms.begin(), at.terms.end(), note);
-    for (const Equality& at : one.equalities) note(at.left), note(at.right);
-    return found;
   }
 
   // Of an auxiliary derived predicate over these variables.
