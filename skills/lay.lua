@@ -7,7 +7,9 @@ return skill {
   label = "lay the {obj} on the {to}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot)
-    robot:move_through { approach = down:offset(0, 0, 0.06), place = down, ahead = down:along(0, 0, -0.06) }
+    local over = down:offset(0, 0, 0.015)
+    robot:move_through { { "approach", down:offset(0, 0, 0.06) }, { "place", over }, { "ahead", down:along(0, 0, -0.06) } }
+    robot:move_line(down, { speed = 0.1, most_force = 8 })             -- until its edge rests
     robot:wait(0.1)
     robot:open_hand(0.05)
     robot:retreat(0.06, { speed = 0.15 })                              -- it slides off the lower finger

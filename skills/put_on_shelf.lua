@@ -10,9 +10,10 @@ return skill {
     local x, y = shelf:position()
     local out_x, out_y = shelf:along(-0.17, 0, 0):position()            -- out of the front, which is its -x
     out_x, out_y = out_x - x, out_y - y
-    local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.003))       -- it sags a little in a slanting hand
+    local down = robot:tip_for(p.obj, c.spot)
     local over = down:offset(0, 0, 0.015)
-    robot:move_through { { "before", over:offset(out_x, out_y, 0) }, { "over", over }, { "place", down } }
+    robot:move_through { { "before", over:offset(out_x, out_y, 0) }, { "over", over } }
+    robot:move_line(down, { speed = 0.1, most_force = 15 })             -- it sags a little in a slanting hand
     robot:wait(0.1)
     robot:open_hand()
     robot:move_line { out_x, out_y, 0 }

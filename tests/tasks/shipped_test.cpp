@@ -4,6 +4,7 @@
 
 #include "engine/symbolic/pddl.h"
 #include "tests/tasks/run_task.h"
+#include "tests/tasks/strain.h"
 
 using namespace stampede;
 using namespace stampede::test;
@@ -55,18 +56,33 @@ void check_plan(const EpisodeRecord& episode) {
   CHECK(verdict.valid);
 }
 
-// Every `of`-th task, from `first` on.
+// No joint, contact or motion goes beyond what a real arm and its surroundings bear. `-s` prints the figures.
+void check_strain(const EpisodeRecord& episode) {
+  const Strain strain = strain_of(episode);
+  INFO(to_text(strain));
+  CHECK(strain.beyond_m.value < 0.0005);
+  CHECK(strain.beyond_rad.value < 0.0087);  // half a degree
+  CHECK(strain.force.value < 100);
+  CHECK(strain.free_force.value < 1);
+  CHECK(strain.depth.value < 0.002);
+  CHECK(strain.tool_speed.value < 1.7);
+  CHECK(strain.end_speed.value < 0.03);
+  CHECK(strain.slip.value < 0.003);
+}
+
+// Every `of`-th task, from `first` on; each in a section of its name (`-c push_buttons` runs that alone).
 void check_share(std::size_t first, std::size_t of) {
   const std::vector<const ScriptFile*> files = shipped().files(DefinitionKind::task);
-  for (std::size_t i = first; i < files.size(); i += of) {
-    const EpisodeRecord episode = run_shipped(files[i]->name);
-    INFO(files[i]->name << " " << episode.variation << " seed " << kSeed << ": " << verdict(episode));
-    CHECK(episode.outcome == Outcome::success);
-    CHECK_FALSE(skills_of(episode).empty());
-    check_tiling(episode);
-    check_plan(episode);
-    CHECK(replay_episode(episode) == "");
-  }
+  for (std::size_t i = first; i < files.size(); i += of) DYNAMIC_SECTION(files[i]->name) {
+      const EpisodeRecord episode = run_shipped(files[i]->name);
+      INFO(files[i]->name << " " << episode.variation << " seed " << kSeed << ": " << verdict(episode));
+      CHECK(episode.outcome == Outcome::success);
+      CHECK_FALSE(skills_of(episode).empty());
+      check_tiling(episode);
+      check_plan(episode);
+      CHECK(replay_episode(episode) == "");
+      check_strain(episode);
+    }
 }
 
 }  // namespace

@@ -98,8 +98,9 @@ class Measurement {
     for (const Contact& contact : world_.contacts()) {
       const std::string what = part_name(scene, contact.a) + " and " + part_name(scene, contact.b) + " at " + place();
       strain_.force.meet(contact.peak_force, what);
-      // A thing that falls is a step of its way deep when it is first met: what counts is what stays.
-      if (last_touching_.contains({contact.a, contact.b})) strain_.depth.meet(contact.depth, what);
+      // What falls is a step of its way deep when it lands: what counts is what stays.
+      if (last_touching_.contains({contact.a, contact.b}) && !falls(contact.a, held) && !falls(contact.b, held))
+        strain_.depth.meet(contact.depth, what);
       forces_.push_back(contact.peak_force);
       const bool of_robot = contact.a.body == -1, of_held = held && (contact.a == *held || contact.b == *held);
       const bool grasp = of_robot && held && contact.b == *held;
@@ -111,6 +112,11 @@ class Measurement {
     last_touching_ = touching;
     for (auto it = touched_.begin(); it != touched_.end();)
       it = touching.contains(*it) ? std::next(it) : touched_.erase(it);
+  }
+
+  bool falls(PartRef part, const std::optional<PartRef>& held) const {
+    if (part.body < 0 || part == held || !world_.scene().bodies[static_cast<std::size_t>(part.body)].free) return false;
+    return world_.linear_velocity(part).norm() + 0.1 * world_.angular_velocity(part).norm() > 0.1;
   }
 
   // From 0.1 s after the fingers have closed on a free body until they open.

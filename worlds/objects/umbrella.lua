@@ -3,12 +3,12 @@ local grasps = {}
 for i = 0, 7 do
   for _, lean in ipairs { 0, 0.35 } do
     local yaw = i * math.pi / 4
-    grasps[#grasps + 1] = { at = { 0, 0, 0.226 }, rpy = { math.pi, -lean, yaw }, width = 0.030, approach = 0.08, force = 30 }
+    grasps[#grasps + 1] = { at = { 0, 0, 0.226 }, rpy = { math.pi, -lean, yaw }, width = 0.030, approach = 0.08, force = 45 }
   end
 end
 
 return object {
-  type = "umbrella", traits = { "movable", "graspable" }, mass = 0.25, colour = { 0.80, 0.12, 0.20 }, friction = 0.5,
+  type = "umbrella", traits = { "movable", "graspable" }, mass = 0.25, colour = { 0.80, 0.12, 0.20 }, friction = 0.7,
   shapes = {
     cylinder { 0.013, 0.015, at = { 0, 0, 0.0075 }, colour = { 0.10, 0.10, 0.11 } },                 -- end
     lathe { { 0.014, 0.015 }, { 0.024, 0.09 }, { 0.026, 0.135 }, { 0.016, 0.155 } },                 -- folded cloth
