@@ -26,7 +26,8 @@ return task {
       button3 = { "push_button", colour = v.third, at = anywhere },
     }
   end,
-  init = { is.spaced("button1", "button2"), is.spaced("button1", "button3"), is.spaced("button2", "button3"), is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
+  init = { is.spaced("button1", "button2"), is.spaced("button1", "button3"), is.spaced("button2", "button3"),
+    is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
   goal = function(v)
     local parts = {}
     for i = 1, v.count do parts[i] = is.pressed("button" .. i .. ".cap") end

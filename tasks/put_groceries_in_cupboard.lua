@@ -1,5 +1,6 @@
 -- Put the one grocery that is named into the cupboard beside the table.
 local places = require "worlds.lib.places"
+
 local groceries = { "chocolate_jelly", "coffee", "crackers_box", "mustard", "soup_can", "spam_can", "strawberry_jelly",
   "sugar_box", "tuna_can" }
 local words = { chocolate_jelly = "chocolate jelly", coffee = "coffee", crackers_box = "crackers", mustard = "mustard",

@@ -8,9 +8,9 @@ function places.round_the_table(gap, side, turn, z)
   local near, far = gap, gap + 0.04
   return one_of {
     { at = { between(0.40 + near, 0.40 + far), between(-side, side), z }, yaw = between(-turn, turn) },
-    { at = { between(0.02, 0.26), between(0.38 + near, 0.38 + far), z },
+    { at = { between(0.06, 0.24), between(0.38 + near, 0.38 + far), z },
       yaw = between(math.pi / 2 - turn, math.pi / 2 + turn) },
-    { at = { between(0.02, 0.26), between(-0.38 - far, -0.38 - near), z },
+    { at = { between(0.06, 0.24), between(-0.38 - far, -0.38 - near), z },
       yaw = between(-math.pi / 2 - turn, turn - math.pi / 2) },
   }
 end

@@ -41,7 +41,7 @@ return object {
     box { 0.01, 0.26, 0.28, at = { 0.125, 0, 0.14 } },
   },
   parts = { bottom_drawer = drawer(0.055), middle_drawer = drawer(0.14), top_drawer = drawer(0.225) },
-  regions = { -- where drawers come out, at the height of what stands on the table
-    front = { at = { -0.25, 0, 0.02 }, size = { 0.28, 0.36, 0.04 }, traits = { "container" } },
+  regions = { -- where drawers come out and hands beside them, at the height of what stands on the table
+    front = { at = { -0.27, 0, 0.02 }, size = { 0.32, 0.46, 0.04 }, traits = { "container" } },
   },
 }
