@@ -9,8 +9,9 @@ return skill {
     local w = robot:view()
     robot:close_hand()
     local x, y = w:position(p.button)
+    local _, _, turn = robot:tip():rpy()
     local fingers = 0.009 -- m that they end beyond the tip
-    local above = robot:tip():with_position(x, y, w:top(p.button) + fingers + 0.003)
+    local above = pose(x, y, w:top(p.button) + fingers + 0.003, math.pi, 0, turn) -- straight down, turned as it is
     robot:move_through { approach = above:offset(0, 0, 0.05), goal = above }
     robot:move_line({ 0, 0, -0.003 - c.depth }, { speed = 0.05, most_force = 15 }) -- a little beyond the stop: it gives way
     robot:wait(0.1)
