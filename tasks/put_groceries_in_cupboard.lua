@@ -10,7 +10,7 @@ return task {
   world = "tabletop",
   variations = { item = groceries },
   objects = function()
-    local things = { cupboard = { "cupboard", place = places.round_the_table(0.195, 0.20, 0.27, 0.95) } }
+    local things = { cupboard = { "cupboard", place = places.beside_the_table(0.195, 0.27, 0.95) } }
     for _, name in ipairs(groceries) do things[name] = { name } end
     return things
   end,

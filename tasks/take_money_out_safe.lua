@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", place = places.round_the_table(0.17, 0.22, 0.35, 0.75) },
+    safe = { "safe", place = places.beside_the_table(0.17, 0.35, 0.75) },
     low = { "money" }, mid = { "money" }, high = { "money" },
   },
   init = { is.inside("low", "safe.bottom"), is.inside("mid", "safe.middle"), is.inside("high", "safe.top") },

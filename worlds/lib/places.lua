@@ -1,18 +1,23 @@
--- Where furniture that stands on the floor can be: behind the work table, or to its left or right; its open side, -x, looks
--- over the table, but not straight.
+-- Where furniture that stands on the floor can be: at the work table's sides; its open side, -x, looks over the table, but
+-- not straight.
 local places = {}
 
--- `gap`: from the table's edge to the middle of the thing, m; `side`: how far it may be from the middle of the table's far
--- edge, m; `turn`: how far it may be turned, rad; `z`: of its frame.
-function places.round_the_table(gap, side, turn, z)
-  local near, far = gap, gap + 0.04
-  return one_of {
-    { at = { between(0.40 + near, 0.40 + far), between(-side, side), z }, yaw = between(-turn, turn) },
-    { at = { between(0.06, 0.24), between(0.38 + near, 0.38 + far), z },
-      yaw = between(math.pi / 2 - turn, math.pi / 2 + turn) },
-    { at = { between(0.06, 0.24), between(-0.38 - far, -0.38 - near), z },
-      yaw = between(-math.pi / 2 - turn, turn - math.pi / 2) },
-  }
+-- To the left (`sign` 1) or the right (-1).
+local function at_side(sign, gap, turn, z)
+  local near, far = 0.38 + gap, 0.38 + gap + 0.04
+  local y = sign > 0 and between(near, far) or between(-far, -near)
+  local yaw = sign * math.pi / 2
+  return { at = { between(0.06, 0.24), y, z }, yaw = between(yaw - turn, yaw + turn) }
+end
+
+-- To the left or right of the table. `gap`: from its edge to the middle of the thing, m; `turn`: how far it may be turned,
+-- rad; `z`: of its frame, m. What is tall belongs there: behind the table it would hide everything from the camera in front.
+function places.beside_the_table(gap, turn, z) return one_of { at_side(1, gap, turn, z), at_side(-1, gap, turn, z) } end
+
+-- Behind the table too, up to 22 cm from the middle of that edge.
+function places.round_the_table(gap, turn, z)
+  local behind = { at = { between(0.40 + gap, 0.44 + gap), between(-0.22, 0.22), z }, yaw = between(-turn, turn) }
+  return one_of { behind, at_side(1, gap, turn, z), at_side(-1, gap, turn, z) }
 end
 
 return places
