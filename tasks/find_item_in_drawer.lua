@@ -1,5 +1,5 @@
 -- Find the tin that lies in one of three closed drawers, and put it on the table; no sentence says in which.
--- The demonstrator knows: it opens the right drawer at once. What can be seen (`observed_facts`) differs until then.
+-- Nobody knows: drawers are opened, in a drawn order, until the tin is seen. What is known by then: `observed_facts`.
 local places = require "worlds.lib.places"
 
 return task {

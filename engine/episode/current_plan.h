@@ -1,6 +1,7 @@
-// The plan that an episode follows, and what it has learned that plans must mind.
+// The plan that an episode follows, what it has learned that plans must mind, and what it assumes of what is hidden.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -12,7 +13,10 @@
 
 namespace stampede {
 
-// Lifetime: refers to all it is made of.
+// Plans are made of what is known: what can be seen, and of what can hide what was seen. Where that is not enough, one
+// fact that nobody could see so far is assumed, drawn from the seed. A plan that rests on it looks by what it does, and
+// the rest is planned again as soon as the assumption is seen to be wrong (determinise and plan again: Yoon, Fern,
+// Givan, FF-Replan, ICAPS 2007). Lifetime: refers to all it is made of.
 class CurrentPlan {
  public:
   CurrentPlan(const Rollout& rollout, const RunOptions& options) : rollout_(rollout), options_(options) {}
@@ -32,12 +36,19 @@ class CurrentPlan {
   // be.
   bool avoid(const SkillResult& failed, std::size_t index);
 
+  // One step a line, then what was assumed on the way, as comments.
+  std::string as_text() const;
+
   Plan steps;
   std::set<PlanStep> forbidden;           // ground actions that plans do without
   std::vector<Obstruction> obstructions;  // what was found in the way of which action
 
  private:
-  PlanOutcome ask_planner() const;
+  PlanOutcome ask_planner();
+  PlanOutcome ask(const PlanningTask& planning) const;
+  PlanningTask problem(const std::vector<Obstruction>& standing) const;
+  std::vector<Fact> conceivable() const;
+  void look();
   bool stands(const Obstruction& one) const;
   bool avoid_these(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index);
 
@@ -45,6 +56,8 @@ class CurrentPlan {
   const RunOptions& options_;
   bool given_ = false;
   std::optional<Facts> expected_;  // basic facts that the last step should have led to
+  std::optional<Fact> assumed_;    // what the rest of the plan rests on, and nobody has seen
+  std::map<Fact, bool> looked_;    // what was assumed, and how it was seen to be
 };
 
 }  // namespace stampede

@@ -77,7 +77,7 @@ SkillResult behave(Drive& drive, const Rollout& rollout, EpisodeRecord& record) 
 }
 
 // All that the rollout holds goes into the record.
-void close(Rollout& rollout, const SkillResult& verdict, const Plan& plan, EpisodeRecord& record) {
+void close(Rollout& rollout, const SkillResult& verdict, const CurrentPlan& plan, EpisodeRecord& record) {
   const bool success = verdict.ok();
   Recorder& recorder = rollout.recorder();
   if (recorder.frames.size() > 1) {
@@ -101,7 +101,7 @@ void close(Rollout& rollout, const SkillResult& verdict, const Plan& plan, Episo
       record.language.push_back({"skill", segment.label, segment.ordinal});
   record.keyframes["stopped"] = stopped_keyframes(record);
   for (DocumentRecord& document : record.documents)
-    if (document.kind == "plan") document.text = to_pddl(plan);
+    if (document.kind == "plan") document.text = plan.as_text();
 }
 
 void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
@@ -117,7 +117,7 @@ void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const Run
   const SkillResult verdict = behave(drive, rollout, record);
   track.close(verdict);
   track.place_attempts();
-  close(rollout, verdict, plan.steps, record);
+  close(rollout, verdict, plan, record);
 }
 
 void check_all_settings(const std::map<std::string, CallSettings>& all, const SkillLibrary& skills) {
