@@ -48,8 +48,9 @@ rlim_t address_space_now() {
 // In the child: nothing of the parent's is reached by accident, and it ends when it should.
 void confine(const ChildLimits& limits, int out) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ, SIGALRM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE})
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGALRM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE})
     signal(number, SIG_DFL);
+  signal(SIGXFSZ, SIG_IGN);  // writing a file is an error, not a death
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -70,14 +70,14 @@ TEST_CASE("a child that crashes, aborts, works for ever or takes all memory is a
 }
 
 TEST_CASE("a child writes no files and reads none of our input") {
-  const std::string name = std::string(P_tmpdir) + "/stampede_child_" + std::to_string(getpid());
+  const auto name = std::filesystem::temp_directory_path() / ("stampede_child_" + std::to_string(getpid()));
   const auto work = [&name] {
     std::ofstream file(name);
     file << "something" << std::flush;
     return std::string(file ? "written" : "refused");
   };
   CHECK(in_child("a", "b", {}, work) == "refused");
-  unlink(name.c_str());
+  std::filesystem::remove(name);
 }
 
 TEST_CASE("children of several threads do not wait for each other's ends") {
