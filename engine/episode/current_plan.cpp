@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/symbolic/drawn_choice.h"
+#include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
