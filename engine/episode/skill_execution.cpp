@@ -342,7 +342,7 @@ void SkillExecution::interrupt(const std::string& why) {
   if (phase_ == Phase::moving) {
     motion_->interrupt(rollout_.world());
     keep_passages();
-    if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect));
+    if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect).holds);
     hand_.reset();
     motion_.reset();
     close(motion_segment_, result);
