@@ -20,6 +20,7 @@ class LuaTask {
   LuaTask(const LuaTask&) = delete;
   LuaTask& operator=(const LuaTask&) = delete;
 
+  const std::string& name() const { return name_; }
   Task draw(int number);
   std::vector<const ScriptFile*> files() const { return first_.files; }  // that took part, beside predicates and skills
 
