@@ -12,7 +12,7 @@ constexpr std::array<const char*, 7> kPoseNames{"x", "y", "z", "qx", "qy", "qz",
 std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::string_view kind) {
   std::vector<std::optional<int>> at(episode.frames.size());
   for (const SegmentRecord& segment : episode.segments) {
-    if (segment.kind != kind) continue;
+    if (to_string(segment.kind) != kind) continue;
     const auto end = std::min<std::int64_t>(segment.span.end_frame, static_cast<std::int64_t>(at.size()));
     for (std::int64_t frame = std::max<std::int64_t>(segment.span.first_frame, 0); frame < end; ++frame) {
       std::optional<int>& now = at[static_cast<std::size_t>(frame)];
