@@ -70,7 +70,7 @@ std::string read_text(const std::filesystem::path& file) {
 // Every `<` before a letter, in comments and values too: no reader sees more elements than that.
 void check_count(const std::filesystem::path& file, const std::string& text) {
   int count = 0;
-  for (std::size_t at = text.find('<'); at + 1 < text.size(); at = text.find('<', at + 1))
+  for (std::size_t at = text.find('<'); at != std::string::npos && at + 1 < text.size(); at = text.find('<', at + 1))
     count += text[at + 1] != '/' && text[at + 1] != '!' && text[at + 1] != '?' ? 1 : 0;
   if (count > kMostElements)
     throw Error(
