@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::int64_t kSeed = 11;
 
-const Library& shipped() {
-  static const std::shared_ptr<const Library> library = Library::load(Roots{{STAMPEDE_SOURCE_DIR}});
-  return *library;
-}
-
 EpisodeRecord run_shipped(const std::string& task) {
   RunOptions options;
   options.seed = kSeed;
@@ -72,7 +67,7 @@ void check_strain(const EpisodeRecord& episode) {
 
 // Every `of`-th task, from `first` on; each in a section of its name (`-c push_buttons` runs that alone).
 void check_share(std::size_t first, std::size_t of) {
-  const std::vector<const ScriptFile*> files = shipped().files(DefinitionKind::task);
+  const std::vector<const ScriptFile*> files = shipped()->files(DefinitionKind::task);
   for (std::size_t i = first; i < files.size(); i += of) DYNAMIC_SECTION(files[i]->name) {
       const EpisodeRecord episode = run_shipped(files[i]->name);
       INFO(files[i]->name << " " << episode.variation << " seed " << kSeed << ": " << verdict(episode));
@@ -94,9 +89,9 @@ TEST_CASE("each task that ships succeeds, and its labels, plan and replay are so
 
 TEST_CASE("each skill that ships is run by a task that ships") {
   std::set<std::string> unused;
-  for (const ScriptFile* file : shipped().files(DefinitionKind::skill)) unused.insert(file->name);
+  for (const ScriptFile* file : shipped()->files(DefinitionKind::skill)) unused.insert(file->name);
   CHECK_FALSE(unused.empty());
-  for (const ScriptFile* file : shipped().files(DefinitionKind::task)) {
+  for (const ScriptFile* file : shipped()->files(DefinitionKind::task)) {
     if (unused.empty()) break;
     for (const SegmentRecord& segment : run_shipped(file->name).segments)
       if (segment.kind == SegmentKind::skill && segment.outcome == Outcome::success) unused.erase(segment.skill);
