@@ -21,6 +21,7 @@
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
@@ -42,6 +43,7 @@
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
@@ -83,6 +85,7 @@
 ---| "outside"
 ---| "over"
 ---| "pressed"
+---| "spaced"
 
 ---@alias stampede.type_name
 ---| "area"

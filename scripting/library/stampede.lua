@@ -18,6 +18,14 @@
 ---@field observe? stampede.observe  pictures and sensors to record; goes before the world's, field by field (default {})
 ---@field hold? number|fun(v: table<string, any>): any  for how long the goal must stay true at the end [s] (default 1.0)
 ---@field instructions string[]|string|fun(v: table<string, any>): any  sentences; {axis} is the variation's value
+---@field problem? stampede.problem  what `stampede import` made it from: its episodes are judged by it too
+
+-- The problem of another language that a task was imported from
+---@class stampede.problem
+---@field dialect string  whose words it is in: libero or behavior
+---@field text string  the whole problem, as that language writes it
+---@field mapping? string  a file of worlds/bddl by name: our words for its words (default the dialect's)
+---@field names? table  its names, and ours where a thing has another one here (default {})
 
 -- A parameterised action: when it may be done, what it brings about, and how
 ---@class stampede.skill
@@ -38,10 +46,11 @@
 ---@class stampede.predicate
 ---@field params string[]  "name: type & trait"; one of type hand may be left out in literals
 ---@field label string  the fact in words, with {params}
----@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one
+---@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds
 ---@field derived? stampede.formula  the formula that it stands for, instead of holds
 ---@field sample? (fun(w: stampede.world_view, ...: any): any)  function(w, …, rng): poses or joint positions that make it true
----@field static? boolean  read once, at the start (default false)
+---@field static? boolean  cannot change in an episode: read once, at the start (default false)
+---@field start_only? boolean  a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it (default false)
 ---@field settle? number  a shorter change is noise [s] (default 0)
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
@@ -124,7 +133,15 @@
 ---@field yaw? number  turn about the vertical [rad] (default 0)
 ---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
 ---@field quaternion? number[]  orientation x y z w, instead of yaw
----@field joints? table  initial joint positions by part [rad or m] (default {})
+---@field place? stampede.place  at and a turn together, where one draw chooses both
+---@field joints? table  initial joint positions by part; of a robot, where its arm starts instead of at home [rad or m] (default {})
+
+-- Where something stands
+---@class stampede.place
+---@field at number[]  position of the body in the world [m]
+---@field yaw? number  turn about the vertical [rad] (default 0)
+---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
+---@field quaternion? number[]  orientation x y z w, instead of yaw
 
 -- One operator of a skill with several
 ---@class stampede.case
