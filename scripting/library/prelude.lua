@@ -103,7 +103,7 @@ words.act = setmetatable({}, {
           value[key] = argument
         end
       end
-      if next(set) ~= nil then value.set = set end
+      for _ in pairs(set) do value.set = set end -- `next` is not for scripts
       return value
     end
   end),
