@@ -1,7 +1,5 @@
 #include "db/check_numbers.h"
 
-#include <cmath>
-
 #include "engine/base/error.h"
 
 namespace stampede {

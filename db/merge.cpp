@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "db/catalogue.h"
@@ -81,7 +83,7 @@ struct Owner {
 };
 
 // What each file adds, and whether all agree.
-class Plan {
+class KnownKeys {
  public:
   void own(const Catalogue& catalogue, const fs::path& path) {
     for (const EpisodeSummary& episode : catalogue.episodes())
@@ -188,18 +190,18 @@ MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const
     sources.emplace_back(path);
   }
   // The keys and, where two have the same, the content of all files are known before anything is written.
-  Plan plan;
+  KnownKeys keys;
   std::optional<Source> before;
   if (fs::exists(into, ignored) && fs::file_size(into, ignored) > 0) {
     before.emplace(into);
-    plan.own(before->catalogue(), into);
+    keys.own(before->catalogue(), into);
   }
   MergeResult result;
   std::vector<std::vector<std::int64_t>> fresh;
   for (const Source& source : sources) {
     MergedFile& file = result.files.emplace_back();
     file.path = source.path().string();
-    fresh.push_back(plan.add(source.catalogue(), source.path(), file.existing));
+    fresh.push_back(keys.add(source.catalogue(), source.path(), file.existing));
   }
   before.reset();
   Catalogue catalogue = Catalogue::write(into);

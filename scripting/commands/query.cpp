@@ -69,7 +69,10 @@ ExitCode run(const Arguments& arguments, Console& console) {
   if (arguments.flag("--list")) return write(names());
   if (arguments.flag("--hash")) {
     if (!arguments.has("FILE")) throw UsageError("stampede query --hash needs FILE", "name a catalogue");
-    return write({{"content_hash"}, {{Catalogue::open(arguments.text("FILE")).content_hash()}}});
+    QueryResult hash;
+    hash.columns = {"content_hash"};
+    hash.rows = {{Catalogue::open(arguments.text("FILE")).content_hash()}};
+    return write(hash);
   }
   if (!arguments.has("FILE") || !arguments.has("QUESTION"))
     throw UsageError("stampede query needs FILE and QUESTION", "stampede query --list names the ready questions");

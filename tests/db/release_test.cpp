@@ -248,7 +248,7 @@ TEST_CASE("tables of no release are refused with a cure, and nothing is changed"
   run_sql(folder / "between.db", "ALTER TABLE verdict ADD COLUMN since TEXT");
   refuse("between.db", "those of no release: it says schema 5", "read it with the build that made it (0.1.0)");
   Catalogue::write(folder / "current.db").close();
-  run_sql(folder / "current.db", "ALTER TABLE frame DROP COLUMN done");
+  run_sql(folder / "current.db", "ALTER TABLE frame ADD COLUMN mood TEXT");
   refuse("current.db", "those of no release: it says schema 6", "generate the episodes again");
   Catalogue::write(folder / "future.db").close();
   run_sql(folder / "future.db", "PRAGMA user_version = 7");
