@@ -36,7 +36,7 @@ void copy_table(const sql::Database& database, const std::string& table) {
 }  // namespace
 
 const std::vector<Release>& earlier_releases() {
-  static const std::vector<Release> releases = {{5, "SCHEMA5HASH"}};
+  static const std::vector<Release> releases = {{5, "b42eca7836102aadf68a7328d44acb2f"}};
   return releases;
 }
 
