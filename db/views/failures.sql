@@ -2,7 +2,7 @@ CREATE VIEW failures AS  -- one row a failure: of a skill's call, of the verdict
 WITH failed AS (
   SELECT t.*
   FROM tries t
-  LEFT JOIN segment p ON p.episode = t.episode AND p.ordinal = t.parent AND t.undone = 0
+  LEFT JOIN segment p ON p.episode = t.episode AND p.undone = 0 AND p.ordinal = t.parent AND t.undone = 0
   WHERE t.outcome = 'failure' AND (t.kind = 'skill' OR (t.kind = 'motion' AND t.skill = 'hold'))
     AND NOT (coalesce(p.kind, '') = 'skill' AND coalesce(p.outcome, '') = 'failure')  -- told by the skill that called it
 ),
