@@ -60,6 +60,7 @@ sql::Database migrated_to_read(const std::string& uri, int flags, const std::str
     for (const std::string& table : changed_tables(migration)) copy_table(database, table);
     database.run(migration.text);
   }
+  for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
   database.run("COMMIT");
   return database;
 }
