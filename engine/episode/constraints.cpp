@@ -218,7 +218,6 @@ StaticFacts static_facts(const Scene& scene, const Domain& domain) {
     if (values.insert(fact.arguments[1]).second) known.objects.push_back({fact.arguments[1], type});
   }
   std::sort(known.objects.begin(), known.objects.end());
-  known.facts = with_derived(known.facts, domain, known.objects);
   return known;
 }
 

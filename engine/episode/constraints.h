@@ -10,8 +10,8 @@
 
 namespace stampede {
 
-// What is known of a scene without simulating it: its objects and the values of their attributes, by name; traits,
-// attributes and what derives from these alone.
+// What is known of a scene without simulating it: its objects and the values of their attributes, by name; traits
+// and attributes.
 struct StaticFacts {
   std::vector<TypedObject> objects;
   Facts facts;

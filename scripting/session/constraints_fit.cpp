@@ -12,7 +12,17 @@
 namespace stampede {
 namespace {
 
-constexpr int kEqualDraws = 5;  // when so many draws differ in nothing static, none will
+constexpr int kEqualDraws = 3;  // when so many draws agree in all that the formula speaks of, none will differ
+
+// Which static facts bear on a formula: of an atom about an object, the predicate's of that object; with variables,
+// all.
+bool bears_on(const Formula& formula, const Fact& fact) {
+  if (!formula.variables.empty()) return true;
+  if (formula.kind == Formula::Kind::atom && formula.predicate == fact.predicate)
+    return formula.terms.empty() || fact.arguments.empty() || formula.terms[0].name == fact.arguments[0];
+  return std::any_of(formula.parts.begin(), formula.parts.end(),
+                     [&](const Formula& part) { return bears_on(part, fact); });
+}
 
 // The parts that cannot be met by themselves, or the whole where only together they cannot; nothing when they can.
 std::vector<std::string> contradictions(const Formula& where, const Symbols& symbols, const StaticFacts& known) {
@@ -54,7 +64,10 @@ std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJ
     const std::vector<std::string> failed = contradictions(where, scripts.symbols(), known);
     if (failed.empty()) return {};
     for (const std::string& part : failed) ++failures[part];
-    seen.insert(known.facts);
+    Facts bearing;
+    for (const Fact& fact : known.facts)
+      if (bears_on(where, fact)) bearing.insert(fact);
+    seen.insert(std::move(bearing));
   }
   return std::max_element(failures.begin(), failures.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })

@@ -110,7 +110,7 @@ TEST_CASE("--set: what a caller chooses is used and named as the caller's") {
   const std::string question =
       "SELECT name, value, text, chosen_by FROM parameters WHERE undone = 0 AND name IN ('height', 'controller')";
   CHECK(say({"query", mine / "o.db", question, "--format", "csv"}).out ==
-        "name,value,text,chosen_by\r\nheight,0.2,,caller\r\ncontroller,,joint_impedance,caller\r\n");
+        "name,value,text,chosen_by\nheight,0.2,,caller\ncontroller,,joint_impedance,caller\n");
 }
 
 TEST_CASE("--set: what there is not is a wrong use, before anything runs") {
