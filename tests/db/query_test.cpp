@@ -57,6 +57,39 @@ TEST_CASE("dense views carry the last pose forward") {
   CHECK(count("SELECT steps FROM plans") == 2);
 }
 
+TEST_CASE("one failure is one row of `failures`: of the goal, of a skill, of a start") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  const auto fail = [](SegmentRecord& segment, Reason reason) {
+    segment.outcome = Outcome::failure, segment.reason = reason;
+  };
+  EpisodeRecord goal = sample_episode("lift", "colour=red", 1);
+  goal.attempts.clear();
+  SegmentRecord& hold = goal.segments.back();
+  hold.kind = SegmentKind::motion, hold.skill = "hold";
+  fail(hold, Reason::goal_false);
+  SegmentRecord subgoal = hold;
+  subgoal.kind = SegmentKind::subgoal, subgoal.skill = "goal", subgoal.ordinal = 3;
+  goal.segments.push_back(subgoal);
+  EpisodeRecord skill = goal;
+  skill.key = "skill", skill.seed = 2;
+  fail(skill.segments[0], Reason::grasp_missed);
+  fail(skill.segments[1], Reason::grasp_missed);  // the motion in which it happened
+  skill.segments[2].outcome = Outcome::success, skill.segments[2].reason = Reason::none;
+  fail(skill.segments[3], Reason::grasp_missed);
+  EpisodeRecord start = sample_episode("lift", "colour=red", 3);
+  start.attempts.clear();
+  int number = 0;
+  for (auto [episode, reason] : {std::pair(&goal, Reason::goal_false), std::pair(&skill, Reason::grasp_missed),
+                                 std::pair(&start, Reason::init_impossible)}) {
+    episode->outcome = Outcome::failure, episode->reason = reason;
+    CHECK(catalogue.add(*episode, kEngine) == ++number);
+  }
+  CHECK(to_csv(catalogue.query("SELECT episode, level, skill, reason FROM failures ORDER BY episode")) ==
+        "episode,level,skill,reason\n1,episode,hold,goal_false\n2,episode,pick,grasp_missed\n"
+        "3,episode,,init_impossible\n");
+}
+
 TEST_CASE("every named query runs and describes itself") {
   const Filled filled;
   CHECK(named_queries().size() >= 10);

@@ -103,7 +103,7 @@ TEST_CASE("a key tells apart seed, variation, options and definitions, and nothi
 
 TEST_CASE("--set: what a caller chooses is used and named as the caller's") {
   const Folder mine;
-  const Said run = say({"run", "pick_up_cup", "--seed", "3", "--set", "pick.height=0.2", "--set",
+  const Said run = say({"run", "pick_and_lift", "--seed", "3", "--set", "pick.height=0.2", "--set",
                         "pick.controller=joint_impedance", "--root", kRoot, "--out", mine / "o.db"});
   INFO(run.err);
   REQUIRE(run.code == kDone);

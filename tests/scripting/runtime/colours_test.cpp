@@ -53,7 +53,7 @@ TEST_CASE("no shipped task shows two colours that a person takes for one another
     for (std::size_t i = 0; i < variations.size(); i += variations.size() / 5 + 1) {
       EpisodeScripts scripts(library(), file->name, variations[i], 1);
       std::map<std::string, std::set<std::string>> shown;  // by what it is: a green zone is no green block
-      for (const Object& object : scripts.task().scene(0).objects)
+      for (const Object& object : scripts.task()(0).scene.objects)
         if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end())
           shown[object.class_name].insert(colour->second);
       for (const auto& [what, colours] : shown)
