@@ -104,7 +104,7 @@ TEST_CASE("a query has one answer: alone, after others, beside a busy thread") {
   stop = true;
   busy.join();
   const auto fresh = World(cluttered_scene()).collision_state();
-  CHECK(same(alone.trajectory, ask(*fresh, 7).trajectory));
+  CHECK(same(alone.trajectory, ask(fresh, 7).trajectory));
 }
 
 TEST_CASE("no path is a result that says why") {

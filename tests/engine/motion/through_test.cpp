@@ -64,13 +64,13 @@ TEST_CASE("the last half of an approach is a straight line of the tool") {
 
 TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
   const World world(std::make_shared<Scene>(table_scene(0)));
-  const CollisionState state = world.collision_state();
-  const Arm& arm = state.arm();
+  const CollisionState space = world.collision_state();
+  const Arm& arm = space.arm();
   const Transform from = arm.world_from_tip(arm.home());
   const Transform to = translation(0.1, 0.15, -0.1) * from;
   LineOptions line;
   line.tool_speed = 0.2;
-  const PlannedMotion motion = plan_line(state, arm.home(), to, line, {}, RandomKey("line"));
+  const PlannedMotion motion = plan_line(space, arm.home(), to, line, {}, RandomKey("line"));
   REQUIRE(motion.reason == Reason::none);
   const Vector3 direction = (to.translation() - from.translation()).normalized();
   double off = 0, speed = 0, turned = 0;
