@@ -161,7 +161,7 @@ TEST_CASE("a question that would never end is ended by Ctrl-C, and one that woul
     stop = true;
   });
   const std::string endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT count(*) FROM c";
-  const ExitCode code = run_program({"query", mine / "d.db", endless}, console);
+  const ExitCode code = run_program(all_commands(), {"query", mine / "d.db", endless}, console);
   hand.join();
   CHECK(code == kNo);
   CHECK(says(err.str(), "interrupted"));

@@ -277,6 +277,7 @@ TEST_CASE("Ctrl-C while rendering: no half episode, and the same command goes on
   std::ostringstream err;
   Console console{out, err, false, false, 100, &stop};
   const ExitCode code = run_program(
+      all_commands(),
       {"render", folder / "d.db", "--into", folder / "d.db", "--size", "256x256", "--workers", "2", "--root", kRoot},
       console);
   INFO(err.str());

@@ -30,7 +30,7 @@ TEST_CASE("every task is on the page with figures of its present files: else run
   const auto hashes = hashes_on_page();
   std::istringstream tasks(say({"list", "--json"}).out);
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(STAMPEDE_SOURCE_DIR) + "/tasks")) {
+  for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tasks")) {
     if (entry.path().extension() != ".lua") continue;
     ++count;
     const std::string task = entry.path().stem();

@@ -11,19 +11,15 @@ TEST_CASE("a path that passes one place twice passes its via-points in their ord
   Scene scene = table_scene(0);
   World world(std::make_shared<Scene>(scene));
   // The first joint swings out and back: what lies on the way is passed twice.
-  const auto pose_at = [&](double turn) {
-    JointVector q = world.arm().home();
-    q[0] += turn;
-    return world.arm().world_from_tip(q);
+  const auto turned = [&](double turn) -> JointVector {
+    return world.arm().home() + turn * JointVector::Unit(world.arm().joints(), 0);
   };
+  const auto pose_at = [&](double turn) { return world.arm().world_from_tip(turned(turn)); };
   const std::int64_t steps = 240;
   Trajectory swing;
   const JointVector still = JointVector::Zero(world.arm().joints());
-  for (const auto& [step, turn] : {std::pair<std::int64_t, double>{0, 0.0}, {steps, 0.6}, {2 * steps, 0.0}}) {
-    JointVector q = world.arm().home();
-    q[0] += turn;
-    swing.knots.push_back({step, q, still, still});
-  }
+  for (const auto& [step, turn] : {std::pair<std::int64_t, double>{0, 0.0}, {steps, 0.6}, {2 * steps, 0.0}})
+    swing.knots.push_back({step, turned(turn), still, still});
   world.apply(operation::Follow{swing});
   Passages passages({{"far", pose_at(0.6), 0}, {"back", pose_at(0.3), 0}, {"nowhere", translation(9, 9, 9), 0}}, 7);
   Passages forth({{"out", pose_at(0.3), 0}, {"far", pose_at(0.6), 0}}, 7);

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "engine/episode/world_view.h"
-#include "engine/sim/collision_space.h"
 #include "scripting/runtime/episode_scripts.h"
 
 namespace stampede::test {
