@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "db/catalogue.h"
 #include "engine/render/png.h"
 #include "tests/program/say.h"
 

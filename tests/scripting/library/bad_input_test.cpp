@@ -227,8 +227,11 @@ TEST_CASE("golden: looks of objects") {
     return said("worlds/objects/cube.lua", "mass = ", fields + ", mass = ");
   };
   CHECK(cube("texture = checker { \"red\", \"blue\", size = 0.1 }").empty());
-  CHECK(cube("texture = texture { \"wood.png\" }, visual = { box { 1, 1, 1 }, mesh { \"a.obj\" } }").empty());
-  CHECK(cube("visual = mesh { \"a.obj\" }").empty());
+  const std::string beside = "'\n    it is looked for beside this file";
+  CHECK(cube("texture = texture { \"wood.png\" }") ==
+        "worlds/objects/cube.lua:2: texture: there is no picture 'wood.png" + beside);
+  CHECK(cube("visual = { box { 1, 1, 1 }, mesh { \"a.obj\" } }") ==
+        "worlds/objects/cube.lua:2: visual: there is no mesh 'a.obj" + beside);
   CHECK(
       cube("texture = \"wood\"") ==
       "worlds/objects/cube.lua:2: texture: expects texture such as checker { \"white\", \"black\" }, this is the text "
