@@ -227,7 +227,7 @@ TEST_CASE("golden: looks of objects") {
     return said("worlds/objects/cube.lua", "mass = ", fields + ", mass = ");
   };
   CHECK(cube("texture = checker { \"red\", \"blue\", size = 0.1 }").empty());
-  const std::string beside = "'\n    it is looked for beside this file";
+  const std::string beside = "'\n    it is looked for beside this file\n";
   CHECK(cube("texture = texture { \"wood.png\" }") ==
         "worlds/objects/cube.lua:2: texture: there is no picture 'wood.png" + beside);
   CHECK(cube("visual = { box { 1, 1, 1 }, mesh { \"a.obj\" } }") ==
