@@ -49,7 +49,7 @@ std::vector<std::string> untyped(const std::string& text) {
 
 TEST_CASE("the domains of all tasks type every variable, and plans name the problem's objects") {
   const auto task = GENERATE(from_range(shipped_tasks()));
-  const auto* sized = GENERATE("--pddl", "--task-sized");
+  const auto sized = GENERATE(as<std::string>{}, "--pddl", "--task-sized");
   const Said said = say({"plan", task, sized, "--seed", "5", "--root", STAMPEDE_SOURCE_DIR});
   INFO(task << " " << sized << "\n" << said.err);
   REQUIRE(said.code == kDone);
@@ -66,7 +66,8 @@ TEST_CASE("the domains of all tasks type every variable, and plans name the prob
   const Problem problem = problem_from_pddl(problem_text, "problem", domain);
   CHECK(plan_text.find('.') == std::string::npos);
   std::set<std::string> words;
-  for (const Node& item : symbolic::parse_list("(" + plan_text + ")", "plan").items)
+  const Node steps = symbolic::parse_list("(" + plan_text + ")", "plan");
+  for (const Node& item : steps.items)
     for (std::size_t i = 1; i < item.items.size(); ++i) words.insert(item.items[i].word);
   for (const TypedObject& object : problem.objects) words.erase(to_pddl_name(object.name));
   CHECK(words == std::set<std::string>{});
