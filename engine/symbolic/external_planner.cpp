@@ -89,10 +89,11 @@ std::string last_lines(const std::string& text) {
   return text.substr(begin);
 }
 
+// Fast Downward's codes; what others mean by theirs is not known.
 PlanEnd end_of(int exit_code) {
   if (exit_code == 10 || exit_code == 11) return PlanEnd::unsolvable;
   if (exit_code == 20 || exit_code == 22) return PlanEnd::memory_limit;
-  return PlanEnd::expansion_limit;  // given up, for whatever reason
+  return PlanEnd::no_answer;
 }
 
 }  // namespace

@@ -36,6 +36,8 @@ std::string to_text(PlanEnd end) {
       return "gave up at the limit of expansions";
     case PlanEnd::memory_limit:
       return "gave up at the limit of memory";
+    case PlanEnd::no_answer:
+      return "the planner ended without an answer";
   }
   return {};
 }

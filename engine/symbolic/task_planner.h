@@ -30,6 +30,7 @@ enum class PlanEnd {
   unsolvable,       // proved: no plan exists without the forbidden actions
   expansion_limit,  // given up: there may be one
   memory_limit,     // given up, in grounding or in search
+  no_answer,        // another's program ended without a plan, for reasons of its own
 };
 std::string to_text(PlanEnd end);  // `solved`, `unsolvable (proved)`, `gave up at the limit of expansions`, … of memory
 

@@ -93,6 +93,7 @@ std::string plan_story(const FoundPlans& found) {
 
 ExitCode plan_code(const FoundPlans& found) {
   if (found.outcome.solved) return kDone;
+  if (found.outcome.end == PlanEnd::no_answer) return kBadInput;  // the planner that was named is at fault
   return found.outcome.end == PlanEnd::unsolvable ? kNo : kBudgetSpent;
 }
 

@@ -123,6 +123,10 @@ TEST_CASE("another planner's program: its plan is read and checked, its failures
   CHECK(answer("printf '(open x)' > {plan}; printf '(open chest--drawer)' > {plan}.1 # {domain} {problem}").solved);
   const PlanOutcome none = answer("echo 'no solution' # {domain} {problem} {plan}\nexit 11");
   CHECK(none.end == PlanEnd::unsolvable);
+  const PlanOutcome own = answer("cat {domain} {problem} > /dev/null; echo lost > {plan}.log; exit 1");
+  CHECK(own.end == PlanEnd::no_answer);
+  CHECK(to_text(own.end) == "the planner ended without an answer");
+  CHECK(own.explanation.find("ended with code 1 and wrote no plan") != std::string::npos);
   CHECK(none.explanation.find("ended with code 11 and wrote no plan:\nno solution") != std::string::npos);
   CHECK_THROWS_WITH(answer("planner {domain} {problem}"), Catch::Contains("the command has no {plan}"));
   CHECK_THROWS_WITH(answer("/nowhere/planner {domain} {problem} {plan}"), Catch::Contains("could not be started"));
