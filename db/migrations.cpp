@@ -86,7 +86,7 @@ KeptCopy::KeptCopy(const std::filesystem::path& file, int schema)
 
 void KeptCopy::remove() {
   std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path_.string() + ending, ignored);
 }
 
 }  // namespace stampede

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/hash.h"
@@ -182,7 +183,10 @@ std::shared_ptr<ImageStore> sample_images(const EpisodeRecord& episode, const st
             RandomKey("sample").with(episode.seed).with(frame).with(static_cast<std::int64_t>(camera)).with(kind));
         std::vector<std::uint8_t> data(bytes);
         for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random.below(256));
-        if (kind == "instance") data = mask_png(random, episode.masks.size());
+        if (kind == "instance") {  // a mask that can be read, with as many bytes: what follows a PNG's end is nothing
+          const std::vector<std::uint8_t> mask = mask_png(random, episode.masks.size());
+          std::copy_n(mask.begin(), std::min(mask.size(), data.size()), data.begin());
+        }
         store->append(image, data);
       }
   return store;
