@@ -71,7 +71,9 @@ void copy_database(const std::filesystem::path& file, const std::filesystem::pat
   sqlite3_backup* backup = sqlite3_backup_init(to.handle(), "main", from.handle(), "main");
   if (backup == nullptr) to.fail(sqlite3_errcode(to.handle()));
   sqlite3_backup_step(backup, -1);
-  const int code = sqlite3_backup_finish(backup);
+  int code = sqlite3_backup_finish(backup);
+  // The copy of a file in WAL mode says that it is in that mode too: whoever reads it would leave a log beside it.
+  if (code == SQLITE_OK) code = sqlite3_exec(to.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
   if (code == SQLITE_OK) return;
   std::error_code ignored;
   std::filesystem::remove(copy, ignored);

@@ -24,7 +24,7 @@ void migrate(const sql::Database& database, int schema);
 // from pictures is left out. Lifetime: reads the file as long as it lives.
 sql::Database migrated_to_read(const std::string& uri, int flags, const std::string& shown_path, int schema);
 
-// Everything that is committed in `file`, in a new file. Throws CatalogueError when there is no room for it.
+// Everything that is committed in `file`, in a new file without a log. Throws CatalogueError when there is no room.
 void copy_database(const std::filesystem::path& file, const std::filesystem::path& copy);
 
 // A copy of the file that stays until remove() or, when the program dies, beside the file: SQLite's own log brings the
