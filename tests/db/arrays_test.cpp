@@ -57,6 +57,8 @@ TEST_CASE("arrays of a catalogue are those of the episode in memory, to the last
   const Folder folder;
   EpisodeRecord episode = sample_episode("lift", "colour=red", 7);
   episode.images = sample_images(episode, {0, 4});
+  for (FrameRecord& frame : episode.frames)  // the robot's second joint is a finger: nothing commands it
+    if (frame.action) frame.action->joint_position.resize(1);
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   catalogue.add(episode, kEngine);
   const EpisodeArrays whole = catalogue.read_arrays(1);
