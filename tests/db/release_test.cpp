@@ -224,6 +224,7 @@ TEST_CASE("a migration that is killed or fails leaves the old catalogue usable")
   REQUIRE(WIFSIGNALED(killed));
   CHECK(fs::exists(folder / "a.db.schema5"));  // the copy, whole
   CHECK(number(folder / "a.db.schema5", "PRAGMA user_version") == 5);
+  CHECK(!fs::exists(folder / "a.db.schema5-wal"));  // one file, also after it was read
   CHECK(number(folder / "a.db", "PRAGMA user_version") == 5);
   CHECK(Catalogue::open(folder / "a.db").content_hash() == hash);
   const int full = in_child([&] {
