@@ -60,6 +60,7 @@ class Workplace {
         "(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On porcelain_mug_1 desk_middle))\n"
         "(:goal (And (On porcelain_mug_1 plate_1))))\n");
     fs::create_directory("my_tasks");
+    for (const char* part : {"part1.db", "part2.db", "old.db", "now.db"}) fs::copy_file("demos.db", part);
   }
   ~Workplace() { fs::current_path(before_); }
   Workplace(const Workplace&) = delete;
