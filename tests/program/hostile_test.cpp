@@ -35,7 +35,7 @@ Said checked(const Folder& mine) { return say({"check", "--root", STAMPEDE_SOURC
 
 std::string told(const Said& said) { return said.out + said.err; }
 
-const std::string kTetrahedron = "v 0 0 0\nv .04 0 0\nv 0 .04 0\nv 0 0 .04\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const std::string kTetrahedron = "v 0 0 0\nv 0.04 0 0\nv 0 0.04 0\nv 0 0 0.04\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 }  // namespace
 

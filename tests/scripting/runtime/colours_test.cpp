@@ -46,19 +46,23 @@ TEST_CASE("other colours are those that nobody takes for the one") {
   CHECK(answer("colours.except()").items.size() == answer("colours.names").items.size());
 }
 
-TEST_CASE("no shipped task shows two colours that a person takes for one another") {
+TEST_CASE("no shipped task shows a colour that a person takes for the one it asks for") {
   std::map<std::pair<std::string, std::string>, double> known;
   for (const ScriptFile* file : library()->files(DefinitionKind::task)) {
     const auto& variations = library()->task(file->name)->variation_texts;
     for (std::size_t i = 0; i < variations.size(); i += variations.size() / 5 + 1) {
       EpisodeScripts scripts(library(), file->name, variations[i], 1);
       std::map<std::string, std::set<std::string>> shown;  // by what it is: a green zone is no green block
-      for (const Object& object : scripts.task()(0).scene.objects)
+      const Task task = scripts.task()(0);
+      std::set<std::string> asked;
+      for (const auto& [axis, value] : task.axes) asked.insert(value);
+      for (const Object& object : task.scene.objects)
         if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end())
           shown[object.class_name].insert(colour->second);
       for (const auto& [what, colours] : shown)
         for (auto a = colours.begin(); a != colours.end(); ++a)
           for (auto b = std::next(a); b != colours.end(); ++b) {
+            if (!asked.contains(*a) && !asked.contains(*b)) continue;
             const auto [found, fresh] = known.try_emplace({*a, *b}, 0);
             if (fresh) found->second = difference(*a, *b);
             INFO(file->name << " " << variations[i] << ", " << what << ": " << *a << " and " << *b);
