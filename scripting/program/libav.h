@@ -16,19 +16,20 @@ extern "C" {
   X(av_frame_alloc)                  \
   X(av_frame_free) X(av_frame_get_buffer) X(av_log_set_level) X(av_opt_set) X(av_rescale) X(av_strerror)
 
-#define STAMPEDE_AVCODEC_FUNCTIONS(X)                                                                \
-  X(av_packet_alloc)                                                                                 \
-  X(av_packet_free)                                                                                  \
-  X(av_packet_rescale_ts)                                                                            \
-  X(avcodec_alloc_context3) X(avcodec_find_encoder_by_name) X(avcodec_free_context) X(avcodec_open2) \
-      X(avcodec_parameters_from_context) X(avcodec_receive_packet) X(avcodec_send_frame)
+#define STAMPEDE_AVCODEC_FUNCTIONS(X)                                                                         \
+  X(av_packet_alloc)                                                                                          \
+  X(av_packet_free)                                                                                           \
+  X(av_packet_rescale_ts)                                                                                     \
+  X(avcodec_alloc_context3)                                                                                   \
+  X(avcodec_find_encoder_by_name) X(avcodec_free_context) X(avcodec_open2) X(avcodec_parameters_from_context) \
+      X(avcodec_receive_packet) X(avcodec_send_frame)
 
-#define STAMPEDE_AVFILTER_FUNCTIONS(X)                                                                    \
-  X(av_buffersink_get_frame)                                                                              \
-  X(av_buffersrc_add_frame)                                                                               \
-  X(avfilter_get_by_name)                                                                                 \
-  X(avfilter_graph_alloc) X(avfilter_graph_config) X(avfilter_graph_create_filter) X(avfilter_graph_free) \
-      X(avfilter_link)
+#define STAMPEDE_AVFILTER_FUNCTIONS(X) \
+  X(av_buffersink_get_frame)           \
+  X(av_buffersrc_add_frame)            \
+  X(avfilter_get_by_name)              \
+  X(avfilter_graph_alloc)              \
+  X(avfilter_graph_config) X(avfilter_graph_create_filter) X(avfilter_graph_free) X(avfilter_link)
 
 #define STAMPEDE_AVFORMAT_FUNCTIONS(X) \
   X(av_interleaved_write_frame)        \

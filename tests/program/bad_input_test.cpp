@@ -66,7 +66,9 @@ TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `r
 
 TEST_CASE("`check` builds what tasks use: a missing mesh, a broken mesh and a shape without size are found") {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"mesh { 'none.stl' }", "there is no mesh 'none.stl'"}, {"mesh { 'bad.obj' }", "mesh"}, {"box { -1, 1, 1 }", "positive"}};
+      {"mesh { 'none.stl' }", "there is no mesh 'none.stl'"},
+      {"mesh { 'bad.obj' }", "mesh"},
+      {"box { -1, 1, 1 }", "positive"}};
   for (const auto& [shape, complaint] : cases) {
     const Folder mine;
     put(mine, "worlds/objects/mug.lua",

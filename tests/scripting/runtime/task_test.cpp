@@ -214,7 +214,7 @@ TEST_CASE("tests beside the goal see the world and the variation") {
   CHECK(tower.task()(0).reward(small.view) == 0.75);
   CHECK_FALSE(tower.task()(0).fails(small.view));
   CHECK_FALSE(small.scripts.task()(0).also(small.view));  // the cube is white
-  CHECK_FALSE(small.scripts.task()(0).reward);  // it says nothing of one
+  CHECK_FALSE(small.scripts.task()(0).reward);            // it says nothing of one
 }
 
 TEST_CASE("unknown tasks and variations are told with a cure") {
