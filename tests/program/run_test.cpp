@@ -101,7 +101,7 @@ TEST_CASE("a key tells apart seed, variation, options and definitions, and nothi
   CHECK(key != episode_key(edited, {"a", "v", 1}, {}));
 }
 
-TEST_CASE("--set: what a caller chooses is used and named as the caller's") {
+TEST_CASE("with --set, what a caller chooses is used and named as the caller's") {
   const Folder mine;
   const Said run = say({"run", "pick_and_lift", "--seed", "3", "--set", "pick.height=0.2", "--set",
                         "pick.controller=joint_impedance", "--root", kRoot, "--out", mine / "o.db"});
@@ -113,7 +113,7 @@ TEST_CASE("--set: what a caller chooses is used and named as the caller's") {
         "name,value,text,chosen_by\nheight,0.2,,caller\ncontroller,,joint_impedance,caller\n");
 }
 
-TEST_CASE("--set: what there is not is a wrong use, before anything runs") {
+TEST_CASE("with --set, what there is not is a wrong use, before anything runs") {
   const Folder mine;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"pik.height=0.2", "there is no skill 'pik'\n    did you mean 'pick'?"},

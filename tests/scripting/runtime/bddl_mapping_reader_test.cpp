@@ -1,5 +1,7 @@
 #include "scripting/runtime/bddl_mapping_reader.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +16,8 @@ const Library& library() {
 }
 
 BddlMapping read_text(const std::string& fields) {
-  const auto path = std::filesystem::temp_directory_path() / "stampede_bddl_mapping.lua";
+  const auto path =
+      std::filesystem::temp_directory_path() / ("stampede_bddl_mapping_" + std::to_string(::getpid()) + ".lua");
   std::ofstream(path) << "-- A mapping.\nreturn { " << fields << " }\n";
   return read_bddl_mapping(library(), path.string());
 }
