@@ -96,7 +96,7 @@ void CurrentPlan::look() {
   if (!assumed_) return;
   const std::vector<Fact> unknown = rollout_.facts().never_seen();
   if (std::find(unknown.begin(), unknown.end(), *assumed_) != unknown.end()) return;
-  looked_[*assumed_] = rollout_.facts().known(*assumed_);
+  looked_.emplace(*assumed_, rollout_.facts().known(*assumed_));  // as it was when it was first seen
 }
 
 std::string CurrentPlan::as_text() const {

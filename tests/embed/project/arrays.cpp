@@ -1,9 +1,8 @@
 // An episode in memory, without any catalogue: states, pictures and arrays of it; then the same from a file.
-#include <stampede/session.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <stampede/session.h>
 #include <string>
 
 namespace {
@@ -70,8 +69,7 @@ int main() {
   std::filesystem::remove("arrays.db");
   stampede::Session stored({.catalogue = "arrays.db"});
   const stampede::Episode again = stored.run("reach_target", {.seed = 7});
-  if (again.record || again.id != 1 || !same(arrays, stored.arrays(again)) || !same(arrays, stored.arrays(1)))
-    return 12;
+  if (again.record || again.id != 1 || !same(arrays, stored.arrays(again)) || !same(arrays, stored.arrays(1))) return 12;
   const stampede::Rows rows = stored.query("SELECT task, frames, duration_s FROM episodes");
   std::printf("%s, %d frames, %.2f s, %zu columns\n", rows.text(0, "task").c_str(),
               static_cast<int>(rows.integer(0, "frames")), rows.real(0, "duration_s"), arrays.columns.size());

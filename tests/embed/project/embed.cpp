@@ -1,6 +1,5 @@
-#include <stampede/session.h>
-
 #include <cstdio>
+#include <stampede/session.h>
 
 int main() {
   stampede::Session session({.catalogue = "demos.db"});

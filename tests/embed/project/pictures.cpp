@@ -1,8 +1,7 @@
 // What cameras see, as plain arrays: checked against each other, with the public headers alone.
-#include <stampede/session.h>
-
 #include <cmath>
 #include <cstdio>
+#include <stampede/session.h>
 
 int main() {
   stampede::Session session({.catalogue = "pictures.db"});
