@@ -12,17 +12,20 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+// What it makes of these lists is another thing each time.
+// clang-format off
 #define STAMPEDE_AVUTIL_FUNCTIONS(X) \
   X(av_frame_alloc)                  \
   X(av_frame_free) X(av_frame_get_buffer) X(av_log_set_level) X(av_opt_set) X(av_rescale) X(av_strerror)
 
-#define STAMPEDE_AVCODEC_FUNCTIONS(X)                                                                         \
-  X(av_packet_alloc)                                                                                          \
-  X(av_packet_free)                                                                                           \
-  X(av_packet_rescale_ts)                                                                                     \
-  X(avcodec_alloc_context3)                                                                                   \
-  X(avcodec_find_encoder_by_name) X(avcodec_free_context) X(avcodec_open2) X(avcodec_parameters_from_context) \
-      X(avcodec_receive_packet) X(avcodec_send_frame)
+#define STAMPEDE_AVCODEC_FUNCTIONS(X)                                                                   \
+  X(av_packet_alloc)                                                                                    \
+  X(av_packet_free)                                                                                     \
+  X(av_packet_rescale_ts)                                                                               \
+  X(avcodec_alloc_context3)                                                                             \
+  X(avcodec_find_encoder_by_name)                                                                       \
+  X(avcodec_free_context) X(avcodec_open2) X(avcodec_parameters_from_context) X(avcodec_receive_packet) \
+      X(avcodec_send_frame)
 
 #define STAMPEDE_AVFILTER_FUNCTIONS(X) \
   X(av_buffersink_get_frame)           \
@@ -39,6 +42,7 @@ extern "C" {
 
 #define STAMPEDE_SWSCALE_FUNCTIONS(X) \
   X(sws_freeContext) X(sws_getCoefficients) X(sws_getContext) X(sws_scale) X(sws_setColorspaceDetails)
+// clang-format on
 
 namespace stampede::program {
 
