@@ -54,6 +54,7 @@ PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const Coll
   if (opening > rollout.world().opening(call.robot)) {
     CollisionState released = held;
     released.release();
+    released.clear_allowed();  // where it is put may be touched by what is held, not by the fingers
     if (rollout.keep) released.allow(*rollout.keep);
     opening = widest_opening(released, rollout.world().arm_position(call.robot), opening);
   }

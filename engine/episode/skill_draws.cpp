@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/episode/call_motion.h"
+#include "engine/motion/planner.h"
 
 namespace stampede {
 namespace {
@@ -61,8 +62,11 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
   for (const std::string& name : info.literal.arguments)
     fact.arguments.push_back(argument(context.info->parameters, context.arguments, name));
   const auto space = planning_space(rollout, touchable(rollout, context));
+  CollisionState letting_go = *space;
+  letting_go.set_opening(space->opening() + kRoomToLetGo_m);
   const World& world = rollout.world();
   int wanted = context.attempt % 6;
+  std::optional<Transform> tight;  // there the fingers have no room to open
   for (const Placement& placement :
        symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples)) {
     const Transform* pose = std::get_if<Transform>(&placement.value);
@@ -71,11 +75,18 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
       const Transform object_from_tip = rollout.view().world_from(placement.object).inverse() * world.world_from_tip();
       const auto ways =  // as many as a grasp is given: the nearest one may touch something
           world.arm().solutions(*pose * object_from_tip, planning_start(world), context.key.with("ik"), 3, 12);
-      if (std::none_of(ways.begin(), ways.end(), [&](const JointVector& q) { return space->free(q); })) continue;
+      const auto free_in = [&](const CollisionState& state) {
+        return std::any_of(ways.begin(), ways.end(), [&](const JointVector& q) { return state.free(q); });
+      };
+      if (!free_in(letting_go)) {
+        if (!tight && free_in(*space)) tight = *pose;
+        continue;
+      }
     }
     if (!value.pose || wanted-- > 0) value.pose = *pose;
     if (wanted < 0 || context.attempt == 0) break;
   }
+  if (!value.pose) value.pose = tight;
   if (!value.pose) {
     detail = "no reachable and free pose makes " + to_text(fact) + " true";
     return Reason::no_placement;

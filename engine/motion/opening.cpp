@@ -7,9 +7,8 @@ namespace stampede {
 namespace {
 
 constexpr double kStep_m = 0.001;
-constexpr double kSpare_m = 0.0015;    // left between a finger and what is beside it
-constexpr double kLeast_m = 0.004;     // what lets go of a thing in any case
-constexpr double kOverlap_m = 0.0005;  // a finger that already leans against something
+constexpr double kSpare_m = 0.0015;                         // left between a finger and what is beside it
+constexpr double kLeast_m = kRoomToLetGo_m - 2 * kSpare_m;  // in any case
 
 bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
   return std::any_of(pairs.begin(), pairs.end(), [&](const CollisionPair& other) {
@@ -21,7 +20,7 @@ bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
 
 double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m) {
   const double least = std::min(wanted_m, state.opening() + kLeast_m);
-  const std::vector<CollisionPair> touched = state.contacts(q, kOverlap_m);
+  const std::vector<CollisionPair> touched = state.contacts(q);
   CollisionState wider = state;
   for (double opening = state.opening() + kStep_m; opening < wanted_m + kSpare_m; opening += kStep_m) {
     wider.set_opening(opening);

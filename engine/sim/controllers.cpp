@@ -245,8 +245,9 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
 }
 
 // Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction
-// of its force: the solver's iterations end first. A finger that stands still short of its target is asked for more,
-// which its force limit then cuts off.
+// of its force: the solver's iterations end first. A closing finger that stands still short of its target is asked for
+// more, which its force limit then cuts off. An opening one is not: nobody grasps with it, and where contact is lost
+// for a step it would jump.
 void World::Impl::control_hand() {
   const Robot& robot = scene->robot;
   const double each = finger_motors.empty() ? 0 : hand.opening / static_cast<double>(finger_motors.size());
@@ -255,11 +256,11 @@ void World::Impl::control_hand() {
     const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
     const double lag = each - body_slot(kRobot).multibody->getJointPos(finger_links[f]);
     const double speed = body_slot(kRobot).multibody->getJointVel(finger_links[f]);
-    const bool blocked = steps >= std::max(hand_step, boundary_step) + kStartSteps && std::abs(lag) > kBlockedLag &&
+    const bool blocked = steps >= std::max(hand_step, boundary_step) + kStartSteps && lag < -kBlockedLag &&
                          std::abs(speed) < kBlockedSpeed * robot.finger_speed;
     btMultiBodyJointMotor& motor = *finger_motors[f];
     motor.setPositionTarget(each, blocked ? 0 : 1);
-    motor.setVelocityTarget(blocked ? std::copysign(kPressSpeed, lag) : 0, 1);
+    motor.setVelocityTarget(blocked ? -kPressSpeed : 0, 1);
     motor.setRhsClamp(blocked ? kPressSpeed : robot.finger_speed);
     motor.setMaxAppliedImpulse(force * dt);
   }

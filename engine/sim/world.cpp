@@ -12,6 +12,7 @@ namespace stampede {
 constexpr int kSolverIterations = 20;  // measured: fewer lets grasps slip, more buys little
 constexpr int kStrainedIterations =
     120;                          // a light part between a stop and a strong arm: 20 let it sink in by centimetres
+constexpr double kAskew = 3e-4;   // m between two coupled fingers
 constexpr double kStrain = 5e-5;  // m or rad beyond its stop
 
 World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
@@ -154,7 +155,10 @@ bool World::Impl::strained() const {
     return q < joint.lower - kStrain || q > joint.upper + kStrain;
   };
   const std::vector<int>& fingers = scene->robot.fingers;
-  return std::any_of(mechanisms.begin(), mechanisms.end(), [&](const Mechanism& m) { return beyond(m.part); }) ||
+  const bool askew =
+      fingers.size() == 2 && std::abs(position({kRobot, fingers[0]}) - position({kRobot, fingers[1]})) > kAskew;
+  return askew ||
+         std::any_of(mechanisms.begin(), mechanisms.end(), [&](const Mechanism& m) { return beyond(m.part); }) ||
          std::any_of(fingers.begin(), fingers.end(), [&](int finger) {
            return beyond({kRobot, finger});
          });

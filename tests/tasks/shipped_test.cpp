@@ -59,11 +59,10 @@ void check_strain(const EpisodeRecord& episode) {
   CHECK(strain.beyond_rad.value < 0.0087);  // half a degree
   CHECK(strain.force.value < 100);
   CHECK(strain.free_force.value < 1);
-  // Open: a laid plate falls 6 mm deep onto its edge, an umbrella turns by 7 mm about the pads.
-  CHECK(strain.depth.value < (episode.task == "take_plate_off_colored_dish_rack" ? 0.008 : 0.002));
+  CHECK(strain.depth.value < 0.002);
   CHECK(strain.tool_speed.value < 1.7);
   CHECK(strain.end_speed.value < 0.03);
-  CHECK(strain.slip.value < (episode.task == "take_umbrella_out_of_umbrella_stand" ? 0.008 : 0.003));
+  CHECK(strain.slip.value < 0.003);
 }
 
 // Every `of`-th task, from `first` on; each in a section of its name (`-c push_buttons` runs that alone).

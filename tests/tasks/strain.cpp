@@ -1,8 +1,10 @@
 #include "tests/tasks/strain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -95,12 +97,14 @@ class Measurement {
     const bool free_motion =
         motion_ && (motion_->skill == "move_through" || motion_->skill == "move_to" || motion_->skill == "move_joints");
     std::set<std::pair<PartRef, PartRef>> touching;
+    std::map<std::pair<PartRef, PartRef>, std::array<double, 3>> recent;
     for (const Contact& contact : world_.contacts()) {
       const std::string what = part_name(scene, contact.a) + " and " + part_name(scene, contact.b) + " at " + place();
       strain_.force.meet(contact.peak_force, what);
-      // What falls is a step of its way deep when it lands: what counts is what stays.
-      if (last_touching_.contains({contact.a, contact.b}) && !falls(contact.a, held) && !falls(contact.b, held))
-        strain_.depth.meet(contact.depth, what);
+      std::array<double, 3>& depths = recent[{contact.a, contact.b}];
+      if (const auto before = depths_.find({contact.a, contact.b}); before != depths_.end()) depths = before->second;
+      depths = {contact.depth, depths[0], depths[1]};
+      strain_.depth.meet(*std::min_element(depths.begin(), depths.end()), what);
       forces_.push_back(contact.peak_force);
       const bool of_robot = contact.a.body == -1, of_held = held && (contact.a == *held || contact.b == *held);
       const bool grasp = of_robot && held && contact.b == *held;
@@ -109,14 +113,9 @@ class Measurement {
       if (free_motion && (of_robot || of_held) && !grasp && !touched_.contains({contact.a, contact.b}))
         strain_.free_force.meet(contact.peak_force, what);
     }
-    last_touching_ = touching;
+    depths_ = std::move(recent);
     for (auto it = touched_.begin(); it != touched_.end();)
       it = touching.contains(*it) ? std::next(it) : touched_.erase(it);
-  }
-
-  bool falls(PartRef part, const std::optional<PartRef>& held) const {
-    if (part.body < 0 || part == held || !world_.scene().bodies[static_cast<std::size_t>(part.body)].free) return false;
-    return world_.linear_velocity(part).norm() + 0.1 * world_.angular_velocity(part).norm() > 0.1;
   }
 
   // From 0.1 s after the fingers have closed on a free body until they open.
@@ -155,8 +154,8 @@ class Measurement {
   const SegmentRecord* motion_ = nullptr;
   const SegmentRecord* known_motion_ = nullptr;
   const SegmentRecord* skill_ = nullptr;
-  std::set<std::pair<PartRef, PartRef>> touched_;        // since before this motion
-  std::set<std::pair<PartRef, PartRef>> last_touching_;  // in the frame before
+  std::set<std::pair<PartRef, PartRef>> touched_;                        // since before this motion
+  std::map<std::pair<PartRef, PartRef>, std::array<double, 3>> depths_;  // in the last three frames
   std::vector<double> forces_;
   std::optional<PartRef> held_;
   int held_frames_ = 0;

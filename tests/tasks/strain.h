@@ -21,7 +21,7 @@ struct Strain {
   Worst beyond_m, beyond_rad;  // joints beyond their stops
   Worst force;                 // of a contact, in one step, N
   double median_force = 0;     // of the peaks of all contacts, N
-  Worst depth;                 // overlap of two shapes that were in contact a frame ago too, m
+  Worst depth;                 // overlap of two shapes that lasts three frames (what lands is deep for some steps), m
   Worst free_force;            // of the robot, or what it holds, in free motions, N
   Worst tool_speed;            // m/s
   Worst end_speed;             // of a joint of the arm where a skill ends, rad/s

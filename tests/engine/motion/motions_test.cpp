@@ -159,6 +159,10 @@ TEST_CASE("the hand opens as far as what is beside it allows") {
   CHECK(opening < 0.06);
   state.set_opening(opening);
   CHECK(state.free(q));
+  // One that a finger all but leans against: the hand opens as little as lets go.
+  state.set_opening(0.04);
+  state.move_body(other, world.world_from_tip() * translation(0, 0.02 + 0.0224 + 0.0003 + 0.02, 0));
+  CHECK(widest_opening(state, q, 0.08) < 0.045);
 }
 
 TEST_CASE("the tool keeps its own speed limit, whatever the joints could do") {

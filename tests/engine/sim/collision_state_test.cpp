@@ -182,14 +182,13 @@ TEST_CASE("a free place may have something below, but nothing beside or within",
 }
 
 TEST_CASE("what the state says of random poses, the world's own contacts say too", "[sim]") {
-  // Cubes are put into or beside the hand at random; one step later Bullet tells what presses against what. Pairs that
-  // are within half a millimetre of touching are left out.
-  World world(shared(table_scene(4)));
+  // A cube is put into or beside the hand at random; one step later Bullet tells what presses against what. Pairs that
+  // are within half a millimetre of touching are left out. One cube only: two that overlap push each other off the hand.
+  World world(shared(table_scene(1)));
   Random random(RandomKey("contacts"));
   int met = 0, apart = 0;
-  for (int round = 0; round < 60; ++round) {
-    for (const char* cube : {"cube1", "cube2", "cube3", "cube4"})
-      world.apply(operation::Place{body_index(world, cube), world.world_from_tip() * random_pose(random, 0.12)});
+  for (int round = 0; round < 240; ++round) {
+    world.apply(operation::Place{body_index(world, "cube1"), world.world_from_tip() * random_pose(random, 0.12)});
     world.apply(operation::Boundary{});
     const CollisionState state = world.collision_state();
     const JointVector q = world.arm_position();

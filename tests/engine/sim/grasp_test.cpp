@@ -77,6 +77,27 @@ TEST_CASE("a held cube survives lift, shake and a 10 s hold with less than 2 mm 
   CHECK(force.head<2>().norm() < 0.1);
 }
 
+TEST_CASE("light things stay in the middle of the hand where contact has to be found anew", "[sim]") {
+  Scene scene = table_scene(1);
+  for (Body& body : scene.bodies)
+    if (body.name == "cube1") set_uniform_mass(body.parts[0], 0.012);
+  World world(shared(std::move(scene)));
+  const int cube = body_index(world, "cube1");
+  const Vector3 at = world.world_from_part({cube, 0}).translation();
+  move_to(world, solve(world, tip_down(at.x(), at.y(), at.z() + 0.1), world.arm().home()), 2);
+  move_line(world, tip_down(at.x(), at.y(), at.z()), 1);
+  grip(world, 0, 10);
+  move_line(world, tip_down(at.x(), at.y(), at.z() + 0.2, 0.5), 1);
+  const std::vector<int>& fingers = world.scene().robot.fingers;
+  for (int boundary = 0; boundary < 4; ++boundary) {
+    world.apply(operation::Boundary{});
+    move_line(world, tip_down(at.x(), at.y() + 0.05 * boundary, at.z() + 0.2, 0.5 + 0.3 * boundary), 0.6);
+    REQUIRE(world.grasped() == PartRef{cube, 0});
+    CHECK(std::abs(world.joint_position({-1, fingers[0]}) - world.joint_position({-1, fingers[1]})) < 4e-4);
+    CHECK(world.opening() == Approx(0.04).margin(2e-4));
+  }
+}
+
 TEST_CASE("a turning hand presses along its own closing axis, and lets go when it opens", "[sim]") {
   World world(shared(table_scene(1)));
   const int cube = body_index(world, "cube1");
