@@ -183,7 +183,8 @@ TEST_CASE("a free place may have something below, but nothing beside or within",
 
 TEST_CASE("what the state says of random poses, the world's own contacts say too", "[sim]") {
   // A cube is put into or beside the hand at random; one step later Bullet tells what presses against what. Pairs that
-  // are within half a millimetre of touching are left out. One cube only: two that overlap push each other off the hand.
+  // are within half a millimetre of touching are left out. One cube only: two that overlap push each other off the
+  // hand.
   World world(shared(table_scene(1)));
   Random random(RandomKey("contacts"));
   int met = 0, apart = 0;
