@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "engine/model/masks.h"
@@ -11,7 +10,8 @@ namespace stampede::program {
 namespace {
 
 constexpr int kLook = 128;        // pixels a side of the pictures that are counted in
-constexpr double kStay = 0.75;    // of the best camera's worth: the last one stays where it reaches this
+constexpr double kMuch = 0.25;    // power of a share: half of a thing is nearly all of it, none of it is none
+constexpr double kStay = 0.8;     // of the best camera's worth: the last one stays where it reaches this
 constexpr double kStill = 0.004;  // m: what goes less far stands still
 
 bool is_fixture(const Scene& scene, const Object& object) {
@@ -100,20 +100,18 @@ std::set<std::int64_t> frames_looked_at(const Shot& shot) {
           (shot.telling_frame + std::max(shot.telling_frame, shot.end_frame - 1)) / 2};
 }
 
-// What each camera is worth: a little of everything is worth more than much of one thing.
-std::vector<double> worth(const std::vector<std::map<int, double>>& pixels, const std::vector<std::set<int>>& things) {
-  std::vector<double> sum(pixels.size(), 0);
+// Adds what each camera is worth at one moment: some of everything is worth more than all of one thing.
+void add_worth(const std::vector<Picture>& pictures, const std::vector<std::set<int>>& things,
+               std::vector<double>& worth) {
   for (const std::set<int>& numbers : things) {
-    std::vector<double> seen(pixels.size(), 0);
-    for (std::size_t camera = 0; camera < pixels.size(); ++camera)
-      for (const int number : numbers)
-        if (const auto found = pixels[camera].find(number); found != pixels[camera].end())
-          seen[camera] += found->second;
+    std::vector<double> seen;
+    for (const Picture& picture : pictures)
+      seen.push_back(static_cast<double>(std::count_if(picture.instance.begin(), picture.instance.end(),
+                                                       [&](int number) { return numbers.contains(number); })));
     const double most = *std::max_element(seen.begin(), seen.end());
-    for (std::size_t camera = 0; camera < pixels.size() && most > 0; ++camera)
-      sum[camera] += std::sqrt(seen[camera] / most);
+    for (std::size_t camera = 0; camera < seen.size() && most > 0; ++camera)
+      worth[camera] += std::pow(seen[camera] / most, kMuch);
   }
-  return sum;
 }
 
 }  // namespace
@@ -154,17 +152,15 @@ void choose_cameras(Renderer& renderer, const EpisodeRecord& episode, const std:
   std::vector<Picture> pictures;
   std::size_t last = usual;
   for (Shot& shot : shots) {
-    std::vector<std::map<int, double>> pixels(cameras.size());
-    for (const std::int64_t frame : frames_looked_at(shot)) {
-      painter.paint(frame, pictures);
-      for (std::size_t camera = 0; camera < pictures.size(); ++camera)
-        for (const std::uint16_t number : pictures[camera].instance) pixels[camera][number] += 1;
-    }
     std::vector<std::set<int>> things;
     for (const std::string& thing : shot.things) things.push_back(numbers_of(*scene, masks, thing));
-    const std::vector<double> sum = worth(pixels, things);
-    const auto best = std::max_element(sum.begin(), sum.end());
-    if (sum[last] < kStay * *best) last = static_cast<std::size_t>(best - sum.begin());
+    std::vector<double> worth(cameras.size(), 0);
+    for (const std::int64_t frame : frames_looked_at(shot)) {
+      painter.paint(frame, pictures);
+      add_worth(pictures, things, worth);
+    }
+    const auto best = std::max_element(worth.begin(), worth.end());
+    if (worth[last] < kStay * *best) last = static_cast<std::size_t>(best - worth.begin());
     shot.camera = last;
   }
 }
