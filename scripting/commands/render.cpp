@@ -109,7 +109,7 @@ std::string place_of(const Arguments& arguments) {
     if ((place == "--video" || place == "--sheet") && arguments.has(option))
       throw UsageError(std::string(option) + " is for --out and --into: films and sheets are for people");
   if (place == "--sheet" && arguments.has("--frames"))
-    throw UsageError("--frames is not for --sheet: it shows where each skill starts");
+    throw UsageError("--frames is not for --sheet: it shows the start, each skill and the end");
   return place;
 }
 
@@ -248,7 +248,8 @@ CommandRow render_command() {
       "Draw stored episodes: as files, into the catalogue, as a film or a contact sheet",
       "Needs the catalogue only: the scene and the frames that it stored, and no scripts. Without further words the "
       "pictures are those that `run` would have stored for the episode, byte for byte. A film and a contact sheet have "
-      "the instruction and the skills written under the pictures. Ctrl-C keeps the episodes that are finished. "
+      "the instruction and the skills written under the pictures; unless --camera names others, each skill is shown by "
+      "the camera that sees most of what it handles. Ctrl-C keeps the episodes that are finished. "
       "Episodes without a scene are left out, with a line that says so.",
       {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
       {{"--out",
@@ -260,7 +261,13 @@ CommandRow render_command() {
         false},
        {"--into", "FILE", "the catalogue that takes the pictures, usually the same", Takes::path, "", {}, false},
        {"--video", "FILE", "a film, .mp4 or .gif, at the rate of the frames", Takes::path, "", {}, false},
-       {"--sheet", "FILE", "a contact sheet (PNG): a picture where each skill starts", Takes::path, "", {}, false},
+       {"--sheet",
+        "FILE",
+        "a contact sheet (PNG): the start, a picture amid each skill, the end",
+        Takes::path,
+        "",
+        {},
+        false},
        {"--frames",
         "WHICH",
         "all, keyframes, or numbers such as 0,10-20; default: as the episode was run, else all",

@@ -11,6 +11,7 @@
 #include "db/catalogue.h"
 #include "engine/render/canvas.h"
 #include "engine/render/renderer.h"
+#include "scripting/commands/render_shots.h"
 #include "scripting/session/stored_episode.h"
 
 namespace stampede::program {
@@ -51,7 +52,7 @@ class Film {
   std::unique_ptr<Impl> impl_;
 };
 
-// One block of a contact sheet: a header and a picture where each skill starts and where the last one ends.
+// One block of a contact sheet: a header, the start, a picture amid each skill, the end.
 Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& drawn);
 // Blocks one below the other. Throws UsageError when there are too many for one picture.
 void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& blocks);
@@ -60,13 +61,15 @@ void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& b
 struct Portrait {
   std::shared_ptr<const Scene> scene;
   Observation observation;  // cameras, size, shadows
+  bool all = false;         // all cameras side by side, as they were asked for; else one of them a shot
 };
 Portrait portrait_of(const RenderRequest& request, const StoredEpisode& stored, std::array<int, 2> size);
 
 class PortraitPainter {
  public:
   PortraitPainter(Renderer& renderer, const StoredEpisode& stored, const Portrait& portrait);
-  // The cameras' pictures, side by side on the canvas.
+  const std::vector<Shot>& shots() const { return shots_; }
+  // The pictures of the cameras that are asked for side by side on the canvas, or that of the shot's camera.
   void paint(std::int64_t frame, Canvas& canvas, int x, int y);
   int width() const;
   int height() const;
@@ -75,6 +78,7 @@ class PortraitPainter {
   Renderer& renderer_;
   const StoredEpisode& stored_;
   const Portrait& portrait_;
+  std::vector<Shot> shots_;
   EpisodePainter painter_;
   std::vector<Picture> pictures_;
 };

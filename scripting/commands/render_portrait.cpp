@@ -9,18 +9,26 @@ namespace {
 constexpr int kSamples = 2;  // a pixel and side
 constexpr const char* kUsualCamera = "front";
 
+// Cameras that stay where they are, all when there is none: people want to see the hand, not what the hand sees.
+std::vector<std::string> standing(const Scene& scene) {
+  std::vector<std::string> names, all;
+  for (const Camera& camera : scene.cameras) {
+    all.push_back(camera.name);
+    if (camera.mount_body.empty()) names.push_back(camera.name);
+  }
+  return names.empty() ? all : names;
+}
+
 }  // namespace
 
 Portrait portrait_of(const RenderRequest& request, const StoredEpisode& stored, std::array<int, 2> size) {
   Portrait portrait;
   portrait.scene = with_cameras(stored, request.further(*stored.scene), request.named());
-  const std::vector<Camera>& all = portrait.scene->cameras;
+  const std::vector<Camera>& cameras = portrait.scene->cameras;
+  if (cameras.empty()) throw Error("--camera", "the scene has no camera", "bring one along by --add-camera");
   ObservationChoice choice = request.given;
-  if (!choice.cameras) {
-    if (all.empty()) throw Error("--camera", "the scene has no camera", "bring one along by --add-camera");
-    const bool usual = std::any_of(all.begin(), all.end(), [](const Camera& c) { return c.name == kUsualCamera; });
-    choice.cameras = {usual ? kUsualCamera : all.front().name};
-  }
+  portrait.all = choice.cameras.has_value();
+  if (!portrait.all) choice.cameras = standing(*portrait.scene);
   if (!choice.size) choice.size = size;
   portrait.observation = chosen(choice);
   portrait.observation.shadows = true;
@@ -32,15 +40,29 @@ PortraitPainter::PortraitPainter(Renderer& renderer, const StoredEpisode& stored
     : renderer_(renderer),
       stored_(stored),
       portrait_(portrait),
-      painter_(renderer, stored.episode, portrait.scene, portrait.observation) {}
+      shots_(shots_of(stored.episode, *portrait.scene)),
+      painter_(renderer, stored.episode, portrait.scene, portrait.observation) {
+  const std::vector<std::string>& cameras = portrait.observation.cameras;
+  if (portrait.all || cameras.size() == 1) return;
+  const auto found = std::find(cameras.begin(), cameras.end(), kUsualCamera);
+  const auto usual = static_cast<std::size_t>(found == cameras.end() ? 0 : found - cameras.begin());
+  choose_cameras(renderer, stored.episode, portrait.scene, cameras, usual, shots_);
+}
 
-int PortraitPainter::width() const { return portrait_.observation.width * static_cast<int>(painter_.cameras().size()); }
+int PortraitPainter::width() const {
+  return portrait_.observation.width * (portrait_.all ? static_cast<int>(painter_.cameras().size()) : 1);
+}
 int PortraitPainter::height() const { return portrait_.observation.height; }
 
 void PortraitPainter::paint(std::int64_t frame, Canvas& canvas, int x, int y) {
   const ScenePoses poses = scene_poses(*portrait_.scene, state_at(*portrait_.scene, stored_.episode, frame));
   const DrawOptions options{portrait_.observation.kinds, portrait_.observation.shadows, kSamples};
-  renderer_.draw(poses, painter_.views(frame), options, pictures_);
+  std::vector<View> views = painter_.views(frame);
+  if (!portrait_.all) {
+    const auto shot = std::find_if(shots_.begin(), shots_.end(), [&](const Shot& s) { return frame < s.end_frame; });
+    views = {views[shot->camera]};
+  }
+  renderer_.draw(poses, views, options, pictures_);
   for (const Picture& picture : pictures_) {
     canvas.put(x, y, picture);
     x += picture.width;

@@ -19,7 +19,7 @@ constexpr std::array<std::uint8_t, 3> kPaper{250, 250, 248}, kInk{30, 32, 36}, k
 struct Moment {
   std::int64_t frame = 0;
   std::string label;
-  std::string outcome;  // of the segment that starts here, or of the episode
+  std::string outcome;  // of the skill, or of the episode
   bool good = true;
 };
 
@@ -27,20 +27,14 @@ std::string verdict(Outcome outcome, Reason reason) {
   return outcome == Outcome::success ? "success" : std::string(to_string(reason));
 }
 
-// Where each skill of the episode's plan starts, and the end. The built-in wait is left out: nothing happens in it.
-std::vector<Moment> moments_of(const EpisodeRecord& episode) {
-  std::vector<Moment> moments;
+// The start, amid each skill, and the end.
+std::vector<Moment> moments_of(const EpisodeRecord& episode, const std::vector<Shot>& shots) {
+  std::vector<Moment> moments{{0, "start", "", true}};
+  for (const Shot& shot : shots)
+    if (const SegmentRecord* skill = shot.skill)
+      moments.push_back({shot.telling_frame, label_of(*skill), verdict(skill->outcome, skill->reason),
+                         skill->outcome == Outcome::success});
   const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
-  for (const SegmentRecord& segment : episode.segments) {
-    const bool inner =
-        segment.parent >= 0 && std::any_of(episode.segments.begin(), episode.segments.end(), [&](const auto& other) {
-          return other.ordinal == segment.parent && other.kind == SegmentKind::skill;
-        });
-    if (segment.kind != SegmentKind::skill || inner) continue;
-    moments.push_back({std::min(segment.span.first_frame, last), label_of(segment),
-                       verdict(segment.outcome, segment.reason), segment.outcome == Outcome::success});
-  }
-  if (moments.empty()) moments.push_back({0, "start", "", true});
   moments.push_back({last, "end", verdict(episode.outcome, episode.reason), episode.outcome == Outcome::success});
   return moments;
 }
@@ -80,7 +74,7 @@ Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& draw
   const EpisodeRecord& episode = drawn.stored.episode;
   const Portrait portrait = portrait_of(request, drawn.stored, kSize);
   PortraitPainter painter(renderer, drawn.stored, portrait);
-  const std::vector<Moment> moments = moments_of(episode);
+  const std::vector<Moment> moments = moments_of(episode, painter.shots());
   const int columns = std::min(static_cast<int>(moments.size()), kMostColumns);
   const int rows = (static_cast<int>(moments.size()) + columns - 1) / columns;
   const int header = kGap + 2 * kTitle + 4 + kGap, caption = 3 * (kLetters + 4) + kGap;

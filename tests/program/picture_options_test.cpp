@@ -89,7 +89,7 @@ TEST_CASE("render says what it needs") {
            {{d, "--out", folder / "x", "--into", d}, kUsage, "--out and --into at once"},
            {{d, "--video", folder / "x.avi"}, kUsage, "say .mp4 or .gif"},
            {{d, "--video", folder / "x.mp4", "--kinds", "depth"}, kUsage, "films and sheets are for people"},
-           {{d, "--sheet", folder / "x.png", "--frames", "1"}, kUsage, "where each skill starts"},
+           {{d, "--sheet", folder / "x.png", "--frames", "1"}, kUsage, "it shows the start, each skill and the end"},
            {{d, "--out", folder / "x", "--frames", "some"}, kUsage, "--frames takes all, keyframes"},
            {{d, "--out", folder / "x", "--frames", "5-3"}, kUsage, "ends before it starts"},
            {{d, "first", "--out", folder / "x"}, kUsage, "an episode is a number"},
