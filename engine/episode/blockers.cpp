@@ -61,6 +61,17 @@ std::vector<Candidate> candidates(const std::vector<std::string>& arguments, con
   return near;
 }
 
+// Puts back what need not be away, the farthest first.
+template <typename Works>
+std::vector<Candidate> fewest(std::vector<Candidate> away, const Works& works_without) {
+  for (std::size_t i = away.size(); i-- > 0;) {
+    std::vector<Candidate> fewer = away;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    if (works_without(fewer)) away = std::move(fewer);
+  }
+  return away;
+}
+
 }  // namespace
 
 void name_blockers(Rollout& rollout, const SkillContext& context, SkillResult& result,
@@ -68,17 +79,16 @@ void name_blockers(Rollout& rollout, const SkillContext& context, SkillResult& r
   if (!context.mode.find_blockers || context.arguments.empty()) return;
   const int held = rollout.keep ? rollout.keep->body : -1;
   const std::vector<Candidate> near = candidates(context.arguments, rollout.view(), held);
-  for (const auto& [distance, name, part] : near) {
-    rollout.imagined_away = {part};
-    if (works()) result.blockers.push_back({name});
-  }
-  if (result.blockers.empty() && near.size() > 1) {
+  const auto works_without = [&](const std::vector<Candidate>& things) {
     rollout.imagined_away.clear();
-    for (const auto& [distance, name, part] : near) rollout.imagined_away.push_back(part);
-    if (works()) {
-      std::vector<std::string>& all = result.blockers.emplace_back();
-      for (const auto& [distance, name, part] : near) all.push_back(name);
-    }
+    for (const auto& [distance, name, part] : things) rollout.imagined_away.push_back(part);
+    return works();
+  };
+  for (const Candidate& one : near)
+    if (works_without({one})) result.blockers.push_back({std::get<std::string>(one)});
+  if (result.blockers.empty() && near.size() > 1 && works_without(near)) {
+    std::vector<std::string>& all = result.blockers.emplace_back();
+    for (const auto& [distance, name, part] : fewest(near, works_without)) all.push_back(name);
   }
   rollout.imagined_away.clear();
   for (std::size_t way = 0; way < result.blockers.size(); ++way)

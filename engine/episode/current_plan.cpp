@@ -27,82 +27,72 @@ SkillResult CurrentPlan::make() {
 }
 
 SkillResult CurrentPlan::again(std::size_t done) {
-  const PlanOutcome outcome = ask_planner();
-  if (!outcome.solved) return {Reason::no_plan, outcome.explanation};
+  const AssumingPlan found = ask_planner();
+  if (!found.outcome.solved) return {Reason::no_plan, found.outcome.explanation};
   steps.resize(std::min(done, steps.size()));
-  steps.insert(steps.end(), outcome.plan.begin(), outcome.plan.end());
+  steps.insert(steps.end(), found.outcome.plan.begin(), found.outcome.plan.end());
+  assumed_ = found.assumed;
+  ever_assumed_.insert(assumed_.begin(), assumed_.end());
   return {};
+}
+
+void CurrentPlan::take(Course course) {
+  steps = std::move(course.steps);
+  assumed_ = std::move(course.assumed);
 }
 
 bool CurrentPlan::stands(const Obstruction& one) const {
   return (rollout_.view().world_from(one.blocker).translation() - one.at).norm() < kMoved_m;
 }
 
-PlanningTask CurrentPlan::problem(const std::vector<Obstruction>& standing) const {
+PlanningTask CurrentPlan::problem(const std::vector<Obstruction>& standing, const Facts& assumed) const {
   PlanningTask planning =
       planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage(), standing);
-  const Facts known = rollout_.facts().known_basic();
-  for (const Fact& fact : rollout_.facts().basic())
-    if (!known.contains(fact)) planning.problem.init.erase(fact);
-  planning.problem.init.insert(known.begin(), known.end());
-  if (assumed_) planning.problem.init.insert(*assumed_);
+  keep_known(planning.problem, rollout_.facts(), assumed);
   return planning;
 }
 
 PlanOutcome CurrentPlan::ask(const PlanningTask& planning) const {
   if (options_.planner) return options_.planner(planning.domain, planning.problem);
-  const Task& task = rollout_.task();
-  const RandomKey key = RandomKey("plan").with(task.name).with(task.variation).with(options_.seed);
-  return solve_drawn(planning.domain, planning.problem, forbidden, key);
+  return solve_drawn(planning.domain, planning.problem, forbidden, key_of("plan"));
+}
+
+RandomKey CurrentPlan::key_of(const char* purpose) const {
+  return RandomKey(purpose).with(rollout_.task().name).with(rollout_.task().variation).with(options_.seed);
 }
 
 // What is forbidden is part of the problem of a planner that knows nothing of it: an obstruction that nothing ends.
-PlanOutcome CurrentPlan::ask_planner() {
+AssumingPlan CurrentPlan::ask_planner() const {
   std::vector<Obstruction> standing;
   std::copy_if(obstructions.begin(), obstructions.end(), std::back_inserter(standing),
                [&](const Obstruction& one) { return stands(one); });
   if (options_.planner)
     for (const PlanStep& step : forbidden) standing.push_back({step, {}, {}});
-  assumed_.reset();
-  const PlanOutcome known = ask(problem(standing));
-  if (known.solved) return known;
-  std::vector<Fact> unknown = conceivable();
-  const Task& task = rollout_.task();
-  Random(RandomKey("assume").with(task.name).with(task.variation).with(options_.seed)).shuffle(unknown);
-  for (const Fact& fact : unknown) {
-    assumed_ = fact;
-    PlanOutcome outcome = ask(problem(standing));
-    if (outcome.solved) return outcome;
-  }
-  assumed_.reset();
-  return known;
+  return plan_assuming(problem(standing, {}), conceivable(rollout_.facts()), key_of("assume"),
+                       [&](const PlanningTask& planning) { return ask(planning); });
 }
 
-// What may be assumed: facts that nobody could see, of things of which nothing is known that could change.
-std::vector<Fact> CurrentPlan::conceivable() const {
-  std::set<std::string> placed;
-  for (const Fact& fact : rollout_.facts().known_basic()) {
-    const Predicate* predicate = rollout_.domain().predicate(fact.predicate);
-    if (predicate != nullptr && predicate->kind == PredicateKind::basic)
-      placed.insert(fact.arguments.begin(), fact.arguments.end());
+// After `done` steps: what has come to light of all that was assumed. What undone steps showed is not known any more.
+void CurrentPlan::look(std::size_t done) {
+  if (ever_assumed_.empty()) return;
+  std::erase_if(looks_, [&](const Look& one) { return one.done >= done; });
+  const Facts open = conceivable(rollout_.facts());
+  for (const Fact& fact : ever_assumed_) {
+    const auto is_it = [&](const Look& one) { return one.assumed == fact; };
+    if (open.contains(fact) || std::any_of(looks_.begin(), looks_.end(), is_it)) continue;
+    looks_.push_back({fact, rollout_.facts().known(fact), done});
   }
-  std::vector<Fact> facts = rollout_.facts().never_seen();
-  std::erase_if(facts, [&](const Fact& fact) { return fact.arguments.empty() || placed.contains(fact.arguments[0]); });
-  return facts;
-}
-
-// Has what the plan rests on come to light?
-void CurrentPlan::look() {
-  if (!assumed_) return;
-  const std::vector<Fact> unknown = rollout_.facts().never_seen();
-  if (std::find(unknown.begin(), unknown.end(), *assumed_) != unknown.end()) return;
-  looked_.emplace(*assumed_, rollout_.facts().known(*assumed_));  // as it was when it was first seen
 }
 
 std::string CurrentPlan::as_text() const {
   std::string text = to_pddl(steps);
-  for (const auto& [fact, right] : looked_)
-    text += "; assumed " + to_text(fact) + " and saw that it " + (right ? "holds" : "does not hold") + "\n";
+  for (const Look& one : looks_) {
+    text += "; assumed " + to_text(one.assumed) + " and saw that it " + (one.holds ? "holds" : "does not hold") + "\n";
+    if (one.done > 0 && one.done <= steps.size()) {
+      const PlanStep& step = steps[one.done - 1];
+      text += "; step " + std::to_string(one.done) + " searched: " + to_text(Fact{step.action, step.arguments}) + "\n";
+    }
+  }
   return text;
 }
 
@@ -119,12 +109,14 @@ CallSettings CurrentPlan::set(std::size_t index) const {
 }
 
 SkillResult CurrentPlan::watch(std::size_t done) {
-  look();
+  look(done);
   if (given_ || done >= steps.size() || !expected_) return {};
-  const bool wrong = assumed_ && looked_.contains(*assumed_) && !looked_.at(*assumed_);
-  if (!wrong && *expected_ == rollout_.facts().basic()) return {};
-  if (wrong) assumed_.reset();
-  const PlanningTask planning = problem({});
+  const FactTracker& facts = rollout_.facts();
+  const Facts open = assumed_.empty() ? Facts{} : conceivable(facts);
+  const bool wrong = std::any_of(assumed_.begin(), assumed_.end(),
+                                 [&](const Fact& fact) { return !open.contains(fact) && !facts.known(fact); });
+  if (!wrong && *expected_ == facts.basic()) return {};
+  const PlanningTask planning = problem({}, assumed_);
   const Plan rest(steps.begin() + static_cast<std::ptrdiff_t>(done), steps.end());
   if (validate(planning.domain, planning.problem, rest).valid) return {};
   return again(done);

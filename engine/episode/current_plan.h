@@ -1,22 +1,21 @@
-// The plan that an episode follows, what it has learned that plans must mind, and what it assumes of what is hidden.
+// The plan that an episode follows, what it assumes of what is hidden, and what plans must mind.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <vector>
 
-#include "engine/episode/planning.h"
+#include "engine/episode/assumptions.h"
 #include "engine/episode/rollout.h"
 #include "engine/episode/runner.h"
 #include "engine/episode/skill_call.h"
 
 namespace stampede {
 
-// Plans are made of what is known: what can be seen, and of what can hide what was seen. Where that is not enough, one
-// fact that nobody could see so far is assumed, drawn from the seed. A plan that rests on it looks by what it does, and
-// the rest is planned again as soon as the assumption is seen to be wrong (determinise and plan again: Yoon, Fern,
-// Givan, FF-Replan, ICAPS 2007). Lifetime: refers to all it is made of.
+// Plans are made of what is known: what can be seen, and of what can hide what was seen. Where that is not enough,
+// facts that nobody could see so far are assumed, drawn from the seed. A plan that rests on them looks by what it does,
+// and the rest is planned again as soon as one is seen to be wrong (determinise and plan again: Yoon, Fern, Givan,
+// FF-Replan, ICAPS 2007). Lifetime: refers to all it is made of.
 class CurrentPlan {
  public:
   CurrentPlan(const Rollout& rollout, const RunOptions& options) : rollout_(rollout), options_(options) {}
@@ -36,7 +35,15 @@ class CurrentPlan {
   // be.
   bool avoid(const SkillResult& failed, std::size_t index);
 
-  // One step a line, then what was assumed on the way, as comments.
+  // Steps and what they rest on, which belong together: whoever puts steps back puts both back.
+  struct Course {
+    Plan steps;
+    Facts assumed;
+  };
+  Course course() const { return {steps, assumed_}; }
+  void take(Course course);
+
+  // One step a line, then as comments what was assumed, and which step showed whether it was so.
   std::string as_text() const;
 
   Plan steps;
@@ -44,20 +51,27 @@ class CurrentPlan {
   std::vector<Obstruction> obstructions;  // what was found in the way of which action
 
  private:
-  PlanOutcome ask_planner();
+  AssumingPlan ask_planner() const;
   PlanOutcome ask(const PlanningTask& planning) const;
-  PlanningTask problem(const std::vector<Obstruction>& standing) const;
-  std::vector<Fact> conceivable() const;
-  void look();
+  PlanningTask problem(const std::vector<Obstruction>& standing, const Facts& assumed) const;
+  RandomKey key_of(const char* purpose) const;
+  void look(std::size_t done);
   bool stands(const Obstruction& one) const;
   bool avoid_these(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index);
+
+  struct Look {  // what was seen of an assumption, and after how many steps
+    Fact assumed;
+    bool holds = false;
+    std::size_t done = 0;
+  };
 
   const Rollout& rollout_;
   const RunOptions& options_;
   bool given_ = false;
   std::optional<Facts> expected_;  // basic facts that the last step should have led to
-  std::optional<Fact> assumed_;    // what the rest of the plan rests on, and nobody has seen
-  std::map<Fact, bool> looked_;    // what was assumed, and how it was seen to be
+  Facts assumed_;                  // what the steps rest on, and nobody had seen when they were planned
+  Facts ever_assumed_;             // by any plan of this episode
+  std::vector<Look> looks_;        // in their order
 };
 
 }  // namespace stampede

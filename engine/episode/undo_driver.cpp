@@ -20,7 +20,7 @@ class Undo {
   using Place = SkillTrack::Place;
   struct Detour {  // a plan that moves something out of the way first
     std::size_t index = 0;
-    Plan before;  // the plan that it took the place of
+    CurrentPlan::Course before;  // what it took the place of
     std::size_t obstructions = 0;
   };
 
@@ -75,12 +75,12 @@ SkillResult Undo::run() {
       if (i_ < plan_.size()) ++blame_[plan_.steps[i_]];
       if (!try_again(last)) break;
     }
-    const Plan failed = plan_.steps;
-    drive_.documents.push_back(
-        {"failed_plan", to_text(failed) + "; " + std::string(to_string(last.reason)) + ": " + last.detail + "\n"});
+    const CurrentPlan::Course failed = plan_.course();
+    drive_.documents.push_back({"failed_plan", to_text(failed.steps) + "; " + std::string(to_string(last.reason)) +
+                                                   ": " + last.detail + "\n"});
     if (plan_.given() || plan_.steps.empty()) return last;
     if (!other_plan()) {
-      plan_.steps = failed;  // no other way: what failed stays the episode's result
+      plan_.take(failed);  // no other way: what failed stays the episode's result
       const SkillResult again = follow_plan(drive_);
       return again.ok() ? again : last;
     }
@@ -129,7 +129,7 @@ bool Undo::try_again(const SkillResult& failed) {
 
 bool Undo::go_round(const SkillResult& blocked) {
   track_.back_to(places_[i_]);
-  Detour detour{i_, plan_.steps, plan_.obstructions.size()};
+  Detour detour{i_, plan_.course(), plan_.obstructions.size()};
   if (!plan_.avoid(blocked, i_)) return false;
   detours_.push_back(std::move(detour));
   failures_.assign(plan_.size() + 1, 0);
@@ -138,10 +138,10 @@ bool Undo::go_round(const SkillResult& blocked) {
 
 void Undo::leave_detour(int most) {
   if (detours_.empty()) return;
-  const Detour failed = std::move(detours_.back());
+  Detour failed = std::move(detours_.back());
   detours_.pop_back();
   i_ = std::min(i_, failed.index);  // it may have been left backwards
-  plan_.steps = failed.before;
+  plan_.take(std::move(failed.before));
   plan_.obstructions.resize(std::min(plan_.obstructions.size(), failed.obstructions));
   failures_.assign(plan_.size() + 1, 0);
   places_.resize(i_ + 1);

@@ -164,11 +164,9 @@ std::vector<std::string> unmet(const Formula& formula, const Facts& facts, const
   std::vector<std::string> texts;
   Binding local = binding;
   collect_unmet(symbolic::negation_normal(formula), {facts, domain, objects}, local, texts);
-  std::vector<std::string> unique;
-  for (std::string& text : texts) {
-    if (std::find(unique.begin(), unique.end(), text) == unique.end()) unique.push_back(std::move(text));
-  }
-  return unique;
+  std::set<std::string> seen;
+  std::erase_if(texts, [&](const std::string& text) { return !seen.insert(text).second; });
+  return texts;
 }
 
 }  // namespace stampede

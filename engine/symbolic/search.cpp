@@ -7,7 +7,8 @@ namespace stampede::symbolic {
 namespace {
 
 constexpr std::size_t kHeuristics = 3, kLists = 2 * kHeuristics;
-constexpr int kBoost = 1000;  // expansions that preferred operators get when the heuristic improves (as in LAMA)
+constexpr int kMostTies = 256;  // levels of landmarks ahead that order what h_FF calls equal
+constexpr int kBoost = 1000;    // expansions that preferred operators get when the heuristic improves (as in LAMA)
 
 struct Entry {
   int parent, op;
@@ -162,9 +163,11 @@ class Search {
     }
   }
 
-  // h_FF is that of the state itself (lazy); what landmarks say is cheap and far better known of each successor.
+  // h_FF is that of the state itself (lazy); what landmarks say is cheap and far better known of each successor, so it
+  // also orders successors of equal h_FF.
   void queue_successors(const Words& state, int number, std::array<int, kHeuristics> keys) {
     const std::vector<int>& preferred = heuristic_.preferred();
+    const int own = keys[0], most = used_ > 2 ? query_.landmarks->size() + 1 : 1, ties = std::min(most, kMostTies);
     if (used_ > 2) {
       const std::size_t words = query_.landmarks->words();
       query_.landmarks->begin_successors(state, reached_.data() + static_cast<std::size_t>(number) * words);
@@ -174,8 +177,7 @@ class Search {
       if (used_ > 2) {
         semantics_.apply(state, op, successor_);
         const Landmarks::Ahead then = query_.landmarks->ahead_of(successor_);
-        keys[1] = then.goals;
-        keys[2] = then.landmarks;
+        keys = {own * ties + then.landmarks * ties / most, then.goals, then.landmarks};
       }
       for (std::size_t i = 0; i < used_; ++i) {
         lists_[2 * i].push(keys[i], {number, op});

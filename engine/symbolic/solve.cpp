@@ -10,7 +10,8 @@ namespace stampede {
 
 namespace {
 
-constexpr std::int64_t kSecondShare = 2;  // expansions of the second search, as a multiple of the first's
+constexpr std::int64_t kSecondShare = 2;          // expansions of the second search, as a multiple of the first's
+constexpr std::int64_t kSecondWork = 64'000'000;  // operators times expansions of it: bounds the time on large tasks
 
 std::pair<std::int64_t, std::size_t> price(const symbolic::GroundTask& task, const std::vector<int>& plan) {
   std::int64_t cost = 0;
@@ -84,7 +85,8 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
   outcome.end = PlanEnd::solved;
   if (limits.improve > 0 && !result.plan.empty()) {  // two greedy searches seldom go wrong at the same place
     PlanLimits second = limits;
-    second.expansions = std::min(limits.improve, kSecondShare * result.evaluated);
+    const auto operators = static_cast<std::int64_t>(task.operators.size());
+    second.expansions = std::min({limits.improve, kSecondShare * result.evaluated, kSecondWork / (operators + 100)});
     query.strict = true;
     SearchResult other = lazy_search(task, semantics, heuristic, second, query);
     if (other.solved && price(task, other.plan) < price(task, result.plan)) result.plan = std::move(other.plan);

@@ -70,12 +70,16 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
     JsonText json;
     json.object().field("task", job.task).field("variation", job.variation).field("seed", job.seed);
     write_plans(found, question.asked.domain, question.asked.problem, names, json);
-    json.field("beside_goal", question.beside_goal);
+    json.field("beside_goal", question.beside_goal).key("assumed").array();
+    for (const Fact& fact : question.assumed) json.value(to_text(fact));
+    json.end();
     if (pddl) json.field("domain", texts.domain).field("problem", texts.problem);
     console.out << json.end().text();
   } else {
     if (pddl) console.out << texts.domain << "\n" << texts.problem << "\n; plan\n";
     write_plans(found, question.asked.domain, question.asked.problem, names, console.out);
+    for (const Fact& fact : question.assumed)
+      console.out << fmt::format("; assumes {}, which nobody can see at the start\n", to_text(fact));
   }
   console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(found);
   return plan_code(found);
@@ -119,7 +123,9 @@ CommandRow plan_command() {
       "plan",
       "Print the plan of one start of a task, or of a PDDL problem",
       "Of a task: makes the start of one variation from one seed, reads its facts, and asks the task planner (or the "
-      "task's own steps); with --pddl it prints the domain of the world, the same for all its tasks, and the problem. "
+      "task's own steps); what nobody can see there is not known, and what the plan has to assume of it is said below "
+      "it; "
+      "with --pddl it prints the domain of the world, the same for all its tasks, and the problem. "
       "Of two files: the PDDL domain and problem of any author. Without a plan it says which goal literal cannot be "
       "made true and which action or fact is missing. The exit code is 0 with a plan, 1 where none exists (proved), 5 "
       "where the planner gave up at a limit, 3 for files that are no PDDL and for a --planner that failed.",

@@ -159,6 +159,7 @@ TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& reques
   PddlTexts texts = pddl_of(question, prepared.scripts().symbols().domain(), false);
   plan.domain = std::move(texts.domain);
   plan.problem = std::move(texts.problem);
+  for (const Fact& fact : question.assumed) plan.assumed.push_back(to_text(fact));
   return plan;
 }
 

@@ -1,9 +1,27 @@
 #include "scripting/session/start_question.h"
 
 #include "engine/episode/altered_task.h"
+#include "engine/episode/assumptions.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
+namespace {
+
+void ask_what_is_known(const Task& task, const FactTracker& facts, std::int64_t seed, StartQuestion& question) {
+  question.asked = planning_task(task, facts.domain(), facts, 0);
+  question.plain = world_problem(task, facts);
+  if (task.steps) return;
+  keep_known(question.asked.problem, facts, {});
+  if (const Facts possible = conceivable(facts); !possible.empty()) {
+    const RandomKey key = RandomKey("assume").with(task.name).with(task.variation).with(seed);
+    const auto ours = [](const PlanningTask& one) { return solve(one.domain, one.problem); };
+    question.assumed = plan_assuming(question.asked, possible, key, ours).assumed;
+  }
+  keep_known(question.asked.problem, facts, question.assumed);
+  keep_known(question.plain, facts, question.assumed);
+}
+
+}  // namespace
 
 StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& options, const std::atomic<bool>* stop) {
   StartQuestion question;
@@ -18,9 +36,10 @@ StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& optio
   view.restore(start.history);
   FactTracker facts(scripts.symbols(), view);
   facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
-  question.asked = planning_task(task, scripts.symbols().domain(), facts, 0);
-  question.plain = world_problem(task, facts);
-  question.state.facts = question.state.observed = facts.facts();
+  facts.look(view);
+  ask_what_is_known(task, facts, options.seed, question);
+  question.state.facts = facts.facts();
+  question.state.observed = facts.observed();
   for (const Object& thing : view.scene().objects)
     if (thing.kind == ObjectKind::body) question.state.poses[thing.name] = to_pose(view.world_from(thing.name));
   question.beside_goal = beside_goal(task);

@@ -1,4 +1,4 @@
-// What the task planner is asked at the start of one episode.
+// What the task planner is asked at the start of one episode: what is known there, and what has to be assumed.
 #pragma once
 
 #include <atomic>
@@ -17,6 +17,7 @@ struct StartQuestion {
   Start start;         // nothing else is filled where none was found
   PlanningTask asked;  // with the goal's order
   Problem plain;       // of the world's own domain
+  Facts assumed;       // in both: what nobody can see and the plan rests on
   AbstractState state;
   std::string beside_goal;
   std::vector<std::string> instructions;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "engine/episode/arrays.h"
+#include "engine/symbolic/pddl.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 
@@ -126,6 +127,24 @@ TEST_CASE("a program asks for the plan of a start without executing it, and gets
   CHECK_FALSE(none.found);
   CHECK(says(none.explanation, "inside"));
   CHECK_THROWS_WITH(plan_of_texts("(define (domain d)", "(define (problem p)"), Catch::Contains("domain:1"));
+}
+
+TEST_CASE("a plan is of what is known at the start, and says what it assumes of the rest") {
+  const SessionCore session(STAMPEDE_SOURCE_DIR, {}, {});
+  std::set<std::string> assumed;
+  for (std::int64_t seed = 1; seed <= 6; ++seed) {
+    const TaskPlan plan = session.plan("find_item_in_drawer", {.variation = "hidden_in=top", .seed = seed});
+    REQUIRE(plan.found);
+    REQUIRE(plan.assumed.size() == 1);
+    const std::string drawer = plan.steps.at(0).arguments.at(0);
+    CHECK(plan.assumed[0] == "(inside item " + drawer + ")");
+    CHECK(says(plan.problem, "(inside item " + to_pddl_name(drawer) + ")"));
+    if (drawer != "chest.top_drawer") CHECK_FALSE(says(plan.problem, "(inside item chest--top_drawer)"));
+    CHECK(plan_of_texts(plan.domain, plan.problem).found);
+    assumed.insert(drawer);
+  }
+  CHECK(assumed.size() > 1);  // nobody knows that it is in the top one
+  CHECK(session.plan("put_item_in_drawer", {}).assumed.empty());
 }
 
 }  // namespace stampede::program

@@ -76,9 +76,21 @@ TEST_CASE("plans know what has been seen, assume the rest and plan again: drawer
     CHECK(plan->text.find("; assumed (inside item chest.middle_drawer) and saw that it holds\n") != std::string::npos);
     const bool wrong = plan->text.find("and saw that it does not hold") != std::string::npos;
     CHECK(wrong == (skills.size() > 3));
+    CHECK(plan->text.find("; step 1 searched: (" + skills.front() + " panda.hand)\n") != std::string::npos);
   }
   CHECK(first.size() > 1);
   CHECK(looked_in_vain > 0);
+}
+
+TEST_CASE("drawers opened in vain are closed where both are in the way of the third; what lies in that is not") {
+  const EpisodeRecord episode = find_item("bottom", 500000);
+  const auto together = [](const AttemptRecord& attempt) {
+    return attempt.segment.detail.find("in the way: chest.middle_drawer, chest.top_drawer") != std::string::npos;
+  };
+  CHECK(std::any_of(episode.attempts.begin(), episode.attempts.end(), together));
+  const std::vector<std::string> skills = skills_of(episode);
+  CHECK(std::any_of(skills.begin(), skills.end(), [](const std::string& one) { return one.starts_with("close"); }));
+  CHECK(episode.attempts.size() < 20);
 }
 
 TEST_CASE("the catalogue keeps both versions: facts and observed_facts") {

@@ -16,7 +16,8 @@ struct TaskPlan {
   std::string end;          // "solved", "unsolvable (proved)", "gave up at the limit of expansions", "no start" …
   std::string explanation;  // not found: the goal literal that cannot be made true, and what is missing
   std::vector<TaskPlanStep> steps;
-  std::string domain, problem;  // as PDDL
+  std::string domain, problem;       // as PDDL
+  std::vector<std::string> assumed;  // facts that nobody can see at the start and the plan needs; in the problem too
 };
 
 }  // namespace stampede

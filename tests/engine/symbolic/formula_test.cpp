@@ -78,6 +78,21 @@ TEST_CASE("unmet names what a person would have to make true") {
             "other ways"});
 }
 
+TEST_CASE("unmet names each literal once, in seconds where there are many") {
+  Domain domain;
+  domain.predicates = {{"near", {{"a", "", {}}, {"b", "", {}}}, {}, {}, {}}};
+  std::vector<TypedObject> objects;
+  for (int i = 0; i < 400; ++i) objects.push_back({"o" + std::to_string(1000 + i), "object"});
+  Formula all;
+  all.kind = Formula::Kind::forall;
+  all.variables = {{"x", "", {}}, {"y", "", {}}};
+  all.parts = {atom("near", {{true, "x"}, {true, "y"}})};
+  const std::vector<std::string> texts = unmet(conjunction({all, all}), {}, domain, objects);
+  REQUIRE(texts.size() == 160'000);
+  CHECK(texts.front() == "(near o1000 o1000)");
+  CHECK(texts.back() == "(near o1399 o1399)");
+}
+
 TEST_CASE("effects read the state before; additions win over removals") {
   const Domain domain = domain_from_pddl(
       "(define (domain lamps) (:types lamp) (:predicates (lit ?l - lamp) (used)) (:action toggle :parameters () "
