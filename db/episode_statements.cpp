@@ -67,8 +67,9 @@ void EpisodeWriter::prepare_scene() {
 }
 
 void EpisodeWriter::prepare_frames() {
-  frame_ =
-      insert("frame", "episode, frame, step, time_s, reward, done, skill_segment, motion_segment, subgoal_segment");
+  frame_ = insert("frame",
+                  "episode, frame, step, time_s, reward, done, skill_segment, motion_segment, "
+                  "subgoal_segment, motion, subgoal");
   joint_state_ = insert("joint_state", "episode, frame, part, " + numbered("position", kJointsARow) + ", " +
                                            numbered("velocity", kJointsARow) + ", " + numbered("effort", kJointsARow));
   hand_state_ = insert("hand_state",

@@ -27,10 +27,15 @@ std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::strin
 void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
   const auto skill = running(episode, "skill"), motion = running(episode, "motion"),
              subgoal = running(episode, "subgoal");
+  std::map<int, std::string_view> names;
+  for (const SegmentRecord& segment : episode.segments) names.emplace(segment.ordinal, segment.skill);
+  const auto name_of = [&](const std::optional<int>& segment) {
+    return segment ? std::optional(names.at(*segment)) : std::nullopt;
+  };
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, frame.reward, frame.done,
-               skill[i], motion[i], subgoal[i]);
+               skill[i], motion[i], subgoal[i], name_of(motion[i]), name_of(subgoal[i]));
   }
   // Table by table: each grows at its end.
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {

@@ -208,10 +208,13 @@ ALTER TABLE channel DROP COLUMN components;
 
 -- in place: large tables in their new shape, a row of it from the first of those that it is made of
 CREATE TEMP VIEW frame AS
-SELECT f.episode, f.frame, f.step, f.time_s, f.reward, f.done, f.skill_segment, f.motion_segment,
-       (SELECT max(g.ordinal) FROM segment g WHERE g.episode = f.episode AND g.undone = 0 AND g.kind = 'subgoal'
-          AND g.first_frame <= f.frame AND f.frame < g.end_frame) AS subgoal_segment
-FROM old.frame f;
+SELECT episode, frame, step, time_s, reward, done, skill_segment, motion_segment, subgoal_segment,
+       (SELECT skill FROM segment WHERE (episode, undone, ordinal) = (f.episode, 0, f.motion_segment)) AS motion,
+       (SELECT skill FROM segment WHERE (episode, undone, ordinal) = (f.episode, 0, f.subgoal_segment)) AS subgoal
+FROM (SELECT o.episode, o.frame, o.step, o.time_s, o.reward, o.done, o.skill_segment, o.motion_segment,
+             (SELECT max(g.ordinal) FROM segment g WHERE g.episode = o.episode AND g.undone = 0
+                AND g.kind = 'subgoal' AND g.first_frame <= o.frame AND o.frame < g.end_frame) AS subgoal_segment
+      FROM old.frame o) f;
 CREATE TEMP VIEW joint_state AS
 SELECT s.episode, s.frame, s.joint / 12 AS part,
        s.position AS position_0,
@@ -296,6 +299,8 @@ CREATE TABLE main.made (
   skill_segment INTEGER,
   motion_segment INTEGER,
   subgoal_segment INTEGER,
+  motion TEXT,
+  subgoal TEXT,
   PRIMARY KEY (episode, frame)
 ) STRICT, WITHOUT ROWID;
 

@@ -9,6 +9,8 @@ CREATE TABLE frame (
   skill_segment INTEGER,   -- innermost segments that run here
   motion_segment INTEGER,
   subgoal_segment INTEGER,
+  motion TEXT,             -- names of the two: they would be looked up at every frame
+  subgoal TEXT,
   PRIMARY KEY (episode, frame)
 ) STRICT, WITHOUT ROWID;
 
