@@ -1,7 +1,9 @@
 // What the sources of Catalogue share.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "db/catalogue.h"
@@ -25,6 +27,15 @@ void roll_back(const sql::Database& database);  // what has begun, if anything h
 // Lists of texts as JSON in a column.
 std::string to_json_list(const std::vector<std::string>& texts);
 std::vector<std::string> from_json_list(const sql::Database& database, const std::string& json);
+
+// Rows of frames and sensors hold so many values each; a row's part says which.
+inline constexpr std::size_t kJointsARow = 12, kChannelsARow = 16, kComponentsARow = 8;
+std::string numbered(const std::string& name, std::size_t count);  // name_0, name_1 …
+template <typename Value>  // those of a part, of all; none: there is no such part
+sql::Wide<Value> part_of(std::span<const Value> values, std::size_t part, std::size_t a_row) {
+  const std::size_t first = std::min(part * a_row, values.size());
+  return {values.subspan(first, std::min(a_row, values.size() - first)), a_row};
+}
 
 // A row of camera; the ordinal is not read.
 inline constexpr const char* kCameraColumns =

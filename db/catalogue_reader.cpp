@@ -57,6 +57,22 @@ void read_camera(sql::Statement& row, Camera& c) {
   c.mount_from_camera = matrix_from(matrix);
 }
 
+std::string numbered(const std::string& name, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += (i > 0 ? ", " : "") + name + "_" + std::to_string(i);
+  return text;
+}
+
+void EpisodeReader::take_part(const sql::Statement& row, int column, std::size_t part, std::size_t a_row,
+                              std::span<double> all, const char* table) const {
+  const std::size_t first = part * a_row;
+  if (part >= all.size() || first >= all.size()) damaged(table);
+  for (double& value : all.subspan(first, std::min(a_row, all.size() - first))) {
+    if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL) damaged(table);
+    value = sqlite3_column_double(row.handle(), column++);
+  }
+}
+
 void EpisodeReader::read_episode() {
   sql::Statement row(
       database_,
@@ -168,20 +184,29 @@ void EpisodeReader::read_cameras() {
 }
 
 void EpisodeReader::read_channels() {
-  each("name, unit, rate_hz, components", "channel", "ordinal", [&](sql::Statement& row) {
+  each("name, unit, rate_hz", "channel", "ordinal", [&](sql::Statement& row) {
     ChannelRecord& c = record_.channels.emplace_back();
-    std::string components;
-    row.read(c.name, c.unit, c.rate_hz, components);
-    c.components = from_json_list(database_, components);
+    row.read(c.name, c.unit, c.rate_hz);
   });
-  each("channel, component, step, value", "sample", "channel, ordinal, component", [&](sql::Statement& row) {
-    std::int64_t channel = 0, component = 0, step = 0;
-    double value = 0;
-    row.read(channel, component, step, value);
-    ChannelRecord& owner = at(record_.channels, channel, "sample");
-    if (component == 0) owner.steps.push_back(step);
-    owner.values.push_back(value);
+  each("channel, name", "channel_component", "channel, ordinal", [&](sql::Statement& row) {
+    std::int64_t channel = 0;
+    std::string name;
+    row.read(channel, name);
+    at(record_.channels, channel, "channel_component").components.push_back(name);
   });
+  each("channel, part, step, " + numbered("value", kComponentsARow), "sample", "channel, ordinal, part",
+       [&](sql::Statement& row) {
+         std::int64_t channel = 0, step = 0;
+         std::size_t part = 0;
+         row.read(channel, part, step);
+         ChannelRecord& owner = at(record_.channels, channel, "sample");
+         if (part == 0) owner.steps.push_back(step);
+         const std::size_t width = owner.components.size();
+         if (part >= width || part * kComponentsARow >= width) damaged("sample");
+         const std::size_t values = std::min(kComponentsARow, width - part * kComponentsARow);
+         owner.values.resize(owner.values.size() + values);
+         take_part(row, 3, 0, kComponentsARow, std::span(owner.values).last(values), "sample");
+       });
 }
 
 void EpisodeReader::read_frames() {
@@ -197,13 +222,19 @@ void EpisodeReader::read_frames() {
     FrameRecord& f = at(record_.frames, frame, "frame");
     row.read(frame, f.step, f.reward, f.done);
   });
-  each("frame, joint, position, velocity, effort", "joint_state", "frame, joint", [&](sql::Statement& row) {
-    std::int64_t frame = 0, joint = 0;
-    row.read(frame, joint);
-    FrameRecord& f = at(record_.frames, frame, "joint_state");
-    row.read(frame, joint, at(f.joint_position, joint, "joint_state"), at(f.joint_velocity, joint, "joint_state"),
-             at(f.joint_effort, joint, "joint_state"));
-  });
+  each("frame, part, " + numbered("position", kJointsARow) + ", " + numbered("velocity", kJointsARow) + ", " +
+           numbered("effort", kJointsARow),
+       "joint_state", "frame, part", [&](sql::Statement& row) {
+         std::int64_t frame = 0;
+         std::size_t part = 0;
+         row.read(frame, part);
+         FrameRecord& f = at(record_.frames, frame, "joint_state");
+         int column = 2;
+         for (std::vector<double>* values : {&f.joint_position, &f.joint_velocity, &f.joint_effort}) {
+           take_part(row, column, part, kJointsARow, *values, "joint_state");
+           column += static_cast<int>(kJointsARow);
+         }
+       });
   each("frame, hand, " + std::string(kPoseColumns) +
            ", linear_x, linear_y, linear_z, angular_x, angular_y, angular_z, opening, touch_1, touch_2",
        "hand_state", "frame, hand", [&](sql::Statement& row) {
@@ -250,32 +281,43 @@ void EpisodeReader::read_poses() {
 }
 
 void EpisodeReader::read_actions() {
-  each("frame, space, component, value",
-       "(SELECT a.episode, a.frame, a.channel, a.value, c.space, c.component FROM action a JOIN action_channel c "
-       "ON c.episode = a.episode AND c.ordinal = a.channel) AS a",
-       "frame, channel", [&](sql::Statement& row) {
-         std::int64_t frame = 0, place = 0;
-         std::string space;
-         double value = 0;
-         row.read(frame, space, place, value);
-         std::optional<ActionRecord>& action = at(record_.frames, frame, "action").action;
-         if (!action) action.emplace();
-         if (space == "joint_position") action->joint_position.push_back(value);
-         if (space == "gripper") action->gripper = value;
-         if (space != "tool_pose") return;
-         if (place < 0 || place > 6) damaged("action_channel");
-         const auto component = static_cast<std::size_t>(place);
-         (component < 3 ? action->tool_pose.position.at(component) : action->tool_pose.quaternion.at(component - 3)) =
-             value;
-       });
+  const std::vector<ActionChannel> channels = read_action_channels();
+  each("frame, part, " + numbered("value", kChannelsARow), "action", "frame, part", [&](sql::Statement& row) {
+    std::int64_t frame = 0;
+    std::size_t part = 0;
+    row.read(frame, part);
+    std::optional<ActionRecord>& action = at(record_.frames, frame, "action").action;
+    if (!action) action.emplace();
+    each_channel(row, part, channels, [&](const ActionChannel& channel, double value) {
+      if (channel.space == "joint_position") action->joint_position.push_back(value);
+      if (channel.space == "gripper") action->gripper = value;
+      if (channel.space != "tool_pose") return;
+      if (channel.component > 6) damaged("action_channel");
+      auto& [position, quaternion] = action->tool_pose;
+      (channel.component < 3 ? position.at(channel.component) : quaternion.at(channel.component - 3)) = value;
+    });
+  });
+}
+
+std::vector<ActionChannel> EpisodeReader::read_action_channels() {
+  std::vector<ActionChannel> channels;
+  each("space, component", "action_channel", "ordinal", [&](sql::Statement& row) {
+    std::int64_t component = 0;
+    row.read(channels.emplace_back().space, component);
+    if (component < 0) damaged("action_channel");
+    channels.back().component = static_cast<std::size_t>(component);
+  });
+  return channels;
 }
 
 void EpisodeReader::read_commands() {
-  each("step, kind, payload", "command", "ordinal", [&](sql::Statement& row) {
+  each("step, kind, payload, robot", "command", "ordinal", [&](sql::Statement& row) {
     Command& command = record_.commands.emplace_back();
     std::string kind, payload;
-    row.read(command.step, kind, payload);
+    int robot = 0;
+    row.read(command.step, kind, payload, robot);
     command.operation = operation_from_bytes(kind, payload);
+    set_robot(command.operation, robot);
   });
 }
 

@@ -15,6 +15,7 @@ const std::vector<SqlFile>& embedded_schema();   // the tables, in order of appl
 const std::vector<SqlFile>& embedded_indexes();  // made when they are missing
 const std::vector<SqlFile>&
 embedded_migrations();                           // `005_to_006`, in order; the first line names the tables it changes
+const std::vector<SqlFile>& embedded_derived();  // what is worked out when an episode is stored
 const std::vector<SqlFile>& embedded_views();    // by name; each makes the view of its name
 const std::vector<SqlFile>& embedded_queries();  // by name; the first line is a comment that describes it
 

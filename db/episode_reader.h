@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "db/catalogue_impl.h"
 
@@ -11,6 +13,11 @@ namespace stampede {
 inline Outcome outcome_from(const std::string& text) { return text == "success" ? Outcome::success : Outcome::failure; }
 
 inline constexpr const char* kPoseColumns = "x, y, z, qx, qy, qz, qw";
+
+struct ActionChannel {
+  std::string space;
+  std::size_t component = 0;
+};
 
 class EpisodeReader {
  public:
@@ -52,6 +59,22 @@ class EpisodeReader {
                          "the file is damaged: generate it again");
   }
 
+  // The values of a row's part, from `column` on, among all: each must be there.
+  void take_part(const sql::Statement& row, int column, std::size_t part, std::size_t a_row, std::span<double> all,
+                 const char* table) const;
+  // Of a row of action whose values begin at column 2: channel(which, value) for each that it has.
+  template <typename Channel>
+  void each_channel(const sql::Statement& row, std::size_t part, const std::vector<ActionChannel>& channels,
+                    const Channel& channel) const {
+    if (part > channels.size() / kChannelsARow) damaged("action");
+    for (std::size_t i = 0; i < kChannelsARow; ++i) {
+      const int column = 2 + static_cast<int>(i);
+      if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL) continue;
+      if (part * kChannelsARow + i >= channels.size()) damaged("action");
+      channel(channels[part * kChannelsARow + i], sqlite3_column_double(row.handle(), column));
+    }
+  }
+
   void read_episode();
   void read_run();
   void read_objects();
@@ -64,6 +87,7 @@ class EpisodeReader {
   template <typename Place>
   void read_track(const std::string& thing, const std::string& table, std::size_t things, const Place& place);
   void read_actions();
+  std::vector<ActionChannel> read_action_channels();
   void read_commands();
   void read_segments();
   void read_segment_details();

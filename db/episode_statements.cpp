@@ -1,5 +1,7 @@
 // The statements that fill the tables.
+#include "db/catalogue_impl.h"
 #include "db/episode_writer.h"
+#include "db/schema.h"
 
 namespace stampede {
 namespace {
@@ -65,18 +67,22 @@ void EpisodeWriter::prepare_scene() {
 }
 
 void EpisodeWriter::prepare_frames() {
-  frame_ = insert("frame", "episode, frame, step, time_s, reward, done, skill_segment, motion_segment");
-  joint_state_ = insert("joint_state", "episode, frame, joint, position, velocity, effort");
+  frame_ = insert("frame",
+                  "episode, frame, step, time_s, reward, done, skill_segment, motion_segment, "
+                  "subgoal_segment, motion, subgoal");
+  joint_state_ = insert("joint_state", "episode, frame, part, " + numbered("position", kJointsARow) + ", " +
+                                           numbered("velocity", kJointsARow) + ", " + numbered("effort", kJointsARow));
   hand_state_ = insert("hand_state",
                        "episode, frame, hand, x, y, z, qx, qy, qz, qw, linear_x, linear_y, linear_z, angular_x, "
                        "angular_y, angular_z, opening, touch_1, touch_2");
   object_state_ = insert("object_state", "episode, posed, frame, x, y, z, qx, qy, qz, qw");
   camera_pose_ = insert("camera_pose", "episode, camera, frame, x, y, z, qx, qy, qz, qw");
   action_channel_ = insert("action_channel", "episode, ordinal, space, component, name, unit");
-  action_ = insert("action", "episode, frame, channel, value");
+  action_ = insert("action", "episode, frame, part, " + numbered("value", kChannelsARow));
   command_ = insert("command", "episode, ordinal, step, kind, payload, robot");
-  channel_ = insert("channel", "episode, ordinal, name, unit, rate_hz, components");
-  sample_ = insert("sample", "episode, channel, ordinal, component, step, value");
+  channel_ = insert("channel", "episode, ordinal, name, unit, rate_hz");
+  component_ = insert("channel_component", "episode, channel, ordinal, name");
+  sample_ = insert("sample", "episode, channel, ordinal, part, step, " + numbered("value", kComponentsARow));
 }
 
 void EpisodeWriter::prepare_labels() {
@@ -89,6 +95,14 @@ void EpisodeWriter::prepare_labels() {
                       "episode, undone, segment, ordinal, component, name, value, text, unit, frame, chosen_by");
   effect_ =
       insert("segment_effect", "episode, undone, segment, ordinal, negated, predicate, arg1, arg2, arg3, arg4, fact");
+  precondition_ = insert("segment_precondition",
+                         "episode, undone, segment, ordinal, choice, negated, predicate, arg1, arg2, arg3, arg4, fact, "
+                         "held");
+  effects_held_ = {database_, derived_sql("effects_held") + " AND d.episode = ?1", true};
+  undeclared_ = {database_,
+                 "INSERT INTO undeclared_change (episode, segment, fact, negated) SELECT * FROM (" +
+                     derived_sql("undeclared_change") + ") WHERE episode = ?1",
+                 true};
   via_ = insert("via",
                 "episode, ordinal, segment, name, x, y, z, qx, qy, qz, qw, passed_x, passed_y, passed_z, "
                 "passed_qx, passed_qy, passed_qz, passed_qw, step, speed, tool_speed");
@@ -106,7 +120,7 @@ void EpisodeWriter::prepare_labels() {
   document_ = insert("document", "episode, ordinal, kind, text");
   verdict_ = insert("verdict", "episode, dialect, theirs, ours, disagreements");
   keyframe_ = insert("keyframe", "episode, method, frame");
-  mask_ = insert("mask", "episode, instance, name, object, class, semantic");
+  mask_ = insert("mask", "episode, instance, name, object, class, semantic, colour");
   image_ = insert("image", "episode, frame, camera, kind, width, height, data");
   visible_ = insert("mask_pixels", "episode, frame, camera, instance, pixels");
 }

@@ -52,6 +52,7 @@ class EpisodeWriter {
   void write_labels(const EpisodeRecord& episode);
   void write_segments(const EpisodeRecord& episode);
   void write_parameters(const SegmentRecord& segment, bool undone, std::int64_t ordinal);
+  void write_preconditions(const SegmentRecord& segment, bool undone, std::int64_t ordinal);
   void write_effects(const SegmentRecord& segment, bool undone, std::int64_t ordinal);
   void write_facts(const EpisodeRecord& episode);
   void write_passages(const EpisodeRecord& episode);  // vias, grasps, contacts
@@ -70,10 +71,10 @@ class EpisodeWriter {
       asset_, text_store_;
   sql::Statement episode_, timing_, object_, object_trait_, object_attribute_, posed_, joint_, hand_, camera_;
   sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_, command_,
-      channel_, sample_;
+      channel_, component_, sample_;
   sql::Statement mask_, image_, visible_, stored_image_, mount_link_;
-  sql::Statement segment_, parameter_, effect_, via_, fact_, observed_fact_, contact_, grasp_, language_, document_,
-      verdict_, keyframe_;
+  sql::Statement segment_, parameter_, precondition_, effect_, effects_held_, undeclared_, via_, fact_, observed_fact_,
+      contact_, grasp_, language_, document_, verdict_, keyframe_;
 };
 
 // Throws Error for pictures of frames and cameras that are not there, of unknown kinds, or without size.

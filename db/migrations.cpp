@@ -5,6 +5,7 @@
 #include "db/catalogue.h"
 #include "db/count_visible.h"
 #include "db/embedded_sql.h"
+#include "db/schema.h"
 
 namespace stampede {
 namespace {
@@ -26,6 +27,21 @@ bool has_table(const sql::Database& database, const std::string& schema, const s
   return found.start(table).step();
 }
 
+// A migration has up to three parts: what is done to tables that are copied to be read; views that show large tables of
+// `old` in their new shape; what makes tables of them.
+struct Parts {
+  std::string copied, in_place, written;
+};
+Parts parts_of(const std::string& text, const std::string& old) {
+  const std::size_t views = std::min(text.find("\n-- in place"), text.size());
+  const std::size_t tables = std::min(text.find("\n-- to write"), text.size());
+  Parts parts{text.substr(0, views), text.substr(views, tables - views), text.substr(tables)};
+  const std::string from = "FROM old.";
+  for (std::size_t at = 0; (at = parts.in_place.find(from, at)) != std::string::npos; at += from.size())
+    parts.in_place.replace(at, from.size(), "FROM " + old + ".");
+  return parts;
+}
+
 // From the attached file into the temporary database, once.
 void copy_table(const sql::Database& database, const std::string& table) {
   if (has_table(database, "main", table) || !has_table(database, "file", table)) return;
@@ -44,8 +60,13 @@ void migrate(const sql::Database& database, int schema) {
   for (const SqlFile& migration : embedded_migrations()) {
     const int from = first_number(migration);
     if (from < schema) continue;
-    database.run(migration.text);
-    if (from == 5) count_stored_masks(database);
+    const Parts parts = parts_of(migration.text, "main");
+    database.run(parts.copied + parts.in_place + parts.written);
+    if (from != 5) continue;
+    count_stored_masks(database);
+    for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
+    database.run(derived_sql("effects_held"));
+    database.run("INSERT INTO undeclared_change (episode, segment, fact, negated) " + derived_sql("undeclared_change"));
   }
   database.run("PRAGMA user_version = " + std::to_string(schema_version()));
 }
@@ -54,13 +75,18 @@ sql::Database migrated_to_read(const std::string& uri, int flags, const std::str
   // An empty name is a database of its own on disk, without a file that others see; it goes when it is closed.
   sql::Database database("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | (flags & SQLITE_OPEN_URI), shown_path);
   sql::Statement(database, "ATTACH ?1 AS file").run(uri);
-  database.run("BEGIN");
+  database.run("PRAGMA temp_store = MEMORY; BEGIN");  // before there are temporary views: setting it drops them
   for (const SqlFile& migration : embedded_migrations()) {
     if (first_number(migration) < schema) continue;
     for (const std::string& table : changed_tables(migration)) copy_table(database, table);
-    database.run(migration.text);
+    const Parts parts = parts_of(migration.text, "file");
+    database.run(parts.copied + parts.in_place);
   }
   for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
+  if (schema == 5) {
+    database.run(derived_sql("effects_held"));
+    database.run("CREATE TEMP VIEW undeclared_change AS " + derived_sql("undeclared_change"));
+  }
   database.run("COMMIT");
   return database;
 }

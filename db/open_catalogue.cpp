@@ -187,6 +187,7 @@ Catalogue Catalogue::open(const fs::path& path) {
     file.database = migrated_to_read(file.uri, kReading, path.string(), content.schema);
   }
   impl->database = std::move(file.database);
+  impl->database.run("PRAGMA cache_size = -65536");  // 64 MiB: joins come back to the same pages
   impl->database.run(temporary_views_script());
   return Catalogue(std::move(impl));
 }

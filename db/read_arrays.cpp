@@ -76,12 +76,19 @@ void ArrayReader::read_joint_rows() {
   const std::size_t joints = record_.joints.size();
   for (auto* table : {&tables_.joint_position, &tables_.joint_velocity, &tables_.joint_effort})
     table->assign(tables_.frames * joints, kUnknown);
-  each("frame, joint, position, velocity, effort", "joint_state", "frame, joint", [&](sql::Statement& row) {
-    const std::int64_t frame = sqlite3_column_int64(row.handle(), 0), joint = sqlite3_column_int64(row.handle(), 1);
-    take(row, 2, 1, slot(tables_.joint_position, frame, joint, joints, 1, "joint_state"));
-    take(row, 3, 1, slot(tables_.joint_velocity, frame, joint, joints, 1, "joint_state"));
-    take(row, 4, 1, slot(tables_.joint_effort, frame, joint, joints, 1, "joint_state"));
-  });
+  each("frame, part, " + numbered("position", kJointsARow) + ", " + numbered("velocity", kJointsARow) + ", " +
+           numbered("effort", kJointsARow),
+       "joint_state", "frame, part", [&](sql::Statement& row) {
+         std::int64_t frame = 0;
+         std::size_t part = 0;
+         row.read(frame, part);
+         int column = 2;
+         for (auto* table : {&tables_.joint_position, &tables_.joint_velocity, &tables_.joint_effort}) {
+           take_part(row, column, part, kJointsARow, {slot(*table, frame, 0, 1, joints, "joint_state"), joints},
+                     "joint_state");
+           column += static_cast<int>(kJointsARow);
+         }
+       });
 }
 
 void ArrayReader::read_hand_rows() {
@@ -116,22 +123,19 @@ void ArrayReader::read_action_rows() {
   tables_.action_joint_position.assign(tables_.frames * joints, kUnknown);
   tables_.action_tool_pose.assign(tables_.frames * kWidth, kUnknown);
   tables_.action_gripper.assign(tables_.frames, kUnknown);
-  std::vector<std::pair<std::vector<double>*, std::pair<std::size_t, std::size_t>>> places;  // table, width, component
-  each("space, component", "action_channel", "ordinal", [&](sql::Statement& row) {
-    std::string space;
-    int component = 0;
-    row.read(space, component);
-    auto& [table, shape] = places.emplace_back();  // no table: a space that has no column
-    if (space == "joint_position") table = &tables_.action_joint_position, shape.first = joints;
-    if (space == "tool_pose") table = &tables_.action_tool_pose, shape.first = kWidth;
-    if (space == "gripper") table = &tables_.action_gripper, shape.first = 1;
-    shape.second = static_cast<std::size_t>(component);
-  });
-  each("frame, channel, value", "action", "frame, channel", [&](sql::Statement& row) {
-    const std::int64_t frame = sqlite3_column_int64(row.handle(), 0);
-    const auto& [table, shape] = at(places, sqlite3_column_int64(row.handle(), 1), "action");
-    if (table != nullptr)
-      take(row, 2, 1, slot(*table, frame, static_cast<std::int64_t>(shape.second), shape.first, 1, "action"));
+  const std::vector<ActionChannel> channels = read_action_channels();
+  each("frame, part, " + numbered("value", kChannelsARow), "action", "frame, part", [&](sql::Statement& row) {
+    std::int64_t frame = 0;
+    std::size_t part = 0;
+    row.read(frame, part);
+    each_channel(row, part, channels, [&](const ActionChannel& channel, double value) {
+      const auto put = [&](std::vector<double>& table, std::size_t width) {
+        *slot(table, frame, static_cast<std::int64_t>(channel.component), width, 1, "action") = value;
+      };
+      if (channel.space == "joint_position") put(tables_.action_joint_position, joints);
+      if (channel.space == "tool_pose") put(tables_.action_tool_pose, kWidth);
+      if (channel.space == "gripper") put(tables_.action_gripper, 1);
+    });
   });
 }
 

@@ -75,6 +75,16 @@ void EpisodeReader::read_segment_details() {
          if (component == 0) parameters.push_back(p);
          if (value) parameters.back().values.push_back(*value);
        });
+  each("undone, segment, coalesce(choice, -1), negated, fact, held", "segment_precondition", "undone, segment, ordinal",
+       [&](sql::Statement& row) {
+         bool undone = false;
+         std::int64_t segment = 0;
+         PreconditionRecord precondition;
+         std::string fact;
+         row.read(undone, segment, precondition.choice, precondition.negated, fact, precondition.held);
+         precondition.fact = fact_from(fact);
+         owner(undone, segment).preconditions.push_back(std::move(precondition));
+       });
   each("undone, segment, negated, fact", "segment_effect", "undone, segment, ordinal", [&](sql::Statement& row) {
     bool undone = false;
     std::int64_t segment = 0;

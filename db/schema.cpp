@@ -109,6 +109,11 @@ const std::vector<std::string>& current_tables() {
   return names;
 }
 
+const std::string& derived_sql(const std::string& name) {
+  const auto& files = embedded_derived();
+  return std::find_if(files.begin(), files.end(), [&](const SqlFile& file) { return file.name == name; })->text;
+}
+
 std::string schema_script() {
   return of_all(embedded_schema()) + "PRAGMA application_id = " + std::to_string(kApplicationId) +
          ";\nPRAGMA user_version = " + std::to_string(schema_version()) + ";\n";

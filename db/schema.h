@@ -24,6 +24,7 @@ std::string tables_hash(const sql::Database& database);
 
 const std::string& current_tables_hash();                      // of the files in db/schema
 const std::vector<std::string>& current_tables();              // their names, sorted
+const std::string& derived_sql(const std::string& name);       // of a file in db/derived
 std::string schema_script();                                   // makes them, inside the caller's transaction
 bool has_current_views(const sql::Database& database);         // views and indexes are as this build has them
 std::string drop_views_script(const sql::Database& database);  // all views of the file

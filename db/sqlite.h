@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,13 @@ namespace stampede::sql {
 
 struct Blob {
   std::string_view bytes;
+};
+
+// Values for so many places; those that are left are NULL.
+template <typename Value>
+struct Wide {
+  std::span<const Value> values;
+  std::size_t places = 0;
 };
 
 class Database {
@@ -80,6 +88,11 @@ class Statement {
   void bind(const std::string& value) { bind(std::string_view(value)); }
   void bind(const char* value) { bind(std::string_view(value)); }
   void bind(Blob value);
+  template <typename Value>
+  void bind(const Wide<Value>& wide) {
+    for (const Value& value : wide.values) bind(value);
+    for (std::size_t i = wide.values.size(); i < wide.places; ++i) bind(std::nullopt);
+  }
   void bind(std::nullopt_t);
   void bind(const Pose& value);
   template <typename Value>
@@ -91,6 +104,7 @@ class Statement {
   }
   void column(std::int64_t& value) { value = sqlite3_column_int64(handle_.get(), place_++); }
   void column(int& value) { value = sqlite3_column_int(handle_.get(), place_++); }
+  void column(std::size_t& value) { value = static_cast<std::size_t>(sqlite3_column_int64(handle_.get(), place_++)); }
   void column(bool& value) { value = sqlite3_column_int(handle_.get(), place_++) != 0; }
   void column(double& value) { value = sqlite3_column_double(handle_.get(), place_++); }
   void column(std::string& value);

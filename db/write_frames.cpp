@@ -25,17 +25,25 @@ std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::strin
 }  // namespace
 
 void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
-  const auto skill = running(episode, "skill"), motion = running(episode, "motion");
+  const auto skill = running(episode, "skill"), motion = running(episode, "motion"),
+             subgoal = running(episode, "subgoal");
+  std::map<int, std::string_view> names;
+  for (const SegmentRecord& segment : episode.segments) names.emplace(segment.ordinal, segment.skill);
+  const auto name_of = [&](const std::optional<int>& segment) {
+    return segment ? std::optional(names.at(*segment)) : std::nullopt;
+  };
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, frame.reward, frame.done,
-               skill[i], motion[i]);
+               skill[i], motion[i], subgoal[i], name_of(motion[i]), name_of(subgoal[i]));
   }
   // Table by table: each grows at its end.
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
-    for (std::size_t j = 0; j < episode.joints.size(); ++j)
-      joint_state_.run(id_, i, j, frame.joint_position[j], frame.joint_velocity[j], frame.joint_effort[j]);
+    for (std::size_t part = 0; part * kJointsARow < episode.joints.size(); ++part)
+      joint_state_.run(id_, i, part, part_of<double>(frame.joint_position, part, kJointsARow),
+                       part_of<double>(frame.joint_velocity, part, kJointsARow),
+                       part_of<double>(frame.joint_effort, part, kJointsARow));
   }
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     int hand = 0;
@@ -91,14 +99,18 @@ void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
   for (std::size_t j = 0; j < kPoseNames.size(); ++j)
     action_channel_.run(id_, ordinal++, "tool_pose", j, kPoseNames[j], j < 3 ? "m" : "1");
   action_channel_.run(id_, ordinal, "gripper", 0, "opening", "m");
+  std::vector<std::optional<double>> values;
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const auto& action = episode.frames[i].action;
     if (!action) continue;
-    for (std::size_t j = 0; j < action->joint_position.size(); ++j) action_.run(id_, i, j, action->joint_position[j]);
-    std::size_t channel = joints;
-    for (const double number : action->tool_pose.position) action_.run(id_, i, channel++, number);
-    for (const double number : action->tool_pose.quaternion) action_.run(id_, i, channel++, number);
-    action_.run(id_, i, channel, action->gripper);
+    values.assign(action->joint_position.begin(), action->joint_position.end());
+    values.resize(joints);
+    const auto& [position, quaternion] = action->tool_pose;
+    values.insert(values.end(), position.begin(), position.end());
+    values.insert(values.end(), quaternion.begin(), quaternion.end());
+    values.emplace_back(action->gripper);
+    for (std::size_t part = 0; part * kChannelsARow < values.size(); ++part)
+      action_.run(id_, i, part, part_of<std::optional<double>>(values, part, kChannelsARow));
   }
 }
 
@@ -114,11 +126,14 @@ void EpisodeWriter::write_commands(const EpisodeRecord& episode) {
 void EpisodeWriter::write_channels(const EpisodeRecord& episode) {
   std::size_t ordinal = 0;
   for (const ChannelRecord& channel : episode.channels) {
-    channel_.run(id_, ordinal, channel.name, channel.unit, channel.rate_hz, to_json_list(channel.components));
+    channel_.run(id_, ordinal, channel.name, channel.unit, channel.rate_hz);
     const std::size_t width = channel.components.size();
-    for (std::size_t i = 0; i < channel.steps.size(); ++i)
-      for (std::size_t c = 0; c < width; ++c)
-        sample_.run(id_, ordinal, i, c, channel.steps[i], channel.values[i * width + c]);
+    for (std::size_t c = 0; c < width; ++c) component_.run(id_, ordinal, c, channel.components[c]);
+    for (std::size_t i = 0; i < channel.steps.size(); ++i) {
+      const auto values = std::span(channel.values).subspan(i * width, width);
+      for (std::size_t part = 0; part * kComponentsARow < width; ++part)
+        sample_.run(id_, ordinal, i, part, channel.steps[i], part_of<double>(values, part, kComponentsARow));
+    }
     ++ordinal;
   }
 }

@@ -53,7 +53,15 @@ void check_images(const ImageStore& images, std::int64_t frames, std::size_t cam
 }
 
 void EpisodeWriter::write_masks(const EpisodeRecord& episode) {
-  for (const MaskEntry& m : episode.masks) mask_.run(id_, m.instance, m.name, m.object, m.class_name, m.semantic);
+  std::map<std::string, std::string> colours;
+  for (const Object& object : episode.objects)
+    if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end())
+      colours.emplace(object.name, colour->second);
+  for (const MaskEntry& m : episode.masks) {
+    const auto colour = colours.find(m.object);
+    mask_.run(id_, m.instance, m.name, m.object, m.class_name, m.semantic,
+              colour == colours.end() ? std::nullopt : std::optional(colour->second));
+  }
 }
 
 void EpisodeWriter::write_image(const ImageRecord& image, int camera, const std::vector<std::uint8_t>& bytes) {

@@ -46,6 +46,8 @@ int try_number(const EpisodeRecord& episode, const SegmentRecord& segment) {
 void EpisodeWriter::write_labels(const EpisodeRecord& episode) {
   write_segments(episode);
   write_facts(episode);
+  effects_held_.run(id_);
+  undeclared_.run(id_);
   write_passages(episode);
   write_language(episode);
   for (const auto& [method, frames] : episode.keyframes)
@@ -57,6 +59,7 @@ void EpisodeWriter::write_segments(const EpisodeRecord& episode) {
     run_segment(segment_, id_, false, segment.ordinal, std::nullopt, std::nullopt, try_number(episode, segment),
                 segment);
     write_parameters(segment, false, segment.ordinal);
+    write_preconditions(segment, false, segment.ordinal);
     write_effects(segment, false, segment.ordinal);
   }
   int ordinal = 0;
@@ -64,6 +67,7 @@ void EpisodeWriter::write_segments(const EpisodeRecord& episode) {
     run_segment(segment_, id_, true, ordinal, attempt.segment.ordinal, attempt.before_segment, attempt.try_number,
                 attempt.segment);
     write_parameters(attempt.segment, true, ordinal);
+    write_preconditions(attempt.segment, true, ordinal);
     write_effects(attempt.segment, true, ordinal);
     ++ordinal;
   }
@@ -82,6 +86,17 @@ void EpisodeWriter::write_parameters(const SegmentRecord& segment, bool undone, 
                        to_string(p.chosen_by));
     }
     ++place;
+  }
+}
+
+void EpisodeWriter::write_preconditions(const SegmentRecord& segment, bool undone, std::int64_t ordinal) {
+  int place = 0;
+  for (const PreconditionRecord& p : segment.preconditions) {
+    const auto& arguments = p.fact.arguments;
+    const auto arg1 = argument(arguments, 0), arg2 = argument(arguments, 1), arg3 = argument(arguments, 2),
+               arg4 = argument(arguments, 3);
+    precondition_.run(id_, undone, ordinal, place++, index(p.choice), p.negated, p.fact.predicate, arg1, arg2, arg3,
+                      arg4, to_text(p.fact), p.held);
   }
 }
 

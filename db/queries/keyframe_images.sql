@@ -2,11 +2,11 @@
 WITH edges AS (
   SELECT s.episode, s.segment, s.skill, s.label, c.ordinal AS camera, m.column1 AS moment,
          s.first_frame, min(s.end_frame, e.frames - 1) AS last_frame
-  FROM segments s
-  JOIN episode e ON e.id = s.episode
+  FROM episode e
+  CROSS JOIN segments s ON s.episode = e.id
   JOIN camera c ON c.episode = s.episode
   CROSS JOIN (VALUES ('start'), ('end')) m
-  WHERE s.kind = 'skill'),
+  WHERE s.kind = 'skill' AND EXISTS (SELECT 1 FROM image i WHERE i.episode = e.id)),
 shown AS (
   SELECT g.*, CASE moment
     WHEN 'start' THEN (SELECT i.frame FROM image i WHERE i.episode = g.episode AND i.camera = g.camera

@@ -4,5 +4,5 @@ FROM vias v
 JOIN (SELECT DISTINCT episode, method FROM keyframe) k ON k.episode = v.episode
 WHERE v.speed > 0.1
   AND NOT EXISTS (SELECT 1 FROM keyframe f WHERE f.episode = v.episode AND f.method = k.method
-                  AND abs(f.frame - v.frame) <= 1)
+                  AND f.frame BETWEEN v.frame - 1 AND v.frame + 1)
 ORDER BY v.episode, v.ordinal, k.method;

@@ -1,6 +1,7 @@
 -- Facts that changed during a skill though it neither declares nor forgets them, per skill.
-SELECT t.skill, t.case_name, j.value AS literal, count(*) AS times, min(t.episode) AS first_episode
-FROM transitions t, json_each(t.undeclared) j
-WHERE t.kind = 'skill'
-GROUP BY t.skill, t.case_name, j.value
-ORDER BY times DESC, t.skill, t.case_name, literal;
+SELECT s.skill, s.case_name, CASE WHEN u.negated THEN '(not ' || u.fact || ')' ELSE u.fact END AS literal,
+       count(*) AS times, min(s.episode) AS first_episode
+FROM undeclared_change u
+CROSS JOIN segment s ON s.episode = u.episode AND s.undone = 0 AND s.ordinal = u.segment
+GROUP BY s.skill, s.case_name, literal
+ORDER BY times DESC, s.skill, s.case_name, literal;

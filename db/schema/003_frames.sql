@@ -8,18 +8,26 @@ CREATE TABLE frame (
   done INTEGER NOT NULL CHECK (done IN (0, 1)),
   skill_segment INTEGER,   -- innermost segments that run here
   motion_segment INTEGER,
+  subgoal_segment INTEGER,
+  motion TEXT,             -- names of the two: they would be looked up at every frame
+  subgoal TEXT,
   PRIMARY KEY (episode, frame)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE joint_state (
-  episode INTEGER NOT NULL,
+CREATE TABLE joint_state (  -- twelve joints a row: joint 12 * part + i is in the columns that end in i
+  episode INTEGER NOT NULL REFERENCES episode (id),
   frame INTEGER NOT NULL,
-  joint INTEGER NOT NULL,
-  position REAL NOT NULL,
-  velocity REAL NOT NULL,
-  effort REAL NOT NULL,
-  PRIMARY KEY (episode, frame, joint),
-  FOREIGN KEY (episode, joint) REFERENCES joint (episode, ordinal)
+  part INTEGER NOT NULL,
+  position_0 REAL, position_1 REAL, position_2 REAL, position_3 REAL,
+  position_4 REAL, position_5 REAL, position_6 REAL, position_7 REAL,
+  position_8 REAL, position_9 REAL, position_10 REAL, position_11 REAL,
+  velocity_0 REAL, velocity_1 REAL, velocity_2 REAL, velocity_3 REAL,
+  velocity_4 REAL, velocity_5 REAL, velocity_6 REAL, velocity_7 REAL,
+  velocity_8 REAL, velocity_9 REAL, velocity_10 REAL, velocity_11 REAL,
+  effort_0 REAL, effort_1 REAL, effort_2 REAL, effort_3 REAL,
+  effort_4 REAL, effort_5 REAL, effort_6 REAL, effort_7 REAL,
+  effort_8 REAL, effort_9 REAL, effort_10 REAL, effort_11 REAL,
+  PRIMARY KEY (episode, frame, part)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE hand_state (
@@ -64,13 +72,15 @@ CREATE TABLE action_channel (  -- the action spaces of an episode: names of thei
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE action (  -- commanded over [frame, frame + 1)
-  episode INTEGER NOT NULL,
+CREATE TABLE action (  -- commanded over [frame, frame + 1); sixteen channels a row: 16 * part + i is in column i
+  episode INTEGER NOT NULL REFERENCES episode (id),
   frame INTEGER NOT NULL,
-  channel INTEGER NOT NULL,
-  value REAL NOT NULL,
-  PRIMARY KEY (episode, frame, channel),
-  FOREIGN KEY (episode, channel) REFERENCES action_channel (episode, ordinal)
+  part INTEGER NOT NULL,
+  value_0 REAL, value_1 REAL, value_2 REAL, value_3 REAL,
+  value_4 REAL, value_5 REAL, value_6 REAL, value_7 REAL,
+  value_8 REAL, value_9 REAL, value_10 REAL, value_11 REAL,
+  value_12 REAL, value_13 REAL, value_14 REAL, value_15 REAL,
+  PRIMARY KEY (episode, frame, part)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE command (  -- every operation on the simulated world: what replay applies
@@ -89,17 +99,26 @@ CREATE TABLE channel (
   name TEXT NOT NULL,
   unit TEXT NOT NULL,
   rate_hz REAL NOT NULL,
-  components TEXT NOT NULL,  -- JSON list of names
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE sample (
+CREATE TABLE channel_component (
   episode INTEGER NOT NULL,
   channel INTEGER NOT NULL,
   ordinal INTEGER NOT NULL,
-  component INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  PRIMARY KEY (episode, channel, ordinal),
+  FOREIGN KEY (episode, channel) REFERENCES channel (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE sample (  -- eight components a row: component 8 * part + i is in column i
+  episode INTEGER NOT NULL,
+  channel INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  part INTEGER NOT NULL,
   step INTEGER NOT NULL,
-  value REAL NOT NULL,
-  PRIMARY KEY (episode, channel, ordinal, component),
+  value_0 REAL, value_1 REAL, value_2 REAL, value_3 REAL,
+  value_4 REAL, value_5 REAL, value_6 REAL, value_7 REAL,
+  PRIMARY KEY (episode, channel, ordinal, part),
   FOREIGN KEY (episode, channel) REFERENCES channel (episode, ordinal)
 ) STRICT, WITHOUT ROWID;

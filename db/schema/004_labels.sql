@@ -51,6 +51,23 @@ CREATE TABLE segment_parameter (
   PRIMARY KEY (episode, undone, segment, ordinal, component)
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE segment_precondition (  -- ground, with what was found when a call began
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  undone INTEGER NOT NULL CHECK (undone IN (0, 1)),
+  segment INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  choice INTEGER,  -- which `or` or `exists` it is a way to meet; NULL: it must hold
+  negated INTEGER NOT NULL CHECK (negated IN (0, 1)),
+  predicate TEXT NOT NULL,
+  arg1 TEXT,
+  arg2 TEXT,
+  arg3 TEXT,
+  arg4 TEXT,
+  fact TEXT NOT NULL,  -- (on block1 table)
+  held INTEGER NOT NULL CHECK (held IN (0, 1)),
+  PRIMARY KEY (episode, undone, segment, ordinal)
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE segment_effect (  -- declared effects, ground
   episode INTEGER NOT NULL REFERENCES episode (id),
   undone INTEGER NOT NULL CHECK (undone IN (0, 1)),
@@ -63,7 +80,16 @@ CREATE TABLE segment_effect (  -- declared effects, ground
   arg3 TEXT,
   arg4 TEXT,
   fact TEXT NOT NULL,  -- (on block1 table)
+  held INTEGER CHECK (held IN (0, 1)),  -- at the segment's end, by the facts; NULL: the try was undone
   PRIMARY KEY (episode, undone, segment, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE undeclared_change (  -- of basic facts, neither declared nor forgotten by the skill. Follows from fact
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  segment INTEGER NOT NULL,
+  fact TEXT NOT NULL,
+  negated INTEGER NOT NULL CHECK (negated IN (0, 1)),
+  PRIMARY KEY (episode, segment, fact)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE via (

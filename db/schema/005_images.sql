@@ -6,6 +6,7 @@ CREATE TABLE mask (
   object TEXT NOT NULL,
   class TEXT NOT NULL,
   semantic INTEGER NOT NULL CHECK (semantic > 0),
+  colour TEXT,  -- of the object
   PRIMARY KEY (episode, instance)
 ) STRICT, WITHOUT ROWID;
 

@@ -30,36 +30,12 @@ SELECT s.episode, e.task, e.variation, e.seed, s.ordinal AS segment, s.kind, s.s
           ORDER BY d.ordinal)) AS declared,
        CASE WHEN s.kind = 'skill' THEN (SELECT json_group_array(literal) FROM
          (SELECT CASE WHEN d.negated THEN '(not ' || d.fact || ')' ELSE d.fact END AS literal FROM segment_effect d
-          WHERE d.episode = s.episode AND d.undone = 0 AND d.segment = s.ordinal
-            AND d.negated = EXISTS (SELECT 1 FROM fact f WHERE f.episode = s.episode AND f.fact = d.fact
-                                    AND f.start_step <= s.end_step AND (+f.end_step > s.end_step OR f.open_end))
+          WHERE d.episode = s.episode AND d.undone = 0 AND d.segment = s.ordinal AND NOT d.held
           ORDER BY d.ordinal)) END AS missing,
        CASE WHEN s.kind = 'skill' THEN (SELECT json_group_array(literal) FROM
-         (SELECT DISTINCT literal, fact FROM
-            (SELECT f.fact, f.fact AS literal FROM fact f
-             WHERE f.episode = s.episode AND f.start_step > s.start_step AND f.start_step <= s.end_step
-               AND (f.end_step > s.end_step OR f.open_end)
-               AND NOT EXISTS (SELECT 1 FROM fact o WHERE o.episode = s.episode AND o.fact = f.fact
-                               AND o.start_step <= s.start_step AND (+o.end_step > s.start_step OR o.open_end))
-               AND NOT EXISTS (SELECT 1 FROM segment_effect d
-                               WHERE d.episode = s.episode AND d.undone = 0 AND d.segment = s.ordinal
-                                 AND d.fact = f.fact AND d.negated = 0)
-               AND NOT EXISTS (SELECT 1 FROM json_each(s.forgotten) g WHERE g.value = f.predicate)
-               AND NOT EXISTS (SELECT 1 FROM predicate p
-                               WHERE p.engine_run = e.engine_run AND p.name = f.predicate AND p.kind = 'derived')
-             UNION ALL
-             SELECT f.fact, '(not ' || f.fact || ')' FROM fact f
-             WHERE f.episode = s.episode AND f.end_step > s.start_step AND f.end_step <= s.end_step AND NOT f.open_end
-               AND +f.start_step <= s.start_step
-               AND NOT EXISTS (SELECT 1 FROM fact o WHERE o.episode = s.episode AND o.fact = f.fact
-                               AND o.start_step <= s.end_step AND (+o.end_step > s.end_step OR o.open_end))
-               AND NOT EXISTS (SELECT 1 FROM segment_effect d
-                               WHERE d.episode = s.episode AND d.undone = 0 AND d.segment = s.ordinal
-                                 AND d.fact = f.fact AND d.negated = 1)
-               AND NOT EXISTS (SELECT 1 FROM json_each(s.forgotten) g WHERE g.value = f.predicate)
-               AND NOT EXISTS (SELECT 1 FROM predicate p
-                               WHERE p.engine_run = e.engine_run AND p.name = f.predicate AND p.kind = 'derived'))
-          ORDER BY fact)) END AS undeclared
+         (SELECT CASE WHEN u.negated THEN '(not ' || u.fact || ')' ELSE u.fact END AS literal FROM undeclared_change u
+          WHERE u.episode = s.episode AND u.segment = s.ordinal
+          ORDER BY u.fact)) END AS undeclared
 FROM segment s
 JOIN episode e ON e.id = s.episode
 WHERE s.undone = 0;

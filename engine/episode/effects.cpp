@@ -1,6 +1,10 @@
 #include "engine/episode/effects.h"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "engine/symbolic/evaluation.h"
 
 namespace stampede {
 namespace {
@@ -41,7 +45,71 @@ struct Expansion {
   }
 };
 
+// Takes a formula in negation normal form apart.
+class PreconditionLiterals {
+ public:
+  PreconditionLiterals(const symbolic::View& view, Binding binding) : view_(view), binding_(std::move(binding)) {}
+
+  void add(const Formula& formula, int choice = -1) {
+    using Kind = Formula::Kind;
+    switch (formula.kind) {
+      case Kind::always:
+      case Kind::never:
+        return;
+      case Kind::disjunction:
+      case Kind::exists:
+        if (choice < 0) choice = choices_++;
+        break;
+      default:
+        break;
+    }
+    switch (formula.kind) {
+      case Kind::exists:
+      case Kind::forall:
+        symbolic::for_each_binding(formula.variables, view_, binding_, [&] {
+          add(formula.parts.at(0), choice);
+          return true;
+        });
+        return;
+      case Kind::conjunction:
+      case Kind::disjunction:
+        for (const Formula& part : formula.parts) add(part, choice);
+        return;
+      default:
+        add_literal(formula, choice);
+    }
+  }
+  std::vector<PreconditionRecord> literals() { return std::move(literals_); }
+
+ private:
+  void add_literal(const Formula& formula, int choice) {
+    const bool negated = formula.kind == Formula::Kind::negation;
+    const Formula& atom = negated ? formula.parts.at(0) : formula;
+    const std::string& name = atom.kind == Formula::Kind::equal ? kEqual : atom.predicate;
+    Fact fact = symbolic::ground_atom(name, atom.terms, binding_);
+    if (!seen_.insert({choice, negated, fact}).second) return;
+    const bool held = symbolic::evaluate(formula, view_, binding_);
+    literals_.push_back({std::move(fact), negated, held, choice});
+  }
+
+  static inline const std::string kEqual = "=";
+  const symbolic::View& view_;
+  Binding binding_;
+  int choices_ = 0;
+  std::set<std::tuple<int, bool, Fact>> seen_;
+  std::vector<PreconditionRecord> literals_;
+};
+
 }  // namespace
+
+std::vector<PreconditionRecord> ground_precondition(const Action& action, const std::vector<std::string>& arguments,
+                                                    const Facts& before, const Domain& domain,
+                                                    const std::vector<TypedObject>& objects) {
+  const symbolic::View view{before, domain, objects};
+  PreconditionLiterals found(view, binding_of(action, arguments));
+  found.add(symbolic::negation_normal(action.precondition));
+  return found.literals();
+}
 
 Binding binding_of(const Action& action, const std::vector<std::string>& arguments) {
   Binding binding;

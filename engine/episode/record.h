@@ -57,6 +57,15 @@ struct EffectRecord {  // a literal that an action's effect declares, ground for
   friend bool operator==(const EffectRecord&, const EffectRecord&) = default;
 };
 
+// A literal of an action's precondition, ground for this call, and whether it held when it was tested.
+struct PreconditionRecord {
+  Fact fact;
+  bool negated = false;
+  bool held = false;
+  int choice = -1;  // which `or` or `exists` it is a way to meet, from 0; -1: it must hold
+  friend bool operator==(const PreconditionRecord&, const PreconditionRecord&) = default;
+};
+
 struct SegmentRecord {
   SegmentKind kind = SegmentKind::motion;
   int ordinal = 0;  // in the episode, by start then depth
@@ -71,6 +80,7 @@ struct SegmentRecord {
   Reason reason = Reason::none;
   std::string detail;                                  // for people
   std::optional<bool> precondition_held, effect_held;  // nothing: none declared or not reached
+  std::vector<PreconditionRecord> preconditions;       // in the formula's order; of a forall each instance
   std::vector<EffectRecord> declared_effects;          // conditional and quantified ones already decided
   std::vector<std::string> forgotten;                  // predicates that contact leaves uncertain
   std::vector<std::string> missing_effects;            // literals that did not come true

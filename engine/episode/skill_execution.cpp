@@ -157,6 +157,8 @@ void SkillExecution::open_segment(int parent, const Facts& before) {
   segment.arguments = context_.arguments;
   segment.label = fill(context_.info->label, context_.info->parameters, context_.arguments, rollout_.view().scene());
   segment.forgotten = context_.info->forgets;
+  segment.preconditions =
+      ground_precondition(*context_.action, context_.arguments, before, rollout_.domain(), rollout_.facts().objects());
   for (const Literal& literal :
        ground_effects(*context_.action, context_.arguments, before, rollout_.domain(), rollout_.facts().objects()))
     segment.declared_effects.push_back({literal.fact, literal.negated});

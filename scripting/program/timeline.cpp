@@ -150,6 +150,14 @@ std::string failure_text(const SegmentRecord& segment) {
   return text;
 }
 
+// Of a call that was made all the same: what it asked for and was not so.
+std::string unmet_text(const SegmentRecord& segment) {
+  std::vector<std::string> texts;
+  for (const PreconditionRecord& literal : segment.preconditions)
+    if (!literal.held && literal.choice < 0) texts.push_back((literal.negated ? "not " : "") + fact_text(literal.fact));
+  return texts.empty() ? "" : "before it was false: " + joined(texts, ", ");
+}
+
 std::string undone(const EpisodeRecord& episode, int before_segment, const TimelineStyle& style, int indent) {
   std::string text;
   for (const AttemptRecord& attempt : episode.attempts) {
@@ -182,6 +190,8 @@ void add_segment(std::string& text, const EpisodeRecord& episode, const SegmentR
   if (!passed.empty()) text += note(passed, style, indent + 4);
   if (skill && segment.outcome != Outcome::success) text += note(failure_text(segment), style, indent + 4);
   if (segment.kind == SegmentKind::skill) {
+    const std::string unmet = unmet_text(segment);
+    if (!unmet.empty()) text += note(unmet, style, indent + 4);
     const std::string changed = changes(episode, segment.span);
     if (!changed.empty()) text += note(changed, style, indent + 4);
     const std::string parameters = parameters_text(segment);

@@ -68,7 +68,7 @@ TEST_CASE("the same key with other content names both files, and nothing is writ
   make(folder / "b.db", {2, 3});
   {
     const sql::Database file((folder / "b.db").string(), SQLITE_OPEN_READWRITE, "b.db");
-    file.run("UPDATE joint_state SET position = 0.5 WHERE episode = 1 AND frame = 3 AND joint = 0");
+    file.run("UPDATE joint_state SET position_0 = 0.5 WHERE episode = 1 AND frame = 3");
   }
   CHECK_THROWS_WITH(merge(folder / "sum.db", {folder / "a.db", folder / "b.db"}),
                     Contains("a.db") && Contains("b.db") && Contains("seed 2") && Contains("other content") &&

@@ -54,11 +54,14 @@ TEST_CASE("a number that cannot be is told with its place, whichever it is") {
       {"UPDATE camera SET width = 0", "a camera's width"},
       {"UPDATE object_state SET frame = 5000 WHERE frame = 0 AND posed = 0", "a row of object_state"},
       {"UPDATE object_state SET posed = 7 WHERE posed = 1", "a row of object_state"},
-      {"UPDATE joint_state SET joint = 9 WHERE joint = 2", "a row of joint_state"},
-      {"UPDATE action SET frame = -1 WHERE frame = 0 AND channel = 0", "a row of action"},
+      {"UPDATE joint_state SET part = 9 WHERE frame = 2", "a row of joint_state"},
+      {"UPDATE joint_state SET velocity_1 = NULL WHERE frame = 2", "a row of joint_state"},
+      {"UPDATE action SET frame = -1 WHERE frame = 0", "a row of action"},
+      {"UPDATE action SET part = 1 WHERE frame = 0", "a row of action"},
       {"UPDATE action_channel SET component = 70 WHERE space = 'tool_pose' AND component = 6",
        "a row of action_channel"},
-      {"DELETE FROM sample WHERE component = 1", "a sensor's number of values"},
+      {"UPDATE sample SET value_1 = NULL WHERE ordinal = 1", "a row of sample"},
+      {"UPDATE sample SET part = 1 WHERE ordinal = 1", "a row of sample"},
   };
   for (const auto& [statement, complaint] : lies) {
     INFO(statement);

@@ -40,6 +40,59 @@ TEST_CASE("transitions compare what a segment declares with what became of the f
   CHECK(column("undeclared") == R"j(["(not (hand_empty))","(lifted block1)"])j");
 }
 
+TEST_CASE("preconditions are told literal by literal, also of what was undone") {
+  const Filled filled;
+  const QueryResult rows = filled.catalogue.query(
+      "SELECT undone, segment, skill, case_name, ordinal, choice, negated, predicate, arg1, literal, held FROM "
+      "preconditions ORDER BY undone, segment, ordinal");
+  CHECK(rows.rows.size() == 8);
+  QueryResult kept = rows;
+  kept.rows.resize(4);
+  CHECK(to_csv(kept) ==
+        "undone,segment,skill,case_name,ordinal,choice,negated,predicate,arg1,literal,held\n"
+        "0,0,pick,off_surface,0,,0,hand_empty,,(hand_empty),1\n"
+        "0,0,pick,off_surface,1,,1,on,block2,(not (on block2 block1)),1\n"
+        "0,0,pick,off_surface,2,0,0,on,block1,(on block1 table),1\n"
+        "0,0,pick,off_surface,3,0,0,on,block1,(on block1 shelf),0\n");
+  CHECK(std::get<std::int64_t>(rows.rows.back()[0]) == 1);
+}
+
+TEST_CASE("wide rows are told value by value, in as many rows as there are of them") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  SampleSize size;
+  size.joints = 30;  // three rows a frame
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1, size);
+  for (FrameRecord& frame : episode.frames)
+    if (frame.action) frame.action->joint_position.assign(20, frame.action->gripper + 1);  // two rows
+  episode.channels[0].components.resize(19, "more");
+  episode.channels[0].values.clear();
+  for (int i = 0; i < 38; ++i) episode.channels[0].values.push_back(i);
+  const EpisodeRecord back = catalogue.read_episode(catalogue.add(episode, kEngine));
+  CHECK(back.frames[3].joint_position == episode.frames[3].joint_position);
+  CHECK(back.frames[3].joint_effort == episode.frames[3].joint_effort);
+  CHECK(back.frames[3].action->joint_position == episode.frames[3].action->joint_position);
+  CHECK(back.frames[3].action->tool_pose == episode.frames[3].action->tool_pose);
+  CHECK(back.channels[0].values == episode.channels[0].values);
+  const auto number = [&](const std::string& sql) { return std::get<double>(catalogue.query(sql).rows.at(0)[0]); };
+  for (const int joint : {0, 11, 12, 29}) {
+    INFO(joint);
+    const auto index = static_cast<std::size_t>(joint);
+    const std::string of = " FROM joints WHERE frame = 3 AND joint = '" + episode.joints[index].name + "'";
+    CHECK(number("SELECT position" + of) == episode.frames[3].joint_position[index]);
+    CHECK(number("SELECT velocity" + of) == episode.frames[3].joint_velocity[index]);
+  }
+  CHECK(number("SELECT value FROM actions WHERE frame = 3 AND space = 'joint_position' AND component = 17") ==
+        episode.frames[3].action->joint_position[17]);
+  CHECK(number("SELECT value FROM actions WHERE frame = 3 AND space = 'tool_pose' AND component = 6") ==
+        episode.frames[3].action->tool_pose.quaternion[3]);
+  CHECK(number("SELECT value FROM sensors WHERE sample = 1 AND component = 17") == 19 + 17);
+  CHECK(catalogue.query("SELECT * FROM joints").rows.size() == 30 * episode.frames.size());
+  CHECK(catalogue.query("SELECT * FROM actions").rows.size() == 28 * (episode.frames.size() - 1));
+  CHECK(catalogue.query("SELECT * FROM sensors").rows.size() == 38);
+  CHECK(catalogue.query("SELECT DISTINCT name FROM sensors").rows.size() == 3);
+}
+
 TEST_CASE("dense views carry the last pose forward") {
   const Filled filled;
   const auto count = [&](const std::string& sql) {

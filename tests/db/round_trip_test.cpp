@@ -25,6 +25,7 @@ void check_segment(const SegmentRecord& a, const SegmentRecord& b) {
   CHECK(a.detail == b.detail);
   CHECK(a.precondition_held == b.precondition_held);
   CHECK(a.effect_held == b.effect_held);
+  CHECK(a.preconditions == b.preconditions);
   CHECK(a.declared_effects == b.declared_effects);
   CHECK(a.forgotten == b.forgotten);
   CHECK(a.missing_effects == b.missing_effects);
@@ -74,6 +75,7 @@ TEST_CASE("an episode read back is the one that was stored, to the last bit") {
     CHECK(a.commands[i].step == b.commands[i].step);
     CHECK(operation_kind(a.commands[i].operation) == operation_kind(b.commands[i].operation));
     CHECK(operation_to_bytes(a.commands[i].operation) == operation_to_bytes(b.commands[i].operation));
+    CHECK(robot_of(a.commands[i].operation) == robot_of(b.commands[i].operation));
   }
   REQUIRE(a.segments.size() == b.segments.size());
   for (std::size_t i = 0; i < a.segments.size(); ++i) check_segment(a.segments[i], b.segments[i]);

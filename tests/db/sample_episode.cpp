@@ -85,7 +85,8 @@ void add_commands(EpisodeRecord& e) {
   e.commands = {{0, operation::Boundary{}},
                 {0, operation::Controller{ControllerKind::joint_impedance, 600}},
                 {0, operation::Follow{trajectory}},
-                {12, operation::Hand{0.04, 30}}};
+                {12, operation::Hand{0.04, 30}},
+                {24, operation::Hand{0.08, 30, 1}}};
 }
 
 SegmentRecord pick_segment() {
@@ -98,6 +99,10 @@ SegmentRecord pick_segment() {
   s.label = "pick up the \"red\" block";
   s.parameters = {{"grasp", {0.1, 0.2, 0.3}, "", "m", "object", ChosenBy::stream},
                   {"controller", {}, "joint_impedance", "", "", ChosenBy::default_value}};
+  s.preconditions = {{fact("hand_empty", {}), false, true, -1},
+                     {fact("on", {"block2", "block1"}), true, true, -1},
+                     {fact("on", {"block1", "table"}), false, true, 0},
+                     {fact("on", {"block1", "shelf"}), false, false, 0}};
   s.declared_effects = {{fact("holding", {"panda.hand", "block1"}), false},
                         {fact("on", {"block1", "table"}), true},
                         {fact("open", {"chest"}), false}};

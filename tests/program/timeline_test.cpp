@@ -37,6 +37,10 @@ EpisodeRecord small_episode() {
   place.span = span(960, 2400);
   place.outcome = Outcome::failure;
   place.reason = Reason::dropped;
+  place.preconditions = {{{"holding", {"panda.hand", "block1"}}, false, true, -1},
+                         {{"clear", {"block2"}}, false, false, -1},
+                         {{"wet", {"block2"}}, true, false, -1},
+                         {{"flat", {"block1"}}, false, false, 0}};
   tried.span = span(0, 240);
   tried.outcome = Outcome::failure;
   tried.reason = Reason::no_grasp;
@@ -68,7 +72,7 @@ TEST_CASE("a timeline tells what happened, when, why, and what it changed") {
         "✗ failure after 10.00 s: dropped, a held object was lost", "✓ pick block1 table", "0.00   4.00",
         "↶ undone after 1.00 s: pick block1 table (no_grasp)", "◆ approach passed at 1.00 s, 0.42 rad/s",
         "+ holding(panda.hand, block1)", "− holding(panda.hand, block1)", "✗ place block1 block2",
-        "and 1 facts that held throughout"}) {
+        "before it was false: clear(block2), not wet(block2)\n", "and 1 facts that held throughout"}) {
     INFO(piece);
     CHECK(text.find(piece) != std::string::npos);
   }

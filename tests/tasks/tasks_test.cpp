@@ -70,6 +70,8 @@ void check_effects(const EpisodeRecord& episode) {
     if (segment.kind != SegmentKind::skill) continue;
     INFO(segment.label);
     CHECK(segment.precondition_held == true);
+    CHECK_FALSE(segment.preconditions.empty());
+    for (const PreconditionRecord& literal : segment.preconditions) CHECK((literal.held || literal.choice >= 0));
     CHECK(segment.effect_held == true);
     CHECK_FALSE(segment.declared_effects.empty());
   }

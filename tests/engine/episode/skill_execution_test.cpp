@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/episode/effects.h"
 #include "tests/engine/episode/plain_task.h"
 
 using namespace stampede;
@@ -178,4 +179,42 @@ TEST_CASE("what a caller sets is not drawn, and says who chose it; the run's own
     for (std::size_t i = 0; i < drawn.size(); ++i)
       CHECK(second.parameter("grasp").values[i] == Approx(drawn[i]).margin(1e-9));
   }
+}
+
+TEST_CASE("what a precondition asked for is recorded literal by literal, as it was when the call began") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  const auto literals = [&] { return running.rollout->recorder().segments.front().preconditions; };
+  const std::vector<PreconditionRecord> before{{{"on", {"cube1", "table"}}, false, true, -1},
+                                               {{"hand_empty", {"panda.hand"}}, false, true, -1}};
+  CHECK(literals() == before);
+  REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+  CHECK(literals() == before);  // by now the hand holds it
+}
+
+TEST_CASE("the literals of a precondition: instances of forall, ways of a choice, negations and equality") {
+  Domain domain = plain::domain();
+  const auto on = [](Term a, Term b) { return atom("on", {std::move(a), std::move(b)}); };
+  const Term obj{true, "obj"}, below{true, "below"}, other{true, "other"}, table{false, "table"};
+  Formula covered;  // something movable is on it
+  covered.kind = Formula::Kind::exists;
+  covered.variables = {{"other", "", {"movable"}}};
+  covered.parts = {on(other, obj)};
+  Formula same;
+  same.kind = Formula::Kind::equal;
+  same.terms = {obj, below};
+  Action action;
+  action.parameters = {{"obj", "", {}}, {"below", "", {}}};
+  action.precondition =
+      conjunction({negation(covered), negation(same),
+                   disjunction({on(obj, below), conjunction({on(obj, table), negation(atom("on", {below, obj}))})})});
+  const std::vector<TypedObject> objects{{"a", "cube"}, {"b", "cube"}, {"table", "table"}};
+  const Facts facts{{"movable", {"a"}}, {"movable", {"b"}}, {"on", {"a", "table"}}, {"on", {"b", "a"}}};
+  const std::vector<PreconditionRecord> expected{
+      {{"on", {"a", "a"}}, true, true, -1},     {{"on", {"b", "a"}}, true, false, -1},
+      {{"=", {"a", "b"}}, true, true, -1},      {{"on", {"a", "b"}}, false, false, 0},
+      {{"on", {"a", "table"}}, false, true, 0}, {{"on", {"b", "a"}}, true, false, 0}};
+  CHECK(ground_precondition(action, {"a", "b"}, facts, domain, objects) == expected);
+  action.precondition = {};
+  CHECK(ground_precondition(action, {"a", "b"}, facts, domain, objects).empty());
 }
