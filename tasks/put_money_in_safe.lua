@@ -9,7 +9,7 @@ return task {
     money = { "money" },
   },
   init = { is.on("money", "table") },
-  goal = function(v) return { is.inside("money", "safe." .. v.shelf), is.hand_empty() } end,
+  goal = function(v) return { is.inside("money", "safe." .. v.shelf .. "_shelf"), is.hand_empty() } end,
   instructions = {
     "deposit the bundle of money on the {shelf} shelf inside the safe",
     "store the banknotes in the safe, {shelf} shelf",

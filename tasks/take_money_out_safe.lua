@@ -8,12 +8,12 @@ return task {
     safe = { "safe", place = places.beside_the_table(0.17, 0.35, 0.75) },
     low = { "money" }, mid = { "money" }, high = { "money" },
   },
-  init = { is.inside("low", "safe.bottom"), is.inside("mid", "safe.middle"), is.inside("high", "safe.top") },
+  init = { is.inside("low", "safe.bottom_shelf"), is.inside("mid", "safe.middle_shelf"), is.inside("high", "safe.top_shelf") },
   goal = function(v)
     local stacks = { bottom = "low", middle = "mid", top = "high" }
     local parts = { is.on(stacks[v.shelf], "table"), is.hand_empty() }
     for shelf, stack in pairs(stacks) do
-      if shelf ~= v.shelf then parts[#parts + 1] = is.inside(stack, "safe." .. shelf) end
+      if shelf ~= v.shelf then parts[#parts + 1] = is.inside(stack, "safe." .. shelf .. "_shelf") end
     end
     return parts
   end,

@@ -24,21 +24,56 @@ std::string words(const Scene& scene, const Object& thing) {
   return colour == thing.attributes.end() ? name : spaced(colour->second) + " " + name;
 }
 
+constexpr double kHigher_m = 0.03;  // by so much one of them is above another
+
+Vector3 start_of(const Scene& scene, const Object& thing) {
+  const int body = scene.body_index(thing.body);
+  return body < 0 ? Vector3::Zero() : scene.bodies[static_cast<std::size_t>(body)].world_from_body.translation();
+}
+
+// How far to the right something is in the picture of the first camera that stands in the world.
+double rightness(const Scene& scene, const Vector3& point) {
+  for (const Camera& camera : scene.cameras) {
+    if (!camera.mount_body.empty()) continue;
+    const Vector3 seen = camera.mount_from_camera.inverse() * point;
+    return seen.x() / std::max(seen.z(), 1e-3);
+  }
+  return -point.y();
+}
+
+// Things that share their words are told apart by where they are in the first picture: one above the other, or else
+// from left to right.
+std::string told_apart(const Scene& scene, const Object& thing, std::vector<const Object*> same,
+                       const std::string& own) {
+  static constexpr std::array kOrdinals = {"first", "second",  "third",  "fourth", "fifth",
+                                           "sixth", "seventh", "eighth", "ninth",  "tenth"};
+  const auto order = [&](const auto& value) {
+    std::stable_sort(same.begin(), same.end(), [&](const Object* a, const Object* b) { return value(*a) < value(*b); });
+  };
+  const auto height = [&](const Object& one) { return start_of(scene, one).z(); };
+  order(height);
+  bool stacked = same.size() <= 3;
+  for (std::size_t i = 0; i + 1 < same.size(); ++i)
+    stacked = stacked && height(*same[i + 1]) - height(*same[i]) > kHigher_m;
+  if (!stacked) order([&](const Object& one) { return rightness(scene, start_of(scene, one)); });
+  const auto rank = static_cast<std::size_t>(std::find(same.begin(), same.end(), &thing) - same.begin());
+  const bool last = rank + 1 == same.size();
+  if (same.size() <= 3 && !(rank == 0 || last)) return "middle " + own;
+  if (same.size() <= 3) return (stacked ? rank == 0 ? "lower " : "upper " : rank == 0 ? "left " : "right ") + own;
+  if (rank == 0 || last) return (last ? "rightmost " : "leftmost ") + own;
+  return rank < kOrdinals.size() ? kOrdinals[rank] + (" " + own) + " from the left" : own;
+}
+
 }  // namespace
 
 std::string phrase(const Scene& scene, const std::string& name) {
-  static constexpr std::array kOrdinals = {"first", "second",  "third",  "fourth", "fifth",
-                                           "sixth", "seventh", "eighth", "ninth",  "tenth"};
   const Object* thing = scene.object(name);
   if (thing == nullptr) return spaced(name);
   const std::string own = words(scene, *thing);
-  std::size_t rank = 0, same = 0;
-  for (const Object& other : scene.objects) {
-    if (other.kind == ObjectKind::region || words(scene, other) != own) continue;
-    if (other.name == name) rank = same;
-    ++same;
-  }
-  return same > 1 && rank < kOrdinals.size() ? std::string(kOrdinals[rank]) + " " + own : own;
+  std::vector<const Object*> same;
+  for (const Object& other : scene.objects)
+    if (other.kind != ObjectKind::region && words(scene, other) == own) same.push_back(&other);
+  return same.size() > 1 && thing->kind != ObjectKind::region ? told_apart(scene, *thing, std::move(same), own) : own;
 }
 
 std::string fill(const std::string& text, const std::vector<Parameter>& parameters,

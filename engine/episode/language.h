@@ -8,7 +8,8 @@
 
 namespace stampede {
 
-// `red cube`, `top drawer of the chest`; with its number where others share the words: `second red cube`.
+// `red cube`, `top drawer of the chest`; where others share the words, with its place among them in the first
+// picture: `left red cube`, `second red cube from the left`, `upper money`.
 std::string phrase(const Scene& scene, const std::string& object);
 
 // Fills {name} from the binding, as phrases for objects and as they are otherwise; `the {obj}` reads well.

@@ -260,7 +260,7 @@ CommandRow render_command() {
         {},
         false},
        {"--into", "FILE", "the catalogue that takes the pictures, usually the same", Takes::path, "", {}, false},
-       {"--video", "FILE", "a film, .mp4 or .gif, at the rate of the frames", Takes::path, "", {}, false},
+       {"--video", "FILE", "a film (.mp4) at the rate of the frames", Takes::path, "", {}, false},
        {"--sheet",
         "FILE",
         "a contact sheet (PNG): the start, a picture amid each skill, the end",

@@ -3,36 +3,9 @@
 #include <charconv>
 #include <cmath>
 
-namespace stampede::program {
+#include "db/table_text.h"
 
-std::string json_quoted(std::string_view text) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    switch (c) {
-      case '"':
-        result += "\\\"";
-        break;
-      case '\\':
-        result += "\\\\";
-        break;
-      case '\n':
-        result += "\\n";
-        break;
-      case '\t':
-        result += "\\t";
-        break;
-      default:
-        if (byte < 0x20) {
-          result += {'\\', 'u', '0', '0', kDigits[byte >> 4], kDigits[byte & 15]};
-        } else {
-          result += c;
-        }
-    }
-  }
-  return result + "\"";
-}
+namespace stampede::program {
 
 void JsonText::new_line() { text_ += "\n" + std::string(2 * open_.size(), ' '); }
 
@@ -67,14 +40,14 @@ JsonText& JsonText::end() {
 
 JsonText& JsonText::key(std::string_view name) {
   before_value();
-  text_ += json_quoted(name) + ": ";
+  text_ += json_text(name) + ": ";
   after_key_ = true;
   return *this;
 }
 
 JsonText& JsonText::value(std::string_view text) {
   before_value();
-  text_ += json_quoted(text);
+  text_ += json_text(text);
   return *this;
 }
 

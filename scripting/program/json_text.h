@@ -39,6 +39,4 @@ class JsonText {
   bool after_key_ = false;
 };
 
-std::string json_quoted(std::string_view text);
-
 }  // namespace stampede::program

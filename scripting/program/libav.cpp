@@ -21,10 +21,6 @@ LibAv found() {
     STAMPEDE_AVCODEC_FUNCTIONS(STAMPEDE_LIBAV_FIND)
   }
   {
-    const LateLibrary from = library("libavfilter", LIBAVFILTER_VERSION_MAJOR);
-    STAMPEDE_AVFILTER_FUNCTIONS(STAMPEDE_LIBAV_FIND)
-  }
-  {
     const LateLibrary from = library("libavformat", LIBAVFORMAT_VERSION_MAJOR);
     STAMPEDE_AVFORMAT_FUNCTIONS(STAMPEDE_LIBAV_FIND)
   }

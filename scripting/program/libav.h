@@ -4,9 +4,6 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavfilter/avfilter.h>
-#include <libavfilter/buffersink.h>
-#include <libavfilter/buffersrc.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
 #include <libswscale/swscale.h>
@@ -16,7 +13,7 @@ extern "C" {
 // clang-format off
 #define STAMPEDE_AVUTIL_FUNCTIONS(X) \
   X(av_frame_alloc)                  \
-  X(av_frame_free) X(av_frame_get_buffer) X(av_log_set_level) X(av_opt_set) X(av_rescale) X(av_strerror)
+  X(av_frame_free) X(av_frame_get_buffer) X(av_log_set_level) X(av_opt_set) X(av_strerror)
 
 #define STAMPEDE_AVCODEC_FUNCTIONS(X)                                                                   \
   X(av_packet_alloc)                                                                                    \
@@ -26,13 +23,6 @@ extern "C" {
   X(avcodec_find_encoder_by_name)                                                                       \
   X(avcodec_free_context) X(avcodec_open2) X(avcodec_parameters_from_context) X(avcodec_receive_packet) \
       X(avcodec_send_frame)
-
-#define STAMPEDE_AVFILTER_FUNCTIONS(X) \
-  X(av_buffersink_get_frame)           \
-  X(av_buffersrc_add_frame)            \
-  X(avfilter_get_by_name)              \
-  X(avfilter_graph_alloc)              \
-  X(avfilter_graph_config) X(avfilter_graph_create_filter) X(avfilter_graph_free) X(avfilter_link)
 
 #define STAMPEDE_AVFORMAT_FUNCTIONS(X) \
   X(av_interleaved_write_frame)        \
@@ -50,7 +40,6 @@ struct LibAv {
 #define STAMPEDE_LIBAV_MEMBER(name) decltype(&::name) name = nullptr;
   STAMPEDE_AVUTIL_FUNCTIONS(STAMPEDE_LIBAV_MEMBER)
   STAMPEDE_AVCODEC_FUNCTIONS(STAMPEDE_LIBAV_MEMBER)
-  STAMPEDE_AVFILTER_FUNCTIONS(STAMPEDE_LIBAV_MEMBER)
   STAMPEDE_AVFORMAT_FUNCTIONS(STAMPEDE_LIBAV_MEMBER)
   STAMPEDE_SWSCALE_FUNCTIONS(STAMPEDE_LIBAV_MEMBER)
 #undef STAMPEDE_LIBAV_MEMBER

@@ -9,8 +9,6 @@
 namespace stampede::program {
 
 // .mp4: H.264, 4:2:0, constant quality; a side that is odd is encoded one pixel longer, its last pixels repeated.
-// .gif: one palette of 256 colours for the whole film; above 50 pictures a second only every k-th is kept, because
-// the format counts in 1/100 s and players slow faster ones down.
 // What is written lies beside the file, under its name with `.part`, until finish() gives it the name.
 // Lifetime: one thread. Repeatable: the same pictures, the same bytes.
 // Throws Error with the cure for another ending, a missing codec, a folder that is not there and a full disk.

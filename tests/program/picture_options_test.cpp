@@ -87,7 +87,7 @@ TEST_CASE("render says what it needs") {
   for (const Case& one : std::vector<Case>{
            {{d}, kUsage, "say --out FOLDER, --into FILE, --video FILE or --sheet FILE"},
            {{d, "--out", folder / "x", "--into", d}, kUsage, "--out and --into at once"},
-           {{d, "--video", folder / "x.avi"}, kUsage, "say .mp4 or .gif"},
+           {{d, "--video", folder / "x.avi"}, kUsage, "say .mp4"},
            {{d, "--video", folder / "x.mp4", "--kinds", "depth"}, kUsage, "films and sheets are for people"},
            {{d, "--sheet", folder / "x.png", "--frames", "1"}, kUsage, "it shows the start, each skill and the end"},
            {{d, "--out", folder / "x", "--frames", "some"}, kUsage, "--frames takes all, keyframes"},

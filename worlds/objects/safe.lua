@@ -22,7 +22,7 @@ return object {
     box { 0.03, width, 3 * pitch, at = { depth / 2 + 0.015, 0, 0.012 + 1.5 * pitch } },
   },
   parts = {
-    bottom = level(1), middle = level(2), top = level(3),
+    bottom_shelf = level(1), middle_shelf = level(2), top_shelf = level(3),
     door = { -- a joint that no task moves
       type = "fixture", mass = 4, colour = steel,
       hinge = { at = { -depth / 2 - 0.002, -width / 2 - 0.028, 0.012 }, range = { 0, math.rad(175) }, initial = math.rad(165),
