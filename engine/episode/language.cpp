@@ -28,7 +28,8 @@ constexpr double kHigher_m = 0.03;  // by so much one of them is above another
 
 Vector3 start_of(const Scene& scene, const Object& thing) {
   const int body = scene.body_index(thing.body);
-  return body < 0 ? Vector3::Zero() : scene.bodies[static_cast<std::size_t>(body)].world_from_body.translation();
+  if (body < 0) return Vector3::Zero();
+  return scene.bodies[static_cast<std::size_t>(body)].world_from_body.translation();
 }
 
 // How far to the right something is in the picture of the first camera that stands in the world.

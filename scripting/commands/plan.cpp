@@ -79,7 +79,8 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
     if (pddl) console.out << texts.domain << "\n" << texts.problem << "\n; plan\n";
     write_plans(found, question.asked.domain, question.asked.problem, names, console.out);
     for (const Fact& fact : question.assumed)
-      console.out << fmt::format("; assumes {}, which nobody can see at the start\n", to_text(fact));
+      console.out << fmt::format("; assumes {}, which nobody can see at the start\n",
+                                 pddl ? to_pddl_name(to_text(fact)) : to_text(fact));
   }
   console.err << fmt::format("{} {}, seed {}: ", job.task, job.variation, job.seed) << plan_story(found);
   return plan_code(found);

@@ -125,9 +125,13 @@ TEST_CASE("what is stored agrees with a fresh look at any frame, in every task t
     const FactTracker tracker(scripts.symbols(), film.view());
     Random random(RandomKey("moments").with(task));
     const std::int64_t last = static_cast<std::int64_t>(episode.frames.size()) - kAround - 2;
-    std::set<std::int64_t> moments;
-    while (static_cast<int>(moments.size()) < kMoments && last > kAround + kMoments)
-      moments.insert(kAround + 1 + random.below(last - kAround));
+    std::set<std::int64_t> moments;  // apart: the film does not run backwards
+    for (int tries = 0; static_cast<int>(moments.size()) < kMoments && tries < 50 && last > kAround; ++tries) {
+      const std::int64_t moment = kAround + 1 + random.below(last - kAround);
+      const auto next = moments.lower_bound(moment - 2 * kAround);
+      if (next == moments.end() || *next > moment + 2 * kAround) moments.insert(moment);
+    }
+    CHECK(moments.size() > 1);
     for (const std::int64_t moment : moments) {
       std::vector<Values> around;
       for (std::int64_t frame = moment - kAround; frame <= moment + kAround; ++frame) {

@@ -1,9 +1,9 @@
 // A sentence names a thing so that a person who sees the first picture finds it.
 #include "engine/episode/language.h"
-#include "engine/model/camera.h"
 
 #include <catch2/catch.hpp>
 
+#include "engine/model/camera.h"
 #include "tests/support/panda.h"
 
 using namespace stampede;
