@@ -7,7 +7,7 @@
 namespace stampede::symbolic {
 namespace {
 
-using Kind = BddlThing::Kind;
+using ThingKind = BddlThing::Kind;
 
 std::string small_word(const std::string& name) {
   std::string word;
@@ -55,21 +55,21 @@ void BddlNaming::name_all() {
   const bool libero = mapping_.dialect == BddlDialect::libero;
   for (const bool bodies : {true, false}) {  // bodies first: parts and regions need their names
     for (const BddlThing& one : scene_.things) {
-      if ((one.kind != Kind::part && one.kind != Kind::region) != bodies) continue;
+      if ((one.kind != ThingKind::part && one.kind != ThingKind::region) != bodies) continue;
       libero ? name_libero(one) : name_behavior(one);
     }
   }
 }
 
 void BddlNaming::name_libero(const BddlThing& thing) {
-  if (thing.kind == Kind::hand) return;
-  if (thing.kind == Kind::object || thing.kind == Kind::fixture) {
+  if (thing.kind == ThingKind::hand) return;
+  if (thing.kind == ThingKind::object || thing.kind == ThingKind::fixture) {
     const auto has = [](const std::vector<std::string>& list, const std::string& word) {
       return std::find(list.begin(), list.end(), word) != list.end();
     };
     if (has(mapping_.unsaid, thing.class_name)) return;  // stands in their arena
     const std::string* category = mapping_.category(thing.class_name, thing.type);
-    if (category == nullptr && thing.kind == Kind::fixture) {
+    if (category == nullptr && thing.kind == ThingKind::fixture) {
       result_.remarks.push_back("`" + thing.name + "` is left out: the mapping has no category for `" +
                                 thing.class_name + "`");
       return;
@@ -84,35 +84,35 @@ void BddlNaming::name_libero(const BddlThing& thing) {
     if (fixed != mapping_.instances.end() && name != fixed->second)
       remark("`" + thing.name + "` is a second `" + written + "`: their arena has one only");
     result_.names[thing.name] = name;
-    add(thing.kind == Kind::fixture ? result_.problem.fixtures : result_.problem.objects, written, name);
+    add(thing.kind == ThingKind::fixture ? result_.problem.fixtures : result_.problem.objects, written, name);
     return;
   }
   const auto owner = result_.names.find(thing.owner);
   if (owner == result_.names.end()) return;
   std::string site = last_word(thing.name);
-  if (thing.kind == Kind::part) {
+  if (thing.kind == ThingKind::part) {
     const auto mapped = std::find_if(mapping_.sites.begin(), mapping_.sites.end(),
                                      [&](const BddlPair& pair) { return pair.ours == last_word(thing.name); });
     if (mapped != mapping_.sites.end()) site = mapped->theirs;
   }
   BddlRegion region{site, owner->second, {}, {0, 0}, {0, 0, 1, 0}};
   for (int i = 2; !taken_.insert(region.key()).second; ++i) region.name = site + "_" + std::to_string(i);
-  if (thing.kind == Kind::region) region.ranges = thing.area;
+  if (thing.kind == ThingKind::region) region.ranges = thing.area;
   result_.names[thing.name] = region.key();
   sites_[thing.name] = region;
 }
 
 void BddlNaming::name_behavior(const BddlThing& thing) {
   const std::string* category = mapping_.category(thing.class_name, thing.type);
-  if (thing.kind == Kind::part) {
+  if (thing.kind == ThingKind::part) {
     const auto owner = result_.names.find(thing.owner);
     if (owner != result_.names.end()) result_.names[thing.name] = owner->second;
     return;
   }
-  if (thing.kind == Kind::region && !thing.owner.empty()) return;  // its class is its owner's
+  if (thing.kind == ThingKind::region && !thing.owner.empty()) return;  // its class is its owner's
   if (category != nullptr) {
     result_.names[thing.name] = add_instance(*category);
-  } else if (thing.kind != Kind::region) {
+  } else if (thing.kind != ThingKind::region) {
     result_.remarks.push_back("`" + thing.name + "` is left out: the mapping has no synset for `" + thing.class_name +
                               "`");
   }
@@ -134,9 +134,9 @@ const std::string& BddlNaming::theirs(const std::string& ours) const {
   const BddlThing* one = thing(ours);
   const std::string dialect(to_string(mapping_.dialect));
   if (one == nullptr) throw Refusal{"`" + ours + "` is not in the scene"};
-  if (one->kind == Kind::hand)
+  if (one->kind == ThingKind::hand)
     throw Refusal{"`" + ours + "`: " + dialect + " has no word for a hand; leave it out of the goal"};
-  if (one->kind == Kind::region && mapping_.dialect == BddlDialect::behavior) {
+  if (one->kind == ThingKind::region && mapping_.dialect == BddlDialect::behavior) {
     throw Refusal{"`" + ours + "`: BEHAVIOR has no regions; name the body"};
   }
   throw Refusal{"`" + ours + "` has no name there; add a category for the class `" +

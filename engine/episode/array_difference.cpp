@@ -16,13 +16,13 @@ bool same(Value a, Value b) {
   return a == b;
 }
 
-std::string text_of(double value) {
+std::string shown(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
 }
 template <typename Whole>
-std::string text_of(Whole value) {
+std::string shown(Whole value) {
   return std::to_string(value);
 }
 
@@ -50,7 +50,7 @@ std::optional<Difference> difference_in(const ArrayColumn& stored, const ArrayCo
           const std::size_t place = i % width;
           const std::string which = place < now.labels.size() ? now.labels[place] : std::to_string(place);
           return Difference{i / width, now.name + (width > 1 ? " (" + which + ")" : "") + ": stored " +
-                                           text_of(values[i]) + ", now " + text_of(others[i])};
+                                           shown(values[i]) + ", now " + shown(others[i])};
         }
         return std::nullopt;
       },

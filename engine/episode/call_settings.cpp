@@ -18,7 +18,7 @@ std::string number_text(double value) {
 }
 
 template <typename Number>
-std::optional<Number> number_from(std::string_view text) {
+std::optional<Number> whole_number(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -111,12 +111,12 @@ void add_setting(std::string_view name, std::string_view value, CallSettings& se
   const std::size_t dot = name.find('.');
   one.parameter = name.substr(0, dot);
   if (dot != std::string_view::npos) {
-    one.component = number_from<int>(name.substr(dot + 1)).value_or(0);
+    one.component = whole_number<int>(name.substr(dot + 1)).value_or(0);
     if (one.component < 1)
       throw Error(place, "'" + std::string(name.substr(dot + 1)) + "' is no component", "components count from 1");
   }
   for (const std::string& text : split(value, ',')) {
-    const std::optional<double> number = number_from<double>(text);
+    const std::optional<double> number = whole_number<double>(text);
     if (!number) throw Error(place, std::string(name) + ": '" + text + "' is no number");
     one.values.push_back(*number);
   }

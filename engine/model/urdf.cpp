@@ -118,7 +118,7 @@ void check_document(const std::filesystem::path& file, const TiXmlDocument& xml)
                 "join links that fixed joints connect");
 }
 
-urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& file) {
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
   const std::string text = read_text(file);
   check_count(file, text);
   TiXmlDocument xml;  // urdfdom reads it again, but does not tell the line of a mistake
@@ -148,9 +148,9 @@ Transform from(const urdf::Pose& pose) {
   return make_transform({pose.position.x, pose.position.y, pose.position.z}, Quaternion(q.w, q.x, q.y, q.z));
 }
 
-class Reader {
+class UrdfReader {
  public:
-  Reader(const std::filesystem::path& file, const FileScope& scope, const urdf::ModelInterface& model)
+  UrdfReader(const std::filesystem::path& file, const FileScope& scope, const urdf::ModelInterface& model)
       : file_(file), scope_(scope), model_(model) {}
 
   UrdfBody read() {
@@ -372,8 +372,8 @@ UrdfBody read_urdf(const std::filesystem::path& file) { return read_urdf(file, b
 
 UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope) {
   scope.check(file);
-  const urdf::ModelInterfaceSharedPtr model = parse(file);
-  return Reader(file, scope, *model).read();
+  const urdf::ModelInterfaceSharedPtr model = parse_urdf(file);
+  return UrdfReader(file, scope, *model).read();
 }
 
 Body body_from_urdf(const std::filesystem::path& file) {

@@ -7,8 +7,8 @@ namespace stampede {
 namespace {
 
 constexpr double kStep_m = 0.001;
-constexpr double kSpare_m = 0.0015;                         // left between a finger and what is beside it
-constexpr double kLeast_m = kRoomToLetGo_m - 2 * kSpare_m;  // in any case
+constexpr double kBeside_m = 0.0015;                         // left between a finger and what is beside it
+constexpr double kLeast_m = kRoomToLetGo_m - 2 * kBeside_m;  // in any case
 
 bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
   return std::any_of(pairs.begin(), pairs.end(), [&](const CollisionPair& other) {
@@ -22,12 +22,12 @@ double widest_opening(const CollisionState& state, const JointVector& q, double 
   const double least = std::min(wanted_m, state.opening() + kLeast_m);
   const std::vector<CollisionPair> touched = state.contacts(q);
   CollisionState wider = state;
-  for (double opening = state.opening() + kStep_m; opening < wanted_m + kSpare_m; opening += kStep_m) {
+  for (double opening = state.opening() + kStep_m; opening < wanted_m + kBeside_m; opening += kStep_m) {
     wider.set_opening(opening);
     const auto contacts = wider.contacts(q);
     const bool met =
         std::any_of(contacts.begin(), contacts.end(), [&](const CollisionPair& pair) { return !among(touched, pair); });
-    if (met) return std::clamp(opening - kStep_m - kSpare_m, least, wanted_m);
+    if (met) return std::clamp(opening - kStep_m - kBeside_m, least, wanted_m);
   }
   return wanted_m;
 }

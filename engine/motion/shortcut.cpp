@@ -5,7 +5,7 @@
 namespace stampede {
 namespace {
 
-struct PathPoint {
+struct ShortcutPoint {
   std::size_t segment = 0;  // between waypoint segment and segment + 1
   JointVector q;
 };
@@ -16,7 +16,7 @@ std::vector<double> arc_lengths(const std::vector<JointVector>& path) {
   return lengths;
 }
 
-PathPoint point_at(const std::vector<JointVector>& path, const std::vector<double>& lengths, double s) {
+ShortcutPoint point_at(const std::vector<JointVector>& path, const std::vector<double>& lengths, double s) {
   const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, s);
   const std::size_t segment = static_cast<std::size_t>(after - lengths.begin()) - 1;
   const double span = lengths[segment + 1] - lengths[segment];
@@ -48,8 +48,8 @@ std::vector<JointVector> shorten(const Checker& checker, std::vector<JointVector
     const std::vector<double> lengths = arc_lengths(path);
     const double s = random.between(0, lengths.back());
     const double t = random.between(0, lengths.back());
-    const PathPoint a = point_at(path, lengths, std::min(s, t));
-    const PathPoint b = point_at(path, lengths, std::max(s, t));
+    const ShortcutPoint a = point_at(path, lengths, std::min(s, t));
+    const ShortcutPoint b = point_at(path, lengths, std::max(s, t));
     if (a.segment == b.segment) continue;
     const double saved = std::abs(t - s) - (b.q - a.q).norm();
     if (saved < 0.01 || !checker.edge_free(a.q, b.q, step_rad)) continue;  // not worth the checks

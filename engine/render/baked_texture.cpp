@@ -9,8 +9,8 @@
 namespace stampede {
 namespace {
 
-constexpr int kSide = 128;          // pixels of one repeat
-constexpr int kLargestSide = 4096;  // pixels of a picture
+constexpr int kSide = 128;             // pixels of one repeat
+constexpr int kLargestTexture = 4096;  // pixels of a picture
 
 // Value noise on a lattice that repeats: four octaves, each half as strong and twice as fine.
 class Noise {
@@ -80,8 +80,8 @@ const Image& checked(const Texture& texture, const std::string& name) {
   if (texture.image == nullptr) refuse("is missing", "load it with load_image");
   const Image& image = *texture.image;
   if (image.width < 1 || image.height < 1) refuse("is empty", "load it with load_image");
-  if (image.width > kLargestSide || image.height > kLargestSide)
-    refuse("is over " + std::to_string(kLargestSide) + " pixels a side", "make it smaller");
+  if (image.width > kLargestTexture || image.height > kLargestTexture)
+    refuse("is over " + std::to_string(kLargestTexture) + " pixels a side", "make it smaller");
   if (image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
     refuse("has another number of pixels than its size says", "load it with load_image");
   return image;

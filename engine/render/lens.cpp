@@ -9,9 +9,9 @@
 namespace stampede {
 namespace {
 
-constexpr double kWidest = 6;       // tangent: 80 degrees off the axis
-constexpr double kFiner = 3;        // pixels of the wide picture per pixel of the distorted one
-constexpr int kLargestSide = 4096;  // pixels
+constexpr double kWidest = 6;          // tangent: 80 degrees off the axis
+constexpr double kFiner = 3;           // pixels of the wide picture per pixel of the distorted one
+constexpr int kLargestPicture = 4096;  // pixels
 
 std::array<double, 9> intrinsics(const Camera& camera) {
   return {camera.focal_x,       camera.focal_y,       camera.centre_x,      camera.centre_y,     camera.distortion[0],
@@ -67,10 +67,10 @@ Lens::Lens(const Camera& camera) : camera_(camera), wide_(camera) {
     }
   }
   const auto pixels = [](double focal, double extent) {
-    return static_cast<int>(std::min<double>(std::ceil(focal * extent) + 4, kLargestSide));
+    return static_cast<int>(std::min<double>(std::ceil(focal * extent) + 4, kLargestPicture));
   };
   const auto focal = [](double wanted, double extent) {
-    return extent > 0 ? std::min(wanted, (kLargestSide - 4) / extent) : wanted;
+    return extent > 0 ? std::min(wanted, (kLargestPicture - 4) / extent) : wanted;
   };
   wide_.distortion = {};
   wide_.focal_x = focal(kFiner * camera.focal_x, high[0] - low[0]);

@@ -5,21 +5,21 @@
 namespace stampede {
 namespace {
 
-using Names = std::map<std::string, std::string>;
+using Renaming = std::map<std::string, std::string>;
 
-const std::string& renamed(const Names& names, const std::string& name) {
+const std::string& renamed(const Renaming& names, const std::string& name) {
   const auto found = names.find(name);
   return found == names.end() ? name : found->second;
 }
 
-void rename(std::vector<std::string>& arguments, const Names& names) {
+void put_names(std::vector<std::string>& arguments, const Renaming& names) {
   for (std::string& argument : arguments) argument = renamed(names, argument);
 }
 
-void rename(Formula& formula, const Names& names) {
+void put_names(Formula& formula, const Renaming& names) {
   for (Term& term : formula.terms)
     if (!term.variable) term.name = renamed(names, term.name);
-  for (Formula& part : formula.parts) rename(part, names);
+  for (Formula& part : formula.parts) put_names(part, names);
 }
 
 // Groups of objects of which the same is known: each fact about one, with a blank for its own name.
@@ -44,21 +44,21 @@ std::vector<std::vector<std::string>> equals(const Domain& domain, const Problem
   return result;
 }
 
-Problem with_names(Problem problem, const Names& names) {
+Problem with_names(Problem problem, const Renaming& names) {
   Facts init;
   for (Fact fact : problem.init) {
-    rename(fact.arguments, names);
+    put_names(fact.arguments, names);
     init.insert(std::move(fact));
   }
   problem.init = std::move(init);
   std::map<Fact, int> values;
   for (const auto& [of, value] : problem.values) {
     Fact fact = of;
-    rename(fact.arguments, names);
+    put_names(fact.arguments, names);
     values.emplace(std::move(fact), value);
   }
   problem.values = std::move(values);
-  rename(problem.goal, names);
+  put_names(problem.goal, names);
   return problem;  // the objects are the same: names moved among equal types
 }
 
@@ -66,7 +66,7 @@ Problem with_names(Problem problem, const Names& names) {
 
 PlanOutcome solve_drawn(const Domain& domain, const Problem& problem, const std::set<PlanStep>& forbidden,
                         RandomKey key) {
-  Names there, back;
+  Renaming there, back;
   std::int64_t number = 0;
   for (const std::vector<std::string>& group : equals(domain, problem)) {
     std::vector<std::string> drawn = group;
@@ -76,12 +76,12 @@ PlanOutcome solve_drawn(const Domain& domain, const Problem& problem, const std:
   if (there.empty()) return solve(domain, problem, {}, forbidden);
   std::set<PlanStep> kept_out;
   for (PlanStep step : forbidden) {
-    rename(step.arguments, there);
+    put_names(step.arguments, there);
     kept_out.insert(std::move(step));
   }
   PlanOutcome outcome = solve(domain, with_names(problem, there), {}, kept_out);
   if (!outcome.solved) return solve(domain, problem, {}, forbidden);  // its explanation names things as they are
-  for (PlanStep& step : outcome.plan) rename(step.arguments, back);
+  for (PlanStep& step : outcome.plan) put_names(step.arguments, back);
   return outcome;
 }
 

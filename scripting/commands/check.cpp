@@ -154,7 +154,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   return tally.succeeded == tally.total ? kDone : kNo;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const auto library = Library::load(roots_of(arguments), all);
   if (all.empty()) build_scenes(library, all);
@@ -187,7 +187,7 @@ CommandRow check_command() {
        {"--randomise", "", "with drawn looks, light and dynamics, as `run --randomise`", Takes::flag, "", {}, false},
        {"--workers", "W", "threads", Takes::integer, "1", {}, false}},
       {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
-      run};
+      do_check};
 }
 
 }  // namespace stampede::program

@@ -30,7 +30,7 @@ std::vector<TextFile> documents(const Arguments& arguments) {
           {root / "scripting/commands/completion.bash", bash_completion(all_commands())}};
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_doc(const Arguments& arguments, Console& console) {
   const bool check = arguments.flag("--check");
   bool fresh = true;
   JsonText json;
@@ -58,7 +58,7 @@ CommandRow doc_command() {
           {},
           {{"--check", "", "only say whether they are fresh", Takes::flag, "", {}, false}},
           {"stampede doc", "stampede doc --check", "stampede doc --path ~/my_tasks"},
-          run};
+          do_doc};
 }
 
 }  // namespace stampede::program

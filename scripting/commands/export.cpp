@@ -25,7 +25,7 @@ std::vector<std::int64_t> chosen_episodes(const Arguments& arguments, const Cata
   return ids;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_export(const Arguments& arguments, Console& console) {
   const std::string what = arguments.text("WHAT");
   const auto kind = kinds().find(what);
   if (kind == kinds().end()) throw UsageError("stampede export cannot write '" + what + "'", "it writes pddl and bddl");
@@ -82,7 +82,7 @@ CommandRow export_command() {
            {"--leave-out", "PREDICATE", "bddl: not in the goal: hand_empty", Takes::text, "", {}, true}},
           {"stampede export pddl demos.db --out problems",
            "stampede export bddl demos.db --out bddl --dialect libero --leave-out hand_empty"},
-          run};
+          do_export};
 }
 
 }  // namespace stampede::program

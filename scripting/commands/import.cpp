@@ -213,7 +213,7 @@ void print(const std::vector<Judged>& judged, const fs::path& path, const Import
   console.out << json.end().end().text();
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_import(const Arguments& arguments, Console& console) {
   const std::string file = arguments.text("FILE"), world = arguments.text("--world");
   BddlReading reading = read_bddl(read_text_file(file), file);
   for (const std::string& warning : reading.warnings) console.err << warning << "\n";
@@ -266,7 +266,7 @@ CommandRow import_command() {
            {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
            {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false}},
           {"stampede import problem0.bddl --task clear_table --path ~/my_tasks --episodes 5"},
-          run};
+          do_import};
 }
 
 }  // namespace stampede::program

@@ -12,22 +12,22 @@
 namespace stampede::program {
 namespace {
 
-struct Shelf {
+struct Listing {
   const char* name;
   DefinitionKind kind;
 };
-constexpr Shelf kShelves[] = {
+constexpr Listing kShelves[] = {
     {"tasks", DefinitionKind::task},     {"skills", DefinitionKind::skill}, {"predicates", DefinitionKind::predicate},
     {"objects", DefinitionKind::object}, {"worlds", DefinitionKind::world}, {"robots", DefinitionKind::robot},
 };
 
-const Shelf* shelf_named(const std::string& name) {
+const Listing* shelf_named(const std::string& name) {
   const auto* found =
-      std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Shelf& s) { return s.name == name; });
+      std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Listing& s) { return s.name == name; });
   return found == std::end(kShelves) ? nullptr : found;
 }
 
-QueryResult shelf_table(const Library& library, const Shelf& shelf) {
+QueryResult shelf_table(const Library& library, const Listing& shelf) {
   const bool tasks = shelf.kind == DefinitionKind::task;
   QueryResult table;
   table.columns = {"name"};
@@ -70,10 +70,10 @@ ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Co
   return kDone;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_list(const Arguments& arguments, Console& console) {
   const auto library = load_library(arguments);
   const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
-  if (const Shelf* shelf = shelf_named(what)) {
+  if (const Listing* shelf = shelf_named(what)) {
     if (const std::string sheet = arguments.text("--sheet"); !sheet.empty()) {
       if (shelf->kind != DefinitionKind::object)
         throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
@@ -89,7 +89,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
     return kDone;
   }
   std::vector<std::string> names;
-  for (const Shelf& shelf : kShelves) names.emplace_back(shelf.name);
+  for (const Listing& shelf : kShelves) names.emplace_back(shelf.name);
   for (const ScriptFile* file : library->files(DefinitionKind::task)) names.push_back(file->name);
   throw UsageError("there is nothing to list by the name '" + what + "'", did_you_mean(what, names));
 }
@@ -106,7 +106,7 @@ CommandRow list_command() {
        {"--hash", "", "of a task: the hash of all files that its episodes are made of", Takes::flag, "", {}, false}},
       {"stampede list", "stampede list skills", "stampede list stack_blocks",
        "stampede list objects --sheet objects.png"},
-      run};
+      do_list};
 }
 
 }  // namespace stampede::program

@@ -18,7 +18,7 @@ void print_json(const std::string& out, const MergeResult& result, Console& cons
   console.out << text.end().end().text();
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_merge(const Arguments& arguments, Console& console) {
   const std::string out = arguments.text("OUT");
   std::vector<std::filesystem::path> from;
   for (const std::string& path : arguments.list("IN")) from.emplace_back(path);
@@ -48,7 +48,7 @@ CommandRow merge_command() {
            {"IN", "catalogues to read", true, true}},
           {},
           {"stampede merge demos.db part1.db part2.db", "stampede merge now.db old.db"},
-          run};
+          do_merge};
 }
 
 }  // namespace stampede::program

@@ -41,7 +41,7 @@ void check_unused(const Library& library, const std::string& name) {
   }
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_new(const Arguments& arguments, Console& console) {
   const std::string kind_name = arguments.text("KIND"), name = arguments.text("NAME");
   const auto* kind =
       std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.name == kind_name; });
@@ -80,7 +80,7 @@ CommandRow new_command() {
       {{"KIND", "task, skill, predicate, object or world", true, false}, {"NAME", "its name", true, false}},
       {},
       {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks"},
-      run};
+      do_new};
 }
 
 }  // namespace stampede::program

@@ -113,7 +113,7 @@ ExitCode plan_files(const Arguments& arguments, Console& console) {
   return plan_code(found);
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_plan(const Arguments& arguments, Console& console) {
   return arguments.has("PROBLEM") ? plan_files(arguments, console) : plan_task(arguments, console);
 }
 
@@ -160,7 +160,7 @@ CommandRow plan_command() {
        "stampede plan pick_and_lift --where '(on target table)' --goal '(holding target)' --task-sized",
        "stampede plan put_item_in_drawer --bddl libero --leave-out hand_empty",
        "stampede plan domain.pddl problem.pddl --k 3"},
-      run};
+      do_plan};
   add_options(row.options, constraint_options());
   add_options(row.options, plan_limit_options());
   return row;

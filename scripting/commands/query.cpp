@@ -58,7 +58,7 @@ ExitCode answer(const Arguments& arguments, RowWriter& writer, Console& console)
   return kDone;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_query(const Arguments& arguments, Console& console) {
   const std::unique_ptr<RowWriter> writer = row_writer(format_of(arguments), console.out);
   const auto write = [&](const QueryResult& result) {
     writer->columns(result.columns);
@@ -98,7 +98,7 @@ CommandRow query_command() {
             false}},
           {"stampede query demos.db failures_by_reason",
            "stampede query demos.db \"SELECT task, count(*) FROM demos GROUP BY task\" --format csv"},
-          run};
+          do_query};
 }
 
 }  // namespace stampede::program

@@ -238,7 +238,7 @@ class Rendering {
   std::int64_t done_ = 0, skipped_ = 0, pictures_ = 0, changed_episodes_ = 0;
 };
 
-ExitCode run(const Arguments& arguments, Console& console) { return Rendering(arguments, console).run(); }
+ExitCode do_render(const Arguments& arguments, Console& console) { return Rendering(arguments, console).run(); }
 
 }  // namespace
 
@@ -278,7 +278,7 @@ CommandRow render_command() {
       {"stampede render demos.db --camera front --size 512x512 --kinds rgb,depth --out pictures",
        "stampede render demos.db --into demos.db --frames keyframes", "stampede render demos.db 3 --video demo.mp4",
        "stampede render demos.db 1 2 3 --sheet sheet.png"},
-      run};
+      do_render};
   for (OptionRow& option : picture_options(PictureUse::render)) row.options.push_back(std::move(option));
   row.options.push_back({"--workers", "W", "threads; they do not change the pictures", Takes::integer, "1", {}, false});
   return row;

@@ -33,7 +33,7 @@ bool numerics_agree(const Catalogue& catalogue, Console& console) {
   return false;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_replay(const Arguments& arguments, Console& console) {
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
   const bool json = arguments.flag("--json");
   const bool agree = numerics_agree(catalogue, console);
@@ -71,7 +71,7 @@ CommandRow replay_command() {
           {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
           {},
           {"stampede replay demos.db", "stampede replay demos.db 3 5"},
-          run};
+          do_replay};
 }
 
 }  // namespace stampede::program

@@ -108,7 +108,7 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
   console.out << text.end().end().text();
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_run(const Arguments& arguments, Console& console) {
   RunSettings settings;
   settings.options = run_options(arguments);
   JobRequest request = job_request(arguments, settings.options.split);
@@ -195,7 +195,7 @@ CommandRow run_command() {
        "stampede run pick_and_lift --set pick.height=0.2 --set pick.controller=cartesian_impedance",
        "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",
        "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},
-      run};
+      do_run};
   add_options(row.options, constraint_options());
   add_options(row.options, behaviour_options());
   add_options(row.options, setting_options());

@@ -148,7 +148,7 @@ ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Co
   return text.empty() && !refusals.empty() ? kNo : kDone;
 }
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_show(const Arguments& arguments, Console& console) {
   const std::int64_t number = episode_number(arguments.text("EPISODE"));
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
   if (arguments.has("--frame")) return show_moment(arguments, read_stored(catalogue, number), console);
@@ -194,7 +194,7 @@ CommandRow show_command() {
             {},
             true}},
           {"stampede show demos.db 1", "stampede show demos.db 1 --frame 40 --as pddl"},
-          run};
+          do_show};
 }
 
 }  // namespace stampede::program

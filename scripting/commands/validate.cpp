@@ -10,7 +10,7 @@
 namespace stampede::program {
 namespace {
 
-ExitCode run(const Arguments& arguments, Console& console) {
+ExitCode do_validate(const Arguments& arguments, Console& console) {
   const std::string domain_file = arguments.text("DOMAIN"), problem_file = arguments.text("PROBLEM");
   const std::string plan_file = arguments.text("PLAN");
   const Domain domain = domain_from_pddl(read_text_file(domain_file), domain_file);
@@ -50,7 +50,7 @@ CommandRow validate_command() {
        {"PLAN", "the file of the plan", true, false}},
       {},
       {"stampede validate domain.pddl problem.pddl plan.txt"},
-      run};
+      do_validate};
 }
 
 }  // namespace stampede::program

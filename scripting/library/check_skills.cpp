@@ -14,7 +14,7 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
+bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -60,7 +60,7 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   for (const Predicate& predicate : library_->domain_.predicates) predicates.push_back(predicate.name);
   for (const Node& forgotten : node["forgets"].items) {
     info.forgets.push_back(forgotten.text);
-    if (contains(predicates, forgotten.text)) continue;
+    if (listed(predicates, forgotten.text)) continue;
     complain(definition, "forgets", "there is no predicate '" + forgotten.text + "'",
              did_you_mean(forgotten.text, predicates));
   }
@@ -111,7 +111,7 @@ void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& 
       continue;
     }
     for (const Node& name : pair.items) {
-      if (!contains(names, name.text))
+      if (!listed(names, name.text))
         complain(definition, "may_equal", "there is no parameter '" + name.text + "'", did_you_mean(name.text, names));
     }
     action.may_equal.emplace_back(pair.items[0].text, pair.items[1].text);
@@ -135,7 +135,7 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
     if (node.tag() == "stream" && node["source"].text == "grasps") {
       one.source = ContinuousInfo::Source::grasps;
       one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
-      if (!contains(names, one.object))
+      if (!listed(names, one.object))
         complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
     } else if (node.tag() == "stream") {
       one.source = ContinuousInfo::Source::sample;
@@ -170,7 +170,7 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       }
       const std::vector<std::string> known = {"min", "max", "unit", "frame"};
       for (const auto& [key, value] : node.fields) {
-        if (!contains(known, key))
+        if (!listed(known, key))
           complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'",
                    did_you_mean(key, known));
       }

@@ -69,7 +69,7 @@ void push_choices(lua_State* state, const SkillCall& call) {
   }
 }
 
-constexpr int kDeepest = 16;  // skills that run within each other
+constexpr int kDeepestSkill = 16;  // skills that run within each other
 
 // Counts who is alive: a skill lives as long as those that it runs.
 class Nesting {
@@ -87,8 +87,8 @@ class TooDeep : public SkillRun {
  public:
   explicit TooDeep(std::string skill) : skill_(std::move(skill)) {}
   RobotCall next(const WorldView&) override {
-    return robot_call::Fail{Reason::script_error, "skill '" + skill_ + "' is run inside " + std::to_string(kDeepest) +
-                                                      " others: does it run itself?"};
+    return robot_call::Fail{Reason::script_error, "skill '" + skill_ + "' is run inside " +
+                                                      std::to_string(kDeepestSkill) + " others: does it run itself?"};
   }
 
  private:
@@ -156,7 +156,7 @@ std::unique_ptr<SkillRun> LuaSkills::start(const SkillCall& call, const WorldVie
     throw Error(call.skill, "takes " + std::to_string(info->parameters.size()) + " arguments, was given " +
                                 std::to_string(call.arguments.size()));
   }
-  if (*depth_ >= kDeepest) return std::make_unique<TooDeep>(call.skill);
+  if (*depth_ >= kDeepestSkill) return std::make_unique<TooDeep>(call.skill);
   return std::make_unique<LuaRun>(tests_, *info, call, depth_);
 }
 

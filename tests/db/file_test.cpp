@@ -18,24 +18,24 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-void run_sql(const std::filesystem::path& path, const std::string& text) {
+void change(const std::filesystem::path& path, const std::string& text) {
   sqlite3* handle = nullptr;
   REQUIRE(sqlite3_open(path.c_str(), &handle) == SQLITE_OK);
   REQUIRE(sqlite3_exec(handle, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(handle);
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
+std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void make(const std::filesystem::path& path) {
+void make_file(const std::filesystem::path& path) {
   Catalogue::write(path).add(sample_episode("lift", "colour=red", 1), kEngine);
 }
 
 // Runs in a process of its own; true when `work` returns true.
-bool in_child(const std::function<bool()>& work) {
+bool child_does(const std::function<bool()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
     bool good = false;
@@ -60,11 +60,11 @@ void become_nobody() {
 
 TEST_CASE("a closed catalogue is one plain file that carries its mark") {
   const Folder folder;
-  make(folder / "a.db");
+  make_file(folder / "a.db");
   int files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
   CHECK(files == 1);
-  const std::string bytes = bytes_of(folder / "a.db");
+  const std::string bytes = content_of(folder / "a.db");
   CHECK(bytes.substr(68, 4) == "Stmp");
   CHECK(bytes[18] == 1);  // not WAL
 }
@@ -72,12 +72,12 @@ TEST_CASE("a closed catalogue is one plain file that carries its mark") {
 TEST_CASE("files that are not ours are refused with the cure and not touched") {
   const Folder folder;
   const auto refuse = [&](const std::string& name, const std::string& complaint, const std::string& cure) {
-    const std::string before = bytes_of(folder / name);
+    const std::string before = content_of(folder / name);
     CHECK_THROWS_WITH(Catalogue::write(folder / name), Contains(complaint) && Contains(cure));
     CHECK_THROWS_WITH(Catalogue::open(folder / name), Contains(complaint) && Contains(cure));
-    CHECK(bytes_of(folder / name) == before);
+    CHECK(content_of(folder / name) == before);
   };
-  run_sql(folder / "other.db", "CREATE TABLE t (a); PRAGMA application_id = 7");
+  change(folder / "other.db", "CREATE TABLE t (a); PRAGMA application_id = 7");
   refuse("other.db", "another application", "another file");
   std::ofstream(folder / "text.db") << std::string(2000, 'x');
   refuse("text.db", "not a database", "name a catalogue");
@@ -90,27 +90,27 @@ TEST_CASE("missing files, folders and empty files say what to do") {
   CHECK_THROWS_WITH(Catalogue::write(folder.path()), Contains("folder"));
   std::ofstream(folder / "empty.db").flush();
   CHECK_THROWS_WITH(Catalogue::open(folder / "empty.db"), Contains("empty"));
-  CHECK_NOTHROW(make(folder / "empty.db"));  // a run that was killed at once leaves such a file
+  CHECK_NOTHROW(make_file(folder / "empty.db"));  // a run that was killed at once leaves such a file
 }
 
 TEST_CASE("a catalogue in a read-only folder can be questioned and not written") {
   const Folder folder;
-  make(folder / "plain.db");
-  make(folder / "log.db");
-  run_sql(folder / "log.db", "PRAGMA journal_mode = WAL");  // as a reader may have left it
+  make_file(folder / "plain.db");
+  make_file(folder / "log.db");
+  change(folder / "log.db", "PRAGMA journal_mode = WAL");  // as a reader may have left it
   std::filesystem::remove((folder / "log.db").string() + "-wal");
   std::filesystem::remove((folder / "log.db").string() + "-shm");
   for (const char* name : {"plain.db", "log.db"}) ::chmod((folder / name).c_str(), 0444);
   ::chmod(folder.path().c_str(), 0555);
   for (const std::string name : {"plain.db", "log.db"}) {
-    CHECK(in_child([&] {
+    CHECK(child_does([&] {
       become_nobody();
       return Catalogue::open(folder / name).query("SELECT * FROM demos").rows.size() == 1;
     }));
-    CHECK(in_child([&] {
+    CHECK(child_does([&] {
       become_nobody();
       try {
-        make(folder / name);
+        make_file(folder / name);
       } catch (const CatalogueError& error) {
         return std::string(error.what()).find("read-only") != std::string::npos && !error.hint().empty();
       }
@@ -123,8 +123,8 @@ TEST_CASE("a catalogue in a read-only folder can be questioned and not written")
 TEST_CASE("a read-only file loses nothing: what would write says so and how to go on") {
   const Folder folder;
   const auto path = folder / "a.db";
-  make(path);
-  const std::string before = bytes_of(path);
+  make_file(path);
+  const std::string before = content_of(path);
   const EpisodeRecord e = sample_episode("lift", "colour=red", 1);
   const auto images = sample_images(e, {0});
   const std::vector<CameraTrack> tracks{{e.cameras[0], {}}, {e.cameras[1], {}}};
@@ -143,21 +143,21 @@ TEST_CASE("a read-only file loses nothing: what would write says so and how to g
   }
   ::chmod(path.c_str(), 0444);
   ::chmod(folder.path().c_str(), 0777);  // the file alone is read-only
-  CHECK(in_child([&] {
+  CHECK(child_does([&] {
     become_nobody();
     return refused([&] {
              CatalogueWriter(path, {kEngine, 1000, {}});
            }) &&
            refused([&] { Catalogue::write(path).add_images(1, *images, tracks); });
   }));
-  CHECK(bytes_of(path) == before);
+  CHECK(content_of(path) == before);
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);  // no log was left either
 }
 
 TEST_CASE("a disk that takes no more is an error, and what was finished stays") {
   const Folder folder;
   const auto path = folder / "a.db";
-  CHECK(in_child([&] {
+  CHECK(child_does([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     Catalogue catalogue = Catalogue::write(path);
     catalogue.add(sample_episode("lift", "colour=red", 0), kEngine);

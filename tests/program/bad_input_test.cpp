@@ -26,14 +26,7 @@ std::string task_of(std::string text, const std::string& object, const std::stri
   return text;
 }
 
-void put(const Folder& folder, const std::string& name, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
-  std::ofstream(folder / name) << text;
-}
-
-Said checked(const Folder& mine) { return say({"check", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text()}); }
-
-Said ran(const Folder& mine) {
+Said run_of(const Folder& mine) {
   return say({"run", "t", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text(), "--out", mine / "o.db"});
 }
 
@@ -55,7 +48,7 @@ TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `r
   for (const Case& one : cases) {
     const Folder mine;
     put(mine, "tasks/t.lua", task_of(kTask, "cube", one.init, one.goal));
-    const Said check = checked(mine), run = ran(mine);
+    const Said check = checked(mine), run = run_of(mine);
     INFO(one.init + " " + one.goal + "\n" + check.out + "\n" + run.err);
     CHECK(check.code == kBadInput);
     CHECK(run.code == kBadInput);
@@ -79,7 +72,7 @@ TEST_CASE("`check` builds what tasks use: a missing mesh, a broken mesh and a sh
     INFO(check.out);
     CHECK(check.code == kBadInput);
     CHECK(says(check.out, complaint));
-    CHECK(ran(mine).code == kBadInput);
+    CHECK(run_of(mine).code == kBadInput);
   }
 }
 
@@ -110,7 +103,7 @@ TEST_CASE("a goal that no skill reaches names the literal and what is missing") 
   CHECK(plan.code == kNo);
   CHECK(says(plan.err, "(poked cup)"));
   CHECK(says(plan.err, "no action adds"));
-  const Said run = ran(mine);
+  const Said run = run_of(mine);
   CHECK(run.code == kNo);
   CHECK(says(run.err, "no_plan"));
 }

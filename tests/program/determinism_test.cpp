@@ -6,8 +6,6 @@
 namespace stampede::program {
 namespace {
 
-constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
-
 std::vector<std::string> run_words(const std::string& out, std::vector<std::string> more) {
   std::vector<std::string> words = {"run", "reach_target", "--root", kRoot, "--out", out};
   words.insert(words.end(), more.begin(), more.end());

@@ -8,11 +8,6 @@
 namespace stampede::program {
 namespace {
 
-void put(const Folder& folder, const std::string& name, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
-  std::ofstream(folder / name, std::ios::binary) << text;
-}
-
 std::string task_with(const std::string& more, const std::string& object = "thing") {
   return "-- Take it.\nreturn task {\n  world = \"tabletop\",\n  objects = { b = { \"" + object +
          "\" } },\n  init = { is.on(\"b\", \"table\") },\n  goal = is.holding(\"b\"),\n  instructions = { \"take it\" "
@@ -30,8 +25,6 @@ Said ran(const Folder& mine, const std::string& tasks = "t") {
   words.insert(words.end(), {"--root", STAMPEDE_SOURCE_DIR, "--path", mine.text(), "--out", mine / "o.db", tasks});
   return say(words);
 }
-
-Said checked(const Folder& mine) { return say({"check", "--root", STAMPEDE_SOURCE_DIR, "--path", mine.text()}); }
 
 std::string told(const Said& said) { return said.out + said.err; }
 

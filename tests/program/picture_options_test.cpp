@@ -10,11 +10,7 @@
 #include "tests/program/say.h"
 
 namespace stampede::program {
-namespace {
-
-constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("options about pictures that make no sense are usage errors with a cure, and nothing is written") {
   struct Case {

@@ -13,11 +13,10 @@
 namespace stampede::program {
 namespace {
 
-constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
-constexpr const char* kTask = "reach_target";
+constexpr const char* kReach = "reach_target";
 
 Said run_into(const std::string& file, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"run", kTask, "--root", kRoot, "--out", file};
+  std::vector<std::string> words = {"run", kReach, "--root", kRoot, "--out", file};
   words.insert(words.end(), more.begin(), more.end());
   const Said said = say(words);
   INFO(said.err);

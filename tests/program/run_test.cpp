@@ -9,8 +9,6 @@
 namespace stampede::program {
 namespace {
 
-constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
-
 std::vector<EpisodeJob> all_of(const JobList& list) {
   std::vector<EpisodeJob> jobs;
   for (std::int64_t i = 0; i < list.size(); ++i) jobs.push_back(list[i]);

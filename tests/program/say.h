@@ -13,6 +13,8 @@
 
 namespace stampede::program {
 
+inline constexpr const char* kRoot = STAMPEDE_SOURCE_DIR;
+
 struct Said {
   ExitCode code = kBug;
   std::string out, err;
@@ -45,6 +47,14 @@ class Folder {
  private:
   std::filesystem::path path_;
 };
+
+inline void put(const Folder& folder, const std::string& name, const std::string& text) {
+  std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
+  std::ofstream(folder / name, std::ios::binary) << text;
+}
+
+// `stampede check` of scripts of one's own beside what ships.
+inline Said checked(const Folder& mine) { return say({"check", "--root", kRoot, "--path", mine.text()}); }
 
 inline std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

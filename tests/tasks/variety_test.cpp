@@ -9,7 +9,7 @@ using namespace stampede::test;
 
 namespace {
 
-constexpr int kParts = 6;   // the tasks are dealt out to so many cases, which run side by side
+constexpr int kCases = 6;   // the tasks are dealt out to so many cases, which run side by side
 constexpr int kStarts = 5;  // seeds of one variation
 
 std::vector<std::shared_ptr<const Scene>> starts(const std::string& task) {
@@ -57,8 +57,8 @@ std::string taken(const Scene& scene, const std::string& name) {
 }  // namespace
 
 TEST_CASE("each start of a task has another arm, and every thing another place, in every task that ships") {
-  const int part = GENERATE(range(0, kParts));
-  for (const std::string& task : shipped_tasks(part, kParts)) {
+  const int part = GENERATE(range(0, kCases));
+  for (const std::string& task : shipped_tasks(part, kCases)) {
     const auto scenes = starts(task);
     INFO(task);
     const auto [arms_most, arms_least] = spread(scenes, arm_of);

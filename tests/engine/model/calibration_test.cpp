@@ -48,7 +48,7 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 // Place, message and cure, when it is refused as it should be.
-std::string complaint(const std::string& text) {
+std::string file_complaint(const std::string& text) {
   const CalibrationFile file(text);
   try {
     (void)load_calibration(file.path(), table_scene(1));
@@ -113,43 +113,47 @@ TEST_CASE("unreadable calibration files are errors") {
   const Scene scene = table_scene(0);
   CHECK_THROWS_AS(load_calibration("/nowhere/lab.json", scene), Error);
   CHECK_THROWS_AS(load_calibration("/tmp", scene), Error);
-  CHECK_THAT(complaint(""), Contains("not JSON"));
-  CHECK_THAT(complaint(kGood.substr(0, 200)), Contains("not JSON") && Contains("line"));
-  CHECK_THAT(complaint("[]"), Contains("object is expected"));
-  CHECK_THAT(complaint("{}"), Contains("'cameras' is missing"));
-  CHECK_THAT(complaint(R"({"cameras": []})"), Contains("no camera"));
-  CHECK_THAT(complaint(R"({"cameras": {}})"), Contains("at cameras: a list is expected"));
-  CHECK_THAT(complaint(R"({"cameras": [3]})"), Contains("at cameras[0]: an object"));
+  CHECK_THAT(file_complaint(""), Contains("not JSON"));
+  CHECK_THAT(file_complaint(kGood.substr(0, 200)), Contains("not JSON") && Contains("line"));
+  CHECK_THAT(file_complaint("[]"), Contains("object is expected"));
+  CHECK_THAT(file_complaint("{}"), Contains("'cameras' is missing"));
+  CHECK_THAT(file_complaint(R"({"cameras": []})"), Contains("no camera"));
+  CHECK_THAT(file_complaint(R"({"cameras": {}})"), Contains("at cameras: a list is expected"));
+  CHECK_THAT(file_complaint(R"({"cameras": [3]})"), Contains("at cameras[0]: an object"));
 }
 
 TEST_CASE("every wrong shape is named with its place") {
-  CHECK(complaint(kGood) == "accepted");
-  CHECK_THAT(complaint(with("\"width\": 640, ", "")), Contains("at cameras[0]: the field 'width' is missing"));
-  CHECK_THAT(complaint(with("\"distortion\"", "\"distorsion\"")), Contains("did you mean 'distortion'"));
+  CHECK(file_complaint(kGood) == "accepted");
+  CHECK_THAT(file_complaint(with("\"width\": 640, ", "")), Contains("at cameras[0]: the field 'width' is missing"));
+  CHECK_THAT(file_complaint(with("\"distortion\"", "\"distorsion\"")), Contains("did you mean 'distortion'"));
   for (const std::string size : {"0", "-1", "4097", "1.5", "\"640\"", "99999999999"})
-    CHECK_THAT(complaint(with("640", size)), Contains("at cameras[0].width: a whole number of pixels from 1 to 4096"));
-  CHECK_THAT(complaint(with("[[612.5, 0, 319.5], ", "[")), Contains("at cameras[0].camera_matrix: it has 2 entries"));
-  CHECK_THAT(complaint(with("612.5, 0, 319.5", "612.5, 0")), Contains("camera_matrix[0]: it has 2 entries, not 3"));
-  CHECK_THAT(complaint(with("612.5", "null")), Contains("camera_matrix[0][0]: a number is expected"));
-  CHECK_THAT(complaint(with("612.5", "-612.5")), Contains("focal lengths must be positive"));
-  CHECK_THAT(complaint(with("611.25", "0")), Contains("focal lengths must be positive"));
-  CHECK_THAT(complaint(with("612.5, 0,", "612.5, 0.1,")), Contains("skewed"));
-  CHECK_THAT(complaint(with("0.002, 0.05]", "0.002]")), Contains("at cameras[0].distortion: it has 4 entries, not 5"));
-  CHECK_THAT(complaint(with("\"half\"", "\"middle\"")), Contains("at cameras[1].pixel_centres"));
-  CHECK_THAT(complaint(with("\"near\": 0.1", "\"near\": 0")), Contains("near must be above 0"));
-  CHECK_THAT(complaint(with("\"far\": 3.5", "\"far\": 0.05")), Contains("far beyond"));
-  CHECK_THAT(complaint(with("\"front\"", "\"Front view\"")), Contains("at cameras[0].name"));
-  CHECK_THAT(complaint(with("\"hand_eye\"", "\"front\"")), Contains("two cameras named 'front'"));
+    CHECK_THAT(file_complaint(with("640", size)),
+               Contains("at cameras[0].width: a whole number of pixels from 1 to 4096"));
+  CHECK_THAT(file_complaint(with("[[612.5, 0, 319.5], ", "[")),
+             Contains("at cameras[0].camera_matrix: it has 2 entries"));
+  CHECK_THAT(file_complaint(with("612.5, 0, 319.5", "612.5, 0")),
+             Contains("camera_matrix[0]: it has 2 entries, not 3"));
+  CHECK_THAT(file_complaint(with("612.5", "null")), Contains("camera_matrix[0][0]: a number is expected"));
+  CHECK_THAT(file_complaint(with("612.5", "-612.5")), Contains("focal lengths must be positive"));
+  CHECK_THAT(file_complaint(with("611.25", "0")), Contains("focal lengths must be positive"));
+  CHECK_THAT(file_complaint(with("612.5, 0,", "612.5, 0.1,")), Contains("skewed"));
+  CHECK_THAT(file_complaint(with("0.002, 0.05]", "0.002]")),
+             Contains("at cameras[0].distortion: it has 4 entries, not 5"));
+  CHECK_THAT(file_complaint(with("\"half\"", "\"middle\"")), Contains("at cameras[1].pixel_centres"));
+  CHECK_THAT(file_complaint(with("\"near\": 0.1", "\"near\": 0")), Contains("near must be above 0"));
+  CHECK_THAT(file_complaint(with("\"far\": 3.5", "\"far\": 0.05")), Contains("far beyond"));
+  CHECK_THAT(file_complaint(with("\"front\"", "\"Front view\"")), Contains("at cameras[0].name"));
+  CHECK_THAT(file_complaint(with("\"hand_eye\"", "\"front\"")), Contains("two cameras named 'front'"));
 }
 
 TEST_CASE("mounts that do not exist and matrices that are no rotations are refused") {
-  CHECK_THAT(complaint(with("robot.hand", "robot.hnad")), Contains("did you mean 'robot.hand'"));
-  CHECK_THAT(complaint(with("\"mount\": \"world\"", "\"mount\": 3")), Contains("cameras[0].mount: a text"));
-  CHECK_THAT(complaint(with("[0, 0.6, -0.8, 1.5]", "[0, 0.6, -0.9, 1.5]")), Contains("is no rotation"));
-  CHECK_THAT(complaint(with("[0, 0.6, -0.8, 1.5]", "[0, 0.6, 0.8, 1.5]")), Contains("is no rotation"));
-  CHECK_THAT(complaint(with("[1, 0, 0, 0.25]", "[-1, 0, 0, 0.25]")), Contains("mirror image"));
-  CHECK_THAT(complaint(with("1.25], [0, 0, 0, 1]", "1.25], [0, 0, 1, 1]")), Contains("last row"));
-  CHECK_THAT(complaint(with("1.25], [0, 0, 0, 1]", "1.25]")), Contains("it has 3 entries, not 4"));
+  CHECK_THAT(file_complaint(with("robot.hand", "robot.hnad")), Contains("did you mean 'robot.hand'"));
+  CHECK_THAT(file_complaint(with("\"mount\": \"world\"", "\"mount\": 3")), Contains("cameras[0].mount: a text"));
+  CHECK_THAT(file_complaint(with("[0, 0.6, -0.8, 1.5]", "[0, 0.6, -0.9, 1.5]")), Contains("is no rotation"));
+  CHECK_THAT(file_complaint(with("[0, 0.6, -0.8, 1.5]", "[0, 0.6, 0.8, 1.5]")), Contains("is no rotation"));
+  CHECK_THAT(file_complaint(with("[1, 0, 0, 0.25]", "[-1, 0, 0, 0.25]")), Contains("mirror image"));
+  CHECK_THAT(file_complaint(with("1.25], [0, 0, 0, 1]", "1.25], [0, 0, 1, 1]")), Contains("last row"));
+  CHECK_THAT(file_complaint(with("1.25], [0, 0, 0, 1]", "1.25]")), Contains("it has 3 entries, not 4"));
 }
 
 TEST_CASE("the camera file that the README shows is one") {

@@ -18,7 +18,7 @@ JointVector joints(std::initializer_list<double> values) {
   return q;
 }
 
-JointVector random_joints(const Arm& arm, Random& random) {
+JointVector any_joints(const Arm& arm, Random& random) {
   JointVector q(arm.joints());
   for (Eigen::Index i = 0; i < q.size(); ++i)
     q[i] = random.between(arm.limits()[static_cast<std::size_t>(i)].lower,
@@ -55,7 +55,7 @@ TEST_CASE("forward kinematics agrees with the Denavit-Hartenberg table") {
   const Arm arm(panda_robot());
   Random random(RandomKey("dh"));
   for (int k = 0; k < 100; ++k) {
-    const JointVector q = random_joints(arm, random);
+    const JointVector q = any_joints(arm, random);
     const Transform expected = flange_by_denavit_hartenberg(q) * flange_from_tip();
     REQUIRE((arm.base_from_tip(q).matrix() - expected.matrix()).cwiseAbs().maxCoeff() < 1e-9);
   }
@@ -65,7 +65,7 @@ TEST_CASE("all parts and the tip agree, wherever the base stands") {
   const Robot robot = panda_robot(make_transform({0.3, -0.2, 0.75}, Quaternion(0.8, 0, 0, 0.6)));
   const Arm arm(robot);
   Random random(RandomKey("parts"));
-  const JointVector q = random_joints(arm, random);
+  const JointVector q = any_joints(arm, random);
   std::vector<double> positions(robot.body.parts.size(), 0.0);
   for (std::size_t i = 0; i < 7; ++i)
     positions[static_cast<std::size_t>(robot.arm[i])] = q[static_cast<Eigen::Index>(i)];
@@ -85,7 +85,7 @@ TEST_CASE("the Jacobian is the derivative of the tip") {
   Random random(RandomKey("jacobian"));
   constexpr double h = 1e-6;
   for (int k = 0; k < 20; ++k) {
-    const JointVector q = random_joints(arm, random);
+    const JointVector q = any_joints(arm, random);
     const auto jacobian = arm.jacobian(q);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       JointVector high = q, low = q;

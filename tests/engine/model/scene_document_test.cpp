@@ -145,7 +145,7 @@ std::string replaced(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-std::string complaint(const std::string& document) {
+std::string document_complaint(const std::string& document) {
   try {
     (void)scene_from_document(document);
   } catch (const Error& error) {
@@ -160,33 +160,38 @@ std::string complaint(const std::string& document) {
 TEST_CASE("damaged documents are errors, never crashes") {
   using Catch::Contains;
   const std::string document = scene_to_document(rich_scene());
-  REQUIRE(complaint(document) == "accepted");
+  REQUIRE(document_complaint(document) == "accepted");
   for (const std::string& bad : {std::string(), std::string("[]"), document.substr(0, document.size() / 2)})
-    CHECK_THAT(complaint(bad), Contains("scene document"));
-  CHECK_THAT(complaint(replaced("\"physics_hz\":480", "\"physics_hz\":\"fast\"")), Contains("a whole number"));
-  CHECK_THAT(complaint(replaced("\"physics_hz\":480", "\"physics_herz\":480")), Contains("'physics_hz' is missing"));
-  CHECK_THAT(complaint(replaced("\"physics_hz\":480", "\"physics_hz\":480,\"x\":1")), Contains("does not know"));
-  CHECK_THAT(complaint(replaced("\"format\":", "\"format\":1000")), Contains("is not known to this version"));
-  CHECK_THAT(complaint(replaced("\"parent\":-1", "\"parent\":7")), Contains("parent must come before"));
-  CHECK_THAT(complaint(replaced("\"tip_part\":9", "\"tip_part\":900")), Contains("the robot's tip"));
-  CHECK_THAT(complaint(replaced("\"kind\":\"box\"", "\"kind\":\"torus\"")), Contains("no known kind"));
+    CHECK_THAT(document_complaint(bad), Contains("scene document"));
+  CHECK_THAT(document_complaint(replaced("\"physics_hz\":480", "\"physics_hz\":\"fast\"")), Contains("a whole number"));
+  CHECK_THAT(document_complaint(replaced("\"physics_hz\":480", "\"physics_herz\":480")),
+             Contains("'physics_hz' is missing"));
+  CHECK_THAT(document_complaint(replaced("\"physics_hz\":480", "\"physics_hz\":480,\"x\":1")),
+             Contains("does not know"));
+  CHECK_THAT(document_complaint(replaced("\"format\":", "\"format\":1000")), Contains("is not known to this version"));
+  CHECK_THAT(document_complaint(replaced("\"parent\":-1", "\"parent\":7")), Contains("parent must come before"));
+  CHECK_THAT(document_complaint(replaced("\"tip_part\":9", "\"tip_part\":900")), Contains("the robot's tip"));
+  CHECK_THAT(document_complaint(replaced("\"kind\":\"box\"", "\"kind\":\"torus\"")), Contains("no known kind"));
 }
 
 TEST_CASE("damaged looks are errors with their place") {
   using Catch::Contains;
-  CHECK_THAT(complaint(replaced("\"mesh\":\"m1\"", "\"mesh\":\"m2\"")), Contains("body table") && Contains("a mesh"));
-  CHECK_THAT(complaint(replaced("\"m1\":{\"drawn\":", "\"m1\":{\"drown\":")), Contains("meshes.m1"));
-  CHECK_THAT(complaint(replaced("\"texture\":\"tiles\"", "\"texture\":\"tile\"")), Contains("no texture 'tile'"));
-  CHECK_THAT(complaint(replaced("\"kind\":\"checker\"", "\"kind\":\"image\"")), Contains("it has no image"));
-  CHECK_THAT(complaint(replaced("\"width\":2}", "\"width\":3}")), Contains("does not agree with its pixels"));
-  CHECK_THAT(complaint(replaced("\"width\":2}", "\"width\":-2}")), Contains("does not agree with its pixels"));
-  CHECK_THAT(complaint(replaced("\"width\":2}", "\"width\":2,\"x\":1}")), Contains("an image is expected"));
-  CHECK_THAT(complaint(replaced("\"classes\":[\"cube\"", "\"classes\":[7")), Contains("classes[0]: a text"));
-  CHECK_THAT(complaint(replaced("\"specular\":", "\"spectacular\":")), Contains("light: the field 'specular'"));
-  CHECK_THAT(complaint(replaced("\"instance\":65535", "\"instance\":1.5")), Contains("a whole number"));
-  CHECK_THAT(complaint(replaced("\"fixture\":true", "\"fixture\":1")), Contains("true or false"));
-  CHECK_THAT(complaint(replaced("\"focal_y\":71.0", "\"focal_y\":0.0")), Contains("camera front"));
-  CHECK_THAT(complaint(replaced("\"distortion\":[0.1,", "\"distortion\":[")), Contains("a list of 5"));
+  CHECK_THAT(document_complaint(replaced("\"mesh\":\"m1\"", "\"mesh\":\"m2\"")),
+             Contains("body table") && Contains("a mesh"));
+  CHECK_THAT(document_complaint(replaced("\"m1\":{\"drawn\":", "\"m1\":{\"drown\":")), Contains("meshes.m1"));
+  CHECK_THAT(document_complaint(replaced("\"texture\":\"tiles\"", "\"texture\":\"tile\"")),
+             Contains("no texture 'tile'"));
+  CHECK_THAT(document_complaint(replaced("\"kind\":\"checker\"", "\"kind\":\"image\"")), Contains("it has no image"));
+  CHECK_THAT(document_complaint(replaced("\"width\":2}", "\"width\":3}")), Contains("does not agree with its pixels"));
+  CHECK_THAT(document_complaint(replaced("\"width\":2}", "\"width\":-2}")), Contains("does not agree with its pixels"));
+  CHECK_THAT(document_complaint(replaced("\"width\":2}", "\"width\":2,\"x\":1}")), Contains("an image is expected"));
+  CHECK_THAT(document_complaint(replaced("\"classes\":[\"cube\"", "\"classes\":[7")), Contains("classes[0]: a text"));
+  CHECK_THAT(document_complaint(replaced("\"specular\":", "\"spectacular\":")),
+             Contains("light: the field 'specular'"));
+  CHECK_THAT(document_complaint(replaced("\"instance\":65535", "\"instance\":1.5")), Contains("a whole number"));
+  CHECK_THAT(document_complaint(replaced("\"fixture\":true", "\"fixture\":1")), Contains("true or false"));
+  CHECK_THAT(document_complaint(replaced("\"focal_y\":71.0", "\"focal_y\":0.0")), Contains("camera front"));
+  CHECK_THAT(document_complaint(replaced("\"distortion\":[0.1,", "\"distortion\":[")), Contains("a list of 5"));
 }
 
 TEST_CASE("damaged base64 is an error, and so are bytes that are no mesh") {
@@ -196,12 +201,12 @@ TEST_CASE("damaged base64 is an error, and so are bytes that are no mesh") {
   REQUIRE(document.find(start) != std::string::npos);
   for (const std::string bad : {"*", "=", "A", "AAAA"}) {  // ahead of the rest
     INFO(bad);
-    CHECK_THAT(complaint(replaced(start, start + bad)), Contains("damaged"));
+    CHECK_THAT(document_complaint(replaced(start, start + bad)), Contains("damaged"));
   }
   std::string wild = document;  // the last corner's number: a corner that is not there
   const std::size_t end = wild.find('"', wild.find(start) + start.size());
   wild[end - 6] = '/';
-  CHECK_THAT(complaint(wild), Contains("damaged"));
+  CHECK_THAT(document_complaint(wild), Contains("damaged"));
 }
 
 TEST_CASE("no damage of single bytes crashes the reader") {
@@ -212,7 +217,7 @@ TEST_CASE("no damage of single bytes crashes the reader") {
     std::string bad = document;
     bad[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(bad.size())))] =
         static_cast<char>(random.below(256));
-    refused += complaint(bad) != "accepted";
+    refused += document_complaint(bad) != "accepted";
   }
   CHECK(refused > 150);  // the others changed digits of numbers and letters of names
 }

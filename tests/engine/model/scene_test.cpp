@@ -11,7 +11,7 @@ using namespace stampede;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double kPi = std::numbers::pi;
 
 Shape box(const Vector3& size) {
   Shape shape;
@@ -121,14 +121,14 @@ TEST_CASE("a mass that cannot be is an error") {
 TEST_CASE("bounding boxes are tight for turned shapes") {
   Part part;
   part.shapes = {round(ShapeKind::cylinder, 0.5, 2)};
-  part.shapes[0].part_from_shape = translation(1, 0, 0) * rotation_rpy(pi / 2, 0, 0);  // along y
+  part.shapes[0].part_from_shape = translation(1, 0, 0) * rotation_rpy(kPi / 2, 0, 0);  // along y
   CHECK((bounding_box(part)[0] - Vector3(0.5, -1, -0.5)).norm() < 1e-7);
   CHECK((bounding_box(part)[1] - Vector3(1.5, 1, 0.5)).norm() < 1e-7);
   part.shapes = {box({2, 2, 2})};
-  part.shapes[0].part_from_shape = rotation_rpy(0, 0, pi / 4);
+  part.shapes[0].part_from_shape = rotation_rpy(0, 0, kPi / 4);
   CHECK((bounding_box(part)[1] - Vector3(std::sqrt(2), std::sqrt(2), 1)).norm() < 1e-12);
   part.shapes = {round(ShapeKind::cone, 1, 2)};
-  part.shapes[0].part_from_shape = rotation_rpy(0, pi / 2, 0);  // apex along +x
+  part.shapes[0].part_from_shape = rotation_rpy(0, kPi / 2, 0);  // apex along +x
   CHECK((bounding_box(part)[0] - Vector3(-1, -1, -1)).norm() < 1e-7);
   CHECK((bounding_box(part)[1] - Vector3(1, 1, 1)).norm() < 1e-7);
 }

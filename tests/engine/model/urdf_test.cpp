@@ -45,7 +45,7 @@ std::string joint_of(const std::string& name, const std::string& parent, const s
 
 std::string robot(const std::string& inside) { return "<robot name='arm'>\n" + inside + "\n</robot>"; }
 
-std::string complaint(const std::string& text) {
+std::string urdf_complaint(const std::string& text) {
   const TemporaryFolder folder;
   try {
     (void)body_from_urdf(folder.write("bad.urdf", text));
@@ -160,40 +160,42 @@ TEST_CASE("equal meshes and textures have equal keys, others do not") {
 
 TEST_CASE("bad URDF files say where and what") {
   using Catch::Contains;
-  CHECK_THAT(complaint("<robot name='arm'>\n<link name='a'>\n</robot>"),
+  CHECK_THAT(urdf_complaint("<robot name='arm'>\n<link name='a'>\n</robot>"),
              Contains("bad.urdf:3") && Contains("malformed"));
-  CHECK_THAT(complaint(""), Contains("malformed") || Contains("robot"));
-  CHECK_THAT(complaint("<sdf/>"), Contains("robot"));
-  CHECK_THAT(complaint(robot(link_of("a") + joint_of("j", "a", "b"))), Contains("'b'") || Contains("[b]"));
-  CHECK_THAT(complaint(robot(link_of("a") + link_of("a"))), Contains("a") && Contains("not unique"));
-  CHECK_THAT(complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+  CHECK_THAT(urdf_complaint(""), Contains("malformed") || Contains("robot"));
+  CHECK_THAT(urdf_complaint("<sdf/>"), Contains("robot"));
+  CHECK_THAT(urdf_complaint(robot(link_of("a") + joint_of("j", "a", "b"))), Contains("'b'") || Contains("[b]"));
+  CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("a"))), Contains("a") && Contains("not unique"));
+  CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
              Contains("root"));
-  CHECK_THAT(complaint(robot(link_of("r") + link_of("a") + link_of("b") + joint_of("i", "r", "a") +
-                             joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+  CHECK_THAT(urdf_complaint(robot(link_of("r") + link_of("a") + link_of("b") + joint_of("i", "r", "a") +
+                                  joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
              Contains("two parents or lies on a cycle"));
+  CHECK_THAT(urdf_complaint(
+                 robot(link_of("r") + link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
+             Contains("link 'a'") && Contains("does not hang on"));
   CHECK_THAT(
-      complaint(robot(link_of("r") + link_of("a") + link_of("b") + joint_of("j", "a", "b") + joint_of("k", "b", "a"))),
-      Contains("link 'a'") && Contains("does not hang on"));
-  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><mesh filename='gone.stl'/></geometry></collision>"))),
-             Contains("link 'a'") && Contains("gone.stl") && Contains("no such mesh"));
-  CHECK_THAT(complaint(robot(link_of("a", "<visual><geometry><mesh filename='gone.stl'/></geometry></visual>"))),
+      urdf_complaint(robot(link_of("a", "<collision><geometry><mesh filename='gone.stl'/></geometry></collision>"))),
+      Contains("link 'a'") && Contains("gone.stl") && Contains("no such mesh"));
+  CHECK_THAT(urdf_complaint(robot(link_of("a", "<visual><geometry><mesh filename='gone.stl'/></geometry></visual>"))),
              Contains("link 'a'") && Contains("mesh") && Contains("gone.stl"));
-  CHECK_THAT(complaint(robot("<material name='wood'><texture filename='gone.png'/></material>" +
-                             link_of("a",
-                                     "<visual><geometry><box size='1 1 1'/></geometry><material "
-                                     "name='wood'/></visual>"))),
+  CHECK_THAT(urdf_complaint(robot("<material name='wood'><texture filename='gone.png'/></material>" +
+                                  link_of("a",
+                                          "<visual><geometry><box size='1 1 1'/></geometry><material "
+                                          "name='wood'/></visual>"))),
              Contains("link 'a'") && Contains("texture") && Contains("gone.png"));
-  CHECK_THAT(complaint(robot(link_of("a") + link_of("b", "") + joint_of("j", "a", "b"))),
+  CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b", "") + joint_of("j", "a", "b"))),
              Contains("link 'b'") && Contains("mass"));
-  CHECK_THAT(complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b", "floating", ""))),
+  CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b", "floating", ""))),
              Contains("joint 'j'") && Contains("floating"));
-  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><box size='1 -1 1'/></geometry></collision>"))),
+  CHECK_THAT(urdf_complaint(robot(link_of("a", "<collision><geometry><box size='1 -1 1'/></geometry></collision>"))),
              Contains("link 'a'") && Contains("box"));
-  CHECK_THAT(complaint(robot(link_of("a", "<collision><geometry><torus/></geometry></collision>"))), Contains("torus"));
-  CHECK_THAT(
-      complaint(robot(link_of("a") + link_of("b") +
-                      joint_of("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"))),
-      Contains("joint 'j'") && Contains("lower limit"));
+  CHECK_THAT(urdf_complaint(robot(link_of("a", "<collision><geometry><torus/></geometry></collision>"))),
+             Contains("torus"));
+  CHECK_THAT(urdf_complaint(
+                 robot(link_of("a") + link_of("b") +
+                       joint_of("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"))),
+             Contains("joint 'j'") && Contains("lower limit"));
   CHECK_THROWS_AS(body_from_urdf("/nowhere/arm.urdf"), Error);
 }
 
@@ -205,9 +207,9 @@ TEST_CASE("a URDF is no format, and has its limits") {
         robot(link_of("a", "<inertial><mass value='&#37;n&#x25;n'/></inertial>")),
         robot(link_of("a", "<visual><geometry><" + format + "/></geometry></visual>")),
         "<robot name='" + format + "'>" + link_of("a") + "</robot>"})
-    CHECK_THAT(complaint(text), Contains("'%'") || Contains("malformed"));
-  CHECK(complaint(robot("<!-- 100 % --><gazebo>50 %s</gazebo>" + link_of("a"))) == "accepted");
-  CHECK(complaint(robot(link_of("a"))) == "accepted");
+    CHECK_THAT(urdf_complaint(text), Contains("'%'") || Contains("malformed"));
+  CHECK(urdf_complaint(robot("<!-- 100 % --><gazebo>50 %s</gazebo>" + link_of("a"))) == "accepted");
+  CHECK(urdf_complaint(robot(link_of("a"))) == "accepted");
 
   std::string many = "<link name='l0'/>", deep;
   for (int i = 1; i <= 1000; ++i) {
@@ -215,10 +217,10 @@ TEST_CASE("a URDF is no format, and has its limits") {
     many += "<link name='l" + own + "'/><joint name='j" + own + "' type='fixed'><parent link='l" + before +
             "'/><child link='l" + own + "'/></joint>";
   }
-  CHECK_THAT(complaint(robot(many)), Contains("1001 links") && Contains("1000"));
+  CHECK_THAT(urdf_complaint(robot(many)), Contains("1001 links") && Contains("1000"));
   for (int i = 0; i < 60'000; ++i) deep += "<a>";
-  CHECK_THAT(complaint(deep), Contains("60000 XML elements"));
-  CHECK_THAT(complaint(deep.substr(0, 3 * 9'999)), Contains("malformed"));  // deep, but not too deep to say so
+  CHECK_THAT(urdf_complaint(deep), Contains("60000 XML elements"));
+  CHECK_THAT(urdf_complaint(deep.substr(0, 3 * 9'999)), Contains("malformed"));  // deep, but not too deep to say so
 }
 
 TEST_CASE("what a URDF names lies in its folder, or in the scope") {

@@ -8,7 +8,7 @@ using namespace stampede;
 namespace {
 
 template <typename Read>
-std::string complaint(Read&& read) {
+std::string complaint_of(Read&& read) {
   try {
     read();
   } catch (const Error& error) {
@@ -18,7 +18,7 @@ std::string complaint(Read&& read) {
 }
 
 std::string domain_complaint(const std::string& text) {
-  return complaint([&] { domain_from_pddl("(define (domain d) " + text + ")", "d.pddl"); });
+  return complaint_of([&] { domain_from_pddl("(define (domain d) " + text + ")", "d.pddl"); });
 }
 
 const char* const kRooms =
@@ -27,7 +27,7 @@ const char* const kRooms =
 std::string problem_complaint(const std::string& text) {
   const Domain domain =
       domain_from_pddl(std::string("(define (domain d) ") + kRooms + " (:derived (busy) (lit hall)))", "d");
-  return complaint([&] { problem_from_pddl("(define (problem p) (:domain d) " + text + ")", "p.pddl", domain); });
+  return complaint_of([&] { problem_from_pddl("(define (problem p) (:domain d) " + text + ")", "p.pddl", domain); });
 }
 
 std::string nested(int depth) {

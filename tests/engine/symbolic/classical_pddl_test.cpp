@@ -10,7 +10,7 @@ namespace {
 
 Domain domain_of(const std::string& text) { return domain_from_pddl("(define (domain d) " + text + ")", "d.pddl"); }
 
-std::string complaint(const std::string& text) {
+std::string refusal(const std::string& text) {
   try {
     domain_of(text);
   } catch (const Error& error) {
@@ -29,7 +29,7 @@ TEST_CASE("`?` ends a word: (aircraft?a) is (aircraft ?a)") {
   CHECK(domain.predicate("at")->parameters.size() == 2);
   CHECK(domain.actions[0].precondition == atom("at", {{true, "x"}, {true, "y"}}));
   CHECK(domain_from_pddl(to_pddl(domain), "again") == domain);
-  CHECK(complaint("(:predicates (at ? a))").find("d.pddl:1:37: expected a variable such as `?x`, got `?`") == 0);
+  CHECK(refusal("(:predicates (at ? a))").find("d.pddl:1:37: expected a variable such as `?x`, got `?`") == 0);
 }
 
 TEST_CASE("a type on several lines has the parent that lies below the others") {
@@ -38,9 +38,9 @@ TEST_CASE("a type on several lines has the parent that lies below the others") {
   CHECK(domain.types ==
         std::map<std::string, std::string>{
             {"area", "surface"}, {"crate", "surface"}, {"hoist", "object"}, {"surface", "object"}, {"yard", "area"}});
-  CHECK(complaint("(:types a - b a - c)").find("`a` has parents of which none descends from the others: `b`, `c`") !=
+  CHECK(refusal("(:types a - b a - c)").find("`a` has parents of which none descends from the others: `b`, `c`") !=
         std::string::npos);
-  CHECK(complaint("(:types a - b b - c a - object c - a)").find("descends from itself") != std::string::npos);
+  CHECK(refusal("(:types a - b b - c a - object c - a)").find("descends from itself") != std::string::npos);
 }
 
 TEST_CASE("a variable twice in a predicate's declaration only says that there are two arguments") {
@@ -51,13 +51,13 @@ TEST_CASE("a variable twice in a predicate's declaration only says that there ar
   CHECK(near.parameters == std::vector<Parameter>{{"x", "t", {}}, {"x_2", "t", {}}});
   CHECK(domain.predicate("far")->parameters.size() == 3);
   CHECK(domain_from_pddl(to_pddl(domain), "again") == domain);
-  CHECK(complaint("(:predicates (p ?x)) (:action a :parameters (?x ?x))").find("`?x` is declared twice") !=
+  CHECK(refusal("(:predicates (p ?x)) (:action a :parameters (?x ?x))").find("`?x` is declared twice") !=
         std::string::npos);
 }
 
 TEST_CASE("broken type lists are told with line and column") {
   const auto is_told = [](const char* text) {
-    const std::string said = complaint(text);
+    const std::string said = refusal(text);
     INFO(text << "\n" << said);
     CHECK(said.find("d.pddl:1:") == 0);
     CHECK(said.find("map::at") == std::string::npos);
@@ -69,6 +69,6 @@ TEST_CASE("broken type lists are told with line and column") {
         "(:types a b - ())", "(:functions (f ?x - -))"}) {
     is_told(text);
   }
-  CHECK(complaint("(:types     c - -) \n \n") ==
+  CHECK(refusal("(:types     c - -) \n \n") ==
         "d.pddl:1:36: expected the name of a type after `-`, got `-`\n    write `- object` where any type will do");
 }

@@ -8,7 +8,7 @@ using namespace stampede;
 
 namespace {
 
-std::shared_ptr<const Library> library() {
+std::shared_ptr<const Library> facts_library() {
   static const auto shared =
       Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/scripting/data/facts"}});
   return shared;
@@ -16,7 +16,7 @@ std::shared_ptr<const Library> library() {
 
 struct Watched {
   explicit Watched(const std::string& task, const std::string& variation = "")
-      : scripts(library(), task, variation, 1) {
+      : scripts(facts_library(), task, variation, 1) {
     tracker.begin(tracker.read_all(view));
     tracker.look(view);
     view.set_facts(&tracker);

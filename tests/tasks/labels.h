@@ -1,0 +1,18 @@
+// What the labels of any good episode have in common.
+#pragma once
+
+#include <string>
+
+#include "engine/episode/record.h"
+
+namespace stampede::test {
+
+std::string document(const EpisodeRecord& episode, const std::string& kind);  // empty: there is none
+
+// Motions and subgoals each cover every frame once; skills those before the arm stands still for the verdict.
+void check_tiling(const EpisodeRecord& episode);
+
+// The stored plan solves the stored problem.
+void check_plan(const EpisodeRecord& episode);
+
+}  // namespace stampede::test
