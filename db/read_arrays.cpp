@@ -40,10 +40,9 @@ class ArrayReader : private EpisodeReader {
 // Place of (frame, which) in a table of `which` items a frame, each `width` wide.
 double* ArrayReader::slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items,
                           std::size_t width, const char* name) const {
-  const std::size_t index = (static_cast<std::size_t>(frame) * items + static_cast<std::size_t>(which)) * width;
-  if (frame < 0 || which < 0 || which >= static_cast<std::int64_t>(items) || index + width > table.size())
-    damaged(name);
-  return &table[index];
+  const auto row = static_cast<std::size_t>(frame), item = static_cast<std::size_t>(which);  // huge where negative
+  if (row >= tables_.frames || item >= items || width == 0) damaged(name);
+  return &table[(row * items + item) * width];
 }
 
 void ArrayReader::read_head() {
@@ -179,7 +178,11 @@ EpisodeArrays ArrayReader::read(const ArrayRequest& request) {
   read_head();
   read_names();
   read_cameras();
-  if (needs.samples) read_channels();
+  if (needs.samples) {
+    read_channels();
+    for (const ChannelRecord& channel : record_.channels)
+      if (channel.values.size() != channel.steps.size() * channel.components.size()) damaged("sample");
+  }
   if (needs.frames) read_frame_rows();
   if (needs.joints) read_joint_rows();
   if (needs.hands) read_hand_rows();

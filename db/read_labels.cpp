@@ -73,6 +73,7 @@ void EpisodeReader::read_segment_details() {
          p.chosen_by = chosen_by_from(chosen_by).value_or(ChosenBy::default_value);
          auto& parameters = owner(undone, segment).parameters;
          if (component == 0) parameters.push_back(p);
+         if (parameters.empty()) damaged("segment_parameter");
          if (value) parameters.back().values.push_back(*value);
        });
   each("undone, segment, coalesce(choice, -1), negated, fact, held", "segment_precondition", "undone, segment, ordinal",

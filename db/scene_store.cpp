@@ -68,12 +68,13 @@ std::string unpack_scene(const sql::Database& database, const std::string& packe
   std::size_t done = 0;
   for (std::size_t mark = packed.find(kMark); mark != std::string::npos; mark = packed.find(kMark, done)) {
     const std::string hash = packed.substr(mark + kMark.size(), kHashSize);
-    if (!find.start(hash).step())
+    const std::size_t end = mark + kMark.size() + kHashSize + 2;
+    if (end > packed.size() || !find.start(hash).step())
       throw CatalogueError(database.path(), "asset " + hash + " of a scene is missing", "generate the catalogue again");
     std::string body;
     find.read(body);
     document.append(packed, done, mark - done).append(body);
-    done = mark + kMark.size() + kHashSize + 2;
+    done = end;
   }
   return document.append(packed, done);
 }

@@ -25,7 +25,8 @@ set(STAMPEDE_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address
 add_library(stampede_options INTERFACE)
 target_compile_options(stampede_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow  # GCC 12 raises false alarms about sums of strings (its bug 105651)
+  # GCC 12 raises false alarms about sums of strings (its bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   $<$<BOOL:${STAMPEDE_WERROR}>:-Werror>
   -ffp-contract=off)  # same sums in debug and optimised builds
 target_compile_definitions(stampede_options INTERFACE $<$<CONFIG:Release>:NDEBUG> $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
@@ -35,7 +36,7 @@ if(STAMPEDE_SANITIZE)
   add_compile_options(-fsanitize=${STAMPEDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1)
   add_link_options(-fsanitize=${STAMPEDE_SANITIZE})
   # The checks a sanitizer weaves in hide from GCC 12 that Eigen's and the standard library's values are set.
-  add_compile_options(-Wno-maybe-uninitialized)
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   # Checks woven into every dereference double the build, and the address sanitizer traps a bad pointer anyway.
   add_compile_options(-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
 endif()

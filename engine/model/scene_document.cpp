@@ -240,7 +240,8 @@ class Reader {
     if (!json.is_number_integer()) fail(path, "a whole number is expected");
     const auto wide = json.get<std::int64_t>();
     value = static_cast<int>(wide);
-    if (value != wide) fail(path, "the number is too large");
+    const bool wrapped = wide < 0 && json.is_number_unsigned();  // 2^63 and above
+    if (value != wide || wrapped) fail(path, "the number is too large");
   }
   static void read(const Json& json, double& value, const std::string& path) {
     if (!json.is_number()) fail(path, "a number is expected");

@@ -76,6 +76,49 @@ TEST_CASE("a number that cannot be is told with its place, whichever it is") {
   }
 }
 
+TEST_CASE("arrays are not made of rows that lie") {
+  const Folder folder;
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  ChannelRecord& wide = episode.channels.front();  // a sample takes two rows
+  wide.components.assign(20, "force");
+  wide.values.assign(wide.steps.size() * wide.components.size(), 0.5);
+  const auto good = folder / "good.db";
+  Catalogue::write(good).add(episode, kEngine);
+  REQUIRE_NOTHROW(Catalogue::open(good).read_arrays(1));
+  const std::vector<std::pair<std::string, std::string>> lies{
+      // times what a frame is wide they overflow, to just before the first
+      {"UPDATE joint_state SET frame = 6148914691236517205 WHERE frame = 2", "a row of joint_state"},
+      {"UPDATE hand_state SET frame = 1152921504606846975 WHERE frame = 2", "a row of hand_state"},
+      {"UPDATE hand_state SET hand = -1 WHERE frame = 2", "a row of hand_state"},
+      {"UPDATE action SET frame = -1 WHERE frame = 0", "a row of action"},
+      {"UPDATE object_state SET posed = 7 WHERE posed = 1", "a row of object_state"},
+      {"DELETE FROM joint", "a row of joint_state"},
+      {"DELETE FROM sample WHERE part = 1 AND ordinal = 0", "a row of sample"},
+      {"UPDATE frame SET frame = 400 WHERE frame = 11; DELETE FROM frame WHERE frame = 3", "a row of"},
+  };
+  for (const auto& [statement, complaint] : lies) {
+    INFO(statement);
+    const auto path = folder / "lie.db";
+    std::filesystem::remove(path);
+    std::filesystem::copy(good, path);
+    change(path, statement);
+    CHECK_THROWS_WITH(Catalogue::open(path).read_arrays(1), Contains(complaint) && Contains("generate it again"));
+  }
+}
+
+TEST_CASE("a scene that is cut off, and a parameter without its first number, are refused") {
+  const Folder folder;
+  const auto path = folder / "lie.db";
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  Catalogue::write(path).add(episode, kEngine);
+  change(path, "UPDATE scene SET document = substr(document, 1, instr(document, '$asset') + 40)");
+  CHECK_THROWS_WITH(Catalogue::open(path).read_episode(1), Contains("of a scene is missing"));
+  std::filesystem::remove(path);
+  Catalogue::write(path).add(episode, kEngine);
+  change(path, "DELETE FROM segment_parameter WHERE component = 0");
+  CHECK_THROWS_WITH(Catalogue::open(path).read_episode(1), Contains("a row of segment_parameter"));
+}
+
 TEST_CASE("a pipe as catalogue is refused at once") {
   const Folder folder;
   REQUIRE(::mkfifo((folder / "pipe.db").c_str(), 0600) == 0);

@@ -9,11 +9,9 @@
 namespace stampede::fuzz {
 
 struct Target {
-  std::string name;
+  std::string name;  // inputs/NAME: files to begin with, and those that once did harm; words/NAME.txt: what they say
   // Reads the bytes as such a file. An Error is an answer; any other exception is a defect, and is let out.
   std::function<void(std::string_view bytes)> read;
-  std::vector<std::string> seeds;  // sound files to begin with
-  std::vector<std::string> words;  // what such files are made of: spliced in by mutation
 };
 
 // Lifetime: files that readers want on disk lie in a folder of this process that goes with it.

@@ -189,6 +189,9 @@ TEST_CASE("damaged looks are errors with their place") {
   CHECK_THAT(document_complaint(replaced("\"specular\":", "\"spectacular\":")),
              Contains("light: the field 'specular'"));
   CHECK_THAT(document_complaint(replaced("\"instance\":65535", "\"instance\":1.5")), Contains("a whole number"));
+  for (const char* number : {"4294967297", "18446744073709551615"})
+    CHECK_THAT(document_complaint(replaced("\"instance\":65535", std::string("\"instance\":") + number)),
+               Contains("too large"));
   CHECK_THAT(document_complaint(replaced("\"fixture\":true", "\"fixture\":1")), Contains("true or false"));
   CHECK_THAT(document_complaint(replaced("\"focal_y\":71.0", "\"focal_y\":0.0")), Contains("camera front"));
   CHECK_THAT(document_complaint(replaced("\"distortion\":[0.1,", "\"distortion\":[")), Contains("a list of 5"));

@@ -1,0 +1,1 @@
+SELECT task, count(*), avg(seed) FROM episodes WHERE outcome = ?1 GROUP BY task HAVING count(*) > 0 ORDER BY 2 DESC LIMIT 3

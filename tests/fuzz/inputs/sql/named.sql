@@ -1,0 +1,1 @@
+failures_by_reason

@@ -1,0 +1,1 @@
+WITH a AS (SELECT 1 AS n UNION ALL SELECT n + 1 FROM a WHERE n < 9) SELECT a.n, s.*, json_extract('[1]', '$[0]') FROM a JOIN steps s ON s.frame = a.n
