@@ -17,7 +17,7 @@ namespace {
 
 const std::filesystem::path kFolder = STAMPEDE_SOURCE_DIR "/tests/scripting/data/runtime/worlds/objects";
 
-BuiltObject dressed(const std::string& table, const std::filesystem::path& folder = kFolder) {
+BuiltObject built_with(const std::string& table, const std::filesystem::path& folder = kFolder) {
   const std::unique_ptr<lua_State, void (*)(lua_State*)> state(luaL_newstate(), lua_close);
   const std::string words =
       "local function word(tag, key, kind) return function(t) t.tag, t[key] = tag, kind return t end end\n"
@@ -58,7 +58,7 @@ double volume(const DrawnMesh& mesh) {
 }  // namespace
 
 TEST_CASE("a mesh collides as hulls and is drawn as it is, in the file's colour unless the author gives one") {
-  const BuiltObject plain = dressed("{ shape = mesh { 'wedge.obj', scale = 2 } }");
+  const BuiltObject plain = built_with("{ shape = mesh { 'wedge.obj', scale = 2 } }");
   REQUIRE(felt(plain).size() == 1);
   CHECK(felt(plain)[0].kind == ShapeKind::hull);
   REQUIRE(seen(plain).size() == 1);
@@ -71,30 +71,30 @@ TEST_CASE("a mesh collides as hulls and is drawn as it is, in the file's colour 
   CHECK(volume(mesh) == Approx(std::pow(0.08, 3) / 6).epsilon(1e-5));  // a corner of a cube of twice 4 cm
   CHECK(plain.objects[0].size.isApprox(Vector3::Constant(0.08), 1e-6));
 
-  const BuiltObject red = dressed("{ colour = 'red', shape = mesh { 'wedge.obj', scale = 2 } }");
+  const BuiltObject red = built_with("{ colour = 'red', shape = mesh { 'wedge.obj', scale = 2 } }");
   CHECK(seen(red)[0].colour.red == 1.0);
   CHECK(seen(red)[0].mesh == drawn.mesh);  // named by content: stored once
 }
 
 TEST_CASE("a lathe collides as its wedges and is drawn as one smooth surface") {
-  const BuiltObject solid = dressed("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, { 0.05, 0.3 } } }");
+  const BuiltObject solid = built_with("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, { 0.05, 0.3 } } }");
   CHECK(felt(solid).size() == 2);
   REQUIRE(seen(solid).size() == 1);
   const double frustum = 0.1 * (0.01 + 0.005 + 0.0025) / 3;
   const double pi = 24 * std::sin(2 * 3.14159265358979 / 48);  // a regular 48-gon of radius r has the area pi r^2
   CHECK(volume(*solid.drawn.meshes.at(seen(solid)[0].mesh)) == Approx(pi * (0.002 + frustum)).epsilon(1e-5));
 
-  const BuiltObject tube = dressed("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, wall = 0.02 } }");
+  const BuiltObject tube = built_with("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, wall = 0.02 } }");
   CHECK(felt(tube).size() == 16);
   REQUIRE(seen(tube).size() == 1);
   CHECK(volume(*tube.drawn.meshes.at(seen(tube)[0].mesh)) == Approx(pi * (0.01 - 0.0064) * 0.2).epsilon(1e-5));
-  CHECK(seen(dressed("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, visible = false } }")).empty());
+  CHECK(seen(built_with("{ shape = lathe { { 0.1, 0 }, { 0.1, 0.2 }, visible = false } }")).empty());
 }
 
 TEST_CASE("a visual is drawn instead of shapes, and changes nothing that is felt") {
   const std::string box = "shape = box { 0.1, 0.2, 0.3 }, mass = 1, traits = { 'movable' }";
-  const BuiltObject plain = dressed("{ " + box + " }"),
-                    dressed = dressed("{ " + box + ", visual = mesh { 'wedge.obj' } }");
+  const BuiltObject plain = built_with("{ " + box + " }"),
+                    dressed = built_with("{ " + box + ", visual = mesh { 'wedge.obj' } }");
   REQUIRE(felt(dressed).size() == 1);
   CHECK_FALSE(felt(dressed)[0].visible);
   REQUIRE(seen(dressed).size() == 1);
@@ -102,14 +102,14 @@ TEST_CASE("a visual is drawn instead of shapes, and changes nothing that is felt
   CHECK(dressed.objects[0].size == plain.objects[0].size);
   CHECK(dressed.body->parts[0].inertia == plain.body->parts[0].inertia);
   const BuiltObject two =
-      dressed("{ " + box + ", visual = { box { 1, 1, 1, colour = 'red' }, mesh { 'wedge.obj' } } }");
+      built_with("{ " + box + ", visual = { box { 1, 1, 1, colour = 'red' }, mesh { 'wedge.obj' } } }");
   REQUIRE(seen(two).size() == 2);
   CHECK(seen(two)[0].colour.red == 1.0);
   CHECK(felt(two).size() == 1);
 }
 
 TEST_CASE("the innermost word about looks wins: texture and colour of the shape, the part, the object") {
-  const BuiltObject object = dressed(
+  const BuiltObject object = built_with(
       "{ texture = checker { 'red', 'blue', size = 0.02 }, shapes = { box { 1, 1, 1 }, "
       "box { 1, 1, 1, colour = 'blue' }, box { 1, 1, 1, texture = noise { seed = 3 }, colour = { 0.5, 0.5, 0.5 } }, "
       "box { 1, 1, 1, texture = texture { 'tiles.png' } } } }");
@@ -141,7 +141,7 @@ TEST_CASE("missing and broken files name place, file and cure") {
   std::ofstream(std::string(folder) + "/broken.obj") << "no mesh";
   const auto said = [&](const std::string& table) {
     try {
-      dressed(table, folder);
+      built_with(table, folder);
     } catch (const Error& error) {
       CHECK_FALSE(error.hint().empty());
       return std::string(error.what());
@@ -155,8 +155,10 @@ TEST_CASE("missing and broken files name place, file and cure") {
   CHECK_THAT(said("{ shape = box { 1, 1, 1 }, texture = texture { 'broken.png' } }"),
              Contains("objects/thing.lua: texture") && Contains("broken.png"));
   std::filesystem::remove_all(folder);
-  CHECK_THROWS_WITH(dressed("{ shape = box { 1, 1, 1 }, texture = checker { 'red', 'blu' } }"),
+  CHECK_THROWS_WITH(built_with("{ shape = box { 1, 1, 1 }, texture = checker { 'red', 'blu' } }"),
                     Contains("no colour 'blu'"));
-  CHECK_THROWS_WITH(dressed("{ shape = box { 1, 1, 1 }, texture = checker { size = 0 } }"), Contains("size above 0"));
-  CHECK_THROWS_WITH(dressed("{ shape = box { 1, 1, 1 }, texture = 'wood' }"), Contains("expected a texture such as"));
+  CHECK_THROWS_WITH(built_with("{ shape = box { 1, 1, 1 }, texture = checker { size = 0 } }"),
+                    Contains("size above 0"));
+  CHECK_THROWS_WITH(built_with("{ shape = box { 1, 1, 1 }, texture = 'wood' }"),
+                    Contains("expected a texture such as"));
 }
