@@ -3,14 +3,12 @@
 #include <numbers>
 
 #include "engine/base/error.h"
-#include "engine/geometry/drawn_mesh.h"
+#include "engine/geometry/smooth.h"
 
 namespace stampede {
 namespace {
 
 using Point = std::array<double, 2>;  // radius, z; or a direction in that plane
-
-const double kRounded = std::cos(40.0 / 180.0 * std::numbers::pi);  // edges that bend by less are rounded
 
 void check(const std::vector<Point>& profile, int sides) {
   if (sides < 3) throw Error("lathe", "it needs at least 3 sides", "24 look round");
@@ -54,7 +52,7 @@ double cosine(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]
 // Of a face with normal `own` at its end `at`, next to a face with normal `next`.
 Point shaded(const Point& at, const Point& own, const Point& next) {
   const Point beyond = at[0] == 0 ? Point{-own[0], own[1]} : next;  // on the axis the face meets its mirror image
-  return cosine(own, beyond) > kRounded ? normalised({own[0] + beyond[0], own[1] + beyond[1]}) : own;
+  return cosine(own, beyond) > kSmooth ? normalised({own[0] + beyond[0], own[1] + beyond[1]}) : own;
 }
 
 class Lathe {

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <string_view>
 #include <unordered_map>
 
@@ -12,8 +11,6 @@
 
 namespace stampede {
 namespace {
-
-const double kSmooth = std::cos(40.0 / 180.0 * std::numbers::pi);
 
 Vector3 vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 

@@ -1,9 +1,14 @@
 // Corners that faces share, and normals; inside this folder.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "engine/geometry/drawn_mesh.h"
 
 namespace stampede {
+
+inline const double kSmooth = std::cos(40.0 / 180.0 * std::numbers::pi);  // what bends by less is rounded
 
 // Triangles one by one: corner i belongs to triangle i / 3. `normals` and `coordinates` may be empty.
 struct Corners {

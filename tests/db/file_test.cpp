@@ -18,19 +18,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-void change(const std::filesystem::path& path, const std::string& text) {
-  sqlite3* handle = nullptr;
-  REQUIRE(sqlite3_open(path.c_str(), &handle) == SQLITE_OK);
-  REQUIRE(sqlite3_exec(handle, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(handle);
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void make_file(const std::filesystem::path& path) {
+void make(const std::filesystem::path& path) {
   Catalogue::write(path).add(sample_episode("lift", "colour=red", 1), kEngine);
 }
 
@@ -60,11 +48,11 @@ void become_nobody() {
 
 TEST_CASE("a closed catalogue is one plain file that carries its mark") {
   const Folder folder;
-  make_file(folder / "a.db");
+  make(folder / "a.db");
   int files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
   CHECK(files == 1);
-  const std::string bytes = content_of(folder / "a.db");
+  const std::string bytes = bytes_of(folder / "a.db");
   CHECK(bytes.substr(68, 4) == "Stmp");
   CHECK(bytes[18] == 1);  // not WAL
 }
@@ -72,10 +60,10 @@ TEST_CASE("a closed catalogue is one plain file that carries its mark") {
 TEST_CASE("files that are not ours are refused with the cure and not touched") {
   const Folder folder;
   const auto refuse = [&](const std::string& name, const std::string& complaint, const std::string& cure) {
-    const std::string before = content_of(folder / name);
+    const std::string before = bytes_of(folder / name);
     CHECK_THROWS_WITH(Catalogue::write(folder / name), Contains(complaint) && Contains(cure));
     CHECK_THROWS_WITH(Catalogue::open(folder / name), Contains(complaint) && Contains(cure));
-    CHECK(content_of(folder / name) == before);
+    CHECK(bytes_of(folder / name) == before);
   };
   change(folder / "other.db", "CREATE TABLE t (a); PRAGMA application_id = 7");
   refuse("other.db", "another application", "another file");
@@ -90,13 +78,13 @@ TEST_CASE("missing files, folders and empty files say what to do") {
   CHECK_THROWS_WITH(Catalogue::write(folder.path()), Contains("folder"));
   std::ofstream(folder / "empty.db").flush();
   CHECK_THROWS_WITH(Catalogue::open(folder / "empty.db"), Contains("empty"));
-  CHECK_NOTHROW(make_file(folder / "empty.db"));  // a run that was killed at once leaves such a file
+  CHECK_NOTHROW(make(folder / "empty.db"));  // a run that was killed at once leaves such a file
 }
 
 TEST_CASE("a catalogue in a read-only folder can be questioned and not written") {
   const Folder folder;
-  make_file(folder / "plain.db");
-  make_file(folder / "log.db");
+  make(folder / "plain.db");
+  make(folder / "log.db");
   change(folder / "log.db", "PRAGMA journal_mode = WAL");  // as a reader may have left it
   std::filesystem::remove((folder / "log.db").string() + "-wal");
   std::filesystem::remove((folder / "log.db").string() + "-shm");
@@ -110,7 +98,7 @@ TEST_CASE("a catalogue in a read-only folder can be questioned and not written")
     CHECK(child_does([&] {
       become_nobody();
       try {
-        make_file(folder / name);
+        make(folder / name);
       } catch (const CatalogueError& error) {
         return std::string(error.what()).find("read-only") != std::string::npos && !error.hint().empty();
       }
@@ -123,8 +111,8 @@ TEST_CASE("a catalogue in a read-only folder can be questioned and not written")
 TEST_CASE("a read-only file loses nothing: what would write says so and how to go on") {
   const Folder folder;
   const auto path = folder / "a.db";
-  make_file(path);
-  const std::string before = content_of(path);
+  make(path);
+  const std::string before = bytes_of(path);
   const EpisodeRecord e = sample_episode("lift", "colour=red", 1);
   const auto images = sample_images(e, {0});
   const std::vector<CameraTrack> tracks{{e.cameras[0], {}}, {e.cameras[1], {}}};
@@ -150,7 +138,7 @@ TEST_CASE("a read-only file loses nothing: what would write says so and how to g
            }) &&
            refused([&] { Catalogue::write(path).add_images(1, *images, tracks); });
   }));
-  CHECK(content_of(path) == before);
+  CHECK(bytes_of(path) == before);
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);  // no log was left either
 }
 

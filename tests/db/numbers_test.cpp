@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "db/sqlite.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -12,9 +11,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-void change(const std::filesystem::path& path, const std::string& statement) {
-  const sql::Database database(path.string(), SQLITE_OPEN_READWRITE, path.string());
-  database.run(statement);
+std::filesystem::path changed_copy(const Folder& folder, const std::filesystem::path& good, const std::string& sql) {
+  const auto path = folder / "lie.db";
+  std::filesystem::copy(good, path, std::filesystem::copy_options::overwrite_existing);
+  change(path, sql);
+  return path;
 }
 
 }  // namespace
@@ -65,11 +66,7 @@ TEST_CASE("a number that cannot be is told with its place, whichever it is") {
   };
   for (const auto& [statement, complaint] : lies) {
     INFO(statement);
-    const auto path = folder / "lie.db";
-    std::filesystem::remove(path);
-    std::filesystem::copy(good, path);
-    change(path, statement);
-    const Catalogue catalogue = Catalogue::open(path);
+    const Catalogue catalogue = Catalogue::open(changed_copy(folder, good, statement));
     CHECK_THROWS_WITH(catalogue.read_episode(1), Contains(complaint) && Contains("generate it again"));
     CHECK_THROWS_AS(catalogue.read_episode(1), CatalogueError);
     CHECK_NOTHROW(catalogue.query("SELECT * FROM segments"));
@@ -98,11 +95,8 @@ TEST_CASE("arrays are not made of rows that lie") {
   };
   for (const auto& [statement, complaint] : lies) {
     INFO(statement);
-    const auto path = folder / "lie.db";
-    std::filesystem::remove(path);
-    std::filesystem::copy(good, path);
-    change(path, statement);
-    CHECK_THROWS_WITH(Catalogue::open(path).read_arrays(1), Contains(complaint) && Contains("generate it again"));
+    const Catalogue catalogue = Catalogue::open(changed_copy(folder, good, statement));
+    CHECK_THROWS_WITH(catalogue.read_arrays(1), Contains(complaint) && Contains("generate it again"));
   }
 }
 

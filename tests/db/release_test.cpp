@@ -26,12 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  REQUIRE(file.good());
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // The catalogues in tests/db/data: `schema5.db.gz` was made by release 5.
 std::vector<fs::path> stored_releases() {
   std::vector<fs::path> files;
@@ -63,11 +57,6 @@ std::vector<std::string> files_in(const fs::path& folder) {
 std::int64_t number(const fs::path& path, const std::string& sql) {
   const sql::Database database(path.string(), SQLITE_OPEN_READONLY, path.string());
   return database.number(sql);
-}
-
-void run_sql(const fs::path& path, const std::string& sql) {
-  const sql::Database database(path.string(), SQLITE_OPEN_READWRITE, path.string());
-  database.run(sql);
 }
 
 // In a process of its own; its wait status.
@@ -276,16 +265,16 @@ TEST_CASE("tables of no release are refused with a cure, and nothing is changed"
     CHECK(bytes_of(folder / name) == before);
   };
   unpack(stored_releases().front(), folder / "between.db");
-  run_sql(folder / "between.db", "ALTER TABLE verdict ADD COLUMN since TEXT");
+  change(folder / "between.db", "ALTER TABLE verdict ADD COLUMN since TEXT");
   refuse("between.db", "those of no release: it says schema 5", "read it with the build that made it (0.1.0)");
   Catalogue::write(folder / "current.db").close();
-  run_sql(folder / "current.db", "ALTER TABLE frame ADD COLUMN mood TEXT");
+  change(folder / "current.db", "ALTER TABLE frame ADD COLUMN mood TEXT");
   refuse("current.db", "those of no release: it says schema 6", "generate the episodes again");
   Catalogue::write(folder / "future.db").close();
-  run_sql(folder / "future.db", "PRAGMA user_version = 7");
+  change(folder / "future.db", "PRAGMA user_version = 7");
   refuse("future.db", "made by a newer version: its schema is 7", "use that version of stampede");
   Catalogue::write(folder / "ancient.db").close();
-  run_sql(folder / "ancient.db", "PRAGMA user_version = 4");
+  change(folder / "ancient.db", "PRAGMA user_version = 4");
   refuse("ancient.db", "made by an older version: its schema is 4", "generate the episodes again");
 }
 
@@ -293,7 +282,7 @@ TEST_CASE("tables and indexes of a user's own do not make a catalogue a stranger
   const Folder folder;
   Catalogue::write(folder / "a.db").add(sample_episode("lift", "colour=red", 1), kEngine);
   const std::string hash = Catalogue::open(folder / "a.db").content_hash();
-  run_sql(folder / "a.db", "CREATE TABLE own_scores (episode, score); CREATE INDEX own_index ON own_scores (score)");
+  change(folder / "a.db", "CREATE TABLE own_scores (episode, score); CREATE INDEX own_index ON own_scores (score)");
   CHECK(Catalogue::open(folder / "a.db").content_hash() == hash);
   CHECK(Catalogue::open(folder / "a.db").query("SELECT * FROM own_scores").rows.empty());
   CHECK_NOTHROW(Catalogue::write(folder / "a.db"));
@@ -305,7 +294,7 @@ TEST_CASE("a catalogue without changes is opened to write without writing") {
   const std::int64_t version = number(folder / "a.db", "PRAGMA schema_version");
   Catalogue::write(folder / "a.db").close();
   CHECK(number(folder / "a.db", "PRAGMA schema_version") == version);
-  run_sql(folder / "a.db", "DROP VIEW frames; DROP INDEX fact_by_text");
+  change(folder / "a.db", "DROP VIEW frames; DROP INDEX fact_by_text");
   Catalogue::write(folder / "a.db").close();
   CHECK(number(folder / "a.db", "SELECT count(*) FROM sqlite_master WHERE name IN ('frames', 'fact_by_text')") == 2);
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
 
+#include "db/sqlite.h"
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/model/camera.h"
@@ -205,6 +208,17 @@ Folder::Folder() {
 Folder::~Folder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void change(const std::filesystem::path& catalogue, const std::string& sql) {
+  const sql::Database database(catalogue.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, catalogue.string());
+  database.run(sql);
 }
 
 }  // namespace stampede::test

@@ -36,4 +36,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
+std::string bytes_of(const std::filesystem::path& file);                      // it must be there
+void change(const std::filesystem::path& catalogue, const std::string& sql);  // as any program could, past Catalogue
+
 }  // namespace stampede::test
