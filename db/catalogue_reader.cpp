@@ -84,9 +84,9 @@ void EpisodeReader::read_episode() {
       "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
   if (!row.start(id_).step()) throw_no_episode(database_, id_);
   EpisodeRecord& e = record_;
-  std::string outcome, reason, scene;
+  std::string split, outcome, reason, scene;
   std::int64_t frames = 0, stored = 0, physics_hz = 0, frame_hz = 0;
-  row.read(e.key, e.task, e.world, e.variation, e.seed, e.split, outcome, reason, e.detail, e.beside_goal, physics_hz,
+  row.read(e.key, e.task, e.world, e.variation, e.seed, split, outcome, reason, e.detail, e.beside_goal, physics_hz,
            frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames, stored);
   const std::string here = "episode " + std::to_string(id_) + ", ";
   require_within(database_.path(), here + "physics_hz", physics_hz, 1, kMostHz);
@@ -94,6 +94,7 @@ void EpisodeReader::read_episode() {
   require_within(database_.path(), here + "frames", frames, stored, stored);  // memory is taken for as many
   require_within(database_.path(), here + "steps", e.steps, 0, std::int64_t{1} << 40);
   e.physics_hz = static_cast<int>(physics_hz), e.frame_hz = static_cast<int>(frame_hz);
+  e.split = split_from(split).value_or(Split::train);
   e.outcome = outcome_from(outcome);
   e.reason = reason_from(reason).value_or(Reason::none);
   e.scene_document = unpack_scene(database_, scene);

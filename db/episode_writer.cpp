@@ -126,7 +126,7 @@ void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engi
   std::optional<std::string> scene;  // a start that could not be made has none
   if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
   const double duration = e.duration_s();
-  episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, e.split,
+  episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, to_string(e.split),
                e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
                e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);
   timing_.run(id_, e.wall_s, e.physics_wall_s);

@@ -158,7 +158,9 @@ void ArrayReader::read_documents() {
   each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
        [&](sql::Statement& row) {
          DocumentRecord& d = record_.documents.emplace_back();
-         row.read(d.kind, d.text);
+         std::string kind;
+         row.read(kind, d.text);
+         d.kind = document_kind_from(kind).value_or(DocumentKind::plan);
        });
 }
 

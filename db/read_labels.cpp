@@ -138,12 +138,16 @@ void EpisodeReader::read_passages() {
 void EpisodeReader::read_language() {
   each("level, text, coalesce(segment, -1)", "language", "ordinal", [&](sql::Statement& row) {
     LanguageRecord& l = record_.language.emplace_back();
-    row.read(l.level, l.text, l.segment);
+    std::string level;
+    row.read(level, l.text, l.segment);
+    l.level = language_level_from(level).value_or(LanguageLevel::task);
   });
   each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
        [&](sql::Statement& row) {
          DocumentRecord& d = record_.documents.emplace_back();
-         row.read(d.kind, d.text);
+         std::string kind;
+         row.read(kind, d.text);
+         d.kind = document_kind_from(kind).value_or(DocumentKind::plan);
        });
   each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {
     VerdictRecord& v = record_.verdicts.emplace_back();

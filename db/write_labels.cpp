@@ -144,10 +144,11 @@ void EpisodeWriter::write_language(const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const LanguageRecord& l : episode.language) {
     const std::optional<std::int64_t> segment = index(l.segment);
-    language_.run(id_, ordinal++, l.level, segment, l.text, "template");
+    language_.run(id_, ordinal++, to_string(l.level), segment, l.text, "template");
   }
   ordinal = 0;
-  for (const DocumentRecord& d : episode.documents) document_.run(id_, ordinal++, d.kind, write_text(d.text));
+  for (const DocumentRecord& d : episode.documents)
+    document_.run(id_, ordinal++, to_string(d.kind), write_text(d.text));
   for (const VerdictRecord& v : episode.verdicts)
     verdict_.run(id_, v.dialect, v.theirs, v.ours, to_json_list(v.disagreements));
 }

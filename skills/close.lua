@@ -14,7 +14,7 @@ return skill {
   effect = { is.closed("part"), is_not.open("part") },
   continuous = {
     grasp = stream("grasps", "part"),                                   -- where to touch the handle
-    speed = { 0.12, min = 0.02, max = 0.3, unit = "m/s" },
+    speed = { 0.10, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "close the {part}",
   run = function(robot, p, c)

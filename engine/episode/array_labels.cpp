@@ -21,12 +21,6 @@ std::pair<std::size_t, std::size_t> frames_of(const Record& record, std::size_t 
   return {clamped(record.first_frame), clamped(record.end_frame)};
 }
 
-const std::string* document(const EpisodeRecord& episode, const char* kind) {
-  for (const DocumentRecord& one : episode.documents)
-    if (one.kind == kind) return &one.text;
-  return nullptr;
-}
-
 }  // namespace
 
 void ArrayMaker::facts() {
@@ -71,8 +65,8 @@ void ArrayMaker::goal() {
   if (!progress && !applicable) return;
   std::vector<double> shares(tables_.frames, std::numeric_limits<double>::quiet_NaN());
   ApplicableActions actions;
-  const std::string* domain_text = document(episode_, "pddl_domain");
-  const std::string* problem_text = document(episode_, "pddl_problem");
+  const std::string* domain_text = document_of(episode_, DocumentKind::pddl_domain);
+  const std::string* problem_text = document_of(episode_, DocumentKind::pddl_problem);
   const std::size_t width = arrays_.atoms.size();
   if (domain_text && problem_text && width > 0) {
     const Domain domain = domain_from_pddl(*domain_text, "pddl_domain");

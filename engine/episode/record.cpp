@@ -5,6 +5,11 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kChosenBy{"default", "stream", "planner", "agent", "task", "caller"};
 constexpr std::array<std::string_view, 3> kSegmentKinds{"subgoal", "skill", "motion"};
+constexpr std::array<std::string_view, 3> kLanguageLevels{"task", "world", "skill"};
+constexpr std::array<std::string_view, 8> kDocumentKinds{"pddl_domain", "pddl_problem",   "plan",
+                                                         "failed_plan", "ordered_domain", "ordered_problem",
+                                                         "bddl_libero", "bddl_behavior"};
+constexpr std::array<std::string_view, 2> kSplits{"train", "test"};
 
 template <typename Enumeration, std::size_t N>
 std::optional<Enumeration> value_of(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -23,6 +28,25 @@ std::optional<ChosenBy> chosen_by_from(std::string_view name) { return value_of<
 std::string_view to_string(SegmentKind kind) { return kSegmentKinds.at(static_cast<std::size_t>(kind)); }
 std::optional<SegmentKind> segment_kind_from(std::string_view name) {
   return value_of<SegmentKind>(kSegmentKinds, name);
+}
+
+std::string_view to_string(LanguageLevel level) { return kLanguageLevels.at(static_cast<std::size_t>(level)); }
+std::optional<LanguageLevel> language_level_from(std::string_view name) {
+  return value_of<LanguageLevel>(kLanguageLevels, name);
+}
+
+std::string_view to_string(DocumentKind kind) { return kDocumentKinds.at(static_cast<std::size_t>(kind)); }
+std::optional<DocumentKind> document_kind_from(std::string_view name) {
+  return value_of<DocumentKind>(kDocumentKinds, name);
+}
+
+std::string_view to_string(Split split) { return kSplits.at(static_cast<std::size_t>(split)); }
+std::optional<Split> split_from(std::string_view name) { return value_of<Split>(kSplits, name); }
+
+const std::string* document_of(const EpisodeRecord& episode, DocumentKind kind) {
+  for (const DocumentRecord& one : episode.documents)
+    if (one.kind == kind) return &one.text;
+  return nullptr;
 }
 
 }  // namespace stampede

@@ -161,16 +161,31 @@ struct JointName {
   bool driven = false;
 };
 
+enum class LanguageLevel { task, world, skill };
+std::string_view to_string(LanguageLevel level);
+std::optional<LanguageLevel> language_level_from(std::string_view name);
+
 struct LanguageRecord {
-  std::string level;  // task world skill
+  LanguageLevel level = LanguageLevel::task;
   std::string text;
   int segment = -1;  // skill level: the segment
 };
 
+enum class DocumentKind {
+  pddl_domain,
+  pddl_problem,
+  plan,
+  failed_plan,
+  ordered_domain,   // with fluents for the goal's order
+  ordered_problem,  // likewise
+  bddl_libero,
+  bddl_behavior,
+};
+std::string_view to_string(DocumentKind kind);
+std::optional<DocumentKind> document_kind_from(std::string_view name);
+
 struct DocumentRecord {
-  // pddl_domain pddl_problem plan; failed_plan; ordered_domain ordered_problem: with fluents for the goal's order;
-  // bddl_libero bddl_behavior
-  std::string kind;
+  DocumentKind kind = DocumentKind::plan;
   std::string text;
 };
 
@@ -198,12 +213,16 @@ struct DefinitionRecord {
   std::string name, path, source, hash;
 };
 
+enum class Split { train, test };
+std::string_view to_string(Split split);
+std::optional<Split> split_from(std::string_view name);
+
 struct EpisodeRecord {
   std::string key;  // hash of definitions, task, variation, seed and every option that alters data
   std::string task, world, variation;
   std::map<std::string, std::string> axes;  // of the variation
   std::int64_t seed = 0;
-  std::string split;  // train test
+  Split split = Split::train;
   Outcome outcome = Outcome::failure;
   Reason reason = Reason::none;
   std::string detail;
@@ -240,5 +259,7 @@ struct EpisodeRecord {
   double draws = 1;                                            // starts drawn until init held
   double wall_s = 0, physics_wall_s = 0;                       // host times: outside every hash
 };
+
+const std::string* document_of(const EpisodeRecord& episode, DocumentKind kind);  // the first of it, or null
 
 }  // namespace stampede

@@ -27,7 +27,7 @@ EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptio
   record.options = options.as_text();
   record.options.merge(before(options.observation, task.observation).as_text());
   record.beside_goal = beside_goal(task);
-  for (const std::string& sentence : task.instructions) record.language.push_back({"task", sentence, -1});
+  for (const std::string& sentence : task.instructions) record.language.push_back({LanguageLevel::task, sentence, -1});
   for (const Predicate& predicate : symbols.domain().predicates)
     if (predicate.kind != PredicateKind::start)
       record.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
@@ -50,19 +50,20 @@ void describe_scene(const Scene& scene, EpisodeRecord& record) {
 // The world's own domain, the same for all its tasks; where the goal has an order, also what the planner is asked.
 void write_problem(const Task& task, const Domain& domain, const Rollout& rollout, EpisodeRecord& record) {
   const Domain own = named_by_content(domain);
-  record.documents.push_back({"pddl_domain", to_pddl(own)});
-  record.documents.push_back({"pddl_problem", to_pddl(world_problem(task, rollout.facts()), own, record.beside_goal)});
+  record.documents.push_back({DocumentKind::pddl_domain, to_pddl(own)});
+  record.documents.push_back(
+      {DocumentKind::pddl_problem, to_pddl(world_problem(task, rollout.facts()), own, record.beside_goal)});
   if (task.stages.empty()) return;
   const PlanningTask planning = planning_task(task, domain, rollout.facts(), rollout.stage());
   const Domain ordered = named_by_content(planning.domain);
-  record.documents.push_back({"ordered_domain", to_pddl(ordered)});
-  record.documents.push_back({"ordered_problem", to_pddl(planning.problem, ordered)});
+  record.documents.push_back({DocumentKind::ordered_domain, to_pddl(ordered)});
+  record.documents.push_back({DocumentKind::ordered_problem, to_pddl(planning.problem, ordered)});
 }
 
 SkillResult behave(Drive& drive, const Rollout& rollout, EpisodeRecord& record) {
   const bool planned = drive.options.behaviour == Behaviour::plan;
   const SkillResult made = planned ? drive.plan.make() : SkillResult{};
-  record.documents.push_back({"plan", to_pddl(drive.plan.steps)});
+  record.documents.push_back({DocumentKind::plan, to_pddl(drive.plan.steps)});
   if (!made.ok()) return made;
   if (!planned) return act_at_random(drive, rollout, key_of("behaviour", record));
   switch (drive.options.on_failure) {
@@ -98,10 +99,10 @@ void close(Rollout& rollout, const SkillResult& verdict, const CurrentPlan& plan
   recorder.finish(record, record.steps);
   for (const SegmentRecord& segment : record.segments)
     if (segment.kind == SegmentKind::skill && !segment.label.empty())
-      record.language.push_back({"skill", segment.label, segment.ordinal});
+      record.language.push_back({LanguageLevel::skill, segment.label, segment.ordinal});
   record.keyframes["stopped"] = stopped_keyframes(record);
   for (DocumentRecord& document : record.documents)
-    if (document.kind == "plan") document.text = plan.as_text();
+    if (document.kind == DocumentKind::plan) document.text = plan.as_text();
 }
 
 void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
@@ -109,7 +110,7 @@ void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const Run
   const Task& task = rollout.task();
   const Domain& domain = symbols.domain();
   for (const std::string& sentence : describe_world(rollout.facts().facts(), domain, rollout.view().scene()))
-    record.language.push_back({"world", sentence, -1});
+    record.language.push_back({LanguageLevel::world, sentence, -1});
   write_problem(task, domain, rollout, record);
   SkillTrack track(rollout, symbols, skills, options, key_of("skill", record));
   CurrentPlan plan(rollout, options);

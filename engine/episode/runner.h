@@ -21,7 +21,7 @@ std::optional<Behaviour> behaviour_from(std::string_view text);
 // Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
 struct RunOptions {
   std::int64_t seed = 0;
-  std::string split = "train";
+  Split split = Split::train;
   OnFailure on_failure = OnFailure::undo;
   int tries_per_skill = 6;  // runs of one skill before the one before it is undone too
   int tries_per_episode = 60;

@@ -76,8 +76,9 @@ SkillResult Undo::run() {
       if (!try_again(last)) break;
     }
     const CurrentPlan::Course failed = plan_.course();
-    drive_.documents.push_back({"failed_plan", to_text(failed.steps) + "; " + std::string(to_string(last.reason)) +
-                                                   ": " + last.detail + "\n"});
+    drive_.documents.push_back(
+        {DocumentKind::failed_plan,
+         to_text(failed.steps) + "; " + std::string(to_string(last.reason)) + ": " + last.detail + "\n"});
     if (plan_.given() || plan_.steps.empty()) return last;
     if (!other_plan()) {
       plan_.take(failed);  // no other way: what failed stays the episode's result

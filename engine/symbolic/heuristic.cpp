@@ -178,6 +178,7 @@ int Heuristic::evaluate(const Words& state) {
   for (auto& bucket : buckets_) bucket.clear();
   successors_.applicable(state, applicable_);
   preferred_.clear();
+  marked_nodes_.clear();
   relaxed_ops_.clear();
   std::size_t goals_left = goal_.size();
   ready_ = unconditional_;
@@ -202,7 +203,6 @@ int Heuristic::evaluate(const Words& state) {
   }
   for (const int node : goal_) mark(node);
   for (const int node : marked_nodes_) marked_[node] = 0;
-  marked_nodes_.clear();
   for (const int op : relaxed_ops_) op_marked_[op] = 0;
   std::sort(preferred_.begin(), preferred_.end());
   preferred_.erase(std::unique(preferred_.begin(), preferred_.end()), preferred_.end());

@@ -22,6 +22,7 @@ class Heuristic {
   int evaluate(const Words& state);
   const std::vector<int>& applicable() const { return applicable_; }  // operators, ascending
   const std::vector<int>& preferred() const { return preferred_; }    // applicable operators of the relaxed plan
+  const std::vector<int>& relaxed() const { return marked_nodes_; }   // nodes that the relaxed plan makes true
   const Relaxation& relaxation() const { return relaxation_; }
   // After a dead end: the literals of the goal that the relaxation cannot reach.
   Literals unreached_goal() const;

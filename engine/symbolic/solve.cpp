@@ -10,6 +10,8 @@ namespace stampede {
 
 namespace {
 
+constexpr std::int64_t kPatience = 30'000;        // expansions of the greedy search before width search is tried
+constexpr std::int64_t kWidthPatience = 400'000;  // states of that, before greedy search goes on to the limit
 constexpr std::int64_t kSecondShare = 2;          // expansions of the second search, as a multiple of the first's
 constexpr std::int64_t kSecondWork = 64'000'000;  // operators times expansions of it: bounds the time on large tasks
 
@@ -17,6 +19,31 @@ std::pair<std::int64_t, std::size_t> price(const symbolic::GroundTask& task, con
   std::int64_t cost = 0;
   for (const int op : plan) cost += task.operators[op].cost;
   return {cost, plan.size()};
+}
+
+// Greedy search first; what it has not solved by then is often a crowd that width search finds a way through.
+symbolic::SearchResult find_plan(const symbolic::GroundTask& task, const symbolic::Semantics& semantics,
+                                 symbolic::Heuristic& heuristic, const PlanLimits& limits,
+                                 const symbolic::Query& query) {
+  PlanLimits part = limits;
+  std::int64_t expanded = 0, evaluated = 0;
+  const auto is_over = [&](const symbolic::SearchResult& result) {
+    expanded += result.expanded, evaluated += result.evaluated;
+    return result.solved || result.exhausted || evaluated >= limits.expansions;
+  };
+  part.expansions = std::min(limits.expansions, kPatience);
+  symbolic::SearchResult result = lazy_search(task, semantics, heuristic, part, query);
+  if (!is_over(result)) {
+    part.expansions = std::min(limits.expansions - evaluated, kWidthPatience);
+    result = width_search(task, semantics, heuristic, part, query.start, query.goal);
+    if (!is_over(result)) {
+      part.expansions = limits.expansions - evaluated + kPatience;  // the first of which are those from above
+      result = lazy_search(task, semantics, heuristic, part, query);
+      is_over(result);
+    }
+  }
+  result.expanded = expanded, result.evaluated = evaluated;
+  return result;
 }
 
 }  // namespace
@@ -71,7 +98,7 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
   Heuristic heuristic(task);
   Landmarks landmarks(task, heuristic.relaxation(), semantics.initial());
   Query query{semantics.initial(), task.goal, 0, 0, &landmarks};
-  SearchResult result = lazy_search(task, semantics, heuristic, limits, query);
+  SearchResult result = find_plan(task, semantics, heuristic, limits, query);
   outcome.expanded = result.expanded;
   outcome.evaluated = result.evaluated;
   outcome.solved = result.solved;

@@ -43,7 +43,7 @@ class PddlExporter {
  private:
   void write_episode(std::int64_t id, const EpisodeRecord& episode) {
     const StoredSymbols symbols = read_symbols(episode);
-    const std::string domain = write_domain(symbols.domain.name, *document_text(episode, "pddl_domain"));
+    const std::string domain = write_domain(symbols.domain.name, *document_of(episode, DocumentKind::pddl_domain));
     const std::vector<Boundary> boundaries = skill_boundaries(episode, symbols.domain);
     for (const Boundary& boundary : boundaries) {
       const AbstractState state = abstract_state(episode, boundary.frame);
@@ -61,9 +61,9 @@ class PddlExporter {
 
   // With fluents for the order of the goal: what the planner was asked.
   void write_ordered(std::int64_t id, const EpisodeRecord& episode) {
-    const std::string* domain = document_text(episode, "ordered_domain");
-    const std::string* problem = document_text(episode, "ordered_problem");
-    const std::string* plan = document_text(episode, "plan");
+    const std::string* domain = document_of(episode, DocumentKind::ordered_domain);
+    const std::string* problem = document_of(episode, DocumentKind::ordered_problem);
+    const std::string* plan = document_of(episode, DocumentKind::plan);
     if (domain == nullptr || problem == nullptr || plan == nullptr) return;
     const Domain ordered = domain_from_pddl(*domain, "ordered_domain");
     const Plan steps = plan_from_text(*plan, "plan");

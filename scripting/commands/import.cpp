@@ -157,7 +157,7 @@ std::vector<Judged> run_task(const Arguments& arguments, const std::shared_ptr<c
   request.episodes = in_range(arguments, "--episodes", 0, kMostEpisodes);
   request.first_seed = in_range(arguments, "--seed", 0, kLargestSeed);
   if (request.episodes == 0) return judged;
-  check_split("train", request.first_seed, request.first_seed + request.episodes - 1);
+  check_split(Split::train, request.first_seed, request.first_seed + request.episodes - 1);
   RunSettings settings;
   settings.stop = console.stop;
   CatalogueWriterOptions writing;

@@ -26,7 +26,7 @@ std::string bddl_of(const Arguments& arguments, const Library& library, const St
                     const Domain& own, const std::string& task) {
   EpisodeRecord record;
   record.task = task;
-  record.language = {{"task", question.instructions.front(), -1}};
+  record.language = {{LanguageLevel::task, question.instructions.front(), -1}};
   std::string refusals;
   std::string text =
       bddl_text(record, *question.start.scene, {own, question.plain}, question.state,

@@ -71,7 +71,7 @@ void PortraitPainter::paint(std::int64_t frame, Canvas& canvas, int x, int y) {
 
 std::string instruction_of(const EpisodeRecord& episode) {
   for (const LanguageRecord& one : episode.language)
-    if (one.level == "task") return one.text;
+    if (one.level == LanguageLevel::task) return one.text;
   return episode.task;
 }
 

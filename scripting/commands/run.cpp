@@ -18,7 +18,7 @@ namespace {
 
 RunOptions run_options(const Arguments& arguments) {
   RunOptions options;
-  options.split = arguments.text("--split");
+  options.split = *split_from(arguments.text("--split"));
   options.on_failure = *on_failure_from(arguments.text("--on-failure"));
   options.controller = arguments.text("--controller");
   read_symbol_options(arguments, options);
@@ -27,11 +27,11 @@ RunOptions run_options(const Arguments& arguments) {
   return options;
 }
 
-JobRequest job_request(const Arguments& arguments, const std::string& split) {
+JobRequest job_request(const Arguments& arguments, Split split) {
   JobRequest request;
   request.tasks = arguments.list("TASK");
   request.episodes = in_range(arguments, "--episodes", 1, kMostEpisodes);
-  request.first_seed = arguments.integer("--seed").value_or(split == "test" ? kFirstTestSeed : 0);
+  request.first_seed = arguments.integer("--seed").value_or(split == Split::test ? kFirstTestSeed : 0);
   if (request.first_seed > kLargestSeed) throw UsageError(fmt::format("--seed is at most {}", kLargestSeed));
   request.variation = arguments.text("--variation");
   try {

@@ -59,7 +59,7 @@ void LibraryBuilder::read_definitions() {
     guarded([&] {
       DefinitionState state(library_, kCheckLimits);
       state.push(file.kind, file.name);
-      Definition definition{&file, read_node(state.state(), -1, file.shown_path), field_lines(file.source)};
+      Definition definition{&file, value_as_written(state.state(), -1, file.shown_path), field_lines(file.source)};
       if (definition.node.line() > 0) definition.lines[""] = definition.node.line();
       if (const Record* fields = record(to_string(file.kind))) {
         check_record(*fields, definition.node, {}, complainer(definition));

@@ -11,7 +11,7 @@
 #include "scripting/library/fields.h"
 #include "scripting/library/formula_reader.h"
 #include "scripting/library/library.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 
 namespace stampede {
 
@@ -20,7 +20,7 @@ std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& compl
 
 struct Definition {
   const ScriptFile* file = nullptr;
-  Node node;
+  Value node;
   std::map<std::string, int> lines;
 };
 
@@ -79,17 +79,17 @@ class LibraryBuilder {
   // check_skills.cpp
   void read_skills();
   void read_skill(const Definition& definition);
-  void read_action(const Definition& definition, const SkillInfo& info, const Node& fields,
+  void read_action(const Definition& definition, const SkillInfo& info, const Value& fields,
                    const std::string& case_name);
   void read_continuous(const Definition& definition, SkillInfo& info);
 
   // check_objects.cpp
   void check_objects();
-  void check_start(const Definition& definition, const Node& joints, const Node& arm, const std::string& path);
-  void check_entry(const Definition& definition, const Node& entry, const std::string& path, const char* what);
-  void add_object(SceneObjects& objects, const std::string& name, const Node& entry) const;
+  void check_start(const Definition& definition, const Value& joints, const Value& arm, const std::string& path);
+  void check_entry(const Definition& definition, const Value& entry, const std::string& path, const char* what);
+  void add_object(SceneObjects& objects, const std::string& name, const Value& entry) const;
   SceneObjects world_objects(const std::string& world) const;
-  void check_body(const Definition& definition, const Node& body, const std::string& path);
+  void check_body(const Definition& definition, const Value& body, const std::string& path);
   std::string hand_of(const std::string& world) const;
 
   // check_assets.cpp
@@ -99,26 +99,26 @@ class LibraryBuilder {
   void check_worlds();
   void check_rates(const Definition& definition);
   void check_sensors(const Definition& definition);
-  void check_camera(const Definition& definition, const Node& camera, const std::string& path,
+  void check_camera(const Definition& definition, const Value& camera, const std::string& path,
                     const SceneObjects& objects);
   void check_light(const Definition& definition);
   void check_randomise(const Definition& definition, const SceneObjects& objects);
-  void check_setting(const SkillInfo& skill, const std::string& name, const Node& value, const std::string& place);
-  void check_observe(const Definition& definition, const Node& world);
-  void check_one_of(const Definition& definition, const std::string& path, const Node& text, const char* what,
+  void check_setting(const SkillInfo& skill, const std::string& name, const Value& value, const std::string& place);
+  void check_observe(const Definition& definition, const Value& world);
+  void check_one_of(const Definition& definition, const std::string& path, const Value& text, const char* what,
                     const std::vector<std::string>& known);
 
   // check_tasks.cpp, variations.cpp
   void read_tasks();
   void read_task(const Definition& definition);
-  std::vector<Node> variations_of(const Definition& definition, DefinitionState& state);
-  void check_variation(const Definition& definition, DefinitionState& state, const Node& variation,
+  std::vector<Value> variations_of(const Definition& definition, DefinitionState& state);
+  void check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
                        const std::string& text);
-  Node field_for(const Definition& definition, DefinitionState& state, const char* field, const Node& variation);
-  void check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields,
+  Value field_for(const Definition& definition, DefinitionState& state, const char* field, const Value& variation);
+  void check_task_formulas(const Definition& definition, const std::map<std::string, Value>& fields,
                            const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups);
   void check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line);
-  void check_instructions(const Definition& definition, const Node& texts, const Node& variation);
+  void check_instructions(const Definition& definition, const Value& texts, const Value& variation);
 
   std::vector<Error>& complaints_;
   std::shared_ptr<Library> library_;
@@ -126,7 +126,7 @@ class LibraryBuilder {
   std::set<std::string> attributes_;
 };
 
-void push_node(lua_State* state, const Node& node);
-std::string variation_text(const Node& variation);  // `colour=red,height=3`
+void push_node(lua_State* state, const Value& node);
+std::string variation_text(const Value& variation);  // `colour=red,height=3`
 
 }  // namespace stampede

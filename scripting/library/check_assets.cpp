@@ -7,7 +7,7 @@ namespace stampede {
 namespace {
 
 // The text after `mesh {` or `texture {`.
-const Node& file_of(const Node& written) {
+const Value& file_of(const Value& written) {
   if (written.is_text()) return written;
   return !written.items.empty() && written.items[0].is_text() ? written.items[0] : written["file"];
 }
@@ -18,7 +18,7 @@ struct Found {
   std::size_t rings = 0;
 };
 
-void look_through(const Node& node, Found& found) {
+void look_through(const Value& node, Found& found) {
   if (!node.is_table()) return;
   const std::string& shape = node["shape"].text;
   if (node.tag() == "shape") ++found.shapes;
@@ -26,12 +26,12 @@ void look_through(const Node& node, Found& found) {
   if (node["mesh"].present()) found.files.emplace_back("mesh", file_of(node["mesh"]).text);
   if (node.tag() == "texture" && node["texture"].text == "image")
     found.files.emplace_back("picture", file_of(node).text);
-  for (const Node* lathe : {&node, &node["lathe"]}) {
+  for (const Value* lathe : {&node, &node["lathe"]}) {
     if (lathe == &node && shape != "lathe") continue;
-    const Node& profile = (*lathe)["profile"];
+    const Value& profile = (*lathe)["profile"];
     found.rings = std::max(found.rings, (profile.present() ? profile : *lathe).items.size());
   }
-  for (const Node& item : node.items) look_through(item, found);
+  for (const Value& item : node.items) look_through(item, found);
   for (const auto& [name, field] : node.fields) look_through(field, found);
 }
 

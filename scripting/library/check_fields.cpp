@@ -7,36 +7,36 @@
 namespace stampede {
 namespace {
 
-bool is_draw(const Node& node) {
+bool is_draw(const Value& node) {
   const std::string tag = node.tag();
   return tag == "one_of" || tag == "between" || tag == "sample_of";
 }
 
-bool is_formula(const Node& node) {
+bool is_formula(const Value& node) {
   static const std::vector<std::string> kTags = {"literal", "all_of",    "any_of", "in_order", "not",  "forall",
                                                  "exists",  "any_order", "equal",  "pddl",     "when", "call"};
   return std::find(kTags.begin(), kTags.end(), node.tag()) != kTags.end();  // which of them: the formula reader says
 }
 
-bool numbers(const Node& node, std::size_t least, std::size_t most) {
+bool numbers(const Value& node, std::size_t least, std::size_t most) {
   if (!node.is_table() || node.items.size() < least || node.items.size() > most || !node.tag().empty()) return false;
-  return std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return has_type(item, "number"); });
+  return std::all_of(node.items.begin(), node.items.end(), [](const Value& item) { return has_type(item, "number"); });
 }
 
 // A draw has a type when all that it may give has it.
-bool draw_has_type(const Node& node, std::string_view type) {
+bool draw_has_type(const Value& node, std::string_view type) {
   if (node.tag() == "between") return type == "number";
-  const Node& values = node["values"];
+  const Value& values = node["values"];
   return std::all_of(values.items.begin(), values.items.end(),
-                     [&](const Node& value) { return has_type(value, type); });
+                     [&](const Value& value) { return has_type(value, type); });
 }
 
-bool has_plain_type(const Node& node, std::string_view type) {
+bool has_plain_type(const Value& node, std::string_view type) {
   if (type == "any") return node.present();
   if (type == "string") return node.is_text();
   if (type == "number") return node.is_number();
   if (type == "integer") return node.is_number() && node.integer;
-  if (type == "boolean") return node.kind == Node::Kind::boolean;
+  if (type == "boolean") return node.kind == Value::Kind::boolean;
   if (type == "function") return node.is_function();
   if (type == "vector") return numbers(node, 3, 3);
   if (type == "range" || type == "size") return numbers(node, 2, 2);
@@ -48,12 +48,12 @@ bool has_plain_type(const Node& node, std::string_view type) {
   return node.is_table();  // table, or a record, whose own fields are checked after this
 }
 
-bool has_one_type(const Node& node, std::string_view type) {
+bool has_one_type(const Value& node, std::string_view type) {
   if (type.size() > 2 && type.ends_with("[]")) {
     type.remove_suffix(2);
     return node.is_table() && node.tag().empty() && node.fields.empty() &&
            std::all_of(node.items.begin(), node.items.end(),
-                       [&](const Node& item) { return has_one_type(item, type); });
+                       [&](const Value& item) { return has_one_type(item, type); });
   }
   if (type.front() == '{') return node.is_table() && node.items.empty();
   return is_draw(node) ? draw_has_type(node, type) : has_plain_type(node, type);
@@ -102,7 +102,7 @@ std::string with_article(std::string_view word) {
 }
 
 // Records inside a field's value.
-void check_inner(const Field& field, const Node& node, const std::string& path, const Complain& complain) {
+void check_inner(const Field& field, const Value& node, const std::string& path, const Complain& complain) {
   for (std::string_view type : alternatives(field.type)) {
     const bool map = type.front() == '{', list = type.ends_with("[]");
     std::string_view name = type;
@@ -128,7 +128,7 @@ void check_inner(const Field& field, const Node& node, const std::string& path, 
         check_record(*inner, node.items[i], path + "." + std::to_string(i + 1), complain);
       }
     } else if (is_draw(node)) {
-      for (const Node& choice : node["values"].items)
+      for (const Value& choice : node["values"].items)
         if (choice.is_table() && !is_draw(choice)) check_record(*inner, choice, path, complain);
     } else {
       check_record(*inner, node, path, complain);
@@ -138,14 +138,14 @@ void check_inner(const Field& field, const Node& node, const std::string& path, 
 
 }  // namespace
 
-bool has_type(const Node& node, std::string_view type) {
+bool has_type(const Value& node, std::string_view type) {
   for (const std::string_view one : alternatives(type)) {
     if (has_one_type(node, one)) return true;
   }
   return false;
 }
 
-void check_record(const Record& record, const Node& table, const std::string& path, const Complain& complain,
+void check_record(const Record& record, const Value& table, const std::string& path, const Complain& complain,
                   const std::vector<std::string>& also_known) {
   const std::string prefix = path.empty() ? "" : path + ".";
   const bool outermost = path.empty();
@@ -160,7 +160,7 @@ void check_record(const Record& record, const Node& table, const std::string& pa
     complain(path, with_article(record.name) + " has fields with names only, this one lists values", {});
   }
   for (const Field& field : record.fields) {
-    const Node& value = table[field.name];
+    const Value& value = table[field.name];
     if (!value.present()) {
       if (!field.required) continue;
       complain(

@@ -7,9 +7,9 @@
 namespace stampede {
 namespace {
 
-std::vector<std::string> texts(const Node& list) {
+std::vector<std::string> texts(const Value& list) {
   std::vector<std::string> result;
-  for (const Node& item : list.items) result.push_back(item.text);
+  for (const Value& item : list.items) result.push_back(item.text);
   return result;
 }
 
@@ -17,13 +17,13 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string type_or(const Node& node, const std::string& otherwise) {
+std::string type_or(const Value& node, const std::string& otherwise) {
   return node["type"].is_text() ? node["type"].text : otherwise;
 }
 
 }  // namespace
 
-void LibraryBuilder::check_body(const Definition& definition, const Node& body, const std::string& path) {
+void LibraryBuilder::check_body(const Definition& definition, const Value& body, const std::string& path) {
   const std::string prefix = path.empty() ? "" : path + ".";
   const Domain& domain = library_->domain_;
   if (body["type"].is_text() && !domain.types.contains(body["type"].text)) {
@@ -61,7 +61,7 @@ void LibraryBuilder::check_body(const Definition& definition, const Node& body, 
 
 void LibraryBuilder::check_objects() {
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
-    const Node& node = definition.node;
+    const Value& node = definition.node;
     check_body(definition, node, {});
     check_assets(definition);
     if (!node["region"].present() && !node["type"].is_text()) {
@@ -90,7 +90,7 @@ void LibraryBuilder::check_objects() {
   }
 }
 
-void LibraryBuilder::check_entry(const Definition& definition, const Node& entry, const std::string& path,
+void LibraryBuilder::check_entry(const Definition& definition, const Value& entry, const std::string& path,
                                  const char* what) {
   if (!entry.is_table() || entry.items.empty() || !entry.items[0].is_text()) {
     if (entry.is_table() && !entry.items.empty() && !entry.items[0].tag().empty()) return;  // a drawn class
@@ -120,7 +120,7 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
   if (robot) return check_start(definition, entry["joints"], found->second.node["arm"], path + ".joints");
   for (const auto& [part, position] : entry["joints"].fields) {
-    const Node& parts = found->second.node["parts"];
+    const Value& parts = found->second.node["parts"];
     if (parts[part].present() || found->second.node["urdf"].present()) continue;
     std::vector<std::string> names;
     for (const auto& [name, unused] : parts.fields) names.push_back(name);
@@ -130,10 +130,10 @@ void LibraryBuilder::check_entry(const Definition& definition, const Node& entry
 }
 
 // Where an arm starts: its own joints, each once.
-void LibraryBuilder::check_start(const Definition& definition, const Node& joints, const Node& arm,
+void LibraryBuilder::check_start(const Definition& definition, const Value& joints, const Value& arm,
                                  const std::string& path) {
   std::vector<std::string> names;
-  for (const Node& joint : arm.items) names.push_back(joint.text);
+  for (const Value& joint : arm.items) names.push_back(joint.text);
   for (const auto& [joint, position] : joints.fields) {
     if (std::find(names.begin(), names.end(), joint) == names.end())
       complain(definition, path, "the arm has no joint '" + joint + "'", did_you_mean(joint, names));
@@ -144,7 +144,7 @@ void LibraryBuilder::check_start(const Definition& definition, const Node& joint
 }
 
 // The object with its parts (name.part) and regions (name.region, name.part.region).
-void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, const Node& entry) const {
+void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, const Value& entry) const {
   SceneObject object;
   const std::string class_name = entry.items.empty() ? "" : entry.items[0].text;
   const auto kind = definitions_.find(DefinitionKind::object);
@@ -154,9 +154,9 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
     if (at != kind->second.end()) found = &at->second;
   }
   object.known = found != nullptr;
-  static const Node kEmpty;
-  const Node& node = found == nullptr ? kEmpty : found->node;
-  const auto either = [&](const char* field) -> const Node& {
+  static const Value kEmpty;
+  const Value& node = found == nullptr ? kEmpty : found->node;
+  const auto either = [&](const char* field) -> const Value& {
     return entry[field].present() ? entry[field] : node[field];
   };
   const bool region = either("region").present();
@@ -164,10 +164,10 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   object.traits = texts(either("traits"));
   object.positioned = entry["at"].present() || entry["place"].present();
   const bool fixed =
-      either("fixed").kind == Node::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
+      either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
   object.free = found != nullptr && !fixed && !region && node["parts"].fields.empty();
   objects[name] = object;
-  const auto add_regions = [&](const std::string& owner, const Node& body) {
+  const auto add_regions = [&](const std::string& owner, const Value& body) {
     for (const auto& [region_name, one] : body["regions"].fields) {
       objects[owner + "." + region_name] = {type_or(one, "region"), texts(one["traits"]), false, false};
     }
@@ -183,7 +183,7 @@ std::string LibraryBuilder::hand_of(const std::string& world) const {
   const auto worlds = definitions_.find(DefinitionKind::world);
   const auto found = worlds == definitions_.end() ? Definitions::const_iterator{} : worlds->second.find(world);
   if (worlds == definitions_.end() || found == worlds->second.end()) return "panda.hand";
-  const Node& entry = found->second.node["robot"];
+  const Value& entry = found->second.node["robot"];
   const std::string robot = entry.items.empty() ? "robot" : entry.items[0].text;
   std::string hand = "hand";
   const auto robots = definitions_.find(DefinitionKind::robot);

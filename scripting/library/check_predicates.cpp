@@ -32,12 +32,12 @@ void LibraryBuilder::read_types() {
   if (!guarded([&] {
         DefinitionState state(library_);
         state.push(DefinitionKind::types, "types");
-        definition.node = read_node(state.state(), -1, file->shown_path);
+        definition.node = value_as_written(state.state(), -1, file->shown_path);
       })) {
     return;
   }
   for (const auto& [name, entry] : definition.node["types"].fields) {
-    const Node& parent = entry.is_table() ? entry["parent"] : entry;
+    const Value& parent = entry.is_table() ? entry["parent"] : entry;
     domain.types[name] = parent.is_text() ? parent.text : kRoot;
     if (const auto fault = name_fault(name)) {
       complain(definition, "types." + name, "the type name '" + name + "' " + *fault,
@@ -63,8 +63,8 @@ void LibraryBuilder::read_types() {
       break;
     }
   }
-  const Node& traits = definition.node["traits"];
-  for (const Node& item : traits.items) domain.traits.push_back(item.text);
+  const Value& traits = definition.node["traits"];
+  for (const Value& item : traits.items) domain.traits.push_back(item.text);
   for (const auto& [name, description] : traits.fields) domain.traits.push_back(name);
   std::sort(domain.traits.begin(), domain.traits.end());
   for (const std::string& name : domain.traits) {
@@ -86,7 +86,7 @@ void LibraryBuilder::read_types() {
 std::vector<Parameter> LibraryBuilder::parameters_of(const Definition& definition, bool add_hand) {
   std::vector<Parameter> result;
   const std::string place = definition.file->shown_path + ":" + std::to_string(line_of(definition.lines, "params"));
-  for (const Node& text : definition.node["params"].items) {
+  for (const Value& text : definition.node["params"].items) {
     if (!text.is_text()) continue;
     guarded([&] {
       Parameter parameter;
@@ -186,7 +186,7 @@ void LibraryBuilder::define_predicates() {
     const auto found = std::find_if(library_->domain_.predicates.begin(), library_->domain_.predicates.end(),
                                     [&, wanted = name](const Predicate& one) { return one.name == wanted; });
     if (found == library_->domain_.predicates.end()) continue;
-    const Node& node = definition.node;
+    const Value& node = definition.node;
     PredicateTraits traits;
     traits.settle_s = node["settle"].number;
     traits.momentary = node["momentary"].boolean;
@@ -205,8 +205,8 @@ void LibraryBuilder::define_predicates() {
     }
     read_exclusions(definition, *found, traits);
     library_->predicate_traits_[name] = traits;
-    const Node& observable = node["observable"];
-    const bool hides = observable.present() && !(observable.kind == Node::Kind::boolean && observable.boolean);
+    const Value& observable = node["observable"];
+    const bool hides = observable.present() && !(observable.kind == Value::Kind::boolean && observable.boolean);
     if (hides && node["derived"].present()) {
       complain(definition, "observable", "what a derived predicate lets be seen follows from what it is derived of",
                "say observable there");
@@ -228,9 +228,9 @@ void LibraryBuilder::read_exclusions(const Definition& definition, const Predica
                                      PredicateTraits& traits) {
   std::vector<std::string> names;
   for (const Parameter& parameter : predicate.parameters) names.push_back(parameter.name);
-  const Node& functional = definition.node["functional"];
+  const Value& functional = definition.node["functional"];
   const std::string last = names.empty() ? "" : names.back();
-  const std::string wanted = functional.kind == Node::Kind::text ? functional.text : functional.boolean ? last : "";
+  const std::string wanted = functional.kind == Value::Kind::text ? functional.text : functional.boolean ? last : "";
   if (functional.present() && !wanted.empty()) {
     const auto at = std::find(names.begin(), names.end(), wanted);
     if (at == names.end())
@@ -238,7 +238,7 @@ void LibraryBuilder::read_exclusions(const Definition& definition, const Predica
     else
       traits.functional = static_cast<int>(at - names.begin());
   }
-  for (const Node& other : definition.node["mutex"].items) {
+  for (const Value& other : definition.node["mutex"].items) {
     traits.mutex.push_back(other.text);
     if (library_->domain_.predicate(other.text) != nullptr) continue;
     std::vector<std::string> known;

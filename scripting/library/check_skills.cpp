@@ -19,7 +19,7 @@ bool listed(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // A bound: one number for all components, or one each.
-std::vector<double> bound(const Node& node, std::size_t count, double otherwise) {
+std::vector<double> bound(const Value& node, std::size_t count, double otherwise) {
   std::vector<double> result(count, node.is_number() ? node.number : otherwise);
   for (std::size_t i = 0; i < node.items.size() && i < count; ++i) result[i] = node.items[i].number;
   return result;
@@ -40,7 +40,7 @@ void LibraryBuilder::read_skills() {
 }
 
 void LibraryBuilder::read_skill(const Definition& definition) {
-  const Node& node = definition.node;
+  const Value& node = definition.node;
   SkillInfo info;
   info.name = definition.file->name;
   info.parameters = parameters_of(definition, true);
@@ -58,14 +58,14 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   }
   std::vector<std::string> predicates;
   for (const Predicate& predicate : library_->domain_.predicates) predicates.push_back(predicate.name);
-  for (const Node& forgotten : node["forgets"].items) {
+  for (const Value& forgotten : node["forgets"].items) {
     info.forgets.push_back(forgotten.text);
     if (listed(predicates, forgotten.text)) continue;
     complain(definition, "forgets", "there is no predicate '" + forgotten.text + "'",
              did_you_mean(forgotten.text, predicates));
   }
   guarded([&] { read_continuous(definition, info); });
-  const Node& cases = node["cases"];
+  const Value& cases = node["cases"];
   if (cases.present()) {
     for (const char* field : {"precondition", "effect"}) {
       if (node[field].present())
@@ -81,14 +81,14 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   library_->skills_[info.name] = std::move(info);
 }
 
-void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& info, const Node& fields,
+void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& info, const Value& fields,
                                  const std::string& case_name) {
   Action action;
   action.skill = info.name;
   action.case_name = case_name;
   action.name = case_name.empty() ? info.name : info.name + "_" + case_name;
   action.parameters = info.parameters;
-  const Node& cost = fields["cost"].present() ? fields["cost"] : definition.node["cost"];
+  const Value& cost = fields["cost"].present() ? fields["cost"] : definition.node["cost"];
   if (cost.is_number()) action.cost = static_cast<int>(cost.number);
   if (action.cost < 0) complain(definition, "cost", "a cost is not negative");
   const std::string prefix = case_name.empty() ? "" : "cases." + case_name + ".";
@@ -105,12 +105,12 @@ void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& 
     if (fields["effect"].present()) action.effects = effects_from(fields["effect"], where);
   });
   const std::vector<std::string> names = names_of(info.parameters);
-  for (const Node& pair : definition.node["may_equal"].items) {
+  for (const Value& pair : definition.node["may_equal"].items) {
     if (pair.items.size() != 2) {
       complain(definition, "may_equal", "a pair has two parameters", "such as may_equal = { { \"from\", \"to\" } }");
       continue;
     }
-    for (const Node& name : pair.items) {
+    for (const Value& name : pair.items) {
       if (!listed(names, name.text))
         complain(definition, "may_equal", "there is no parameter '" + name.text + "'", did_you_mean(name.text, names));
     }
@@ -153,7 +153,7 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
     } else if (node.is_number() || (node.is_table() && node.tag().empty())) {
       if (node.is_number()) one.initial = {node.number};
       const bool vector = !node.items.empty() && node.items.front().is_table();  // { { x, y, z }, unit = … }
-      for (const Node& item : vector ? node.items.front().items : node.items) {
+      for (const Value& item : vector ? node.items.front().items : node.items) {
         if (item.is_number()) one.initial.push_back(item.number);
       }
       if (one.initial.empty())

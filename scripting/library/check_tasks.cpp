@@ -17,7 +17,7 @@ std::string with_context(const std::string& what, const std::string& text, std::
 }
 
 // The problem that a task was imported from must read, in its dialect, and its mapping must be there.
-void check_problem(const Node& problem, const std::string& place, const Library& library, const Complain& complain) {
+void check_problem(const Value& problem, const std::string& place, const Library& library, const Complain& complain) {
   if (!problem["text"].is_text() || !problem["dialect"].is_text()) return;  // said already
   const std::string& dialect = problem["dialect"].text;
   if (dialect != "libero" && dialect != "behavior") {
@@ -27,14 +27,14 @@ void check_problem(const Node& problem, const std::string& place, const Library&
   const BddlDialect read = read_bddl(problem["text"].text, place + ": problem.text").problem.dialect;
   if ((read == BddlDialect::libero) != (dialect == "libero"))
     complain("problem.dialect", "the text is " + std::string(to_string(read)) + "'s", "name that dialect");
-  const Node& mapping = problem["mapping"];
+  const Value& mapping = problem["mapping"];
   if (mapping.is_text() && library.module("worlds.bddl." + mapping.text) == nullptr)
     complain("problem.mapping", "there is no worlds/bddl/" + mapping.text + ".lua", "put the file there");
   for (const auto& [theirs, ours] : problem["names"].fields)
     if (!ours.is_text()) complain("problem.names." + theirs, "expects text, this is " + ours.type_name(), {});
 }
 
-void collect_variables(const Node& node, std::vector<std::string>& names) {
+void collect_variables(const Value& node, std::vector<std::string>& names) {
   for (const auto& [axis, value] : node.fields) names.push_back(axis);
 }
 
@@ -64,16 +64,16 @@ void LibraryBuilder::read_task(const Definition& definition) {
     check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
   });
   info.hand = hand_of(info.world);
-  const std::vector<Node> variations = variations_of(definition, state);
-  for (const Node& variation : variations) {
+  const std::vector<Value> variations = variations_of(definition, state);
+  for (const Value& variation : variations) {
     std::map<std::string, std::string> axes;
     for (const auto& [axis, value] : variation.fields) axes[axis] = plain_text(value);
     info.variations.push_back(std::move(axes));
     info.variation_texts.push_back(variation_text(variation));
   }
-  const Node& texts = definition.node["instructions"];
+  const Value& texts = definition.node["instructions"];
   if (texts.is_text()) info.instructions.push_back(texts.text);
-  for (const Node& text : texts.items) info.instructions.push_back(text.text);
+  for (const Value& text : texts.items) info.instructions.push_back(text.text);
   const bool world_known = worlds.contains(info.world);  // otherwise every name of its fixtures would be a complaint
   const std::size_t stride = variations.size() / kMostChecked + 1;
   for (std::size_t i = 0; world_known && i < variations.size(); i += stride) {
@@ -84,12 +84,12 @@ void LibraryBuilder::read_task(const Definition& definition) {
   library_->tasks_[info.name] = std::move(info);
 }
 
-void LibraryBuilder::check_variation(const Definition& definition, DefinitionState& state, const Node& variation,
+void LibraryBuilder::check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
                                      const std::string& text) {
-  std::map<std::string, Node> fields;
+  std::map<std::string, Value> fields;
   for (const Field& field : record("task")->fields) {
     if (!field.of_variation) continue;
-    const Node value = field_for(definition, state, field.name, variation);
+    const Value value = field_for(definition, state, field.name, variation);
     if (!value.present()) {
       if (!definition.node[field.name].is_function()) continue;
       complain(definition, field.name, with_context("the function returns nothing", text, text.size() + 1),
@@ -113,7 +113,7 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
     if (const auto fault = name_fault(name))
       complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
     check_entry(definition, entry, path, "object");
-    const Node& count = entry["count"];
+    const Value& count = entry["count"];
     std::vector<std::string> members = {name};
     if (count.is_number()) {
       if (count.number < 0 || count.number > 1000) {
@@ -136,7 +136,7 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
   if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
 }
 
-void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Node>& fields,
+void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Value>& fields,
                                          const SceneObjects& objects,
                                          const std::map<std::string, std::vector<std::string>>& groups) {
   std::vector<std::string> known;
@@ -191,12 +191,12 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
     const auto found = fields.find(field);
     if (found == fields.end()) continue;
     where.field = field;
-    std::vector<const Node*> formulas;
+    std::vector<const Value*> formulas;
     if (field == std::string_view("goal")) formulas.push_back(&found->second);
     for (const auto& [name, formula] : found->second.fields) {
       if (field == std::string_view("subgoals")) formulas.push_back(&formula);
     }
-    for (const Node* formula : formulas) {
+    for (const Value* formula : formulas) {
       guarded([&] {
         check_arguments(definition, formula_from(*formula, where), objects, line_of(definition.lines, field));
       });
@@ -204,10 +204,10 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
   }
   const auto steps = fields.find("steps");
   if (steps == fields.end()) return;
-  const std::vector<Node> single = {steps->second};
+  const std::vector<Value> single = {steps->second};
   std::vector<std::string> skills;
   for (const ScriptFile* file : library_->files(DefinitionKind::skill)) skills.push_back(file->name);
-  for (const Node& call : steps->second.tag() == "call" ? single : steps->second.items) {
+  for (const Value& call : steps->second.tag() == "call" ? single : steps->second.items) {
     const std::string place = definition.file->shown_path + ":" +
                               std::to_string(call.line() > 0 ? call.line() : line_of(definition.lines, "steps"));
     const std::string& name = call["skill"].text;
@@ -221,7 +221,7 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
       add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " +
                            std::to_string(call.items.size())));
     }
-    for (const Node& argument : call.items) {
+    for (const Value& argument : call.items) {
       if (objects.contains(argument.text)) continue;
       add(Error(place, "steps: there is no object '" + argument.text + "'", did_you_mean(argument.text, known)));
     }
@@ -230,7 +230,7 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
 }
 
 // Poses are read when the task is.
-void LibraryBuilder::check_setting(const SkillInfo& skill, const std::string& name, const Node& value,
+void LibraryBuilder::check_setting(const SkillInfo& skill, const std::string& name, const Value& value,
                                    const std::string& place) {
   CallSettings set;
   try {
@@ -240,7 +240,7 @@ void LibraryBuilder::check_setting(const SkillInfo& skill, const std::string& na
       set.values.push_back({name, 0, {value.number}});
     } else if (value.is_table() && !value.items.empty()) {
       set.values.push_back({name, 0, {}});
-      for (const Node& item : value.items) set.values.back().values.push_back(item.number);
+      for (const Value& item : value.items) set.values.back().values.push_back(item.number);
     }
     check_settings(skill, set, place + ": steps");
   } catch (const Error& error) {
@@ -275,12 +275,12 @@ void LibraryBuilder::check_arguments(const Definition& definition, const Formula
   }
 }
 
-void LibraryBuilder::check_instructions(const Definition& definition, const Node& texts, const Node& variation) {
+void LibraryBuilder::check_instructions(const Definition& definition, const Value& texts, const Value& variation) {
   std::vector<std::string> axes;
   collect_variables(variation, axes);
   std::vector<std::string> all;
   if (texts.is_text()) all.push_back(texts.text);
-  for (const Node& text : texts.items) all.push_back(text.text);
+  for (const Value& text : texts.items) all.push_back(text.text);
   if (all.empty()) complain(definition, "instructions", "at least one sentence is needed", "instructions = { \"…\" }");
   for (const std::string& text : all) {
     for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostPixels = 4096;
 
-int rate_or(const Node& node, int otherwise) { return node.is_number() ? static_cast<int>(node.number) : otherwise; }
+int rate_or(const Value& node, int otherwise) { return node.is_number() ? static_cast<int>(node.number) : otherwise; }
 
 template <typename Named>
 std::vector<std::string> names_of(const Named& named) {
@@ -23,13 +23,13 @@ std::vector<std::string> names_of(const Named& named) {
   return names;
 }
 
-bool all_numbers(const Node& list) {
+bool all_numbers(const Value& list) {
   return list.is_table() &&
-         std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_number(); });
+         std::all_of(list.items.begin(), list.items.end(), [](const Value& item) { return item.is_number(); });
 }
 
-bool size_fits(const Node& size) {
-  return std::all_of(size.items.begin(), size.items.end(), [](const Node& side) {
+bool size_fits(const Value& size) {
+  return std::all_of(size.items.begin(), size.items.end(), [](const Value& side) {
     return !side.is_number() ||
            (side.number >= 1 && side.number <= kMostPixels && side.number == std::floor(side.number));
   });
@@ -41,7 +41,7 @@ bool on_robot(const std::string& name, const std::string& robot) {
 
 }  // namespace
 
-void LibraryBuilder::check_one_of(const Definition& definition, const std::string& path, const Node& text,
+void LibraryBuilder::check_one_of(const Definition& definition, const std::string& path, const Value& text,
                                   const char* what, const std::vector<std::string>& known) {
   if (!text.is_text() || std::find(known.begin(), known.end(), text.text) != known.end()) return;
   complain(definition, path, std::string("there is no ") + what + " '" + text.text + "'",
@@ -50,7 +50,7 @@ void LibraryBuilder::check_one_of(const Definition& definition, const std::strin
 
 void LibraryBuilder::check_worlds() {
   for (const auto& [name, definition] : of(DefinitionKind::world)) {
-    const Node& node = definition.node;
+    const Value& node = definition.node;
     if (node["robot"].is_table()) check_entry(definition, node["robot"], "robot", "robot");
     for (const auto& [fixture, entry] : node["fixtures"].fields) {
       check_entry(definition, entry, "fixtures." + fixture, "object");
@@ -102,7 +102,7 @@ void LibraryBuilder::check_sensors(const Definition& definition) {
   }
 }
 
-void LibraryBuilder::check_camera(const Definition& definition, const Node& camera, const std::string& path,
+void LibraryBuilder::check_camera(const Definition& definition, const Value& camera, const std::string& path,
                                   const SceneObjects& objects) {
   const std::vector<std::string> known = names_of(objects);
   const std::string hand = hand_of(definition.file->name), robot = hand.substr(0, hand.rfind('.'));
@@ -118,14 +118,14 @@ void LibraryBuilder::check_camera(const Definition& definition, const Node& came
   }
   if (!size_fits(camera["size"]))
     complain(definition, path + ".size", "a picture has 1 to 4096 whole pixels a side", "size = { 128, 128 }");
-  const Node& fov = camera["fov"];
+  const Value& fov = camera["fov"];
   if (fov.is_number() && !(fov.number > 0 && fov.number < std::numbers::pi))
     complain(definition, path + ".fov", "a field of view lies between 0 and pi rad", "fov = deg(40)");
   if (fov.present() && camera["focal"].present())
     complain(definition, path + ".focal", "focal says the field of view, and fov says another",
              "leave one of them out");
   const auto pair = [&](const char* field, bool positive, const char* example) {
-    const Node& list = camera[field];
+    const Value& list = camera[field];
     if (!all_numbers(list)) return;
     const bool sound = list.items.size() == 2 && (!positive || (list.items[0].number > 0 && list.items[1].number > 0));
     if (!sound)
@@ -146,35 +146,35 @@ void LibraryBuilder::check_camera(const Definition& definition, const Node& came
 }
 
 void LibraryBuilder::check_light(const Definition& definition) {
-  const Node& light = definition.node["light"];
+  const Value& light = definition.node["light"];
   for (const char* share : {"ambient", "diffuse", "specular"}) {
     if (light[share].is_number() && light[share].number < 0)
       complain(definition, std::string("light.") + share, "a share of brightness is not negative", "0 … 1");
   }
-  const Node& direction = light["direction"];
+  const Value& direction = light["direction"];
   if (all_numbers(direction) &&
-      std::all_of(direction.items.begin(), direction.items.end(), [](const Node& item) { return item.number == 0; }))
+      std::all_of(direction.items.begin(), direction.items.end(), [](const Value& item) { return item.number == 0; }))
     complain(definition, "light.direction", "has no length", "direction = { 0, 0, -1 } shines straight down");
 }
 
 void LibraryBuilder::check_randomise(const Definition& definition, const SceneObjects& objects) {
-  const Node& node = definition.node["randomise"];
+  const Value& node = definition.node["randomise"];
   std::vector<std::string> things = names_of(objects);
   for (const ScriptFile* file : library_->files(DefinitionKind::object)) things.push_back(file->name);
   things.insert(things.end(), {"robot", "*"});
   for (const char* field : {"looks", "dynamics"}) {
-    for (const Node& item : node[field].items)
+    for (const Value& item : node[field].items)
       check_one_of(definition, std::string("randomise.") + field, item, "object", things);
   }
-  for (const Node& item : node["textures"].items)
+  for (const Value& item : node["textures"].items)
     check_one_of(definition, "randomise.textures", item, "kind of texture", {"checker", "stripes", "noise", "plain"});
   const auto colours = of(DefinitionKind::colours).find("colours");
   if (colours != of(DefinitionKind::colours).end()) {
-    for (const Node& item : node["colours"].items)
+    for (const Value& item : node["colours"].items)
       check_one_of(definition, "randomise.colours", item, "colour", names_of(colours->second.node.fields));
   }
   for (const char* field : {"ambient", "diffuse", "mass", "friction", "damping"}) {
-    const Node& range = node[field];
+    const Value& range = node[field];
     if (!all_numbers(range) || range.items.size() != 2) continue;
     const bool factor = std::string_view(field) == "mass";
     if (range.items[0].number > range.items[1].number)
@@ -189,13 +189,13 @@ void LibraryBuilder::check_randomise(const Definition& definition, const SceneOb
 }
 
 // Of a world, or of a task in that world.
-void LibraryBuilder::check_observe(const Definition& definition, const Node& world) {
-  const Node& node = definition.node["observe"];
+void LibraryBuilder::check_observe(const Definition& definition, const Value& world) {
+  const Value& node = definition.node["observe"];
   if (node["images"].is_text() && !which_frames_from(node["images"].text))
     check_one_of(definition, "observe.images", node["images"], "choice of frames", {"none", "keyframes", "all"});
   std::vector<std::string> kinds;
   for (const PictureKind kind : kPictureKinds) kinds.emplace_back(to_string(kind));
-  for (const Node& kind : node["kinds"].items) {
+  for (const Value& kind : node["kinds"].items) {
     if (kind.is_text() && kind.text == "points")
       complain(definition, "observe.kinds", "point clouds are asked for by themselves", "points = true");
     else
@@ -204,10 +204,10 @@ void LibraryBuilder::check_observe(const Definition& definition, const Node& wor
   if (!size_fits(node["size"]))
     complain(definition, "observe.size", "a picture has 1 to 4096 whole pixels a side", "size = { 128, 128 }");
   if (!world["calibration"].present()) {  // which may bring cameras of its own
-    for (const Node& camera : node["cameras"].items)
+    for (const Value& camera : node["cameras"].items)
       check_one_of(definition, "observe.cameras", camera, "camera", names_of(world["cameras"].fields));
   }
-  for (const Node& channel : node["channels"].items) {
+  for (const Value& channel : node["channels"].items) {
     if (channel.text != "*")
       check_one_of(definition, "observe.channels", channel, "sensor", names_of(world["sensors"].fields));
   }

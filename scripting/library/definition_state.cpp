@@ -5,7 +5,7 @@
 #include "scripting/library/definitions.h"
 #include "scripting/library/embedded.h"
 #include "scripting/library/formula_reader.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {
@@ -167,16 +167,16 @@ Formula read_formula(lua_State* state, int index, const std::string& place, cons
   context.parameters = parameters;
   context.hand = hand;
   context.expand = expand;
-  return formula_from(read_node(state, index, place), context);
+  return formula_from(value_as_written(state, index, place), context);
 }
 
 Literal read_literal(lua_State* state, int index, const std::string& place) {
-  const Node node = read_node(state, index, place);
+  const Value node = value_as_written(state, index, place);
   const std::string where =
       node.line() > 0 ? place.substr(0, place.find(": ")) + ":" + std::to_string(node.line()) : place;
   if (node.tag() != "literal") throw Error(where, "only is and is_not stand here, this is " + node.type_name());
   Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
-  for (const Node& item : node.items) literal.fact.arguments.push_back(item.text);
+  for (const Value& item : node.items) literal.fact.arguments.push_back(item.text);
   return literal;
 }
 

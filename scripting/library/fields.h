@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 
 namespace stampede {
 
@@ -40,9 +40,9 @@ std::vector<std::string> field_names(const Record& record);
 using Complain = std::function<void(const std::string& path, const std::string& what, const std::string& hint)>;
 
 // Compares a definition's table with its record: unknown and missing fields, wrong types. `also_known`: further names.
-void check_record(const Record& record, const Node& table, const std::string& path, const Complain& complain,
+void check_record(const Record& record, const Value& table, const std::string& path, const Complain& complain,
                   const std::vector<std::string>& also_known = {});
-bool has_type(const Node& node, std::string_view type);
+bool has_type(const Value& node, std::string_view type);
 
 std::string field_help(const Record& record);  // for people: one line a field
 

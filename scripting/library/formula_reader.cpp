@@ -29,7 +29,7 @@ class Reader {
  public:
   explicit Reader(const FormulaContext& context) : context_(context), domain_(*context.domain) {}
 
-  Formula formula(const Node& node) {
+  Formula formula(const Value& node) {
     if (node.is_table() && node.tag().empty() && node.fields.empty()) return list(node, Formula::Kind::conjunction);
     const std::string tag = node.tag();
     const Line line(*this, node);
@@ -51,11 +51,11 @@ class Reader {
     fail("a literal or formula is missing, this is " + node.type_name(), "write for example is.on(\"cup\", \"shelf\")");
   }
 
-  void effects(const Node& node, std::vector<Effect>& result, const Effect& frame, int depth) {
+  void effects(const Value& node, std::vector<Effect>& result, const Effect& frame, int depth) {
     const std::string tag = node.tag();
     const Line line(*this, node);
     if (node.is_table() && (tag.empty() || tag == "all_of")) {
-      for (const Node& item : node.items) effects(item, result, frame, depth);
+      for (const Value& item : node.items) effects(item, result, frame, depth);
     } else if (tag == "literal") {
       result.push_back(effect(node, frame));
     } else if (tag == "when") {
@@ -77,15 +77,15 @@ class Reader {
   }
 
   // Literals in order; what is none goes to `others`.
-  void beginning(const Node& node, std::vector<Literal>& result, std::vector<Formula>& others) {
+  void beginning(const Value& node, std::vector<Literal>& result, std::vector<Formula>& others) {
     const Line line(*this, node);
     const std::string tag = node.tag();
     if (node.is_table() && (tag.empty() || tag == "all_of")) {
-      for (const Node& item : node.items) beginning(item, result, others);
+      for (const Value& item : node.items) beginning(item, result, others);
       return;
     }
     if (tag == "not" && one_item(node).tag() == "literal" && !one_item(node)["negated"].boolean) {
-      Node inner = one_item(node);
+      Value inner = one_item(node);
       inner.fields["negated"].boolean = true;
       return beginning(inner, result, others);
     }
@@ -106,7 +106,7 @@ class Reader {
   // The line of the innermost value that knows its own.
   class Line {
    public:
-    Line(Reader& reader, const Node& node) : reader_(reader), before_(reader.line_) {
+    Line(Reader& reader, const Value& node) : reader_(reader), before_(reader.line_) {
       if (node.line() > 0) reader.line_ = node.line();
     }
     ~Line() { reader_.line_ = before_; }
@@ -123,14 +123,14 @@ class Reader {
     throw Error(place(), context_.field.empty() ? what : context_.field + ": " + what, hint);
   }
 
-  const Node& one_item(const Node& node) const {
+  const Value& one_item(const Value& node) const {
     if (node.items.size() != 1) fail(node.tag() + " takes one formula", {});
     return node.items[0];
   }
 
-  Formula list(const Node& node, Formula::Kind kind) {
+  Formula list(const Value& node, Formula::Kind kind) {
     std::vector<Formula> parts;
-    for (const Node& item : node.items) {
+    for (const Value& item : node.items) {
       Formula part = formula(item);
       const bool empty = kind == Formula::Kind::conjunction && part.kind == Formula::Kind::always;  // b[0] of any_order
       if (!empty) parts.push_back(std::move(part));
@@ -138,7 +138,7 @@ class Reader {
     return kind == Formula::Kind::conjunction ? conjunction(std::move(parts)) : disjunction(std::move(parts));
   }
 
-  void check_predicate(const Node& node) {
+  void check_predicate(const Value& node) {
     const std::string& name = node["predicate"].text;
     const auto trait = std::find(domain_.traits.begin(), domain_.traits.end(), name);
     if (const Predicate* known = domain_.predicate(name)) {
@@ -201,7 +201,7 @@ class Reader {
   }
 
   // The argument tuples of a literal: one, or one per member of each group that it names.
-  std::vector<std::vector<Term>> expanded(const Node& node) {
+  std::vector<std::vector<Term>> expanded(const Value& node) {
     const std::string& name = node["predicate"].text;
     const std::vector<Parameter> parameters = parameters_of(name);
     const int hand = hand_position(parameters, domain_);
@@ -257,7 +257,7 @@ class Reader {
     }
   }
 
-  Formula literal_formula(const Node& node) {
+  Formula literal_formula(const Value& node) {
     const std::string& name = node["predicate"].text;
     if (name == "same" && domain_.predicate(name) == nullptr) return equal(node);
     check_predicate(node);
@@ -270,11 +270,11 @@ class Reader {
     return conjunction(std::move(parts));
   }
 
-  Formula equal(const Node& node) {
+  Formula equal(const Value& node) {
     if (node.items.size() != 2) fail("same takes 2 arguments, not " + std::to_string(node.items.size()), {});
     Formula result;
     result.kind = Formula::Kind::equal;
-    for (const Node& item : node.items) result.terms.push_back(term(item.text, nullptr));
+    for (const Value& item : node.items) result.terms.push_back(term(item.text, nullptr));
     return node["negated"].boolean ? negation(std::move(result)) : result;
   }
 
@@ -283,9 +283,9 @@ class Reader {
     scope_.push_back(name);
   }
 
-  std::vector<Parameter> variables(const Node& node) const {
+  std::vector<Parameter> variables(const Value& node) const {
     std::vector<Parameter> result;
-    for (const Node& variable : node["variables"].items) {
+    for (const Value& variable : node["variables"].items) {
       if (variable.text.empty() || variable.text[0] != '?') {
         fail("write variables with a question mark: \"?" + variable.text + "\"", {});
       }
@@ -295,12 +295,12 @@ class Reader {
   }
 
   // A variable whose range is a group is replaced by each member.
-  Formula quantified(const Node& node, bool exists) {
+  Formula quantified(const Value& node, bool exists) {
     for (std::size_t i = 0; i < node["variables"].items.size(); ++i) {
       const std::string& text = node["variables"].items[i].text;
       const std::size_t colon = text.find(':');
       if (colon == std::string::npos || !is_group(trimmed(text.substr(colon + 1)))) continue;
-      Node rest = node;
+      Value rest = node;
       auto& left = rest.fields["variables"].items;
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
       std::vector<Formula> parts;
@@ -322,9 +322,9 @@ class Reader {
     return result;
   }
 
-  static Node replaced(Node node, const std::string& name, const std::string& by) {
+  static Value replaced(Value node, const std::string& name, const std::string& by) {
     if (node.is_text() && node.text == name) node.text = by;
-    for (Node& item : node.items) item = replaced(std::move(item), name, by);
+    for (Value& item : node.items) item = replaced(std::move(item), name, by);
     for (auto& [key, field] : node.fields) {
       if (key != "predicate" && key != "tag") field = replaced(std::move(field), name, by);
     }
@@ -332,7 +332,7 @@ class Reader {
   }
 
   // The disjunction over all ordered choices of n distinct members.
-  Formula any_order(const Node& node) {
+  Formula any_order(const Value& node) {
     const std::vector<std::string> names = group_members(node["group"].text);
     const auto count = static_cast<std::size_t>(node["n"].number);
     if (count > names.size()) {
@@ -350,10 +350,10 @@ class Reader {
     return disjunction(std::move(parts));
   }
 
-  void choose(const Node& node, const std::vector<std::string>& names, std::size_t count,
+  void choose(const Value& node, const std::vector<std::string>& names, std::size_t count,
               std::vector<std::size_t>& chosen, std::vector<Formula>& parts) {
     if (chosen.size() == count) {
-      Node part = one_item(node);
+      Value part = one_item(node);
       for (std::size_t i = 0; i < count; ++i) {
         part = replaced(std::move(part), node["variables"].items[i].text, names[chosen[i]]);
       }
@@ -370,7 +370,7 @@ class Reader {
     }
   }
 
-  Effect effect(const Node& node, const Effect& frame) {
+  Effect effect(const Value& node, const Effect& frame) {
     check_predicate(node);
     const std::string& name = node["predicate"].text;
     const Predicate* predicate = domain_.predicate(name);
@@ -434,24 +434,24 @@ Parameter parameter_from(const std::string& text, const Domain& domain, const st
   return parameter;
 }
 
-Formula formula_from(const Node& node, const FormulaContext& context) { return Reader(context).formula(node); }
+Formula formula_from(const Value& node, const FormulaContext& context) { return Reader(context).formula(node); }
 
-std::vector<Formula> stages_from(const Node& node, const FormulaContext& context) {
+std::vector<Formula> stages_from(const Value& node, const FormulaContext& context) {
   const bool wrapped = node.is_table() && node.tag().empty() && node.items.size() == 1;
-  const Node& goal = wrapped ? node.items[0] : node;
+  const Value& goal = wrapped ? node.items[0] : node;
   if (goal.tag() != "in_order") return {};
   std::vector<Formula> stages;
-  for (const Node& part : goal.items) stages.push_back(Reader(context).formula(part));
+  for (const Value& part : goal.items) stages.push_back(Reader(context).formula(part));
   return stages;
 }
 
-std::vector<Effect> effects_from(const Node& node, const FormulaContext& context) {
+std::vector<Effect> effects_from(const Value& node, const FormulaContext& context) {
   std::vector<Effect> result;
   Reader(context).effects(node, result, {}, 0);
   return result;
 }
 
-Beginning beginning_from(const Node& node, const FormulaContext& context) {
+Beginning beginning_from(const Value& node, const FormulaContext& context) {
   Beginning result;
   std::vector<Formula> others;
   Reader(context).beginning(node, result.literals, others);

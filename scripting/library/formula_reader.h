@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/episode/interfaces.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 
 namespace stampede {
 
@@ -26,15 +26,15 @@ struct FormulaContext {
 };
 
 // All throw Error (file:line: field: complaint, cure) at the first fault.
-Formula formula_from(const Node& node, const FormulaContext& context);
-std::vector<Formula> stages_from(const Node& node, const FormulaContext& context);  // in_order at the top; else empty
-std::vector<Effect> effects_from(const Node& node, const FormulaContext& context);
+Formula formula_from(const Value& node, const FormulaContext& context);
+std::vector<Formula> stages_from(const Value& node, const FormulaContext& context);  // in_order at the top; else empty
+std::vector<Effect> effects_from(const Value& node, const FormulaContext& context);
 // What holds at the start: is and is_not, groups expanded, in the author's order; and other formulas, as one.
 struct Beginning {
   std::vector<Literal> literals;
   std::optional<Formula> constraint;
 };
-Beginning beginning_from(const Node& node, const FormulaContext& context);
+Beginning beginning_from(const Value& node, const FormulaContext& context);
 
 // `name: type & trait & trait`; a word that is neither is an Error.
 Parameter parameter_from(const std::string& text, const Domain& domain, const std::string& place);

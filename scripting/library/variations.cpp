@@ -11,39 +11,39 @@ namespace {
 constexpr std::size_t kMostVariations = 10'000;
 
 int push_protected(lua_State* state) {
-  const auto* node = static_cast<const Node*>(lua_touserdata(state, 1));
+  const auto* node = static_cast<const Value*>(lua_touserdata(state, 1));
   lua_settop(state, 0);
   push_node(state, *node);
   return 1;
 }
 
-bool is_plain(const Node& value) { return value.is_text() || value.is_number() || value.kind == Node::Kind::boolean; }
+bool is_plain(const Value& value) { return value.is_text() || value.is_number() || value.kind == Value::Kind::boolean; }
 
-Node table_of_nothing() {
-  Node node;
-  node.kind = Node::Kind::table;
+Value table_of_nothing() {
+  Value node;
+  node.kind = Value::Kind::table;
   return node;
 }
 
 }  // namespace
 
-void push_node(lua_State* state, const Node& node) {
+void push_node(lua_State* state, const Value& node) {
   luaL_checkstack(state, 4, "value nested too deeply");
   switch (node.kind) {
-    case Node::Kind::boolean:
+    case Value::Kind::boolean:
       lua_pushboolean(state, node.boolean);
       break;
-    case Node::Kind::number:
+    case Value::Kind::number:
       if (node.integer) {
         lua_pushinteger(state, static_cast<lua_Integer>(node.number));
       } else {
         lua_pushnumber(state, node.number);
       }
       break;
-    case Node::Kind::text:
+    case Value::Kind::text:
       lua_pushlstring(state, node.text.data(), node.text.size());
       break;
-    case Node::Kind::table:
+    case Value::Kind::table:
       lua_createtable(state, static_cast<int>(node.items.size()), static_cast<int>(node.fields.size()));
       for (std::size_t i = 0; i < node.items.size(); ++i) {
         push_node(state, node.items[i]);
@@ -59,7 +59,7 @@ void push_node(lua_State* state, const Node& node) {
   }
 }
 
-std::string variation_text(const Node& variation) {
+std::string variation_text(const Value& variation) {
   std::string text;
   for (const auto& [axis, value] : variation.fields) text += (text.empty() ? "" : ",") + axis + "=" + plain_text(value);
   return text;
@@ -67,9 +67,9 @@ std::string variation_text(const Node& variation) {
 
 // The product of the axes (the first in alphabetical order varies slowest) or the list, without what `where` leaves
 // out.
-std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, DefinitionState& state) {
-  const Node& written = definition.node["variations"];
-  std::vector<Node> all;
+std::vector<Value> LibraryBuilder::variations_of(const Definition& definition, DefinitionState& state) {
+  const Value& written = definition.node["variations"];
+  std::vector<Value> all;
   if (!written.items.empty()) {
     all = written.items;
   } else {
@@ -82,9 +82,9 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
         throw error_at(definition, path, "an axis is a list of values, this is " + values.type_name(),
                        "such as " + axis + " = { 1, 2 }");
       }
-      std::vector<Node> longer;
-      for (const Node& before : all) {
-        for (const Node& value : values.items) {
+      std::vector<Value> longer;
+      for (const Value& before : all) {
+        for (const Value& value : values.items) {
           longer.push_back(before);
           longer.back().fields[axis] = value;
         }
@@ -94,9 +94,9 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
       all = std::move(longer);
     }
   }
-  std::vector<Node> kept;
+  std::vector<Value> kept;
   std::vector<std::string> texts;
-  for (const Node& variation : all) {
+  for (const Value& variation : all) {
     for (const auto& [axis, value] : variation.fields) {
       if (!is_plain(value))
         throw error_at(definition, "variations", "the value of '" + axis + "' is " + value.type_name(),
@@ -107,7 +107,7 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
       state.push(DefinitionKind::task, definition.file->name);
       lua_getfield(lua, -1, "where");
       lua_pushcfunction(lua, lua_function<push_protected>);
-      lua_pushlightuserdata(lua, const_cast<Node*>(&variation));
+      lua_pushlightuserdata(lua, const_cast<Value*>(&variation));
       state.sandbox().call(1, 1);
       state.sandbox().call(1, 1);
       const bool keep = lua_toboolean(lua, -1) != 0;
@@ -127,17 +127,17 @@ std::vector<Node> LibraryBuilder::variations_of(const Definition& definition, De
 }
 
 // A field's value for a variation: functions of it are called.
-Node LibraryBuilder::field_for(const Definition& definition, DefinitionState& state, const char* field,
-                               const Node& variation) {
+Value LibraryBuilder::field_for(const Definition& definition, DefinitionState& state, const char* field,
+                                const Value& variation) {
   if (!definition.node[field].is_function()) return definition.node[field];
   lua_State* lua = state.state();
   state.push(DefinitionKind::task, definition.file->name);
   lua_getfield(lua, -1, field);
   lua_pushcfunction(lua, lua_function<push_protected>);
-  lua_pushlightuserdata(lua, const_cast<Node*>(&variation));
+  lua_pushlightuserdata(lua, const_cast<Value*>(&variation));
   state.sandbox().call(1, 1);
   state.sandbox().call(1, 1);
-  Node result = read_node(lua, -1, definition.file->shown_path);
+  Value result = value_as_written(lua, -1, definition.file->shown_path);
   lua_settop(lua, 0);
   return result;
 }

@@ -28,7 +28,7 @@ std::string timeline_json(const EpisodeRecord& episode) {
   const double hz = episode.physics_hz;
   JsonText json;
   json.object().field("key", episode.key).field("task", episode.task).field("variation", episode.variation);
-  json.field("seed", episode.seed).field("split", episode.split).field("world", episode.world);
+  json.field("seed", episode.seed).field("split", to_string(episode.split)).field("world", episode.world);
   json.field("outcome", to_string(episode.outcome)).field("reason", to_string(episode.reason));
   json.field("detail", episode.detail).field("duration", episode.duration_s());
   json.field("frames", static_cast<std::int64_t>(episode.frames.size()));

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "engine/base/error.h"
 #include "engine/geometry/mesh.h"
 
 namespace stampede {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/model/urdf.h"
-#include "scripting/runtime/value.h"
+#include "scripting/library/value.h"
 
 namespace stampede {
 

@@ -7,7 +7,7 @@
 #include <lua.hpp>
 
 #include "engine/base/nearest.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 #include "scripting/lua/sandbox.h"
 
 namespace stampede {
@@ -20,7 +20,7 @@ class MappingReader {
   MappingReader(const Library& library, std::string place, bool home)
       : library_(library), place_(std::move(place)), home_(home) {}
 
-  BddlMapping read(const Node& table) {
+  BddlMapping read(const Value& table) {
     if (!table.is_table()) throw Error(place_, "expected a table, got " + table.type_name(), "return { … }");
     only(table, "",
          {"dialect", "extend", "domain", "problem_name", "categories", "instances", "unsaid", "unknown", "sites",
@@ -45,13 +45,13 @@ class MappingReader {
     throw Error(place_ + ": " + field, what, hint);
   }
 
-  void only(const Node& table, const std::string& field, const std::vector<std::string>& known) const {
+  void only(const Value& table, const std::string& field, const std::vector<std::string>& known) const {
     for (const auto& [name, value] : table.fields)
       if (std::find(known.begin(), known.end(), name) == known.end())
         fail(field.empty() ? name : field, "there is no field '" + name + "'", did_you_mean(name, known));
   }
 
-  const std::string& text(const Node& node, const std::string& field) const {
+  const std::string& text(const Value& node, const std::string& field) const {
     if (!node.is_text()) fail(field, "expected a text, got " + node.type_name());
     return node.text;
   }
@@ -70,7 +70,7 @@ class MappingReader {
     all.insert(all.begin(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
   }
 
-  void read_words(const Node& table, BddlMapping& mapping) const {
+  void read_words(const Value& table, BddlMapping& mapping) const {
     for (const auto& [name, member] : kWords)
       if (table[name].present()) mapping.*member = text(table[name], name);
     known_predicate("support", mapping.support);
@@ -78,7 +78,7 @@ class MappingReader {
     known_thing("zone", mapping.zone);
   }
 
-  void read_things(const Node& table, BddlMapping& mapping) const {
+  void read_things(const Value& table, BddlMapping& mapping) const {
     put_first(mapping.categories, pairs(table["categories"], "categories", false));
     for (const BddlPair& pair : mapping.categories) known_thing("categories", pair.ours);
     put_first(mapping.sites, pairs(table["sites"], "sites", true));
@@ -96,7 +96,7 @@ class MappingReader {
       known_thing("parts", thing);
       std::vector<std::string>& names = mapping.parts[thing];
       names.clear();
-      for (const Node& part : parts.items) names.push_back(text(part, "parts." + thing));
+      for (const Value& part : parts.items) names.push_back(text(part, "parts." + thing));
     }
     for (const auto& [thing, room] : table["rooms"].fields) {
       known_thing("rooms", thing);
@@ -104,17 +104,17 @@ class MappingReader {
     }
   }
 
-  std::vector<std::string> texts(const Node& list, const std::string& field) const {
+  std::vector<std::string> texts(const Value& list, const std::string& field) const {
     std::vector<std::string> result;
-    for (const Node& item : list.items) result.push_back(text(item, field));
+    for (const Value& item : list.items) result.push_back(text(item, field));
     return result;
   }
 
   // { x = { 0.52, 0.55 }, y = { 0.12, 0.16 }, z = 0.75 }, in metres of the world
-  BddlStand stand_of(const Node& table, const std::string& field) const {
+  BddlStand stand_of(const Value& table, const std::string& field) const {
     only(table, field, {"x", "y", "z"});
     const auto range = [&](const char* name) {
-      const Node& ends = table[name];
+      const Value& ends = table[name];
       if (ends.items.size() != 2 || !ends.items[0].is_number() || !ends.items[1].is_number() ||
           ends.items[0].number > ends.items[1].number)
         fail(field + "." + name, "expected { least, greatest }", "such as { 0.52, 0.55 }, in metres");
@@ -125,11 +125,11 @@ class MappingReader {
   }
 
   // { { "theirs", "ours" }, … }
-  std::vector<BddlPair> pairs(const Node& list, const std::string& field, bool may_be_empty) const {
+  std::vector<BddlPair> pairs(const Value& list, const std::string& field, bool may_be_empty) const {
     if (list.present() && (!list.is_table() || !list.fields.empty()))
       fail(field, "expected a list of pairs", "{ { \"theirs\", \"ours\" } }: the first that fits is taken");
     std::vector<BddlPair> result;
-    for (const Node& item : list.items) {
+    for (const Value& item : list.items) {
       if (item.items.size() != 2) fail(field, "expected a pair, got " + item.type_name(), "{ \"theirs\", \"ours\" }");
       result.push_back({text(item.items[0], field), text(item.items[1], field)});
       if (result.back().ours.empty() && !may_be_empty)
@@ -138,9 +138,9 @@ class MappingReader {
     return result;
   }
 
-  std::vector<BddlPredicateRule> rules(const Node& list) const {
+  std::vector<BddlPredicateRule> rules(const Value& list) const {
     std::vector<BddlPredicateRule> result;
-    for (const Node& item : list.items) {
+    for (const Value& item : list.items) {
       const std::string field = "predicates[" + std::to_string(result.size() + 1) + "]";
       only(item, field, {"theirs", "ours", "negated", "order", "meaning", "why"});
       BddlPredicateRule rule;
@@ -148,7 +148,7 @@ class MappingReader {
       rule.ours = text(item["ours"], field + ".ours");
       known_predicate(field + ".ours", rule.ours);
       rule.negated = item["negated"].boolean;
-      for (const Node& place : item["order"].items) {
+      for (const Value& place : item["order"].items) {
         if (!place.integer) fail(field + ".order", "expected whole numbers from 1", "{ 2, 1 } swaps two arguments");
         rule.order.push_back(static_cast<int>(place.number) - 1);  // Lua counts from 1
       }
@@ -159,7 +159,7 @@ class MappingReader {
     return result;
   }
 
-  BddlMeaning meaning(const Node& node, const std::string& field) const {
+  BddlMeaning meaning(const Value& node, const std::string& field) const {
     using enum BddlMeaning;
     if (!node.present()) return equal;
     std::vector<std::string> names;
@@ -218,7 +218,7 @@ BddlMapping read_bddl_mapping(const Library& library, const std::string& path) {
   });
   sandbox.run(bytecode, "@" + place, 1);
   const bool home = own != nullptr && (path == "libero" || path == "behavior");
-  return MappingReader(library, place, home).read(read_node(sandbox.state(), -1, place));
+  return MappingReader(library, place, home).read(value_as_written(sandbox.state(), -1, place));
 }
 
 std::string dialect_name(BddlDialect dialect) { return dialect == BddlDialect::libero ? "libero" : "behavior"; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "scripting/runtime/evaluate.h"
+
 namespace stampede {
 namespace {
 
@@ -203,7 +205,10 @@ class Builder {
     object.type = fields.text_or("type", type);
     if (fields["traits"].present()) object.traits = fields["traits"].as_texts();
     std::sort(object.traits.begin(), object.traits.end());
-    for (const auto& [key, value] : fields["attributes"].fields) object.attributes[key] = value.canonical();
+    for (const auto& [key, value] : fields["attributes"].fields) {
+      if (value.is_table()) value.expected("a plain value");
+      object.attributes[key] = plain_text(value);
+    }
     if (fields["colour"].kind == Value::Kind::text) object.attributes.emplace("colour", fields["colour"].text);
     for (const auto& [key, value] : fields["numbers"].fields) object.numbers[key] = value.as_number();
     for (const Value& grasp : fields["grasps"].items) object.grasps.push_back(grasp_from(grasp));

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/model/scene.h"
+#include "scripting/library/value.h"
 #include "scripting/runtime/assets.h"
-#include "scripting/runtime/value.h"
 
 namespace stampede {
 

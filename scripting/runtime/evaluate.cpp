@@ -61,41 +61,23 @@ Value read_table(lua_State* state, int index, const Evaluation& how, const std::
 
 Value read(lua_State* state, int index, const Evaluation& how, const std::string& path, int depth) {
   luaL_checkstack(state, 8, "definition nested too deeply");
-  Value value;
+  if (lua_istable(state, index)) return read_table(state, index, how, path, depth);
+  if (lua_isfunction(state, index) && how.variation != 0) {
+    lua_pushvalue(state, index);
+    lua_pushvalue(state, how.variation);
+    lua_call(state, 1, 1);
+    Value result = read(state, lua_gettop(state), how, path, depth + 1);
+    lua_pop(state, 1);
+    return result;
+  }
+  Value value = lua_isfunction(state, index) ? Value() : plain_value(state, index);
   value.place = place_of(how, path);
-  switch (lua_type(state, index)) {
-    case LUA_TNIL:
-      break;
-    case LUA_TBOOLEAN:
-      value.kind = Value::Kind::boolean;
-      value.boolean = lua_toboolean(state, index) != 0;
-      break;
-    case LUA_TNUMBER:
-      value.kind = Value::Kind::number;
-      value.number = lua_tonumber(state, index);
-      value.integer = lua_isinteger(state, index) != 0;
-      if (!std::isfinite(value.number)) throw Error(value.place, "a number that is not finite");
-      break;
-    case LUA_TSTRING:
-      value.kind = Value::Kind::text;
-      value.text = lua_tostring(state, index);
-      break;
-    case LUA_TTABLE:
-      return read_table(state, index, how, path, depth);
-    case LUA_TFUNCTION:
-      if (how.variation == 0) break;
-      lua_pushvalue(state, index);
-      lua_pushvalue(state, how.variation);
-      lua_call(state, 1, 1);
-      value = read(state, lua_gettop(state), how, path, depth + 1);
-      lua_pop(state, 1);
-      break;
-    default: {
-      const std::optional<Transform> pose = pose_at(state, index);
-      if (!pose) throw Error(value.place, std::string("cannot hold a ") + luaL_typename(state, index));
-      value.kind = Value::Kind::pose;
-      value.pose = *pose;
-    }
+  if (value.is_number() && !std::isfinite(value.number)) throw Error(value.place, "a number that is not finite");
+  if (value.kind == Value::Kind::other) {
+    const std::optional<Transform> pose = pose_at(state, index);
+    if (!pose) throw Error(value.place, "cannot hold a " + value.text);
+    value.kind = Value::Kind::pose;
+    value.pose = *pose;
   }
   return value;
 }
@@ -155,6 +137,21 @@ Value draw(const Value& value, RandomKey key) {
 
 Value read_value(lua_State* state, int index, const Evaluation& how, const std::string& path) {
   return read(state, lua_absindex(state, index), how, path, 0);
+}
+
+Transform transform_from(const Value& table) {
+  const Value& at = table["at"];
+  if (at.kind == Value::Kind::pose) return at.pose;
+  const Vector3 origin = at.present() ? at.as_vector() : Vector3::Zero();
+  Vector3 rpy = table.vector_or("rpy", Vector3::Zero());
+  rpy.z() += table.number_or("yaw", 0);
+  Transform pose = translation(origin) * rotation_rpy(rpy.x(), rpy.y(), rpy.z());
+  if (const Value& quaternion = table["quaternion"]; quaternion.present()) {
+    const std::vector<double> xyzw = quaternion.as_numbers();
+    if (xyzw.size() != 4) quaternion.expected("four numbers { x, y, z, w }");
+    pose = make_transform(origin, Quaternion(xyzw[3], xyzw[0], xyzw[1], xyzw[2]).normalized());
+  }
+  return pose;
 }
 
 }  // namespace stampede

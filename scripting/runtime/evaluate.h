@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/random.h"
-#include "scripting/runtime/value.h"
+#include "scripting/library/value.h"
 
 struct lua_State;
 
@@ -27,5 +27,8 @@ Value read_value(lua_State* state, int index, const Evaluation& how, const std::
 // The draw of a tagged value (one_of, between, sample_of) whose fields have been read; others are returned as they are.
 Value draw(const Value& value, RandomKey key);
 bool is_draw(const Value& value);
+
+// A pose written as fields: at = { x, y, z } and one of yaw = rad, rpy = { r, p, y }, quaternion = { x, y, z, w }.
+Transform transform_from(const Value& table);
 
 }  // namespace stampede

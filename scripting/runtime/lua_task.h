@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "scripting/library/value.h"
 #include "scripting/runtime/assets.h"
 #include "scripting/runtime/script_state.h"
-#include "scripting/runtime/value.h"
 
 namespace stampede {
 

@@ -35,7 +35,7 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
 
 void TaskReader::read_init() {
   if (!push_field("init")) return;
-  Beginning beginning = beginning_from(read_node(state_, -1, file_.shown_path + ": init"), context_of("init"));
+  Beginning beginning = beginning_from(value_as_written(state_, -1, file_.shown_path + ": init"), context_of("init"));
   drawn_.task.init = std::move(beginning.literals);
   drawn_.task.where = std::move(beginning.constraint);
   lua_pop(state_, 1);
@@ -43,7 +43,7 @@ void TaskReader::read_init() {
 
 void TaskReader::read_goal() {
   if (!push_field("goal")) throw Error(file_.shown_path, "a task needs a goal");
-  const Node goal = read_node(state_, -1, file_.shown_path + ": goal");
+  const Value goal = value_as_written(state_, -1, file_.shown_path + ": goal");
   drawn_.task.goal = formula_from(goal, context_of("goal"));
   drawn_.task.stages = stages_from(goal, context_of("goal"));
   lua_pop(state_, 1);
@@ -52,7 +52,7 @@ void TaskReader::read_goal() {
 // Named formulas in the order in which they are written: a table of names has none of its own, lines do.
 void TaskReader::read_subgoals() {
   if (!push_field("subgoals")) return;
-  const Node subgoals = read_node(state_, -1, file_.shown_path + ": subgoals");
+  const Value subgoals = value_as_written(state_, -1, file_.shown_path + ": subgoals");
   lua_pop(state_, 1);
   std::vector<std::pair<int, std::string>> order;
   for (const auto& [name, node] : subgoals.fields) order.emplace_back(node.line(), name);
@@ -60,7 +60,7 @@ void TaskReader::read_subgoals() {
   for (const auto& [line, name] : order) {
     drawn_.task.subgoals.emplace_back(name, formula_from(subgoals[name], context_of("subgoals." + name)));
   }
-  for (const Node& pair : subgoals.items) {  // { { "open_it", is.open(…) }, … }
+  for (const Value& pair : subgoals.items) {  // { { "open_it", is.open(…) }, … }
     if (pair.items.size() != 2 || !pair.items[0].is_text()) {
       throw Error(file_.shown_path + ": subgoals", "expected { \"name\", formula }");
     }

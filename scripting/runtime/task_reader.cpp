@@ -241,7 +241,7 @@ void TaskReader::add_group(const std::string& name, int index) {
       if (!drawn["sampled"].present()) continue;
       if (drawn.items.size() != static_cast<std::size_t>(count)) {
         throw Error(drawn.place, "sample_of draws " + std::to_string(drawn.items.size()) + " values for a group of " +
-                                     shared["count"].canonical());
+                                     plain_text(shared["count"]));
       }
       value = drawn.items[static_cast<std::size_t>(i) - 1];
     }

@@ -3,14 +3,14 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 
 namespace stampede {
 namespace {
 
 // Is the value on top of the stack the one that reads `text`? Tells; leaves the stack as it is.
 bool reads(lua_State* state, const std::string& text, const std::string& place) {
-  return !lua_isnil(state, -1) && plain_text(read_node(state, -1, place)) == text;
+  return !lua_isnil(state, -1) && plain_text(value_as_written(state, -1, place)) == text;
 }
 
 // Pushes the value of one axis from `variations` at `index`, a table of axes or a list of combinations.

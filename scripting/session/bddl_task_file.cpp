@@ -7,7 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/definitions.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/runtime/object_scene.h"
 
@@ -381,7 +381,7 @@ std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Libr
   DefinitionState state(library);
   state.push(DefinitionKind::task, task);
   lua_getfield(state.state(), -1, "problem");
-  const Node field = read_node(state.state(), -1, file->shown_path);
+  const Value field = value_as_written(state.state(), -1, file->shown_path);
   if (!field.present()) return std::nullopt;
   ImportedProblem imported;
   imported.problem = read_bddl(field["text"].text, file->shown_path + ": problem.text").problem;

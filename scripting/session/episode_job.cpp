@@ -115,8 +115,8 @@ std::vector<EpisodeJob> JobList::first_of_each_task() const {
   return jobs;
 }
 
-void check_split(const std::string& split, std::int64_t first_seed, std::int64_t last_seed) {
-  const bool test = split == "test";
+void check_split(Split split, std::int64_t first_seed, std::int64_t last_seed) {
+  const bool test = split == Split::test;
   const std::string border = std::to_string(kFirstTestSeed);
   if (first_seed < 0) throw Error("--seed", "a seed is 0 or more, not " + std::to_string(first_seed));
   if (!test && last_seed >= kFirstTestSeed) {

@@ -71,7 +71,7 @@ std::vector<std::string> matching_variations(const Library::TaskInfo& task, cons
 const Library::TaskInfo& task_info(const Library& library, const std::string& name);
 
 // Throws Error when the seed does not belong to the split.
-void check_split(const std::string& split, std::int64_t first_seed, std::int64_t last_seed);
+void check_split(Split split, std::int64_t first_seed, std::int64_t last_seed);
 
 // Of all files that a task's episodes are made of. Other files, other hash; the same on every machine.
 std::string definitions_hash(const std::vector<DefinitionRecord>& definitions);

@@ -68,7 +68,7 @@ RunOptions options_of(const EpisodeRequest& request) {
   options.controller = request.controller;
   if (request.pictures) options.observation = choice_of(*request.pictures);
   if (request.randomise) options.randomise = default_randomisation();
-  options.split = request.seed >= kFirstTestSeed ? "test" : "train";
+  options.split = request.seed >= kFirstTestSeed ? Split::test : Split::train;
   check_split(options.split, request.seed, request.seed);
   return options;
 }

@@ -130,15 +130,9 @@ Formula without(const Formula& goal, const std::vector<std::string>& predicates,
 
 }  // namespace
 
-const std::string* document_text(const EpisodeRecord& episode, const std::string& kind) {
-  for (const DocumentRecord& document : episode.documents)
-    if (document.kind == kind) return &document.text;
-  return nullptr;
-}
-
 StoredSymbols read_symbols(const EpisodeRecord& episode) {
-  const std::string* domain = document_text(episode, "pddl_domain");
-  const std::string* problem = document_text(episode, "pddl_problem");
+  const std::string* domain = document_of(episode, DocumentKind::pddl_domain);
+  const std::string* problem = document_of(episode, DocumentKind::pddl_problem);
   if (domain == nullptr || problem == nullptr)
     throw Error(episode.task, "the episode has no PDDL problem: no start was found", "choose another episode");
   StoredSymbols symbols;
@@ -184,7 +178,7 @@ BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const Sto
   BddlScene result;
   result.task = episode.task;
   for (const LanguageRecord& sentence : episode.language)
-    if (sentence.level == "task" && result.instruction.empty()) result.instruction = sentence.text;
+    if (sentence.level == LanguageLevel::task && result.instruction.empty()) result.instruction = sentence.text;
   for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
   for (const Object& object : scene.objects)
     if (const auto placement = stand_of(object, scene)) result.placements.push_back(*placement);

@@ -17,7 +17,6 @@ struct StoredSymbols {
   Problem problem;  // as the episode began
 };
 
-const std::string* document_text(const EpisodeRecord& episode, const std::string& kind);  // the first of it, or null
 // Throws Error for an episode without a problem: no start was found.
 StoredSymbols read_symbols(const EpisodeRecord& episode);
 

@@ -142,8 +142,9 @@ void add_labels(EpisodeRecord& e) {
   e.predicates = {{"on", "basic"}, {"holding", "basic"}, {"clear", "derived"}, {"near", "basic"}};
   e.contacts = {{"block1", "base", "table", "top", 0, 4, 12.5}};
   e.grasps = {{0, "block1", pose_of(0.3), 0.04, true}};
-  e.language = {{"task", "lift the red block", -1}, {"skill", "pick up the red block", 0}};
-  e.documents = {{"pddl_domain", "(define (domain d))"}, {"plan", "(pick block1 table)\n(place block1 shelf)\n"}};
+  e.language = {{LanguageLevel::task, "lift the red block", -1}, {LanguageLevel::skill, "pick up the red block", 0}};
+  e.documents = {{DocumentKind::pddl_domain, "(define (domain d))"},
+                 {DocumentKind::plan, "(pick block1 table)\n(place block1 shelf)\n"}};
   e.verdicts = {{"libero", true, false, {"(on block1 shelf)"}}};
   e.beside_goal = "the task's own test `also` must hold too";
   e.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
@@ -166,7 +167,7 @@ EpisodeRecord sample_episode(const std::string& task, const std::string& variati
   e.key = content_hash(task + variation + std::to_string(seed));
   e.task = task, e.world = "tabletop", e.variation = variation, e.seed = seed;
   e.axes = {{"colour", variation.substr(variation.find('=') + 1)}};
-  e.split = seed >= 1'000'000 ? "test" : "train";
+  e.split = seed >= 1'000'000 ? Split::test : Split::train;
   e.outcome = Outcome::success;
   e.options = {{"on_failure", "undo"}};
   e.definitions = {{"skill", "pick", "skills/pick.lua", "-- Grasp.\n", "aa"},

@@ -311,10 +311,7 @@ TEST_CASE("all tasks of a world store the same domain, byte for byte, named by i
   CHECK(sized.code == kDone);
   CHECK(sized.out.size() < a.out.size());
   const EpisodeRecord episode = Catalogue::open(stored()).read_episode(1);
-  bool same = false;
-  for (const DocumentRecord& document : episode.documents)
-    same = same || (document.kind == "pddl_domain" && a.out.starts_with(document.text));
-  CHECK(same);
+  CHECK(a.out.starts_with(*document_of(episode, DocumentKind::pddl_domain)));
 }
 
 TEST_CASE("`show --frame` says a moment as facts, sentences, PDDL and BDDL, and each reads back") {
@@ -325,10 +322,7 @@ TEST_CASE("`show --frame` says a moment as facts, sentences, PDDL and BDDL, and 
   CHECK(says(show("sentences").out, "chest.top_drawer is 0 % open"));
   const Catalogue catalogue = Catalogue::open(stored());
   const EpisodeRecord episode = catalogue.read_episode(1);
-  std::string domain_text;
-  for (const DocumentRecord& document : episode.documents)
-    if (document.kind == "pddl_domain") domain_text = document.text;
-  const Domain domain = domain_from_pddl(domain_text, "domain");
+  const Domain domain = domain_from_pddl(*document_of(episode, DocumentKind::pddl_domain), "domain");
   const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
   const Problem end = problem_from_pddl(show("pddl", std::to_string(last)).out, "end", domain);
   CHECK(holds(end.goal, with_derived(end.init, domain, end.objects), domain, end.objects));

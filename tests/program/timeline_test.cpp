@@ -16,11 +16,11 @@ EpisodeRecord small_episode() {
   e.task = "stack";
   e.variation = "colour=red";
   e.world = "tabletop";
-  e.split = "train";
+  e.split = Split::train;
   e.seed = 7;
   e.steps = 2400;
   e.reason = Reason::dropped;
-  e.language = {{"task", "stack red blocks", -1}};
+  e.language = {{LanguageLevel::task, "stack red blocks", -1}};
   SegmentRecord pick, motion, place, tried;
   pick.kind = place.kind = tried.kind = SegmentKind::skill;
   pick.skill = tried.skill = "pick";

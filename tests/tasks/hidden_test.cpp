@@ -69,14 +69,13 @@ TEST_CASE("plans know what has been seen, assume the rest and plan again: drawer
     const std::vector<std::string> skills = skills_of(episode);
     first.insert(skills.front());
     looked_in_vain += skills.size() > 3 ? 1 : 0;
-    const auto plan = std::find_if(episode.documents.begin(), episode.documents.end(),
-                                   [](const DocumentRecord& document) { return document.kind == "plan"; });
-    REQUIRE(plan != episode.documents.end());
-    INFO(plan->text);
-    CHECK(plan->text.find("; assumed (inside item chest.middle_drawer) and saw that it holds\n") != std::string::npos);
-    const bool wrong = plan->text.find("and saw that it does not hold") != std::string::npos;
+    const std::string* plan = document_of(episode, DocumentKind::plan);
+    REQUIRE(plan != nullptr);
+    INFO(*plan);
+    CHECK(plan->find("; assumed (inside item chest.middle_drawer) and saw that it holds\n") != std::string::npos);
+    const bool wrong = plan->find("and saw that it does not hold") != std::string::npos;
     CHECK(wrong == (skills.size() > 3));
-    CHECK(plan->text.find("; step 1 searched: (" + skills.front() + " panda.hand)\n") != std::string::npos);
+    CHECK(plan->find("; step 1 searched: (" + skills.front() + " panda.hand)\n") != std::string::npos);
   }
   CHECK(first.size() > 1);
   CHECK(looked_in_vain > 0);

@@ -7,12 +7,6 @@
 
 namespace stampede::test {
 
-std::string document(const EpisodeRecord& episode, const std::string& kind) {
-  for (const DocumentRecord& one : episode.documents)
-    if (one.kind == kind) return one.text;
-  return {};
-}
-
 void check_tiling(const EpisodeRecord& episode) {
   auto verdict = static_cast<std::ptrdiff_t>(episode.frames.size());
   for (const SegmentRecord& segment : episode.segments)
@@ -31,9 +25,10 @@ void check_tiling(const EpisodeRecord& episode) {
 }
 
 void check_plan(const EpisodeRecord& episode) {
-  const Domain domain = domain_from_pddl(document(episode, "pddl_domain"), "domain");
-  const Problem problem = problem_from_pddl(document(episode, "pddl_problem"), "problem", domain);
-  const Validation verdict = validate(domain, problem, plan_from_text(document(episode, "plan"), "plan"));
+  const Domain domain = domain_from_pddl(*document_of(episode, DocumentKind::pddl_domain), "domain");
+  const Problem problem = problem_from_pddl(*document_of(episode, DocumentKind::pddl_problem), "problem", domain);
+  const Validation verdict =
+      validate(domain, problem, plan_from_text(*document_of(episode, DocumentKind::plan), "plan"));
   INFO(verdict.explanation);
   CHECK(verdict.valid);
 }

@@ -7,8 +7,6 @@
 
 namespace stampede::test {
 
-std::string document(const EpisodeRecord& episode, const std::string& kind);  // empty: there is none
-
 // Motions and subgoals each cover every frame once; skills those before the arm stands still for the verdict.
 void check_tiling(const EpisodeRecord& episode);
 

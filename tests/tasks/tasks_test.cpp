@@ -74,7 +74,7 @@ TEST_CASE("each task succeeds, its labels agree with the world, and it replays b
 TEST_CASE("a tower is built with no step too many: a pick and a stack for each block but the lowest") {
   for (const std::string& variation : some_variations("stack_blocks")) {
     const EpisodeRecord episode = run("stack_blocks", variation, 3);
-    const std::string& plan = document(episode, "plan");
+    const std::string& plan = *document_of(episode, DocumentKind::plan);
     INFO(variation << "\n" << plan);
     CHECK(std::count(plan.begin(), plan.end(), '\n') == 2 * (std::stoi(episode.axes.at("height")) - 1));
   }

@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-using Kind = BddlThing::Kind;
+using ThingKind = BddlThing::Kind;
 
 Domain tabletop() {
   Domain domain;
@@ -43,14 +43,14 @@ BddlScene scene_with(const std::string& goal) {
   BddlScene scene;
   scene.task = "tidy_cubes";
   scene.instruction = "Tidy (all) the cubes;  please";
-  scene.things = {{Kind::fixture, "table", "work_table", "fixture", "", {{-0.3, -0.4, 0.3, 0.4}}},
-                  {Kind::fixture, "chest", "chest", "fixture", "", {}},
-                  {Kind::part, "chest.top_drawer", "chest", "drawer", "chest", {}},
-                  {Kind::part, "chest.bottom_drawer", "chest", "drawer", "chest", {}},
-                  {Kind::region, "table.zone", "work_table", "region", "table", {{0, 0, 0.1, 0.1}}},
-                  {Kind::object, "cube1", "cube", "cube", "", {}},
-                  {Kind::object, "cube2", "cube", "cube", "", {}},
-                  {Kind::hand, "panda.hand", "panda", "hand", "", {}}};
+  scene.things = {{ThingKind::fixture, "table", "work_table", "fixture", "", {{-0.3, -0.4, 0.3, 0.4}}},
+                  {ThingKind::fixture, "chest", "chest", "fixture", "", {}},
+                  {ThingKind::part, "chest.top_drawer", "chest", "drawer", "chest", {}},
+                  {ThingKind::part, "chest.bottom_drawer", "chest", "drawer", "chest", {}},
+                  {ThingKind::region, "table.zone", "work_table", "region", "table", {{0, 0, 0.1, 0.1}}},
+                  {ThingKind::object, "cube1", "cube", "cube", "", {}},
+                  {ThingKind::object, "cube2", "cube", "cube", "", {}},
+                  {ThingKind::hand, "panda.hand", "panda", "hand", "", {}}};
   scene.placements = {{"cube1", "table", {{-0.1, -0.1, 0.1, 0.1}}, {0, 1.5}}};
   scene.facts = {{"movable", {"cube1"}},
                  {"movable", {"cube2"}},
@@ -217,7 +217,7 @@ TEST_CASE("LIBERO: what its arena has, what it calls it, and what it lacks") {
   mapping.unsaid = {"floor"};
   mapping.unknown = {"wooden_block"};
   BddlScene scene = scene_with("(open chest.top_drawer)");
-  scene.things.push_back({Kind::fixture, "floor", "floor", "fixture", "", {}});
+  scene.things.push_back({ThingKind::fixture, "floor", "floor", "fixture", "", {}});
   const BddlExport result = export_bddl(scene, mapping, tabletop());
   CHECK_THAT(result.text, Contains("main_table - table\n") && Contains("(on cube1 main_table_cube1_init_region)") &&
                               Contains("(:target main_table)") && !Contains("floor"));
@@ -248,7 +248,7 @@ TEST_CASE("a drawer that is half open is told, not lost") {
 
 TEST_CASE("LIBERO: sites and surfaces that their models may lack are remarked") {
   BddlScene scene = scene_with("(and (inside cube1 chest.left_door) (on cube2 chest))");
-  scene.things.push_back({Kind::part, "chest.left_door", "chest", "drawer", "chest", {}});
+  scene.things.push_back({ThingKind::part, "chest.left_door", "chest", "drawer", "chest", {}});
   const std::vector<std::string> remarks = export_bddl(scene, libero_words(), tabletop()).remarks;
   const auto has = [&](const std::string& text) {
     return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& r) { return r.find(text) == 0; });
@@ -370,8 +370,9 @@ TEST_CASE("an exported goal holds there exactly where it holds here") {
   int said = 0, imported = 0;
   for (int round = 0; round < 400; ++round) {
     BddlScene scene = scene_with(formula(4, {"cube1", "cube2", "table"}));
-    std::erase_if(scene.things,
-                  [](const BddlThing& thing) { return thing.kind == Kind::part || thing.kind == Kind::region; });
+    std::erase_if(scene.things, [](const BddlThing& thing) {
+      return thing.kind == ThingKind::part || thing.kind == ThingKind::region;
+    });
     std::erase_if(scene.facts,
                   [](const Fact& fact) { return fact.predicate == "closed" || fact.predicate == "openable"; });
     scene.interest.clear();

@@ -152,13 +152,8 @@ TEST_CASE("rows of facts and of what is known are the abstract states of the fra
 }
 
 TEST_CASE("progress and applicable skills are what the stored problem says of the facts") {
-  const auto text = [&](const std::string& kind) {
-    for (const DocumentRecord& one : stacked().documents)
-      if (one.kind == kind) return one.text;
-    return std::string();
-  };
-  const Domain domain = domain_from_pddl(text("pddl_domain"), "domain");
-  const Problem problem = problem_from_pddl(text("pddl_problem"), "problem", domain);
+  const Domain domain = domain_from_pddl(*document_of(stacked(), DocumentKind::pddl_domain), "domain");
+  const Problem problem = problem_from_pddl(*document_of(stacked(), DocumentKind::pddl_problem), "problem", domain);
   const auto progress = arrays().column("progress").reals();
   const auto applicable = arrays().column("applicable").booleans();
   const std::size_t width = arrays().skills.size();

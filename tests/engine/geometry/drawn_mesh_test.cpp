@@ -23,13 +23,6 @@ Vector3 face_normal(const DrawnMesh& mesh, std::size_t triangle) {
   return (vector(mesh.positions[b]) - at).cross(vector(mesh.positions[c]) - at).normalized();
 }
 
-double volume(const DrawnMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += vector(mesh.positions[a]).dot(vector(mesh.positions[b]).cross(vector(mesh.positions[c])));
-  return sum / 6;
-}
-
 void check_flat_shading(const DrawnMesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (const std::uint32_t corner : mesh.triangles[i])

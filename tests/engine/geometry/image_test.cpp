@@ -35,7 +35,7 @@ std::string jpeg_bytes(unsigned width, unsigned height, std::array<unsigned char
   return bytes;
 }
 
-std::string complaint_of(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
+std::string decoding_complaint(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
   const auto file = folder.put(name, bytes);
   return complaint(file.string(), [&] { (void)load_image(file); });
 }
@@ -70,15 +70,16 @@ TEST_CASE("a JPEG picture of one colour has this colour, opaque") {
 TEST_CASE("missing, broken and huge pictures are errors with the file and a cure") {
   const TemporaryFolder folder;
   CHECK_THAT(complaint("none.png", [&] { (void)load_image(folder / "none.png"); }), Contains("no such picture"));
-  CHECK_THAT(complaint_of(folder, "a.png", ""), Contains("empty"));
-  CHECK_THAT(complaint_of(folder, "b.png", "GIF89a"), Contains("neither PNG nor JPEG"));
+  CHECK_THAT(decoding_complaint(folder, "a.png", ""), Contains("empty"));
+  CHECK_THAT(decoding_complaint(folder, "b.png", "GIF89a"), Contains("neither PNG nor JPEG"));
   const std::string png = png_bytes(2, 2, kFourColours), jpeg = jpeg_bytes(64, 64, {1, 2, 3});
-  CHECK_THAT(complaint_of(folder, "c.png", png.substr(0, png.size() / 2)), Contains("not a picture"));
-  CHECK_THAT(complaint_of(folder, "d.jpg", jpeg.substr(0, jpeg.size() / 2)), Contains("not a picture"));
-  CHECK_THAT(complaint_of(folder, "e.jpg", jpeg.substr(0, 4)), Contains("not a picture"));
+  CHECK_THAT(decoding_complaint(folder, "c.png", png.substr(0, png.size() / 2)), Contains("not a picture"));
+  CHECK_THAT(decoding_complaint(folder, "d.jpg", jpeg.substr(0, jpeg.size() / 2)), Contains("not a picture"));
+  CHECK_THAT(decoding_complaint(folder, "e.jpg", jpeg.substr(0, 4)), Contains("not a picture"));
   std::string damaged = png;
   damaged[png.size() / 2] ^= 0x55;
-  CHECK_THAT(complaint_of(folder, "f.png", damaged), Contains("not a picture"));
-  CHECK_THAT(complaint_of(folder, "g.jpg", jpeg_bytes(4097, 1, {1, 2, 3})), Contains("4097 x 1"));
-  CHECK_THAT(complaint_of(folder, "h.png", png_bytes(1, 5000, std::vector<std::uint8_t>(20000))), Contains("1 x 5000"));
+  CHECK_THAT(decoding_complaint(folder, "f.png", damaged), Contains("not a picture"));
+  CHECK_THAT(decoding_complaint(folder, "g.jpg", jpeg_bytes(4097, 1, {1, 2, 3})), Contains("4097 x 1"));
+  CHECK_THAT(decoding_complaint(folder, "h.png", png_bytes(1, 5000, std::vector<std::uint8_t>(20000))),
+             Contains("1 x 5000"));
 }

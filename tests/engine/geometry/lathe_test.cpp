@@ -4,7 +4,7 @@
 #include <set>
 
 #include "engine/base/error.h"
-#include "engine/geometry/drawn_mesh.h"
+#include "tests/engine/geometry/mesh_files.h"
 
 using namespace stampede;
 
@@ -17,13 +17,6 @@ Vector3 corner(const DrawnMesh& mesh, const std::array<std::uint32_t, 3>& triang
 
 Vector3 normal(const DrawnMesh& mesh, std::uint32_t i) {
   return {mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]};
-}
-
-// By the divergence theorem: positive when closed and seen counter-clockwise from outside.
-double volume(const DrawnMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) sum += corner(mesh, t, 0).dot(corner(mesh, t, 1).cross(corner(mesh, t, 2)));
-  return sum / 6;
 }
 
 // Every edge is passed once in each direction.

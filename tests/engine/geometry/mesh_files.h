@@ -37,6 +37,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// By the divergence theorem: positive when closed and seen counter-clockwise from outside.
+inline double volume(const DrawnMesh& mesh) {
+  const auto corner = [&](std::uint32_t i) {
+    return Vector3(mesh.positions[i][0], mesh.positions[i][1], mesh.positions[i][2]);
+  };
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += corner(a).dot(corner(b).cross(corner(c)));
+  return sum / 6;
+}
+
 // Four bytes a pixel.
 inline std::string png_bytes(int width, int height, const std::vector<std::uint8_t>& rgba) {
   png_image image{};

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 
 #include "engine/base/random.h"
 #include "engine/motion/planner.h"
 #include "tests/support/panda.h"
 
 namespace stampede {
+
+inline constexpr int kHz = 240;  // of the physics in these tests
+
+// Looking straight down at a point of the table.
+inline Transform above(double x, double y, double z, double yaw = 0) {
+  return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, yaw);
+}
 
 inline std::shared_ptr<const Scene> cluttered_scene(int boxes = 10) {
   auto scene = std::make_shared<Scene>(table_scene(0));

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "engine/base/error.h"
 #include "engine/motion/candidates.h"
@@ -25,8 +24,6 @@ std::unique_ptr<Motion> follow(const PlannedMotion& plan, FollowOptions options 
   REQUIRE(plan.reason == Reason::none);
   return make_follow(plan.trajectory, std::move(options));
 }
-
-Transform above(double x, double y, double z) { return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, 0); }
 
 // Moves the open hand around a cube and closes it.
 MotionResult grasp(World& world, const Object& cube) {

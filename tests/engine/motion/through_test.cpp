@@ -1,18 +1,10 @@
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "tests/engine/motion/cluttered.h"
 
 using namespace stampede;
 
 namespace {
-
-constexpr int kHz = 240;
-
-// Looking straight down at a point of the table.
-Transform above(double x, double y, double z, double yaw = 0) {
-  return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, yaw);
-}
 
 double turn_between(const Transform& a, const Transform& b) {
   return angle_between(Quaternion(a.linear()), Quaternion(b.linear()));

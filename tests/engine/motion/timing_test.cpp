@@ -3,13 +3,11 @@
 
 #include "engine/base/error.h"
 #include "engine/motion/blended_path.h"
-#include "tests/support/panda.h"
+#include "tests/engine/motion/cluttered.h"
 
 using namespace stampede;
 
 namespace {
-
-constexpr int kHz = 240;
 
 JointVector joints(std::initializer_list<double> values) {
   JointVector q(static_cast<Eigen::Index>(values.size()));

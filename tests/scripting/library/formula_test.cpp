@@ -4,7 +4,7 @@
 
 #include "scripting/library/definitions.h"
 #include "scripting/library/library.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 
 using namespace stampede;
 
@@ -74,7 +74,7 @@ TEST_CASE("a definition runs once per state and not across states") {
   fixture.state.push(DefinitionKind::task, "stack_blocks");
   fixture.state.push(DefinitionKind::task, "stack_blocks");
   CHECK(lua_rawequal(fixture.state.state(), -1, -2) == 1);
-  CHECK(read_node(fixture.state.state(), -1, "")["name"].text == "stack_blocks");
+  CHECK(value_as_written(fixture.state.state(), -1, "")["name"].text == "stack_blocks");
   CHECK_THROWS_WITH(fixture.state.push(DefinitionKind::task, "nothing"), Catch::Contains("there is no task 'nothing'"));
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("a table that doubles itself is refused, not unfolded") {
   Fixture fixture;
   fixture.state.sandbox().run(Sandbox::compile("local t = {1} for i = 1, 30 do t = { t, t } end return t", "t.lua"),
                               "t.lua", 1);
-  CHECK_THROWS_AS(read_node(fixture.state.state(), -1, "t.lua"), Error);
+  CHECK_THROWS_AS(value_as_written(fixture.state.state(), -1, "t.lua"), Error);
   fixture.state.sandbox().run(Sandbox::compile("local t = {} t.t = t return t", "t.lua"), "t.lua", 1);
-  CHECK_THROWS_WITH(read_node(fixture.state.state(), -1, "t.lua"), Catch::Contains("nested too deeply"));
+  CHECK_THROWS_WITH(value_as_written(fixture.state.state(), -1, "t.lua"), Catch::Contains("nested too deeply"));
 }

@@ -3,7 +3,7 @@
 #include <lua.hpp>
 
 #include "scripting/library/definitions.h"
-#include "scripting/library/node.h"
+#include "scripting/library/value.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;
@@ -17,10 +17,10 @@ std::shared_ptr<const Library> library() {
   return shared;
 }
 
-Node answer(const std::string& expression) {
+Value answer(const std::string& expression) {
   DefinitionState state(library());
   state.sandbox().run(Sandbox::compile("return " + expression, "test"), "@test", 1);
-  return read_node(state.state(), -1, "test");
+  return value_as_written(state.state(), -1, "test");
 }
 
 double difference(const std::string& a, const std::string& b) {
@@ -39,9 +39,9 @@ TEST_CASE("the difference of colours is CIEDE2000") {  // the values by another 
 }
 
 TEST_CASE("other colours are those that nobody takes for the one") {
-  const Node others = answer("colours.except('azure')");
+  const Value others = answer("colours.except('azure')");
   CHECK(others.items.size() >= 9);
-  for (const Node& other : others.items) CHECK(difference("azure", other.text) >= kConfused);
+  for (const Value& other : others.items) CHECK(difference("azure", other.text) >= kConfused);
   CHECK(answer("colours.except('azure', 'red')").items.size() < others.items.size());
   CHECK(answer("colours.except()").items.size() == answer("colours.names").items.size());
 }
