@@ -90,7 +90,7 @@ void EpisodeWriter::prepare_labels() {
                     "episode, undone, ordinal, was_ordinal, before_segment, try_number, kind, parent, robot, skill, "
                     "case_name, arg1, arg2, arg3, arg4, arguments, controller, start_step, end_step, first_frame, "
                     "end_frame, outcome, reason, detail, precondition_held, effect_held, missing_effects, forgotten, "
-                    "label, labelled_by");
+                    "searched_for, label, labelled_by");
   parameter_ = insert("segment_parameter",
                       "episode, undone, segment, ordinal, component, name, value, text, unit, frame, chosen_by");
   effect_ =

@@ -22,20 +22,21 @@ Fact fact_from(const std::string& text) {  // (on block1 table)
 constexpr const char* kSegmentColumns =
     "undone, coalesce(was_ordinal, ordinal), coalesce(before_segment, 0), try_number, kind, coalesce(parent, -1), "
     "robot, skill, case_name, arguments, controller, start_step, end_step, first_frame, end_frame, outcome, reason, "
-    "detail, precondition_held, effect_held, missing_effects, forgotten, label";
+    "detail, precondition_held, effect_held, missing_effects, forgotten, searched_for, label";
 
 void read_segment(const sql::Database& database, sql::Statement& row, AttemptRecord& a, bool& undone) {
   SegmentRecord& s = a.segment;
-  std::string kind, arguments, outcome, reason, missing, forgotten;
+  std::string kind, arguments, outcome, reason, missing, forgotten, searched;
   row.read(undone, s.ordinal, a.before_segment, a.try_number, kind, s.parent, s.robot, s.skill, s.case_name, arguments,
            s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason,
-           s.detail, s.precondition_held, s.effect_held, missing, forgotten, s.label);
+           s.detail, s.precondition_held, s.effect_held, missing, forgotten, searched, s.label);
   s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
   s.arguments = from_json_list(database, arguments);
   s.outcome = outcome_from(outcome);
   s.reason = reason_from(reason).value_or(Reason::none);
   s.missing_effects = from_json_list(database, missing);
   s.forgotten = from_json_list(database, forgotten);
+  s.searched_for = from_json_list(database, searched);
 }
 
 }  // namespace

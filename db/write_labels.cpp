@@ -23,14 +23,14 @@ void run_segment(sql::Statement& statement, std::int64_t episode, bool undone, i
                  const std::optional<std::int64_t>& was_ordinal, const std::optional<std::int64_t>& before_segment,
                  int try_number, const SegmentRecord& s) {
   const std::string list = to_json_list(s.arguments), missing = to_json_list(s.missing_effects);
-  const std::string forgotten = to_json_list(s.forgotten);
+  const std::string forgotten = to_json_list(s.forgotten), searched = to_json_list(s.searched_for);
   const auto arg1 = argument(s.arguments, 0), arg2 = argument(s.arguments, 1), arg3 = argument(s.arguments, 2),
              arg4 = argument(s.arguments, 3);
   statement.run(episode, undone, ordinal, was_ordinal, before_segment, try_number, to_string(s.kind), index(s.parent),
                 s.robot, s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller, s.span.start_step,
                 s.span.end_step, s.span.first_frame, s.span.end_frame,
                 s.outcome == Outcome::success ? "success" : "failure", to_string(s.reason), s.detail,
-                s.precondition_held, s.effect_held, missing, forgotten, s.label, "simulator");
+                s.precondition_held, s.effect_held, missing, forgotten, searched, s.label, "simulator");
 }
 
 // From 1: the tries of the same at its place that were undone go before it.

@@ -99,6 +99,7 @@ CREATE TABLE segment (
   effect_held INTEGER CHECK (effect_held IN (0, 1)),
   missing_effects TEXT NOT NULL,
   forgotten TEXT NOT NULL,
+  searched_for TEXT NOT NULL,
   label TEXT NOT NULL,
   labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
   CHECK (start_step <= end_step AND first_frame <= end_frame),
@@ -109,10 +110,11 @@ CREATE TABLE segment (
 INSERT INTO segment
  (episode, undone, ordinal, was_ordinal, before_segment, try_number, kind, parent, robot, skill, case_name,
   arg1, arg2, arg3, arg4, arguments, controller, start_step, end_step, first_frame, end_frame, outcome,
-  reason, detail, precondition_held, effect_held, missing_effects, forgotten, label, labelled_by)
+  reason, detail, precondition_held, effect_held, missing_effects, forgotten, searched_for, label,
+  labelled_by)
 SELECT episode, undone, ordinal, was_ordinal, before_segment, try_number, kind, parent, robot, skill, case_name,
   arg1, arg2, arg3, arg4, arguments, controller, start_step, end_step, first_frame, end_frame, outcome,
-  reason, detail, precondition_held, effect_held, missing_effects, forgotten, label, labelled_by
+  reason, detail, precondition_held, effect_held, missing_effects, forgotten, '[]', label, labelled_by
 FROM temp.moved;
 DROP TABLE temp.moved;
 

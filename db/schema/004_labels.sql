@@ -29,6 +29,7 @@ CREATE TABLE segment (
   effect_held INTEGER CHECK (effect_held IN (0, 1)),
   missing_effects TEXT NOT NULL,  -- JSON list of literals
   forgotten TEXT NOT NULL,        -- JSON list of predicates
+  searched_for TEXT NOT NULL,     -- JSON list of hidden facts that the plan assumed and this showed, true or not
   label TEXT NOT NULL,
   labelled_by TEXT NOT NULL CHECK (labelled_by IN ('simulator', 'person', 'model')),
   CHECK (start_step <= end_step AND first_frame <= end_frame),

@@ -73,7 +73,7 @@ AssumingPlan CurrentPlan::ask_planner() const {
 }
 
 // After `done` steps: what has come to light of all that was assumed. What undone steps showed is not known any more.
-void CurrentPlan::look(std::size_t done) {
+void CurrentPlan::look(std::size_t done, int segment) {
   if (ever_assumed_.empty()) return;
   std::erase_if(looks_, [&](const Look& one) { return one.done >= done; });
   const Facts open = conceivable(rollout_.facts());
@@ -81,6 +81,7 @@ void CurrentPlan::look(std::size_t done) {
     const auto is_it = [&](const Look& one) { return one.assumed == fact; };
     if (open.contains(fact) || std::any_of(looks_.begin(), looks_.end(), is_it)) continue;
     looks_.push_back({fact, rollout_.facts().known(fact), done});
+    if (segment >= 0) rollout_.recorder().segment(segment).searched_for.push_back(to_text(fact));
   }
 }
 
@@ -108,8 +109,8 @@ CallSettings CurrentPlan::set(std::size_t index) const {
   return given_ ? rollout_.task().steps->at(index).set : CallSettings{};
 }
 
-SkillResult CurrentPlan::watch(std::size_t done) {
-  look(done);
+SkillResult CurrentPlan::watch(std::size_t done, int segment) {
+  look(done, segment);
   if (given_ || done >= steps.size() || !expected_) return {};
   const FactTracker& facts = rollout_.facts();
   const Facts open = assumed_.empty() ? Facts{} : conceivable(facts);

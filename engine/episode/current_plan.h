@@ -18,7 +18,7 @@ namespace stampede {
 // FF-Replan, ICAPS 2007). Lifetime: refers to all it is made of.
 class CurrentPlan {
  public:
-  CurrentPlan(const Rollout& rollout, const RunOptions& options) : rollout_(rollout), options_(options) {}
+  CurrentPlan(Rollout& rollout, const RunOptions& options) : rollout_(rollout), options_(options) {}
 
   SkillResult make();                    // the task's own steps, or the planner's
   SkillResult again(std::size_t done);   // the first `done` steps stay, the rest is planned from here
@@ -29,8 +29,8 @@ class CurrentPlan {
   PlanStep next(std::size_t index);
   CallSettings set(std::size_t index) const;  // what the task's own steps say beside it
   // After `done` steps: when something else happened than they declare and the rest no longer works, the rest is
-  // planned again from here.
-  SkillResult watch(std::size_t done);
+  // planned again from here. `segment`: of the last of them, which says what it was that showed an assumption.
+  SkillResult watch(std::size_t done, int segment);
   // Plans the rest from here so that what was found in the way is moved first. False: it is known already, or cannot
   // be.
   bool avoid(const SkillResult& failed, std::size_t index);
@@ -55,7 +55,7 @@ class CurrentPlan {
   PlanOutcome ask(const PlanningTask& planning) const;
   PlanningTask problem(const std::vector<Obstruction>& standing, const Facts& assumed) const;
   RandomKey key_of(const char* purpose) const;
-  void look(std::size_t done);
+  void look(std::size_t done, int segment);
   bool stands(const Obstruction& one) const;
   bool avoid_these(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index);
 
@@ -65,7 +65,7 @@ class CurrentPlan {
     std::size_t done = 0;
   };
 
-  const Rollout& rollout_;
+  Rollout& rollout_;
   const RunOptions& options_;
   bool given_ = false;
   std::optional<Facts> expected_;  // basic facts that the last step should have led to

@@ -7,7 +7,7 @@ SkillResult follow_plan(Drive& drive) {
   for (std::size_t i = 0; i < drive.plan.size(); ++i) {
     drive.track.here();
     SkillResult result = drive.track.run(drive.plan.next(i), i, drive.plan.set(i));
-    if (result.ok()) result = drive.plan.watch(i + 1);
+    if (result.ok()) result = drive.plan.watch(i + 1, result.segment);
     if (!result.ok()) return result;
   }
   drive.track.here();

@@ -84,6 +84,7 @@ struct SegmentRecord {
   std::vector<EffectRecord> declared_effects;          // conditional and quantified ones already decided
   std::vector<std::string> forgotten;                  // predicates that contact leaves uncertain
   std::vector<std::string> missing_effects;            // literals that did not come true
+  std::vector<std::string> searched_for;               // hidden facts that the plan assumed, and this skill showed
   std::string label;                                   // `pick up the red block`
   std::vector<ParameterRecord> parameters;
 };

@@ -21,7 +21,7 @@ SkillResult follow_with_recovery(Drive& drive) {
       drive.track.here();
       result = drive.track.run(plan.next(i), position, plan.set(i));
       if (!result.ok()) failed = plan.steps[i];
-      if (result.ok()) result = plan.watch(i + 1);
+      if (result.ok()) result = plan.watch(i + 1, result.segment);
     }
     drive.track.here();
     if (result.ok()) result = drive.track.finish_goal(position);

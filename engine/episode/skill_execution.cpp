@@ -131,7 +131,8 @@ void SkillExecution::start(SkillContext context, int parent) {
     finish(std::move(failed));
     return;
   }
-  rollout_.world().apply(operation::Controller{call.controller, call.stiffness});
+  controller_ = {call.controller, call.stiffness};
+  rollout_.world().apply(controller_);
   run_ = skills_.start(call, rollout_.view());
   if (reference_moves(rollout_.world())) follow(make_brake());
 }
@@ -203,6 +204,9 @@ bool SkillExecution::step_due() {
     case Phase::child:
       if (child_->tick() == SkillStatus::running) return true;
       if (!child_->result().ok()) return finish(child_->result());
+      if (const auto now = rollout_.world().controller();
+          now.kind != controller_.kind || now.stiffness != controller_.stiffness)
+        rollout_.world().apply(controller_);
       phase_ = Phase::calling;
       return false;
     case Phase::settling:

@@ -82,7 +82,8 @@ class SkillExecution {
   SkillContext context_;
   SkillResult result_;
   std::unique_ptr<SkillRun> run_;
-  int calls_ = 0;  // asked for so far
+  operation::Controller controller_;  // of this call; a child may have had another
+  int calls_ = 0;                     // asked for so far
   std::unique_ptr<SkillExecution> child_;
   std::unique_ptr<Motion> motion_;
   std::optional<robot_call::Hand> hand_;  // what the motion does, where it moves the fingers

@@ -65,7 +65,7 @@ SkillResult Undo::run() {
     while (true) {
       last = step();
       if (last.ok() && i_ == plan_.size()) return last;
-      if (last.ok()) last = plan_.watch(i_ + 1);
+      if (last.ok()) last = plan_.watch(i_ + 1, last.segment);
       if (last.ok()) {
         step_done();
         continue;

@@ -72,6 +72,11 @@ class FollowMotion : public Motion {
   }
 
   void interrupt(World& world) override {
+    if (stiff_) {  // on from where contact has left it, as in stay()
+      world.apply(
+          operation::Setpoint{world.arm_position(options_.robot), world.arm_velocity(options_.robot), options_.robot});
+      world.apply(*stiff_);
+    }
     world.apply(operation::Follow{brake(world, options_.robot), options_.robot});
   }
 

@@ -58,9 +58,10 @@ Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, 
 PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key);
 
+constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go
+
 // How far the hand may open where it is, up to `wanted_m`, before a finger meets what it does not touch yet; at least a
 // little, or nothing could be let go. `state`: nothing held, what is to be let go allowed. Units: m. Repeatable.
-constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go
 double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m);
 
 // A planned free motion to joint positions.

@@ -60,6 +60,7 @@ void LibraryBuilder::read_task(const Definition& definition) {
     complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
   }
   if (const auto world = worlds.find(info.world); world != worlds.end()) check_observe(definition, world->second.node);
+  info.is_imported = definition.node["problem"].present();
   guarded([&] {
     check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
   });

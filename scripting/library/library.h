@@ -80,6 +80,7 @@ class Library {
     std::vector<std::map<std::string, std::string>> variations;  // axis -> value as text, in the file's order
     std::vector<std::string> variation_texts;                    // canonical: `colour=red,height=3`; `` for none
     std::vector<std::string> instructions;
+    bool is_imported = false;  // from a problem in another language, which it holds
   };
   const TaskInfo* task(std::string_view name) const;
   std::string hash() const;  // of all files: part of every episode's key

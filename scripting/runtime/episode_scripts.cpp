@@ -50,8 +50,7 @@ std::vector<DefinitionRecord> EpisodeScripts::definitions() const {
     for (const ScriptFile* file : library.files(kind)) files.push_back(file);
   }
   // Other languages' words take part only where a task was imported from one.
-  const ScriptFile* task = library.file(DefinitionKind::task, impl_->task.name());
-  if (task == nullptr || task->source.find("problem") == std::string::npos)
+  if (const auto* task = library.task(impl_->task.name()); task == nullptr || !task->is_imported)
     std::erase_if(files, [](const ScriptFile* file) { return file->shown_path.starts_with("worlds/bddl/"); });
   std::vector<DefinitionRecord> records;
   for (const ScriptFile* file : files) {

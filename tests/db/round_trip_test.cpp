@@ -28,6 +28,7 @@ void check_segment(const SegmentRecord& a, const SegmentRecord& b) {
   CHECK(a.preconditions == b.preconditions);
   CHECK(a.declared_effects == b.declared_effects);
   CHECK(a.forgotten == b.forgotten);
+  CHECK(a.searched_for == b.searched_for);
   CHECK(a.missing_effects == b.missing_effects);
   CHECK(a.label == b.label);
   REQUIRE(a.parameters.size() == b.parameters.size());

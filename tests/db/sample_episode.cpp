@@ -110,6 +110,7 @@ SegmentRecord pick_segment() {
                         {fact("on", {"block1", "table"}), true},
                         {fact("open", {"chest"}), false}};
   s.forgotten = {"near"};
+  s.searched_for = {"(inside block2 chest)"};
   return s;
 }
 

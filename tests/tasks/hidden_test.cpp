@@ -75,6 +75,14 @@ TEST_CASE("plans know what has been seen, assume the rest and plan again: drawer
     CHECK(plan->find("; assumed (inside item chest.middle_drawer) and saw that it holds\n") != std::string::npos);
     const bool wrong = plan->find("and saw that it does not hold") != std::string::npos;
     CHECK(wrong == (skills.size() > 3));
+    const auto shows = [](const SegmentRecord& one) { return !one.searched_for.empty(); };
+    std::ptrdiff_t assumptions = 0;
+    for (std::size_t at = plan->find("; assumed "); at != std::string::npos; at = plan->find("; assumed ", at + 1))
+      ++assumptions;
+    CHECK(std::count_if(episode.segments.begin(), episode.segments.end(), shows) == assumptions);
+    const auto search = std::find_if(episode.segments.begin(), episode.segments.end(), shows);
+    CHECK((search->kind == SegmentKind::skill && search->skill == "open"));
+    CHECK(search->searched_for.front().starts_with("(inside item chest."));
     CHECK(plan->find("; step 1 searched: (" + skills.front() + " panda.hand)\n") != std::string::npos);
   }
   CHECK(first.size() > 1);

@@ -144,6 +144,32 @@ TEST_CASE("left alone after it was cut off, the arm comes to rest") {
   CHECK(running.rollout->world().arm_velocity().cwiseAbs().maxCoeff() < 0.01);
 }
 
+TEST_CASE("a skill that another skill ran leaves it its own controller") {
+  struct Twice : plain::PlainSkills {  // the first pick leaves all to a second one, which is compliant
+    std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override {
+      if (std::exchange(outer, false)) {
+        AskedCall inner{call.skill, {}, call.arguments, {}};
+        inner.set.controller = ControllerKind::joint_impedance;
+        return std::make_unique<plain::CallList>(
+            std::vector<RobotCall>{robot_call::RunSkill{inner}, robot_call::Wait{0.1}});
+      }
+      inside = view.world().controller().kind;
+      return PlainSkills::start(call, view);
+    }
+    bool outer = true;
+    ControllerKind inside = ControllerKind::joint_position;
+  };
+  Running running;
+  Twice skills;
+  SkillExecution execution(*running.rollout, running.symbols, skills, running.options);
+  REQUIRE_FALSE(execution.begin(running.request(kPick)));
+  const SkillResult& result = run_to_end(execution, *running.rollout);
+  INFO(result.detail);
+  CHECK(result.ok());
+  CHECK(skills.inside == ControllerKind::joint_impedance);
+  CHECK(running.rollout->world().controller().kind == ControllerKind::joint_position);
+}
+
 TEST_CASE("what a caller sets is not drawn, and says who chose it; the run's own words go first") {
   Running running;
   SkillRequest request = running.request(kPick);

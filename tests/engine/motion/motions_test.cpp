@@ -138,6 +138,28 @@ TEST_CASE("an arm that may press with so much and no more stops there, and stays
   CHECK(world.arm_velocity().norm() < 0.01);
 }
 
+TEST_CASE("an arm that gave way and is cut off is as stiff as before, and stays where contact has left it") {
+  World world(std::make_shared<Scene>(table_scene(0)));
+  run(world, *make_hand(0, 20, std::nullopt));
+  const CollisionState state = world.collision_state();
+  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
+  REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
+  FollowOptions options;
+  options.most_force = 200;  // more than it comes to: it presses on until it is cut off
+  LineOptions line;
+  line.tool_speed = 0.1;
+  const auto press =
+      follow(plan_line(state, world.arm_position(), above(0.5, 0, -0.02), line, {}, RandomKey("p")), options);
+  for (int step = 0; step < 200 && press->step(world).status == MotionStatus::running; ++step) world.step();
+  REQUIRE(world.controller().kind == ControllerKind::cartesian_impedance);
+  const double pressed_to = world.world_from_tip().translation().z();
+  press->interrupt(world);
+  CHECK(world.controller().kind == ControllerKind::joint_position);
+  for (int step = 0; step < 60; ++step) world.step();
+  CHECK(std::abs(world.world_from_tip().translation().z() - pressed_to) < 0.003);
+  CHECK(world.arm_velocity().norm() < 0.01);
+}
+
 TEST_CASE("the hand opens as far as what is beside it allows") {
   World world(std::make_shared<Scene>(table_scene(2)));
   const int held = world.scene().body_index("cube1"), other = world.scene().body_index("cube2");
