@@ -94,6 +94,7 @@ class EpisodeReader {
   void read_facts();
   void read_passages();
   void read_language();
+  void read_documents();
   SegmentRecord& owner(bool undone, std::int64_t ordinal);
 
   const sql::Database& database_;

@@ -32,7 +32,6 @@ class ArrayReader : private EpisodeReader {
   void read_pose_rows(const std::string& which, const char* table, std::size_t items, std::vector<double>& poses);
   void read_action_rows();
   void read_segment_heads();
-  void read_documents();
   void read_stored_pictures(EpisodeArrays& arrays);
   FrameTables tables_;
 };
@@ -152,16 +151,6 @@ void ArrayReader::read_segment_heads() {
         s.outcome = outcome_from(outcome);
         s.reason = reason_from(reason).value_or(Reason::none);
       });
-}
-
-void ArrayReader::read_documents() {
-  each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
-       [&](sql::Statement& row) {
-         DocumentRecord& d = record_.documents.emplace_back();
-         std::string kind;
-         row.read(kind, d.text);
-         d.kind = document_kind_from(kind).value_or(DocumentKind::plan);
-       });
 }
 
 void ArrayReader::read_stored_pictures(EpisodeArrays& arrays) {

@@ -136,13 +136,7 @@ void EpisodeReader::read_passages() {
   });
 }
 
-void EpisodeReader::read_language() {
-  each("level, text, coalesce(segment, -1)", "language", "ordinal", [&](sql::Statement& row) {
-    LanguageRecord& l = record_.language.emplace_back();
-    std::string level;
-    row.read(level, l.text, l.segment);
-    l.level = language_level_from(level).value_or(LanguageLevel::task);
-  });
+void EpisodeReader::read_documents() {
   each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
        [&](sql::Statement& row) {
          DocumentRecord& d = record_.documents.emplace_back();
@@ -150,6 +144,16 @@ void EpisodeReader::read_language() {
          row.read(kind, d.text);
          d.kind = document_kind_from(kind).value_or(DocumentKind::plan);
        });
+}
+
+void EpisodeReader::read_language() {
+  each("level, text, coalesce(segment, -1)", "language", "ordinal", [&](sql::Statement& row) {
+    LanguageRecord& l = record_.language.emplace_back();
+    std::string level;
+    row.read(level, l.text, l.segment);
+    l.level = language_level_from(level).value_or(LanguageLevel::task);
+  });
+  read_documents();
   each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {
     VerdictRecord& v = record_.verdicts.emplace_back();
     std::string disagreements;

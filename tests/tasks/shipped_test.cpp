@@ -2,7 +2,7 @@
 // out to several test cases, so that they run beside each other.
 #include <catch2/catch.hpp>
 
-#include "tests/tasks/labels.h"
+#include "tests/support/labels.h"
 #include "tests/tasks/run_task.h"
 #include "tests/tasks/strain.h"
 

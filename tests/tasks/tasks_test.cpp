@@ -7,7 +7,7 @@
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/library.h"
 #include "scripting/runtime/episode_scripts.h"
-#include "tests/tasks/labels.h"
+#include "tests/support/labels.h"
 
 using namespace stampede;
 using namespace stampede::test;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/engine/episode/plain_task.h"
+#include "tests/support/labels.h"
 
 using namespace stampede;
 
@@ -48,17 +49,7 @@ TEST_CASE("subgoals and motions tile the frames; skills those before the arm sta
   REQUIRE(hold.skill == "hold");
   CHECK(hold.kind == SegmentKind::motion);
   CHECK(hold.parent == 0);  // of the subgoal: it belongs to no skill
-  for (const SegmentKind kind : {SegmentKind::subgoal, SegmentKind::skill, SegmentKind::motion}) {
-    std::vector<int> covered(episode.frames.size(), 0);
-    for (const SegmentRecord& segment : episode.segments)
-      if (segment.kind == kind)
-        for (std::int64_t frame = segment.span.first_frame; frame < segment.span.end_frame; ++frame)
-          ++covered[static_cast<std::size_t>(frame)];
-    INFO(to_string(kind));
-    std::vector<int> expected(episode.frames.size(), 1);
-    if (kind == SegmentKind::skill) std::fill(expected.begin() + hold.span.first_frame, expected.end(), 0);
-    CHECK(covered == expected);
-  }
+  test::check_tiling(episode);
 }
 
 TEST_CASE("the same seed gives the same episode, another seed another") {

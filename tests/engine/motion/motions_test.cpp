@@ -45,6 +45,18 @@ MotionResult lift(World& world, double height, FollowOptions options) {
   return run(world, *follow(plan_line(state, world.arm_position(), goal, {}, {}, RandomKey("lift")), options));
 }
 
+// The closed fingers just over the table, about to go on to `depth_m` below its top.
+std::unique_ptr<Motion> press_down(World& world, double depth_m, FollowOptions options) {
+  run(world, *make_hand(0, 20, std::nullopt));
+  const CollisionState state = world.collision_state();
+  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
+  REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
+  LineOptions line;
+  line.tool_speed = 0.1;
+  return follow(plan_line(state, world.arm_position(), above(0.5, 0, -depth_m), line, {}, RandomKey("press")),
+                std::move(options));
+}
+
 }  // namespace
 
 TEST_CASE("a cube is grasped and lifted by motions alone") {
@@ -114,16 +126,9 @@ TEST_CASE("a press ends at the contact, or short of its target where that is all
 
 TEST_CASE("an arm that may press with so much and no more stops there, and stays where contact has left it") {
   World world(std::make_shared<Scene>(table_scene(0)));
-  run(world, *make_hand(0, 20, std::nullopt));
-  const CollisionState state = world.collision_state();
-  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
-  REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
   FollowOptions options;
   options.most_force = 12;
-  LineOptions line;
-  line.tool_speed = 0.1;
-  const auto press = plan_line(state, world.arm_position(), above(0.5, 0, -0.10), line, {}, RandomKey("press"));
-  CHECK(run(world, *follow(press, options)).status == MotionStatus::done);
+  CHECK(run(world, *press_down(world, 0.10, options)).status == MotionStatus::done);
   CHECK(world.controller().kind == ControllerKind::joint_position);
   CHECK((world.reference().position - world.arm_position()).norm() < 1e-12);
   double peak = 0;
@@ -140,16 +145,9 @@ TEST_CASE("an arm that may press with so much and no more stops there, and stays
 
 TEST_CASE("an arm that gave way and is cut off is as stiff as before, and stays where contact has left it") {
   World world(std::make_shared<Scene>(table_scene(0)));
-  run(world, *make_hand(0, 20, std::nullopt));
-  const CollisionState state = world.collision_state();
-  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
-  REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
   FollowOptions options;
   options.most_force = 200;  // more than it comes to: it presses on until it is cut off
-  LineOptions line;
-  line.tool_speed = 0.1;
-  const auto press =
-      follow(plan_line(state, world.arm_position(), above(0.5, 0, -0.02), line, {}, RandomKey("p")), options);
+  const auto press = press_down(world, 0.02, options);
   for (int step = 0; step < 200 && press->step(world).status == MotionStatus::running; ++step) world.step();
   REQUIRE(world.controller().kind == ControllerKind::cartesian_impedance);
   const double pressed_to = world.world_from_tip().translation().z();

@@ -1,4 +1,4 @@
-#include "tests/tasks/labels.h"
+#include "tests/support/labels.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
