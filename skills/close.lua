@@ -21,6 +21,7 @@ return skill {
     local reach = 0.042 -- m from the middle of the handle back to the tip: the closed fingers do not touch it yet
     robot:close_hand()
     robot:move_through { approach = c.grasp.approach, goal = c.grasp.pose:along(0, 0, -reach) }
+    robot:move_line(c.grasp.pose, { speed = 0.05, stop_on_contact = true, tolerate = true })
     robot:move_part(p.part, 0, { speed = c.speed, most_force = 25 }) -- the last centimetre is left, for the gap
     local past = beyond(robot:view(), p.part, c.grasp.pose)
     robot:move_part(p.part, -past, { speed = math.min(c.speed, 0.05), most_force = 25 }) -- gently against the stop
