@@ -9,14 +9,14 @@
 namespace stampede {
 namespace {
 
-constexpr int kSide = 128;             // pixels of one repeat
+constexpr int kRepeat = 128;           // pixels of one repeat
 constexpr int kLargestTexture = 4096;  // pixels of a picture
 
 // Value noise on a lattice that repeats: four octaves, each half as strong and twice as fine.
 class Noise {
  public:
   explicit Noise(int seed) : key_(RandomKey("texture").with(static_cast<std::int64_t>(seed))) {
-    for (int cells = kCoarsest; cells < kSide / 2; cells *= 2) {
+    for (int cells = kCoarsest; cells < kRepeat / 2; cells *= 2) {
       Random random(key_.with(static_cast<std::int64_t>(cells)));
       std::vector<double> lattice(static_cast<std::size_t>(cells * cells));
       for (double& value : lattice) value = random.uniform();
@@ -27,7 +27,7 @@ class Noise {
   double at(int x, int y) const {
     double sum = 0, weight = 0.5;
     for (const Octave& octave : octaves_) {
-      sum += weight * smooth(octave, (x + 0.5) * octave.cells / kSide, (y + 0.5) * octave.cells / kSide);
+      sum += weight * smooth(octave, (x + 0.5) * octave.cells / kRepeat, (y + 0.5) * octave.cells / kRepeat);
       weight /= 2;
     }
     return std::clamp((sum - 0.5) * 1.6 + 0.5, 0.0, 1.0);  // sums of octaves crowd in the middle
@@ -59,13 +59,13 @@ class Noise {
 // `share` of the second colour at each pixel.
 template <typename Share>
 Image mixed(const Texture& texture, const Share& share) {
-  Image image{kSide, kSide, {}};
+  Image image{kRepeat, kRepeat, {}};
   const auto byte = [](double a, double b, double t) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(a + (b - a) * t, 0.0, 1.0) * 255));
   };
   const Colour &a = texture.first, &b = texture.second;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kRepeat; ++y)
+    for (int x = 0; x < kRepeat; ++x) {
       const double t = share(x, y);
       image.rgba.insert(image.rgba.end(),
                         {byte(a.red, b.red, t), byte(a.green, b.green, t), byte(a.blue, b.blue, t), 255});
@@ -90,7 +90,7 @@ const Image& checked(const Texture& texture, const std::string& name) {
 }  // namespace
 
 Image baked(const Texture& texture, const std::string& name) {
-  constexpr int kHalf = kSide / 2;
+  constexpr int kHalf = kRepeat / 2;
   switch (texture.kind) {
     case TextureKind::image:
       return checked(texture, name);
