@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/scene_builder.h"
 
 namespace stampede {

@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/model/camera.h"
 #include "scripting/library/rates.h"
+#include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/world_reader.h"
 
 namespace stampede {

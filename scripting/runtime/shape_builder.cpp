@@ -5,6 +5,7 @@
 
 #include "scripting/library/rates.h"
 #include "scripting/runtime/body_builder.h"
+#include "scripting/runtime/evaluate.h"
 
 namespace stampede {
 namespace {
