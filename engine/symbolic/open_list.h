@@ -1,4 +1,4 @@
-// A queue of successors that are not made yet. Inside this folder.
+// What searches share: a queue of successors that are not made yet, and the way to a state. Inside this folder.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,15 @@ namespace stampede::symbolic {
 struct Entry {
   int parent, op;
 };
+
+// The operators that lead to state `number`; `entry_of` says how a state was reached, its op is -1 at the start.
+template <typename EntryOf>
+std::vector<int> operators_to(int number, const EntryOf& entry_of) {
+  std::vector<int> plan;
+  for (Entry at = entry_of(number); at.op >= 0; at = entry_of(at.parent)) plan.push_back(at.op);
+  std::reverse(plan.begin(), plan.end());
+  return plan;
+}
 
 // The lowest key first; first in, first out among equals.
 class OpenList {

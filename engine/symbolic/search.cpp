@@ -60,11 +60,6 @@ class Search {
     return best;
   }
 
-  int goals_open(const Words& state) const {
-    return static_cast<int>(std::count_if(query_.goal.begin(), query_.goal.end(),
-                                          [&](Literal one) { return !literal_holds(state.data(), one); }));
-  }
-
   // Of a state that is reached from state `number`, or that state itself.
   Landmarks::Ahead ahead(const Words& state, int number) {
     const auto from =
@@ -92,8 +87,9 @@ class Search {
     parents_.push_back(from);
     inherit(from.parent);
     depth_.push_back(from.parent < 0 ? 0 : depth_[static_cast<std::size_t>(from.parent)] + step_cost(from.op));
-    if (goals_open(state) == 0) {
-      extract(number);
+    if (goals_open(state, query_.goal) == 0) {
+      result_.solved = true;
+      result_.plan = operators_to(number, [&](int at) { return parents_[static_cast<std::size_t>(at)]; });
       return true;
     }
     ++result_.evaluated;
@@ -101,7 +97,7 @@ class Search {
     if (h == Heuristic::kDeadEnd) return false;
     if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    std::array<int, kHeuristics> values = {h, goals_open(state), 0};
+    std::array<int, kHeuristics> values = {h, goals_open(state, query_.goal), 0};
     if (used_ > 2) {
       std::uint64_t* reached = reached_.data() + static_cast<std::size_t>(number) * query_.landmarks->words();
       Landmarks::Ahead now;
@@ -149,15 +145,6 @@ class Search {
         if (is_preferred) lists_[2 * i + 1].push(keys[i], {number, op});
       }
     }
-  }
-
-  void extract(int number) {
-    result_.solved = true;
-    for (int at = number; parents_[static_cast<std::size_t>(at)].op >= 0;
-         at = parents_[static_cast<std::size_t>(at)].parent) {
-      result_.plan.push_back(parents_[static_cast<std::size_t>(at)].op);
-    }
-    std::reverse(result_.plan.begin(), result_.plan.end());
   }
 
   const GroundTask& task_;

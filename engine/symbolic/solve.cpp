@@ -26,23 +26,18 @@ symbolic::SearchResult find_plan(const symbolic::GroundTask& task, const symboli
                                  symbolic::Heuristic& heuristic, const PlanLimits& limits,
                                  const symbolic::Query& query) {
   PlanLimits part = limits;
-  std::int64_t expanded = 0, evaluated = 0;
-  const auto is_over = [&](const symbolic::SearchResult& result) {
-    expanded += result.expanded, evaluated += result.evaluated;
-    return result.solved || result.exhausted || evaluated >= limits.expansions;
+  symbolic::SearchResult result;
+  const auto goes_on = [&](symbolic::SearchResult next) {
+    next.expanded += result.expanded, next.evaluated += result.evaluated;
+    result = std::move(next);
+    return !result.solved && !result.exhausted && result.evaluated < limits.expansions;
   };
   part.expansions = std::min(limits.expansions, kPatience);
-  symbolic::SearchResult result = lazy_search(task, semantics, heuristic, part, query);
-  if (!is_over(result)) {
-    part.expansions = std::min(limits.expansions - evaluated, kWidthPatience);
-    result = width_search(task, semantics, heuristic, part, query.start, query.goal);
-    if (!is_over(result)) {
-      part.expansions = limits.expansions - evaluated + kPatience;  // the first of which are those from above
-      result = lazy_search(task, semantics, heuristic, part, query);
-      is_over(result);
-    }
-  }
-  result.expanded = expanded, result.evaluated = evaluated;
+  if (!goes_on(lazy_search(task, semantics, heuristic, part, query))) return result;
+  part.expansions = std::min(limits.expansions - result.evaluated, kWidthPatience);
+  if (!goes_on(width_search(task, semantics, heuristic, part, query.start, query.goal))) return result;
+  part.expansions = limits.expansions - result.evaluated + kPatience;  // the first of which are those from above
+  goes_on(lazy_search(task, semantics, heuristic, part, query));
   return result;
 }
 

@@ -1,6 +1,7 @@
 // States as bits, their successors, and the axioms.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,10 @@ using Words = std::vector<std::uint64_t>;
 inline bool test(const std::uint64_t* words, int fact) { return (words[fact >> 6] >> (fact & 63) & 1) != 0; }
 inline bool literal_holds(const std::uint64_t* words, Literal literal) {
   return test(words, literal >> 1) != ((literal & 1) != 0);
+}
+inline int goals_open(const Words& state, const Literals& goal) {
+  return static_cast<int>(
+      std::count_if(goal.begin(), goal.end(), [&](Literal one) { return !literal_holds(state.data(), one); }));
 }
 inline void assign(std::uint64_t* words, int fact, bool value) {
   const std::uint64_t bit = std::uint64_t{1} << (fact & 63);

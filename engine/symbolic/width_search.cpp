@@ -86,21 +86,17 @@ class WidthSearch {
            static_cast<std::int64_t>(nodes_.size() * sizeof(Node) + had_.size() * sizeof(std::uint64_t));
   }
 
-  int goals_open(const Words& state) const {
-    return static_cast<int>(
-        std::count_if(goal_.begin(), goal_.end(), [&](Literal one) { return !literal_holds(state.data(), one); }));
-  }
-
   // A state that was not seen before, with its place in the queue; true at a goal.
   bool add(const Words& state, Entry from) {
     const auto [number, is_new] = pool_.insert(state);
     if (!is_new) return false;
     ++result_.evaluated;
     const Node* parent = from.parent < 0 ? nullptr : &nodes_[static_cast<std::size_t>(from.parent)];
-    Node node{from, goals_open(state), 0, had_.size(), 0};
+    Node node{from, goals_open(state, goal_), 0, had_.size(), 0};
     if (node.open_goals == 0) {
       nodes_.push_back(node);
-      extract(number);
+      result_.solved = true;
+      result_.plan = operators_to(number, [&](int at) { return nodes_[static_cast<std::size_t>(at)].from; });
       return true;
     }
     bool is_dead = false;
@@ -161,14 +157,6 @@ class WidthSearch {
       if (!same || !test(state_.data(), fact)) fresh_.push_back(fact);
     }
     return found->second.novelty(fresh_, all_);
-  }
-
-  void extract(int number) {
-    result_.solved = true;
-    for (int at = number; nodes_[static_cast<std::size_t>(at)].from.op >= 0;
-         at = nodes_[static_cast<std::size_t>(at)].from.parent)
-      result_.plan.push_back(nodes_[static_cast<std::size_t>(at)].from.op);
-    std::reverse(result_.plan.begin(), result_.plan.end());
   }
 
   const GroundTask& task_;
