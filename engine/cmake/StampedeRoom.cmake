@@ -20,7 +20,6 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")  # assertions of the standard library and of Eigen stay on
 
 option(STAMPEDE_WERROR "Treat warnings as errors" ON)
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)  # files; only where presets compile files together
 
 set(STAMPEDE_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
 
