@@ -1,7 +1,5 @@
 #include "db/merge.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -12,6 +10,7 @@
 #include "db/catalogue_impl.h"
 #include "db/migrations.h"
 #include "db/schema.h"
+#include "engine/base/temporary_folder.h"
 
 namespace stampede {
 namespace {
@@ -19,27 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kInATransaction = 32;
-
-// A folder that goes with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "stampede_merge_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw CatalogueError(name, "a temporary folder cannot be made", "free space in /tmp, or set TMPDIR");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // A catalogue that episodes come from: of this release, or a migrated copy of it.
 class Source {

@@ -35,14 +35,9 @@ std::string kinds_text(const PictureKinds& kinds) {
 }
 
 PictureKinds kinds_from(std::string_view text) {
-  PictureKinds kinds{false, false, false, false};
-  for (const std::string& name : words_of(text)) {
-    const auto kind = picture_kind_from(name);
-    kinds.rgb |= kind == PictureKind::rgb;
-    kinds.depth |= kind == PictureKind::depth;
-    kinds.instance |= kind == PictureKind::instance;
-    kinds.semantic |= kind == PictureKind::semantic;
-  }
+  PictureKinds kinds = PictureKinds::none();
+  for (const std::string& name : words_of(text))
+    if (const auto kind = picture_kind_from(name)) kinds.add(*kind);
   return kinds;
 }
 

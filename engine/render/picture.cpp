@@ -13,18 +13,15 @@ std::optional<PictureKind> picture_kind_from(std::string_view name) {
   return std::nullopt;
 }
 
-bool PictureKinds::has(PictureKind kind) const {
-  switch (kind) {
-    case PictureKind::rgb:
-      return rgb;
-    case PictureKind::depth:
-      return depth;
-    case PictureKind::instance:
-      return instance;
-    case PictureKind::semantic:
-      return semantic;
-  }
-  return false;
+namespace {
+bool PictureKinds::*member_of(PictureKind kind) {
+  constexpr std::array kMembers{&PictureKinds::rgb, &PictureKinds::depth, &PictureKinds::instance,
+                                &PictureKinds::semantic};
+  return kMembers.at(static_cast<std::size_t>(kind));
 }
+}  // namespace
+
+bool PictureKinds::has(PictureKind kind) const { return this->*member_of(kind); }
+void PictureKinds::add(PictureKind kind) { this->*member_of(kind) = true; }
 
 }  // namespace stampede

@@ -20,7 +20,9 @@ std::optional<PictureKind> picture_kind_from(std::string_view name);
 
 struct PictureKinds {  // which of them are wanted
   bool rgb = true, depth = true, instance = true, semantic = true;
+  static PictureKinds none() { return {false, false, false, false}; }
   bool has(PictureKind kind) const;
+  void add(PictureKind kind);
 };
 
 // Shapes: height x width, rows from the top; kinds that were not asked for are empty.

@@ -1,44 +1,21 @@
 #include "engine/symbolic/external_planner.h"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/temporary_folder.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "stampede-plan-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw Error(pattern, std::string("cannot make a temporary folder: ") + std::strerror(errno), "set TMPDIR");
-    }
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -99,7 +76,8 @@ PlanEnd end_of(int exit_code) {
 }  // namespace
 
 PlanOutcome solve_externally(const std::string& command, const Domain& domain, const Problem& problem) {
-  const TemporaryFolder folder;
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   const fs::path plan_path = folder / "plan.txt", log_path = folder / "log.txt";
   std::string line = command;
   fill_in(line, "domain", folder / "domain.pddl");
@@ -107,8 +85,8 @@ PlanOutcome solve_externally(const std::string& command, const Domain& domain, c
   fill_in(line, "plan", plan_path);
   write_file(folder / "domain.pddl", to_pddl(domain));
   write_file(folder / "problem.pddl", to_pddl(problem, domain));
-  const std::string whole = "cd " + quoted((folder / "").string()) + " && { " + line + "\n} >" +
-                            quoted(log_path.string()) + " 2>&1 </dev/null";
+  const std::string whole =
+      "cd " + quoted(folder.string()) + " && { " + line + "\n} >" + quoted(log_path.string()) + " 2>&1 </dev/null";
   const int status = std::system(whole.c_str());
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   const std::string said = last_lines(file_text(log_path).value_or(""));

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "db/catalogue_writer.h"
+#include "engine/base/temporary_folder.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
@@ -80,26 +81,6 @@ Source read_source(const Arguments& arguments, BddlReading reading, const Librar
   return source;
 }
 
-// A folder that goes when this does.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "stampede_import_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "is there room in the temporary folder?");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code code;
-    fs::remove_all(path_, code);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 std::string line_at(const std::string& text, int line) {
   std::istringstream lines(text);
   std::string found;
@@ -111,7 +92,7 @@ std::string line_at(const std::string& text, int line) {
 
 // What `stampede check` would say of the task beside all other files, before any of them is written.
 std::string checker_says(const Arguments& arguments, const std::vector<NewFile>& files) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   Roots roots = roots_of(arguments);
   roots.folders.push_back(scratch.path());
   for (const NewFile& file : files) write_text_file(scratch.path() / file.inside, file.text);

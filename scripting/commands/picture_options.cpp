@@ -20,7 +20,7 @@ OptionRow text_option(const char* name, const char* value, const char* help, boo
 }
 
 void read_kinds(const std::string& text, ObservationChoice& choice) {
-  choice.kinds = PictureKinds{false, false, false, false};
+  choice.kinds = PictureKinds::none();
   choice.points = false;
   for (const std::string& name : split(text, ',')) {
     const auto kind = picture_kind_from(name);
@@ -32,11 +32,10 @@ void read_kinds(const std::string& text, ObservationChoice& choice) {
                        (near ? "did you mean '" + *near + "'? " : std::string()) +
                            "the kinds are rgb, depth, instance, semantic, points");
     }
-    choice.kinds->rgb |= kind == PictureKind::rgb;
-    choice.kinds->depth |= kind == PictureKind::depth;
-    choice.kinds->instance |= kind == PictureKind::instance;
-    choice.kinds->semantic |= kind == PictureKind::semantic;
-    if (!kind) choice.points = true;
+    if (kind)
+      choice.kinds->add(*kind);
+    else
+      choice.points = true;
   }
 }
 

@@ -32,16 +32,13 @@ std::vector<std::string> texts_of(const Value& fields, std::string_view name) {
 }
 
 PictureKinds kinds_from(const Value& value) {
-  PictureKinds kinds{false, false, false, false};
+  PictureKinds kinds = PictureKinds::none();
   for (const std::string& name : value.as_texts()) {
     const std::optional<PictureKind> kind = picture_kind_from(name);
     if (!kind)
       throw Error(value.place, "there is no kind of picture '" + name + "'",
                   did_you_mean(name, {"rgb", "depth", "instance", "semantic"}));
-    (*kind == PictureKind::rgb        ? kinds.rgb
-     : *kind == PictureKind::depth    ? kinds.depth
-     : *kind == PictureKind::instance ? kinds.instance
-                                      : kinds.semantic) = true;
+    kinds.add(*kind);
   }
   return kinds;
 }
