@@ -65,13 +65,6 @@ struct Reference {
   JointState setpoint;
 };
 
-// Bullet's own pools are 7 MB that each new world clears. A scene has some hundred pairs; more of them go to the heap.
-inline btDefaultCollisionConstructionInfo small_pools() {
-  btDefaultCollisionConstructionInfo info;
-  info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 256;
-  return info;
-}
-
 struct World::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
   ~Impl();
@@ -127,7 +120,7 @@ struct World::Impl {
   // Order matters: destroyed from the bottom up, Bullet's world before what it points to.
   ShapeStore shapes;
   PairFilter filter;
-  btDefaultCollisionConfiguration configuration{small_pools()};
+  btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
   TorsionSolver solver;

@@ -15,10 +15,18 @@ constexpr int kStrainedIterations =
 constexpr double kAskew = 3e-4;   // m between two coupled fingers
 constexpr double kStrain = 5e-5;  // m or rad beyond its stop
 
+// Bullet's own pools are 7 MB that each new world clears. A scene has some hundred pairs; more of them go to the heap.
+static btDefaultCollisionConstructionInfo small_pools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 256;
+  return info;
+}
+
 World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)),
       arm(scene->robot),
       dt(1.0 / scene->physics_hz),
+      configuration(small_pools()),
       dispatcher(&configuration),
       world(&dispatcher, &broadphase, &solver, &configuration) {
   world.setGravity(to_bullet(scene->gravity));

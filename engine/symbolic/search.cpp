@@ -87,7 +87,8 @@ class Search {
     parents_.push_back(from);
     inherit(from.parent);
     depth_.push_back(from.parent < 0 ? 0 : depth_[static_cast<std::size_t>(from.parent)] + step_cost(from.op));
-    if (goals_open(state, query_.goal) == 0) {
+    const int open_goals = goals_open(state, query_.goal);
+    if (open_goals == 0) {
       result_.solved = true;
       result_.plan = operators_to(number, [&](int at) { return parents_[static_cast<std::size_t>(at)]; });
       return true;
@@ -97,7 +98,7 @@ class Search {
     if (h == Heuristic::kDeadEnd) return false;
     if (query_.bound > 0 && depth_.back() + h >= query_.bound) return false;
     ++result_.expanded;
-    std::array<int, kHeuristics> values = {h, goals_open(state, query_.goal), 0};
+    std::array<int, kHeuristics> values = {h, open_goals, 0};
     if (used_ > 2) {
       std::uint64_t* reached = reached_.data() + static_cast<std::size_t>(number) * query_.landmarks->words();
       Landmarks::Ahead now;
