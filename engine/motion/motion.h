@@ -16,6 +16,7 @@ enum class MotionStatus { running, done, failed };
 struct MotionResult {
   MotionStatus status = MotionStatus::running;
   Reason reason = Reason::none;  // set when failed
+  std::string detail = {};       // for people; empty: what the reason says
 };
 
 // A point the tool passes without stopping, as planned; the recorder finds the step of closest passage.
@@ -62,7 +63,8 @@ std::unique_ptr<Motion> make_hand(double opening_m, double force, std::optional<
 
 std::unique_ptr<Motion> make_wait(std::int64_t steps);
 
-// Brings a moving reference to rest, in a tenth of a second or as fast as the joints can; done when it is.
+// Brings a moving reference, or one that an agent steers, to rest, in a tenth of a second or as fast as the joints can;
+// done when it is.
 std::unique_ptr<Motion> make_brake(int robot = 0);
 bool reference_moves(const World& world, int robot = 0);
 

@@ -9,8 +9,8 @@
 namespace stampede {
 namespace {
 
-constexpr MotionResult kRunning{MotionStatus::running, Reason::none};
-constexpr MotionResult kDone{MotionStatus::done, Reason::none};
+const MotionResult kRunning{MotionStatus::running, Reason::none};
+const MotionResult kDone{MotionStatus::done, Reason::none};
 constexpr double kLost_s = 0.1;     // a grasp may flicker for this long
 constexpr double kGrasped_s = 0.1;  // and must be steady for this long
 constexpr double kStopped_s = 0.3;  // fingers that have not moved for this long have stopped
@@ -235,7 +235,7 @@ std::unique_ptr<Motion> make_brake(int robot) { return std::make_unique<BrakeMot
 
 bool reference_moves(const World& world, int robot) {
   constexpr double kStill = 1e-9;  // rad/s
-  return world.reference(robot).velocity.cwiseAbs().maxCoeff() > kStill;
+  return world.steered(robot) || world.reference(robot).velocity.cwiseAbs().maxCoeff() > kStill;
 }
 
 std::unique_ptr<Motion> make_wait(std::int64_t steps) {

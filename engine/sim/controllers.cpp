@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/sim/impl.h"
+#include "engine/sim/servo.h"
 
 namespace stampede {
 namespace {
@@ -110,11 +111,17 @@ void World::Impl::build_robot_motors() {
 }
 
 JointState World::Impl::reference_at(std::int64_t step) const {
+  if (reference.servo) return guided(reference_now, *reference.servo, scene->robot.limits, dt);
   if (!reference.trajectory) return reference.setpoint;
   return evaluate(*reference.trajectory, static_cast<double>(step - reference.start_step), scene->physics_hz);
 }
 
 void World::Impl::control() {
+  if (under_torque()) {
+    control_torque(reference.servo->value);
+    control_hand();
+    return;
+  }
   const JointState next = reference_at(steps + 1);
   switch (controller.kind) {
     case ControllerKind::joint_position:
@@ -133,7 +140,7 @@ void World::Impl::control() {
 
 // The motors' velocity rows: where the joint is on its reference now, it is on it after the step too.
 void World::Impl::control_position(const JointState& now, const JointState& next) {
-  const bool moving = reference.trajectory != nullptr;
+  const bool moving = reference.trajectory != nullptr || reference.servo;
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     arm_motors[j]->setPositionTarget(now.position[i], 1);
@@ -167,6 +174,15 @@ void World::Impl::give_torques(JointVector torque) {
     body_slot(kRobot).multibody->addJointTorque(arm_links[j], torque[i]);
   }
   arm_torque = torque;
+}
+
+// What is asked for, but for the part of it that would take a joint beyond its limits.
+void World::Impl::control_torque(const JointVector& asked) {
+  update_dynamics();
+  const JointMatrix& mass = dynamics.mass();
+  const JointVector free = mass.ldlt().solve(asked);
+  const JointVector safe = safe_acceleration(free, arm_position_now(), arm_velocity_now(), scene->robot.limits, dt);
+  give_torques(dynamics.gravity() + asked + mass * (safe - free));
 }
 
 // Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step

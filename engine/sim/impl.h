@@ -58,11 +58,12 @@ struct PairFilter final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 };
 
-// The arm's reference: a trajectory since the step at which it was given, or a set-point.
+// The arm's reference: a trajectory since the step at which it was given, what a servo makes of it, or a set-point.
 struct Reference {
-  std::shared_ptr<const Trajectory> trajectory;  // null: the set-point
+  std::shared_ptr<const Trajectory> trajectory;
   std::int64_t start_step = 0;
   JointState setpoint;
+  std::optional<operation::Servo> servo = {};
 };
 
 struct World::Impl {
@@ -81,6 +82,8 @@ struct World::Impl {
   // controllers.cpp
   void control();
   JointState reference_at(std::int64_t step) const;
+  bool under_torque() const { return reference.servo && reference.servo->of == operation::Servo::Of::torque; }
+  void control_torque(const JointVector& asked);
   void control_position(const JointState& now, const JointState& next);
   void control_joint_impedance(const JointState& next);
   void control_cartesian_impedance(const JointState& next);
@@ -108,6 +111,7 @@ struct World::Impl {
   double position(PartRef ref) const;
   void check_robot(int robot) const;  // throws Error for an index that the scene does not have
   bool strained() const;
+  void keep_within_stops();
   JointVector arm_position_now() const;
   JointVector arm_velocity_now() const;
   void read_efforts();
@@ -150,6 +154,7 @@ struct World::Impl {
   std::vector<std::vector<double>> efforts;  // body + 1, part
   bool canonical = false;                    // nothing moved since the last boundary
   std::vector<Command> log;
+  bool keeps_log = true;
 
   mutable std::shared_ptr<const CollisionModel> collision_model;  // made when first asked for
   mutable std::vector<std::vector<Transform>> poses;              // body + 1, part

@@ -79,6 +79,10 @@ struct Encoder {
     out.vector(o.position);
     out.vector(o.velocity);
   }
+  void operator()(const operation::Servo& o) {
+    out.number(static_cast<std::uint8_t>(o.of));
+    out.vector(o.value);
+  }
   void operator()(const operation::Place& o) {
     out.number(static_cast<std::int32_t>(o.body));
     for (int row = 0; row < 3; ++row)  // the matrix itself: a quaternion would not return the same bits
@@ -110,6 +114,15 @@ Operation decode_controller(ByteReader& in) {
   return o;
 }
 
+Operation decode_servo(ByteReader& in) {
+  operation::Servo o;
+  const auto of = in.number<std::uint8_t>();
+  if (of > static_cast<std::uint8_t>(operation::Servo::Of::torque)) in.fail("it names no quantity");
+  o.of = static_cast<operation::Servo::Of>(of);
+  o.value = in.vector();
+  return o;
+}
+
 Operation decode(std::string_view kind, ByteReader& in) {
   if (kind == "boundary") return operation::Boundary{};
   if (kind == "controller") return decode_controller(in);
@@ -122,6 +135,7 @@ Operation decode(std::string_view kind, ByteReader& in) {
     JointVector position = in.vector();
     return operation::Setpoint{std::move(position), in.vector()};
   }
+  if (kind == "servo") return decode_servo(in);
   if (kind == "place") {
     operation::Place o;
     o.body = in.number<std::int32_t>();
@@ -135,7 +149,7 @@ Operation decode(std::string_view kind, ByteReader& in) {
 }  // namespace
 
 std::string_view operation_kind(const Operation& operation) {
-  constexpr std::string_view kNames[] = {"boundary", "controller", "follow", "hand", "setpoint", "place"};
+  constexpr std::string_view kNames[] = {"boundary", "controller", "follow", "hand", "setpoint", "place", "servo"};
   static_assert(std::size(kNames) == std::variant_size_v<Operation>);
   return kNames[operation.index()];
 }

@@ -14,6 +14,7 @@ constexpr int kStrainedIterations =
     120;                          // a light part between a stop and a strong arm: 20 let it sink in by centimetres
 constexpr double kAskew = 3e-4;   // m between two coupled fingers
 constexpr double kStrain = 5e-5;  // m or rad beyond its stop
+constexpr double kOverStop_rad = 1e-3;
 
 // Bullet's own pools are 7 MB that each new world clears. A scene has some hundred pairs; more of them go to the heap.
 static btDefaultCollisionConstructionInfo small_pools() {
@@ -154,6 +155,11 @@ std::int64_t World::step_count() const { return impl_->steps; }
 double World::dt() const { return impl_->dt; }
 const std::vector<Command>& World::log() const { return impl_->log; }
 
+void World::keep_log(bool keep) {
+  impl_->keeps_log = keep;
+  if (!keep) impl_->log.clear();
+}
+
 // Something presses a joint against its stop. A function of joint positions alone: snapshots know nothing of it.
 bool World::Impl::strained() const {
   const auto beyond = [&](PartRef ref) {
@@ -172,6 +178,25 @@ bool World::Impl::strained() const {
          });
 }
 
+// A crash at full speed takes an arm's joint by a hundredth of a radian over its stop before Bullet's limit begins to
+// act. The stop is rigid: it is put back, at rest.
+void World::Impl::keep_within_stops() {
+  btMultiBody& robot = *body_slot(kRobot).multibody;
+  bool moved = false;
+  for (std::size_t j = 0; j < arm_links.size(); ++j) {
+    const JointLimits& limits = scene->robot.limits[j];
+    const double q = robot.getJointPos(arm_links[j]);
+    if (!(limits.lower < limits.upper) || (q >= limits.lower - kOverStop_rad && q <= limits.upper + kOverStop_rad))
+      continue;
+    robot.setJointPos(arm_links[j], std::clamp(q, limits.lower, limits.upper));
+    robot.setJointVel(arm_links[j], 0);
+    moved = true;
+  }
+  if (!moved) return;
+  robot.forwardKinematics(scratch_rotations, scratch_origins);
+  robot.updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+}
+
 void World::step() {
   Impl& w = *impl_;
   w.world.getSolverInfo().m_numIterations = w.strained() ? kStrainedIterations : kSolverIterations;
@@ -180,11 +205,14 @@ void World::step() {
   w.anchors.before_step(w.world);
   w.solver.forget_torsions();
   w.world.stepSimulation(w.dt, 0);
+  w.keep_within_stops();
   w.anchors.after_step(w.dispatcher);
   w.contacts.add_step(w.dispatcher, w.dt);
   w.read_efforts();
   ++w.steps;
   ++w.stamp;
+  if (w.under_torque())
+    w.reference_now = {w.arm_position_now(), w.arm_velocity_now(), JointVector::Zero(w.arm.joints())};
   w.canonical = false;
 }
 
@@ -225,10 +253,16 @@ void World::apply(const Operation& operation) {
     const JointVector still = JointVector::Zero(w.arm.joints());
     w.reference = {nullptr, w.steps, {setpoint->position, setpoint->velocity, still}};
     w.reference_now = w.reference.setpoint;
+  } else if (const auto* servo = std::get_if<operation::Servo>(&operation)) {
+    if (servo->value.size() != w.arm.joints() || !servo->value.allFinite())
+      throw Error("servo",
+                  "it needs a finite number for each of the arm's " + std::to_string(w.arm.joints()) + " joints",
+                  "give rad, rad/s or N m");
+    w.reference = {nullptr, w.steps, w.reference_now, *servo};
   } else if (const auto* place = std::get_if<operation::Place>(&operation)) {
     w.place(place->body, place->world_from_body);
   }
-  w.log.push_back({w.steps, operation});
+  if (w.keeps_log) w.log.push_back({w.steps, operation});
 }
 
 const Transform& World::world_from_part(PartRef part) const { return impl_->world_from_part(part); }
@@ -286,6 +320,11 @@ Transform World::world_from_tip(int robot) const {
   impl_->check_robot(robot);
   const Robot& its = impl_->scene->robot;
   return impl_->world_from_part(PartRef::of_robot(its.tip_part, robot)) * its.tip_part_from_tip;
+}
+
+bool World::steered(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->reference.servo.has_value();
 }
 
 double World::opening(int robot) const {

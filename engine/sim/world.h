@@ -40,13 +40,22 @@ struct Setpoint {  // a reference for this step on, from an agent
   JointVector position, velocity;
   int robot = 0;
 };
+struct Servo {  // what an agent asks of the arm from this step on, in place of a trajectory or set-point
+  // position: rad, to be reached; velocity: rad/s, to be kept; both within the joints' limits of speed, acceleration
+  // and range. torque: N m beside those that bear the weight of the arm and of what it holds; a joint that would pass
+  // its limit of speed, or could not stop short of its stop, is held back.
+  enum class Of { position, velocity, torque };
+  Of of = Of::position;
+  JointVector value;
+  int robot = 0;
+};
 struct Place {  // teleports a free body (scene sampling only)
   int body = 0;
   Transform world_from_body = Transform::Identity();
 };
 }  // namespace operation
 using Operation = std::variant<operation::Boundary, operation::Controller, operation::Follow, operation::Hand,
-                               operation::Setpoint, operation::Place>;
+                               operation::Setpoint, operation::Place, operation::Servo>;
 
 struct Command {
   std::int64_t step = 0;  // applied before this physics step
@@ -106,6 +115,7 @@ class World {
   void apply(const Operation& operation);   // also appends to the log
   void step();                              // one physics step of 1/physics_hz
   const std::vector<Command>& log() const;  // since construction, or as restore left it
+  void keep_log(bool keep);                 // false: it is emptied, and stays so
 
   // Poses are of part frames, not centres of mass.
   const Transform& world_from_part(PartRef part) const;  // current after each step
@@ -118,8 +128,9 @@ class World {
 
   JointVector arm_position(int robot = 0) const;
   JointVector arm_velocity(int robot = 0) const;
-  JointState reference(int robot = 0) const;  // the arm's set-point at this step
+  JointState reference(int robot = 0) const;  // the arm's set-point at this step; under torques, where it is
   bool following(int robot = 0) const;        // the reference has not reached its trajectory's end
+  bool steered(int robot = 0) const;          // a Servo is in force
   const operation::Controller& controller(int robot = 0) const;
   Transform world_from_tip(int robot = 0) const;
   double opening(int robot = 0) const;  // m

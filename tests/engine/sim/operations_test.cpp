@@ -29,9 +29,13 @@ TEST_CASE("every operation returns from its bytes with the same bits", "[sim]") 
   operation::Place place{3, Transform::Identity()};
   place.world_from_body = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized());
   place.world_from_body.translation() = Vector3(0.1, -0.2, 1.0 / 3);
-  const std::vector<Operation> all{
-      operation::Boundary{},        operation::Controller{ControllerKind::cartesian_impedance, 1.0 / 3}, follow,
-      operation::Hand{0.1 / 3, 17}, operation::Setpoint{random_joints(random), random_joints(random)},   place};
+  const std::vector<Operation> all{operation::Boundary{},
+                                   operation::Controller{ControllerKind::cartesian_impedance, 1.0 / 3},
+                                   follow,
+                                   operation::Hand{0.1 / 3, 17},
+                                   operation::Setpoint{random_joints(random), random_joints(random)},
+                                   place,
+                                   operation::Servo{operation::Servo::Of::torque, random_joints(random)}};
   CHECK(all.size() == std::variant_size_v<Operation>);
   for (const Operation& operation : all) {
     CAPTURE(operation_kind(operation));
