@@ -30,7 +30,8 @@ namespace stampede {
   X(stuck, "the mechanism did not move as far as asked")                      \
   X(script_error, "a script raised an error")                                 \
   X(budget, "the tries allowed were used up")                                 \
-  X(interrupted, "the run was interrupted")
+  X(interrupted, "the run was interrupted")                                   \
+  X(policy_error, "a policy failed, or asked for what cannot be done")
 
 enum class Reason {
 #define X(name, text) name,

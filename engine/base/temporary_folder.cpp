@@ -11,9 +11,19 @@
 
 namespace stampede {
 
-TemporaryFolder::TemporaryFolder() {
+namespace {
+
+std::string usual_place() {
   const char* asked = std::getenv("TMPDIR");
-  std::string name = std::string(asked == nullptr || *asked == '\0' ? "/tmp" : asked) + "/stampede_XXXXXX";
+  return asked == nullptr || *asked == '\0' ? "/tmp" : asked;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() : TemporaryFolder(usual_place()) {}
+
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& where) {
+  std::string name = where.string() + "/stampede_XXXXXX";
   if (::mkdtemp(name.data()) == nullptr)
     throw Error(name, std::string("a temporary folder cannot be made: ") + std::strerror(errno),
                 "set TMPDIR to a folder that can be written");

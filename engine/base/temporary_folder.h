@@ -8,7 +8,8 @@ namespace stampede {
 // An empty folder that goes with its owner. It lies where the system keeps such, or where TMPDIR says.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws Error
+  TemporaryFolder();                                             // throws Error
+  explicit TemporaryFolder(const std::filesystem::path& where);  // in that folder; throws Error
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -1,5 +1,8 @@
 #include "engine/episode/altered_task.h"
 
+#include <cmath>
+
+#include "engine/base/error.h"
 #include "engine/episode/constraints.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
@@ -31,9 +34,25 @@ std::string sentence(const Formula& formula, const Domain& domain, const Scene& 
   return negated ? "it is not so that " + text : text;
 }
 
+void set_rates(Task& task, const RunOptions& options) {
+  Scene& scene = task.scene;
+  if (options.physics_hz > 0) scene.physics_hz = options.physics_hz;
+  if (options.frame_hz > 0) scene.frame_hz = options.frame_hz;
+  if (options.horizon_s > 0) task.horizon_s = options.horizon_s;
+  const auto check = [&](const std::string& what, double hz) {
+    if (!(hz > 0) || std::fmod(scene.physics_hz, hz) != 0)
+      throw Error("physics_hz",
+                  "physics at " + std::to_string(scene.physics_hz) + " Hz has no whole number of steps for " + what,
+                  "choose a multiple");
+  };
+  check("a frame at " + std::to_string(scene.frame_hz) + " Hz", scene.frame_hz);
+  for (const Sensor& sensor : scene.sensors) check("a sample of " + sensor.name, sensor.rate_hz);
+}
+
 }  // namespace
 
 Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
+  set_rates(task, options);
   if (options.where) task.where = task.where ? conjunction({*options.where, *task.where}) : *options.where;
   if (!options.goal) return task;
   const Domain& domain = symbols.domain();

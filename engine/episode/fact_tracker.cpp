@@ -239,10 +239,25 @@ void FactTracker::look(const WorldView& view) {
         record.end_step = view.world().step_count();
         state_.closed_known.push_back(std::move(record));
       }
+      ++changes_;
       atom.known = atom.holds;
       atom.known_since_step = view.world().step_count();
     }
   }
+}
+
+std::set<std::string> FactTracker::out_of_sight(const WorldView& view) const {
+  std::set<std::string> things;
+  for (const Group& group : groups_)
+    for (std::size_t i = group.first; group.hides && i < group.first + group.count; ++i)
+      if (state_.atoms[i].holds && !names_[i].arguments.empty() && !symbols_.observable(names_[i], view))
+        things.insert(names_[i].arguments.front());
+  return things;
+}
+
+void FactTracker::forget_closed() {
+  state_.closed.clear();
+  state_.closed_known.clear();
 }
 
 std::vector<Fact> FactTracker::never_seen() const {
@@ -306,6 +321,7 @@ Facts FactTracker::basic() const {
 void FactTracker::refresh_derived(std::int64_t step) {
   if (!changed_) return;
   changed_ = false;
+  ++changes_;
   Facts now = with_derived(basic(), symbols_.domain(), objects_);
   for (auto since = state_.derived_since.begin(); since != state_.derived_since.end();) {
     if (now.contains(since->first)) {

@@ -45,6 +45,11 @@ class FactTracker {
   std::vector<Fact> never_seen() const;  // what can hide and could not be seen so far: nobody knows whether it holds
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
   const Domain& domain() const { return symbols_.domain(); }
+  const std::vector<Fact>& atoms() const { return names_; }  // all ground atoms of basic predicates, in a fixed order
+  std::int64_t changes() const { return changes_; }          // grows whenever what holds or is known changes
+  // What no eye can see now: things of which a fact holds that hides, and is not observable.
+  std::set<std::string> out_of_sight(const WorldView& view) const;
+  void forget_closed();  // intervals that have ended
   const std::vector<TypedObject>& objects() const { return objects_; }
 
   // Intervals up to now; open ones end at `end_step`, and say so. Their `observed`: was it known all the time?
@@ -70,7 +75,10 @@ class FactTracker {
     std::vector<FactRecord> closed_known;  // the same of what was known
   };
   State save() const { return state_; }
-  void restore(State state) { state_ = std::move(state); }
+  void restore(State state) {
+    state_ = std::move(state);
+    ++changes_;
+  }
 
  private:
   struct Group {  // the atoms of one predicate
@@ -114,6 +122,7 @@ class FactTracker {
   Facts static_;  // traits and attributes
   std::set<std::string> derived_names_;
   bool changed_ = false;
+  std::int64_t changes_ = 0;
   State state_;
 };
 

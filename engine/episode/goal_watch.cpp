@@ -30,6 +30,10 @@ SkillStatus GoalWatch::tick() {
   return finish(seen_ ? SkillResult{} : SkillResult{Reason::goal_false, rollout_.unmet_goal()});
 }
 
+void GoalWatch::interrupt(const std::string& why) {
+  if (!over_) finish({Reason::interrupted, why});
+}
+
 // At a frame; false when the goal has been lost.
 bool GoalWatch::look() {
   const bool now = rollout_.goal_holds(), lost = seen_ && !now;

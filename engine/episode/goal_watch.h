@@ -16,6 +16,7 @@ class GoalWatch {
  public:
   GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, int parent_segment);
   SkillStatus tick();
+  void interrupt(const std::string& why);                // between two ticks: it is over
   const SkillResult& result() const { return result_; }  // once it is over
 
  private:

@@ -191,6 +191,12 @@ struct MovePart {
 struct Wait {
   double seconds = 0;
 };
+struct Policy {  // acts frame by frame, until it is done, the skill's effect holds, or time is up
+  std::string name;
+  double seconds = 10;
+  bool until_effect = true;
+  std::map<std::string, std::vector<double>> with;
+};
 struct RunSkill {
   AskedCall call;
 };  // a child skill segment
@@ -200,9 +206,9 @@ struct Fail {
   std::string detail;
 };
 }  // namespace robot_call
-using RobotCall =
-    std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
-                 robot_call::MovePart, robot_call::Wait, robot_call::RunSkill, robot_call::Done, robot_call::Fail>;
+using RobotCall = std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
+                               robot_call::MovePart, robot_call::Wait, robot_call::Policy, robot_call::RunSkill,
+                               robot_call::Done, robot_call::Fail>;
 
 // One run of a skill. next() is called with the view as it is when the previous call has ended well; a call that
 // failed ends the run. Never copied: undo starts a new one.

@@ -144,6 +144,18 @@ void Recorder::cut(const Mark& mark) {
   contacts_open_ = mark.contacts_open;
 }
 
+void Recorder::forget_frames() {
+  if (frames.size() > 1) frames.erase(frames.begin(), frames.end() - 1);
+  contacts_closed_.clear();
+}
+
+void Recorder::forget_segments(std::size_t first_segment) {
+  segments.resize(std::min(first_segment, segments.size()));
+  attempts.clear();
+  vias.clear();
+  grasps.clear();
+}
+
 void Recorder::finish(EpisodeRecord& episode, std::int64_t end_step) {
   for (const auto& [pair, record] : contacts_open_) contacts_closed_.push_back(record);
   std::sort(contacts_closed_.begin(), contacts_closed_.end(), [](const ContactRecord& a, const ContactRecord& b) {

@@ -42,7 +42,11 @@ class Recorder {
     std::map<std::pair<std::string, std::string>, ContactRecord> contacts_open;
   };
   Mark mark() const;
-  void cut(const Mark& mark);                                  // everything after the mark never happened
+  void cut(const Mark& mark);  // everything after the mark never happened
+  // All frames but the last, and of contacts, vias, grasps and attempts what is over. Segments from `first_segment` on
+  // go too; none of them may be open.
+  void forget_frames();
+  void forget_segments(std::size_t first_segment);
   void finish(EpisodeRecord& episode, std::int64_t end_step);  // moves all into the episode
 
   std::vector<FrameRecord> frames;

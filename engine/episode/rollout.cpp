@@ -7,6 +7,7 @@ namespace stampede {
 
 Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sensors, const std::atomic<bool>* stop)
     : task_(start.task),
+      scene_(start.scene),
       symbols_(symbols),
       stop_(stop),
       world_(start.scene),
@@ -44,6 +45,11 @@ Reason Rollout::close_frame() {
   facts_.frame(view_);
   recorder_.contacts(view_);
   recorder_.frame(view_, task_.reward ? task_.reward(view_) : 0);
+  if (!keeps_record_) {
+    recorder_.forget_frames();
+    facts_.forget_closed();
+    sensors_.forget();
+  }
   if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return Reason::interrupted;
   if (task_.fails && task_.fails(view_)) return Reason::failed_by_task;
   return step() >= horizon_steps_ ? Reason::timeout : Reason::none;
@@ -75,6 +81,20 @@ std::string Rollout::unmet_goal() const {
 Rollout::Checkpoint Rollout::checkpoint() {
   world_.apply(operation::Boundary{});
   return {world_.snapshot(), view_.history(), facts_.save(), recorder_.mark(), sensors_.mark(), keep, stage_};
+}
+
+void Rollout::keep_record(bool wanted) {
+  keeps_record_ = wanted;
+  world_.keep_log(wanted);
+}
+
+Rollout::Branch Rollout::branch() { return {checkpoint(), recorder_, sensors_, ended_}; }
+
+void Rollout::restore(const Branch& branch) {
+  recorder_ = branch.recorder;
+  sensors_ = branch.sensors;
+  restore(branch.checkpoint);
+  ended_ = branch.ended;
 }
 
 void Rollout::restore(const Checkpoint& checkpoint) {

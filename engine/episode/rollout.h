@@ -24,6 +24,7 @@ class Rollout {
   const FactTracker& facts() const { return facts_; }
   Recorder& recorder() { return recorder_; }
   const Task& task() const { return task_; }
+  const std::shared_ptr<const Scene>& scene() const { return scene_; }
   const SensorReader& sensors() const { return sensors_; }
   const Domain& domain() const { return symbols_.domain(); }
   std::int64_t step() const { return world_.step_count(); }
@@ -39,6 +40,10 @@ class Rollout {
   bool holds_now(const Formula& formula) const;
   // How many parts of an ordered goal have come true.
   int stage() const { return stage_; }
+
+  // Without a record only the present frame is kept, so memory does not grow. From now on.
+  void keep_record(bool wanted);
+  bool keeps_record() const { return keeps_record_; }
 
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
@@ -62,12 +67,23 @@ class Rollout {
   Checkpoint checkpoint();  // drops contact caches first
   void restore(const Checkpoint& checkpoint);
 
+  // A checkpoint with all that was recorded so far: one can go back to it from another branch of events.
+  struct Branch {
+    Checkpoint checkpoint;
+    Recorder recorder;
+    SensorReader sensors;
+    Reason ended = Reason::none;
+  };
+  Branch branch();
+  void restore(const Branch& branch);
+
  private:
   Reason close_step();
   Reason close_frame();
   Reason check_stages();
 
   Task task_;
+  std::shared_ptr<const Scene> scene_;
   Symbols& symbols_;
   const std::atomic<bool>* stop_;
   World world_;
@@ -79,6 +95,7 @@ class Rollout {
   std::int64_t horizon_steps_;
   int stage_ = 0;
   Reason ended_ = Reason::none;
+  bool keeps_record_ = true;
   double physics_wall_s_ = 0;
 };
 

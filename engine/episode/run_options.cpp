@@ -82,6 +82,11 @@ std::map<std::string, std::string> RunOptions::as_text() const {
     text["behaviour"] = to_string(behaviour);
     text["skills"] = std::to_string(skills);
   }
+  if (physics_hz > 0) text["physics_hz"] = std::to_string(physics_hz);
+  if (frame_hz > 0) text["frame_hz"] = std::to_string(frame_hz);
+  if (horizon_s > 0) text["horizon_s"] = std::to_string(horizon_s);
+  if (policies)
+    for (const auto& [name, entry] : *policies) text["policy_" + name] = entry.version;
   if (planner) text["planner"] = planner_name;
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);

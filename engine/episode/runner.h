@@ -9,6 +9,7 @@
 #include "engine/episode/interfaces.h"
 #include "engine/episode/observation.h"
 #include "engine/model/randomise.h"
+#include "stampede/environment.h"
 
 namespace stampede {
 
@@ -32,10 +33,14 @@ struct RunOptions {
   std::optional<Formula> where;             // must hold at the start, beside the task's init
   std::optional<Formula> goal;              // instead of the task's
   Behaviour behaviour = Behaviour::plan;
-  int skills = 20;  // of a random behaviour: how many it draws
+  int physics_hz = 0, frame_hz = 0;  // 0: the world's
+  double horizon_s = 0;              // 0: the task's
+  int skills = 20;                   // of a random behaviour: how many it draws
   // Asked instead of our own planner; `planner_name` stands for it in the key.
   std::function<PlanOutcome(const Domain& domain, const Problem& problem)> planner;
   std::string planner_name;
+  // By name: bodies of skills. Their names and versions are in the key. Null: none but those that come with the engine.
+  std::shared_ptr<const std::map<std::string, PolicyEntry>> policies;
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name

@@ -93,6 +93,15 @@ void SensorReader::cut(const Mark& mark) {
   }
 }
 
+void SensorReader::forget() {
+  for (ChannelRecord& channel : channels_) {
+    if (channel.steps.size() < 2) continue;
+    channel.steps.erase(channel.steps.begin(), channel.steps.end() - 1);
+    channel.values.erase(channel.values.begin(),
+                         channel.values.end() - static_cast<std::ptrdiff_t>(channel.components.size()));
+  }
+}
+
 RandomKey sensor_key(const std::string& task, const std::string& variation, std::int64_t seed) {
   return RandomKey("sensor noise").with(task).with(variation).with(seed);
 }

@@ -21,6 +21,7 @@ class SensorReader {
   };
   Mark mark() const;
   void cut(const Mark& mark);  // everything after the mark never happened
+  void forget();               // all samples but the last of each channel
 
   const std::vector<ChannelRecord>& channels() const { return channels_; }  // in the scene's order
 

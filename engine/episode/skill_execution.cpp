@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/episode/agent_action.h"
 #include "engine/episode/blockers.h"
 #include "engine/episode/call_motion.h"
 #include "engine/episode/call_settings.h"
@@ -132,6 +133,7 @@ void SkillExecution::start(SkillContext context, int parent) {
     return;
   }
   controller_ = {call.controller, call.stiffness};
+  call_ = call;
   rollout_.world().apply(controller_);
   run_ = skills_.start(call, rollout_.view());
   if (reference_moves(rollout_.world())) follow(make_brake());
@@ -204,9 +206,7 @@ bool SkillExecution::step_due() {
     case Phase::child:
       if (child_->tick() == SkillStatus::running) return true;
       if (!child_->result().ok()) return finish(child_->result());
-      if (const auto now = rollout_.world().controller();
-          now.kind != controller_.kind || now.stiffness != controller_.stiffness)
-        rollout_.world().apply(controller_);
+      restore_controller();
       phase_ = Phase::calling;
       return false;
     case Phase::settling:
@@ -217,15 +217,69 @@ bool SkillExecution::step_due() {
   return false;
 }
 
+void SkillExecution::restore_controller() {
+  const operation::Controller& now = rollout_.world().controller();
+  if (now.kind != controller_.kind || now.stiffness != controller_.stiffness) rollout_.world().apply(controller_);
+}
+
 bool SkillExecution::ask_script() {
   if (calls_ == kCallsPerSkill)
     return finish({Reason::budget, "the skill asked for more than " + std::to_string(kCallsPerSkill) + " motions"});
+  if (policy_) return go_on_with_policy(context_.key.with("call").with(calls_++));
   const RobotCall next = run_->next(rollout_.view());
   const RandomKey key = context_.key.with("call").with(calls_++);
   if (std::holds_alternative<robot_call::Done>(next)) return begin_settling();
   if (const auto* fail = std::get_if<robot_call::Fail>(&next)) return finish({fail->reason, fail->detail});
   if (const auto* child = std::get_if<robot_call::RunSkill>(&next)) return start_child(child->call, key);
+  if (const auto* policy = std::get_if<robot_call::Policy>(&next)) return start_policy(*policy);
   return plan_motion(next, key);
+}
+
+bool SkillExecution::start_policy(const robot_call::Policy& call) {
+  PolicyCall told{context_.info->name, {}, call.with};
+  for (std::size_t i = 0; i < context_.arguments.size(); ++i)
+    told.arguments[context_.info->parameters[i].name] = context_.arguments[i];
+  for (const ContinuousValue& value : call_.continuous)
+    told.parameters.try_emplace(value.record.name, value.record.values);
+  try {
+    policy_ =
+        std::make_unique<SkillPolicy>(rollout_, options_, call.name, std::move(told), call.seconds, controller_.kind,
+                                      [this, until = call.until_effect] { return until && missing_effects().empty(); });
+  } catch (const std::exception& error) {
+    return finish({Reason::policy_error, error.what()});
+  }
+  follow(policy_->motion());
+  return false;
+}
+
+// What it asked for beside set-points is done to its end, then it goes on.
+bool SkillExecution::go_on_with_policy(RandomKey key) {
+  World& world = rollout_.world();
+  if (reference_moves(world)) {
+    follow(make_brake());
+    return false;
+  }
+  if (policy_->over()) {
+    policy_.reset();
+    restore_controller();
+    return false;
+  }
+  const std::optional<AgentAction> asked = policy_->take_pending();
+  if (!asked) {
+    follow(policy_->motion());
+    return false;
+  }
+  if (asked->space != "skill") return plan_motion(robot_call::MoveThrough{{{"goal", tool_target(*asked, world)}}}, key);
+  const Action* action = rollout_.domain().action(asked->skill);
+  if (action == nullptr) return finish({Reason::policy_error, "there is no skill '" + asked->skill + "'"});
+  AskedCall call{action->skill, action->case_name, asked->arguments, {}};
+  for (const SkillParameter& one : asked->parameters) call.set.values.push_back({one.name, 0, one.values});
+  call.set.controller = controller_from(asked->controller);
+  SkillRequest request;
+  request.step = {asked->skill, asked->arguments};
+  request.set = call.set;
+  if (const auto mistake = mistake_in(request)) return finish({Reason::policy_error, mistake->what()});
+  return start_child(call, key);
 }
 
 bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
@@ -274,7 +328,8 @@ bool SkillExecution::step_motion() {
   const MotionResult moved = motion_->step(rollout_.world());
   if (moved.status == MotionStatus::running) return true;
   SkillResult result;
-  if (moved.status == MotionStatus::failed) result = {moved.reason, std::string(describe(moved.reason))};
+  if (moved.status == MotionStatus::failed)
+    result = {moved.reason, moved.detail.empty() ? std::string(describe(moved.reason)) : moved.detail};
   end_motion(std::move(result));
   return false;
 }
@@ -378,6 +433,7 @@ bool SkillExecution::finish(SkillResult result) {
   result_ = std::move(result);
   run_.reset();
   child_.reset();
+  policy_.reset();
   phase_ = Phase::over;
   if (owns_) rollout_.calling = false;
   return false;

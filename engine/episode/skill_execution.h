@@ -14,6 +14,7 @@
 #include "engine/episode/passages.h"
 #include "engine/episode/rollout.h"
 #include "engine/episode/skill_call.h"
+#include "engine/episode/skill_policy.h"
 #include "engine/motion/motion.h"
 
 namespace stampede {
@@ -29,6 +30,9 @@ class SkillExecution {
   SkillExecution(const SkillExecution&) = delete;
   SkillExecution& operator=(const SkillExecution&) = delete;
   ~SkillExecution();
+
+  // Why there can be no such call, whatever the world is like; nothing: there can.
+  std::optional<Error> mistake_in(const SkillRequest& request) const;
 
   // Opens the skill's segment, draws its continuous parameters and starts its run; what fails there is a segment that
   // has failed at once. Result: nothing, or why there can be no such call: then nothing has changed, in the world, in
@@ -49,7 +53,6 @@ class SkillExecution {
   // What is going on: the script is asked for its next call, a motion, a child skill, waiting for effects.
   enum class Phase { over, calling, moving, child, settling };
 
-  std::optional<Error> mistake_in(const SkillRequest& request) const;
   void start(SkillContext context, int parent);
   SkillCall undrawn_call() const;
   void open_segment(int parent, const Facts& before);
@@ -57,6 +60,9 @@ class SkillExecution {
   void after_step();
   bool ask_script();
   bool start_child(const AskedCall& call, RandomKey key);
+  bool start_policy(const robot_call::Policy& call);
+  bool go_on_with_policy(RandomKey key);
+  void restore_controller();
   bool plan_motion(const RobotCall& call, RandomKey key);
   void follow(std::unique_ptr<Motion> motion);
   bool step_motion();
@@ -85,6 +91,8 @@ class SkillExecution {
   operation::Controller controller_;  // of this call; a child may have had another
   int calls_ = 0;                     // asked for so far
   std::unique_ptr<SkillExecution> child_;
+  std::unique_ptr<SkillPolicy> policy_;  // the script waits for it
+  SkillCall call_;                       // as it was drawn
   std::unique_ptr<Motion> motion_;
   std::optional<robot_call::Hand> hand_;  // what the motion does, where it moves the fingers
   std::optional<Passages> passages_;

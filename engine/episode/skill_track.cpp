@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "engine/episode/goal_watch.h"
-
 namespace stampede {
 namespace {
 
@@ -18,40 +16,79 @@ SkillTrack::SkillTrack(Rollout& rollout, Symbols& symbols, SkillLibrary& skills,
 }
 
 SkillResult SkillTrack::run(const PlanStep& step, std::size_t position, const CallSettings& set, CallMode mode) {
-  const int tries = tries_[position];
   mode.find_blockers = !mode.random_parameters && asked_.emplace(position, step).second;
   SkillRequest request;
   request.step = step;
+  request.set = set;
+  request.mode = mode;
+  if (const auto refusal = begin(std::move(request), position)) throw Error(*refusal);
+  run_to_end(execution_, rollout_);
+  return end(position);
+}
+
+std::optional<Error> SkillTrack::begin(SkillRequest request, std::size_t position) {
+  const auto tried = tries_.find(position);
+  const int tries = tried == tries_.end() ? 0 : tried->second;
   request.key = key_.with(static_cast<std::int64_t>(position)).with(tries);
   request.attempt = tries;
   request.parent_segment = subgoal_segment_;
-  request.set = set;
-  request.mode = mode;
-  if (const auto refusal = execution_.begin(request)) throw Error(*refusal);
-  const SkillResult result = run_to_end(execution_, rollout_);
+  return execution_.begin(request);
+}
+
+SkillResult SkillTrack::end(std::size_t position) {
+  const SkillResult result = execution_.result();
   remember(result.segment, position);
-  if (!result.ok()) return result;
+  if (result.ok()) advance_subgoals();
+  return result;
+}
+
+void SkillTrack::advance_subgoals() {
   const auto& subgoals = rollout_.task().subgoals;
   while (subgoal_ < subgoals.size() && rollout_.holds_now(subgoals[subgoal_].second)) {
     rollout_.recorder().close_segment(subgoal_segment_, rollout_.step(), Outcome::success, Reason::none, {});
     ++subgoal_;
     open_subgoal();
   }
+}
+
+std::unique_ptr<GoalWatch> SkillTrack::watch_goal() {
+  return std::make_unique<GoalWatch>(rollout_, frames(kGoalPatience), frames(rollout_.task().hold_s), subgoal_segment_);
+}
+
+void SkillTrack::end_goal(const SkillResult& result, std::size_t position) { remember(result.segment, position); }
+
+SkillResult SkillTrack::finish_goal(std::size_t position) {
+  const std::unique_ptr<GoalWatch> watch = watch_goal();
+  const SkillResult result = run_to_end(*watch, rollout_);
+  end_goal(result, position);
   return result;
 }
 
-SkillResult SkillTrack::finish_goal(std::size_t position) {
-  GoalWatch watch(rollout_, frames(kGoalPatience), frames(rollout_.task().hold_s), subgoal_segment_);
-  const SkillResult result = run_to_end(watch, rollout_);
-  remember(result.segment, position);
-  return result;
+SkillTrack::State SkillTrack::state() const {
+  State state{subgoal_, subgoal_segment_, {}, tries_};
+  for (const auto& [segment, slot] : slots_) state.slots[segment] = {slot.position, slot.try_number};
+  return state;
+}
+
+void SkillTrack::restore(const State& state) {
+  subgoal_ = state.subgoal;
+  subgoal_segment_ = state.subgoal_segment;
+  tries_ = state.tries;
+  slots_.clear();
+  for (const auto& [segment, slot] : state.slots) slots_[segment] = {slot.first, slot.second};
+}
+
+void SkillTrack::forget() {
+  rollout_.recorder().forget_segments(static_cast<std::size_t>(subgoal_segment_) + 1);
+  slots_.clear();
+  tries_.clear();
 }
 
 void SkillTrack::close(const SkillResult& verdict) {
   if (!rollout_.at_frame() || rollout_.step() == 0) {
     const int hold = open_hold(rollout_, subgoal_segment_);
     do rollout_.advance();
-    while (!rollout_.at_frame() && rollout_.ended() == Reason::none);
+    while (!rollout_.at_frame());  // also after an end between two frames: a frame is what is recorded and replayed
     rollout_.recorder().close_segment(hold, rollout_.step(), Outcome::success, Reason::none, {});
   }
   rollout_.recorder().close_segment(subgoal_segment_, rollout_.step(),

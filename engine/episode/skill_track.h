@@ -3,11 +3,13 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/episode/goal_watch.h"
 #include "engine/episode/runner.h"
 #include "engine/episode/skill_execution.h"
 
@@ -22,8 +24,17 @@ class SkillTrack {
   // Executes one skill to its end. `position`: in the plan; with the number of earlier tries there it chooses the
   // draws. Throws Error for a call that cannot be.
   SkillResult run(const PlanStep& step, std::size_t position, const CallSettings& set = {}, CallMode mode = {});
+  // The same in parts, for whoever owns the loop: begin, ticks of what `execution` is, and end once it is over.
+  std::optional<Error> begin(SkillRequest request, std::size_t position);
+  SkillExecution& execution() { return execution_; }
+  SkillResult end(std::size_t position);
+
   // Stands still for the verdict, as if it were the step after the last.
   SkillResult finish_goal(std::size_t position);
+  std::unique_ptr<GoalWatch> watch_goal();  // the same in parts
+  void end_goal(const SkillResult& result, std::size_t position);
+  void advance_subgoals();  // to the first one that does not hold
+  int subgoal_segment() const { return subgoal_segment_; }
   // To the next frame, and closes the subgoal that is open.
   void close(const SkillResult& verdict);
 
@@ -36,6 +47,17 @@ class SkillTrack {
   Place here();                      // drops contact caches, at every boundary, whether or not anything is undone
   void back_to(const Place& place);  // what has been since becomes attempts
   void place_attempts();             // at the end: each learns the segment that took its place
+
+  // All that a branch of events needs to be taken up again. Between two skills.
+  struct State {
+    std::size_t subgoal = 0;
+    int subgoal_segment = 0;
+    std::map<int, std::pair<std::size_t, int>> slots;
+    std::map<std::size_t, int> tries;
+  };
+  State state() const;
+  void restore(const State& state);
+  void forget();  // skills that are over, when nothing is recorded
 
  private:
   struct Slot {

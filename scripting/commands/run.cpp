@@ -6,6 +6,7 @@
 #include "engine/model/camera.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
+#include "scripting/commands/policy_options.h"
 #include "scripting/commands/symbol_options.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
@@ -114,6 +115,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   JobRequest request = job_request(arguments, settings.options.split);
   settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
   settings.stop = console.stop;
+  const std::optional<PolicySettings> acting = policy_settings(arguments, settings.options.observation);
   const auto library = load_usable_library(arguments);
   read_settings(arguments, *library, settings.options);
   leave_out_misfits(library, settings.options, request, console);
@@ -127,13 +129,20 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
   };
+  std::optional<PolicyRun> policy;
+  if (acting) {
+    policy.emplace(*acting, settings.stop);
+    settings.act = [&](PreparedEpisode& prepared) { return policy->act(prepared); };
+  }
   const RunTally tally = run_jobs(library, jobs, settings, &writer);
+  policy.reset();
   writer.finish();
   progress.finish();
   print_answer(tally, out, arguments.flag("--json"), console);
   if (tally.interrupted) {
-    console.err << fmt::format("interrupted: {} of {} episodes are in {}; the same command goes on from there\n",
-                               tally.done(), tally.total, out);
+    console.err << fmt::format(
+        "interrupted: {} of {} episodes are in {}; {}\n", tally.done(), tally.total, out,
+        acting ? "the same command acts in all of them again" : "the same command goes on from there");
     return kNo;
   }
   return tally.finished > 0 && tally.succeeded == 0 ? kNo : kDone;
@@ -152,7 +161,9 @@ CommandRow run_command() {
       "`observe`; `stampede render` makes the same pictures later. With --where the start is drawn until it holds, "
       "with "
       "--goal another goal is planned for; both speak of the objects, predicates, traits and attributes that "
-      "`stampede list TASK` names, chest.top_drawer and chest--top_drawer alike, and the hand may be left out.",
+      "`stampede list TASK` names, chest.top_drawer and chest--top_drawer alike, and the hand may be left out. With "
+      "--policy a program of yours acts; its episodes are stored like others, unless the same was done in the same "
+      "start before.",
       {{"TASK", "names of tasks", true, true}},
       {{"--episodes", "N", "episodes per task, good or bad", Takes::integer, "1", {}, false},
        {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
@@ -194,12 +205,14 @@ CommandRow run_command() {
        "stampede run put_item_in_drawer --where '(open chest.top_drawer)' --goal '(closed chest.top_drawer)'",
        "stampede run pick_and_lift --set pick.height=0.2 --set pick.controller=cartesian_impedance",
        "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",
-       "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256"},
+       "stampede run pick_and_lift --images keyframes --camera front --camera wrist --size 256x256",
+       "stampede run reach_target --policy \"sh policy.sh\" --observe gripper_pose,object_pose"},
       do_run};
   add_options(row.options, constraint_options());
   add_options(row.options, behaviour_options());
   add_options(row.options, setting_options());
   add_options(row.options, planner_options());
+  add_options(row.options, policy_options());
   for (OptionRow& option : picture_options(PictureUse::run)) row.options.push_back(std::move(option));
   return row;
 }

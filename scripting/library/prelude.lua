@@ -217,6 +217,12 @@ words.deg = math.rad -- deg(40) is 40 degrees in radians
 words.mm = function(x) return x / 1000 end
 words.cm = function(x) return x / 100 end
 
+-- A skill's whole run: run = policy("grasp_net", { seconds = 5 })
+function words.policy(name, options)
+  if type(name) ~= "string" or name == "" then say("policy takes the name under which it is registered") end
+  return function(robot) robot:policy(name, options) end
+end
+
 -- each(list, f): the list of f(value, index); in Lua, so that f may contain robot calls.
 function words.each(list, f)
   local result = {}

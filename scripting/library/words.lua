@@ -75,6 +75,12 @@ function when(condition, effects) end
 ---@param object? string  the parameter that is grasped
 function stream(source, object) end
 
+-- A skill's whole run: run = policy("grasp_net", { seconds = 5 })
+---@param name string
+---@param options? stampede.policy_options
+---@return fun(robot: any, p: any, c: any)
+function policy(name, options) end
+
 -- One of the values, drawn per episode
 ---@return any
 function one_of(...) end
@@ -383,6 +389,11 @@ function stampede_world_view:joint_between(part, low, high, rng) end
 ---@param at stampede.pose
 function stampede_world_view:place(thing, at) end
 
+---@class stampede.policy_options
+---@field seconds? number  at most, 10
+---@field until_effect? boolean  true: it ends when the skill's effect holds
+---@field with? table<string, number|number[]>  what the policy is told beside the skill's parameters
+
 ---@class stampede.line_options
 ---@field speed? number  [m/s]
 ---@field force? number  ends the motion [N]
@@ -410,6 +421,10 @@ function stampede_robot_view:move_to(target) end
 ---@param target stampede.pose|number[]
 ---@param options? stampede.line_options
 function stampede_robot_view:move_line(target, options) end
+-- A registered policy acts, frame by frame, until it is done, the skill's effect holds, or time is up
+---@param name string
+---@param options? stampede.policy_options
+function stampede_robot_view:policy(name, options) end
 -- Straight up
 ---@param height number
 ---@param options? stampede.line_options

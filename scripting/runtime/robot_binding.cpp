@@ -183,6 +183,39 @@ int retreat(lua_State* state) {
   return ask(state, line(state, tip_of(state) * translation(0, 0, -finite(state, 2)), 3, "retreat"));
 }
 
+// robot:policy("grasp_net", { seconds = 5, with = { force = 3, offset = { 0, 0, 0.1 } } })
+int policy(lua_State* state) {
+  robot_call::Policy call;
+  call.name = check_text(state, 2);
+  only_fields(state, 3, {"seconds", "until_effect", "with"});
+  call.seconds = number_field(state, 3, "seconds", call.seconds);
+  luaL_argcheck(state, call.seconds > 0, 3, "seconds must be positive");
+  if (lua_istable(state, 3)) {
+    lua_getfield(state, 3, "until_effect");
+    if (!lua_isnil(state, -1)) call.until_effect = lua_toboolean(state, -1) != 0;
+    lua_getfield(state, 3, "with");
+    const int with = lua_gettop(state);
+    if (!lua_isnil(state, with)) luaL_argcheck(state, lua_istable(state, with), 3, "with must be a table of numbers");
+    if (lua_istable(state, with)) {
+      lua_pushnil(state);
+      while (lua_next(state, with) != 0) {
+        luaL_argcheck(state, lua_type(state, -2) == LUA_TSTRING, 3, "with must name its numbers");
+        std::vector<double>& values = call.with[lua_tostring(state, -2)];
+        if (lua_type(state, -1) == LUA_TNUMBER) values.push_back(finite(state, lua_gettop(state)));
+        const auto count = lua_istable(state, -1) ? static_cast<lua_Integer>(lua_rawlen(state, -1)) : 0;
+        for (lua_Integer i = 1; i <= count; ++i) {
+          lua_rawgeti(state, -1, i);
+          values.push_back(finite(state, lua_gettop(state)));
+          lua_pop(state, 1);
+        }
+        luaL_argcheck(state, !values.empty(), 3, "with holds numbers, or lists of them");
+        lua_pop(state, 1);
+      }
+    }
+  }
+  return ask(state, std::move(call));
+}
+
 int move_home(lua_State* state) {
   const Robot& robot = robot_of(state);
   robot_call::MoveJoints call;
@@ -274,6 +307,7 @@ constexpr luaL_Reg kMethods[] = {
     {"move_through", lua_function<move_through>},
     {"move_to", lua_function<move_to>},
     {"move_line", lua_function<move_line>},
+    {"policy", lua_function<policy>},
     {"lift", lua_function<lift>},
     {"retreat", lua_function<retreat>},
     {"move_home", lua_function<move_home>},

@@ -151,6 +151,15 @@ std::string episode_key(const std::vector<DefinitionRecord>& definitions, const 
   return hasher.digest();
 }
 
+std::string acted_key(const EpisodeRecord& record) {
+  Hasher hasher;
+  hasher.text(record.key);
+  for (const auto& [name, value] : record.options) hasher.text(name).text(value);
+  for (const Command& command : record.commands)
+    hasher.number(command.step).text(operation_kind(command.operation)).text(operation_to_bytes(command.operation));
+  return hasher.digest();
+}
+
 PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options)
     : library_(std::move(library)),
       job_(std::move(job)),
@@ -166,20 +175,30 @@ EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
   try {
     record = run_episode(scripts_.task(), scripts_.symbols(), scripts_.skills(), options_, stop);
   } catch (const ScriptError& error) {
-    record.axes = scripts_.task()(0).axes;
-    record.options = options_.as_text();
-    record.reason = Reason::script_error;
-    record.detail = error.what();
+    record = failed(Reason::script_error, error.what());
   }
+  complete(record);
+  return record;
+}
+
+EpisodeRecord PreparedEpisode::failed(Reason reason, const std::string& detail) {
+  EpisodeRecord record;
+  record.axes = scripts_.task()(0).axes;
+  record.options = options_.as_text();
+  record.reason = reason;
+  record.detail = detail;
+  return record;
+}
+
+void PreparedEpisode::complete(EpisodeRecord& record) const {
   record.key = key_;
   record.task = job_.task;
   record.variation = job_.variation;
   record.seed = job_.seed;
   record.split = options_.split;
   record.definitions = definitions_;
-  if (options_.goal || record.frames.empty()) return record;
+  if (options_.goal || record.frames.empty()) return;
   if (const auto imported = imported_problem(library_, job_.task)) record.verdicts = {bddl_verdict(record, *imported)};
-  return record;
 }
 
 }  // namespace stampede

@@ -81,6 +81,10 @@ std::string definitions_hash(const std::vector<DefinitionRecord>& definitions);
 std::string episode_key(const std::vector<DefinitionRecord>& definitions, const EpisodeJob& job,
                         const RunOptions& options);
 
+// The same of one in which an agent acted, known when it is over: what was done tells it from every other episode of
+// the same start. `record.key`: that of its start.
+std::string acted_key(const EpisodeRecord& record);
+
 // One episode's scripts and key. Lifetime: used by one thread.
 class PreparedEpisode {
  public:
@@ -89,7 +93,11 @@ class PreparedEpisode {
   const std::string& key() const { return key_; }
   const RunOptions& options() const { return options_; }
   EpisodeScripts& scripts() { return scripts_; }
-  // Runs it; the record has key, split and definitions filled in.
+  // Fills in what a record says of its scripts: key, split, definitions, the verdict of an imported problem's dialect.
+  void complete(EpisodeRecord& record) const;
+  // One of which nothing is known but why it failed. It is not complete.
+  EpisodeRecord failed(Reason reason, const std::string& detail);
+  // Runs it; the record is complete.
   EpisodeRecord run(const std::atomic<bool>* stop);
 
  private:

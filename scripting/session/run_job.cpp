@@ -94,18 +94,21 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
     try {
       const EpisodeJob job = jobs[place];
       PreparedEpisode prepared(library, job, options_for(job.task, renderer));
-      if (writer && writer->has(prepared.key())) {
+      const auto is_there = [&](const std::string& key) {
+        if (!writer || !writer->has(key)) return false;
         writer->abandon(place);
         const std::lock_guard lock(mutex);
         ++tally.existing;
         ++tally.tasks[job.task].existing;
-        return;
-      }
-      EpisodeRecord episode = prepared.run(stop);
+        return true;
+      };
+      if (!settings.act && is_there(prepared.key())) return;
+      EpisodeRecord episode = settings.act ? settings.act(prepared) : prepared.run(stop);
       if (episode.reason == Reason::interrupted) {
         if (writer) writer->abandon(place);
         return;
       }
+      if (settings.act && is_there(episode.key)) return;
       {
         const std::lock_guard lock(mutex);
         count_episode(episode, tally);

@@ -35,6 +35,8 @@ struct RunSettings {
   RunOptions options;
   std::map<std::string, std::vector<Camera>> cameras;  // by task: RunOptions::cameras, which its scene decides
   int workers = 1;
+  // Makes an episode, and its key, instead of the planner; each worker calls it.
+  std::function<EpisodeRecord(PreparedEpisode&)> act;
   std::function<void(const EpisodeRecord&, const RunTally&)> progress;  // one at a time, from worker threads
   const std::atomic<bool>* stop = nullptr;
 };

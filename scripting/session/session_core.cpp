@@ -2,6 +2,7 @@
 
 #include "engine/episode/abstract_state.h"
 #include "engine/episode/arrays.h"
+#include "engine/episode/episode_source.h"
 #include "engine/symbolic/pddl.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/session/constraints_fit.h"
@@ -129,6 +130,7 @@ std::optional<Episode> SessionCore::stored(const std::string& key) {
 PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
   RunOptions options = options_of(request);
   options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
+  options.policies = policies_;
   const std::vector<std::string> variations = fitting_variations(
       library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
   return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};
@@ -137,13 +139,70 @@ PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeReque
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
   PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
-  auto record = std::make_shared<const EpisodeRecord>(prepared.run(nullptr));
+  return keep(prepared.run(nullptr));
+}
+
+Episode SessionCore::keep(EpisodeRecord made) {
+  auto record = std::make_shared<const EpisodeRecord>(std::move(made));
   Episode episode = told(*record);
   if (path_.empty())
     episode.record = std::move(record);
   else
     episode.id = catalogue_to_write().add(*record, {STAMPEDE_VERSION, numerics_probe()});
   return episode;
+}
+
+// A task of this session, for an environment.
+class TaskSource final : public EpisodeSource {
+ public:
+  TaskSource(std::shared_ptr<SessionCore> core, std::string task) : core_(std::move(core)), task_(std::move(task)) {}
+
+  Opened open(const ResetRequest& request) override {
+    const std::lock_guard lock(core_->mutex_);
+    EpisodeRequest same;
+    same.variation = request.variation, same.seed = request.seed;
+    same.where = request.where, same.goal = request.goal, same.randomise = request.randomise;
+    const std::shared_ptr<PreparedEpisode> prepared(
+        new PreparedEpisode(core_->prepare(task_, same)));  // it cannot move
+    return {prepared->scripts().task(), &prepared->scripts().symbols(), &prepared->scripts().skills(),
+            prepared->options(), prepared};
+  }
+
+  Episode close(EpisodeRecord record, const RunOptions&, const std::shared_ptr<void>& owner) override {
+    const std::lock_guard lock(core_->mutex_);
+    static_cast<const PreparedEpisode*>(owner.get())->complete(record);
+    record.key = acted_key(record);
+    if (auto episode = core_->stored(record.key)) return *episode;
+    return core_->keep(std::move(record));
+  }
+
+  std::shared_ptr<const EpisodeRecord> record_of(const Episode& episode) override {
+    const std::lock_guard lock(core_->mutex_);
+    auto record = core_->record_of(episode);
+    if (record->task != task_)
+      throw Error("ResetRequest::episode", "it is of task '" + record->task + "', not of '" + task_ + "'",
+                  "make an environment of that task");
+    return record;
+  }
+
+ private:
+  std::shared_ptr<SessionCore> core_;
+  std::string task_;
+};
+
+// What runs already keeps those that it began with.
+void SessionCore::add_policy(const std::string& name, PolicyEntry entry) {
+  if (name.empty() || !entry.make)
+    throw Error("Session::add_policy", "a policy has a name, and a function that makes one");
+  const std::lock_guard lock(mutex_);
+  auto all = policies_ ? *policies_ : std::map<std::string, PolicyEntry>{};
+  all[name] = std::move(entry);
+  policies_ = std::make_shared<const std::map<std::string, PolicyEntry>>(std::move(all));
+}
+
+Environment SessionCore::environment(const std::string& task, const EnvironmentSettings& settings) {
+  task_info(*library_, task);  // throws for one that is not there
+  return make_environment(std::make_shared<TaskSource>(shared_from_this(), task), settings);
 }
 
 TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& request) const {

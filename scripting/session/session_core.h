@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,19 +13,23 @@
 #include "db/catalogue.h"
 #include "scripting/session/studio.h"
 #include "stampede/arrays.h"
+#include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/task_plan.h"
 #include "stampede/world_state.h"
 
 namespace stampede {
 
-class SessionCore {
+// Environments of a session may act in threads of their own: what they ask of it is done one at a time.
+class SessionCore : public std::enable_shared_from_this<SessionCore> {
  public:
   SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
               std::filesystem::path catalogue);
   std::vector<std::string> tasks() const;
   std::vector<std::string> variations(const std::string& task) const;
   Episode run(const std::string& task, const EpisodeRequest& request);
+  void add_policy(const std::string& name, PolicyEntry entry);
+  Environment environment(const std::string& task, const EnvironmentSettings& settings);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
   Rows query(std::string_view question);
   CameraPicture picture(const Episode& episode, std::int64_t frame, const PictureRequest& request);
@@ -34,11 +40,15 @@ class SessionCore {
  private:
   class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request) const;
   std::optional<Episode> stored(const std::string& key);
+  friend class TaskSource;
+  Episode keep(EpisodeRecord record);  // in the catalogue, or in the episode
   std::shared_ptr<const EpisodeRecord> record_of(const Episode& episode);
   Catalogue& catalogue();  // opened to be read; throws Error when there is none
   Catalogue& catalogue_to_write();
   std::shared_ptr<const class Library> library_;
-  std::filesystem::path path_;  // of the catalogue; empty: none
+  std::mutex mutex_;                                                    // held while an environment asks
+  std::shared_ptr<const std::map<std::string, PolicyEntry>> policies_;  // null: none
+  std::filesystem::path path_;                                          // of the catalogue; empty: none
   std::optional<Catalogue> catalogue_;
   bool writable_ = false;
   std::optional<Studio> studio_;  // from the first picture on

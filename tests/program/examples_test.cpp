@@ -59,6 +59,10 @@ class Workplace {
         "0.1 0.03)))))\n(:fixtures desk - table)\n(:objects porcelain_mug_1 - porcelain_mug plate_1 - plate)\n"
         "(:obj_of_interest plate_1)\n(:init (On plate_1 desk_left) (On porcelain_mug_1 desk_middle))\n"
         "(:goal (And (On porcelain_mug_1 plate_1))))\n");
+    put("policy.sh",
+        "while read -r line; do case $line in '{\"type\":\"reset\"'*) echo "
+        "'{\"space\":\"skill\",\"skill\":\"reach\",\"arguments\":[\"target\",\"panda.hand\"]}';; "
+        "*'\"terminated\":true'*) ;; *) echo '{\"space\":\"hold\"}';; esac; done\n");
     fs::create_directory("my_tasks");
     for (const char* part : {"part1.db", "part2.db", "old.db", "now.db"}) fs::copy_file("demos.db", part);
   }

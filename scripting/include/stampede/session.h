@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stampede/arrays.h"
+#include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
 #include "stampede/outcome.h"
@@ -42,6 +43,14 @@ class STAMPEDE_EXPORT Session {
   // Runs one episode and commits it, where there is a catalogue. What that has already is returned without running.
   // Repeatable: the same episode, bit for bit, in any session of the same scripts.
   Episode run(const std::string& task, const EpisodeRequest& request = {});
+
+  // A controller that skills may have as their body: `run = policy("grasp_net")`, or robot:policy("grasp_net") inside
+  // of it. Before the first run that needs it; one of the same name takes the place of the first.
+  void add_policy(const std::string& name, PolicyEntry entry);
+
+  // The task as an environment that the caller steps (stampede/environment.h). It may outlive the session, and act in
+  // another thread; episodes that it records go where this session's go.
+  Environment environment(const std::string& task, const EnvironmentSettings& settings = {}) const;
 
   // Makes the start that `run` would make for the same request, reads its facts and plans, without executing anything.
   // Of the request only variation, seed, where and goal matter. Repeatable.

@@ -1,0 +1,93 @@
+#include "engine/episode/account.h"
+
+#include "engine/episode/keyframes.h"
+#include "engine/episode/language.h"
+#include "engine/episode/planning.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+// The world's own domain, the same for all its tasks; where the goal has an order, also what the planner is asked.
+void write_problem(const Task& task, const Domain& domain, const Rollout& rollout, EpisodeRecord& record) {
+  const Domain own = named_by_content(domain);
+  record.documents.push_back({DocumentKind::pddl_domain, to_pddl(own)});
+  record.documents.push_back(
+      {DocumentKind::pddl_problem, to_pddl(world_problem(task, rollout.facts()), own, record.beside_goal)});
+  if (task.stages.empty()) return;
+  const PlanningTask planning = planning_task(task, domain, rollout.facts(), rollout.stage());
+  const Domain ordered = named_by_content(planning.domain);
+  record.documents.push_back({DocumentKind::ordered_domain, to_pddl(ordered)});
+  record.documents.push_back({DocumentKind::ordered_problem, to_pddl(planning.problem, ordered)});
+}
+
+}  // namespace
+
+RandomKey draw_key(const char* purpose, const EpisodeRecord& record) {
+  return RandomKey(purpose).with(record.task).with(record.variation).with(record.seed);
+}
+
+EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptions& options) {
+  EpisodeRecord record;
+  record.task = task.name;
+  record.variation = task.variation;
+  record.axes = task.axes;
+  record.seed = options.seed;
+  record.split = options.split;
+  record.options = options.as_text();
+  record.options.merge(before(options.observation, task.observation).as_text());
+  record.beside_goal = beside_goal(task);
+  for (const std::string& sentence : task.instructions) record.language.push_back({LanguageLevel::task, sentence, -1});
+  for (const Predicate& predicate : symbols.domain().predicates)
+    if (predicate.kind != PredicateKind::start)
+      record.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
+                                          : predicate.kind == PredicateKind::derived ? "derived"
+                                                                                     : "fixed";
+  return record;
+}
+
+void describe_scene(const Scene& scene, EpisodeRecord& record) {
+  record.world = scene.world;
+  record.physics_hz = scene.physics_hz;
+  record.frame_hz = scene.frame_hz;
+  record.scene_document = scene_to_document(scene);
+  record.objects = scene.objects;
+  record.cameras = scene.cameras;
+  record.masks = mask_key(scene);
+  record.hands = {scene.robot.name + "." + scene.robot.hand};
+}
+
+void describe_beginning(const Rollout& rollout, EpisodeRecord& record) {
+  for (const std::string& sentence : describe_world(rollout.facts().facts(), rollout.domain(), rollout.view().scene()))
+    record.language.push_back({LanguageLevel::world, sentence, -1});
+  write_problem(rollout.task(), rollout.domain(), rollout, record);
+}
+
+void close_record(Rollout& rollout, const SkillResult& verdict, const std::string& plan, EpisodeRecord& record) {
+  const bool success = verdict.ok();
+  Recorder& recorder = rollout.recorder();
+  if (recorder.frames.size() > 1) {
+    FrameRecord& last = recorder.frames[recorder.frames.size() - 2];
+    last.done = true;
+    if (success) last.reward += 1;
+  }
+  record.outcome = success ? Outcome::success : Outcome::failure;
+  record.reason = verdict.reason;
+  record.detail = verdict.detail;
+  record.steps = rollout.step();
+  record.commands = rollout.world().log();
+  record.facts = rollout.facts().intervals(record.steps, rollout.steps_per_frame());
+  record.observed_facts = rollout.facts().observed_intervals(record.steps, rollout.steps_per_frame());
+  record.channels = rollout.sensors().channels();
+  record.state_hash = rollout.world().state_hash();
+  record.physics_wall_s = rollout.physics_wall_s();
+  recorder.finish(record, record.steps);
+  for (const SegmentRecord& segment : record.segments)
+    if (segment.kind == SegmentKind::skill && !segment.label.empty())
+      record.language.push_back({LanguageLevel::skill, segment.label, segment.ordinal});
+  record.keyframes["stopped"] = stopped_keyframes(record);
+  for (DocumentRecord& document : record.documents)
+    if (document.kind == DocumentKind::plan) document.text = plan;
+}
+
+}  // namespace stampede

@@ -1,0 +1,21 @@
+// What a record says of an episode beside its frames: written at its beginning and at its end, whoever drives it.
+#pragma once
+
+#include "engine/episode/rollout.h"
+#include "engine/episode/runner.h"
+#include "engine/episode/skill_call.h"
+
+namespace stampede {
+
+// The key of all draws of one purpose.
+RandomKey draw_key(const char* purpose, const EpisodeRecord& record);
+
+// Task, seed, options, sentences; then the scene that was made; then the world as it begins, in words and as PDDL.
+EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptions& options);
+void describe_scene(const Scene& scene, EpisodeRecord& record);
+void describe_beginning(const Rollout& rollout, EpisodeRecord& record);
+
+// All that the rollout holds goes into the record. `plan`: the text of its document of that kind, where it has one.
+void close_record(Rollout& rollout, const SkillResult& verdict, const std::string& plan, EpisodeRecord& record);
+
+}  // namespace stampede

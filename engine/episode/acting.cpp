@@ -1,0 +1,308 @@
+#include "engine/episode/acting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/episode/account.h"
+#include "engine/episode/agent_action.h"
+#include "engine/episode/call_motion.h"
+#include "engine/episode/call_settings.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+constexpr const char* kControl = "control";  // the motion of a stretch of low-level actions
+constexpr int kMostFrames = std::numeric_limits<int>::max();
+
+SkillEnd told(const SegmentRecord& segment, const PlanStep& step, const SkillResult& result) {
+  return {step.action,         step.arguments,
+          result.ok(),         std::string(to_string(result.reason)),
+          result.detail,       segment.precondition_held,
+          segment.effect_held, segment.missing_effects};
+}
+
+SensorReader sensors_of(const Scene& scene, const EpisodeRecord& record) {
+  return {scene, chosen(observation_of(record)), sensor_key(record.task, record.variation, record.seed)};
+}
+
+}  // namespace
+
+Acting::Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& settings, EpisodeRecord described_record,
+               const PreparedStart& start, std::unique_ptr<Renderer>& renderer)
+    : opened(std::move(opened_in)),
+      record(std::move(described_record)),
+      rollout(*opened.symbols, start, sensors_of(*start.scene, record), nullptr),
+      track(rollout, *opened.symbols, *opened.skills, opened.options, draw_key("skill", record)),
+      observer(rollout, start.scene, opened.options, settings, record, renderer),
+      spaces(action_spaces(*start.scene)) {}
+
+std::optional<ActionRefusal> Acting::refusal_of(const AgentAction& action) const {
+  if (ended || over != Reason::none || success) return ActionRefusal{"the episode has ended", "call reset()"};
+  if (auto mistake = mistake_in(action, spaces)) return mistake;
+  if (action.space == "go_on" && running.what == Running::What::nothing)
+    return ActionRefusal{"there is nothing that could go on", "it follows a skill, path or hold that `frames` cut off"};
+  return std::nullopt;
+}
+
+std::optional<ActionRefusal> Acting::carry_out(const AgentAction& action, StepResult& result) {
+  if (lasts_a_frame(action.space)) {
+    auto asked = operations_for(action, rollout.world());
+    if (const auto* refusal = std::get_if<ActionRefusal>(&asked)) return *refusal;
+    end_running(result, "another action");
+    one_frame(std::get<std::vector<Operation>>(asked));
+    return std::nullopt;
+  }
+  std::optional<ActionRefusal> refusal;
+  if (action.space == "skill") refusal = begin_skill(action, result);
+  if (is_planned(action.space)) refusal = begin_path(action, result);
+  if (action.space == "hold") begin_hold(result);
+  if (!refusal) go_on(action.frames, result);
+  return refusal;
+}
+
+// What the hand holds is found by looking, where it was not a skill that grasped or let go.
+void Acting::look_at_hand() {
+  if (!controlled) return;
+  rollout.keep = rollout.world().grasped();
+  controlled = false;
+}
+
+std::optional<ActionRefusal> Acting::begin_skill(const AgentAction& action, StepResult& result) {
+  const Domain& domain = rollout.domain();
+  std::vector<std::string> names;
+  for (const Action& one : domain.actions) names.push_back(one.name);
+  if (domain.action(action.skill) == nullptr)
+    return ActionRefusal{"there is no skill '" + action.skill + "'", did_you_mean(action.skill, names)};
+  SkillRequest request;
+  request.step = {action.skill, action.arguments};
+  request.set_by = ChosenBy::agent;
+  for (const SkillParameter& parameter : action.parameters)
+    request.set.values.push_back({parameter.name, 0, parameter.values});
+  request.set.controller = controller_from(action.controller);
+  // Looked at before anything that runs is cut off: a refusal leaves all as it is.
+  if (const auto mistake = track.execution().mistake_in(request)) return ActionRefusal{mistake->what(), {}};
+  end_running(result, "another skill");
+  to_frame();
+  if (over != Reason::none || success) return std::nullopt;
+  close_control();
+  look_at_hand();
+  track.here();
+  if (const auto refusal = track.begin(std::move(request), skills)) return ActionRefusal{refusal->what(), {}};
+  done.push_back({action.skill, action.arguments});
+  ++skills;
+  running.what = Running::What::skill;
+  running.name = to_text(Fact{action.skill, action.arguments});
+  return std::nullopt;
+}
+
+std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepResult& result) {
+  World& world = rollout.world();
+  const auto keep = rollout.keep;
+  if (controlled) rollout.keep = world.grasped();
+  const auto space = planning_space(rollout, {});
+  const Transform target = tool_target(action, world);
+  PlannedMotion planned = plan_through(*space, planning_start(world), {{"goal", target}}, {},
+                                       draw_key("path", record).with(rollout.step()));
+  if (planned.reason != Reason::none) {
+    rollout.keep = keep;
+    return ActionRefusal{std::string(describe(planned.reason)) + (planned.detail.empty() ? "" : ": " + planned.detail),
+                         "another pose"};
+  }
+  end_running(result, "another action");
+  if (over != Reason::none) return std::nullopt;
+  if (!rollout.at_frame() || reference_moves(world)) {  // it was planned from rest: brake, then plan from there
+    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+    open_control();
+    for (int i = 0; i < 20 && over == Reason::none && !success &&
+                    (i == 0 || world.reference().velocity.cwiseAbs().maxCoeff() > 1e-9);
+         ++i)
+      to_frame(), one_frame({});
+    planned = plan_through(*planning_space(rollout, {}), planning_start(world), {{"goal", target}}, {},
+                           draw_key("path", record).with(rollout.step()));
+  }
+  close_control();
+  look_at_hand();
+  if (over != Reason::none || success) return std::nullopt;
+  if (planned.reason != Reason::none) {
+    result.ended.push_back(
+        {action.space, {}, false, std::string(to_string(planned.reason)), planned.detail, {}, {}, {}});
+    return std::nullopt;
+  }
+  if (action.gripper && *action.gripper != world.commanded_opening())
+    world.apply(operation::Hand{*action.gripper, world.scene().robot.grip_force});
+  if (const auto kind = controller_from(action.controller).value_or(ControllerKind::joint_position);
+      kind != world.controller().kind)
+    world.apply(operation::Controller{kind, 0});
+  FollowOptions follow;
+  follow.kind = "move_to";
+  follow.keep = rollout.keep;
+  SegmentRecord segment;
+  segment.kind = SegmentKind::motion;
+  segment.parent = track.subgoal_segment();
+  segment.robot = world.scene().robot.name;
+  segment.skill = follow.kind;
+  segment.controller = to_string(world.controller().kind);
+  running.what = Running::What::path;
+  running.name = action.space;
+  running.path = make_follow(std::move(planned.trajectory), std::move(follow));
+  running.segment = rollout.recorder().open_segment(std::move(segment), rollout.step());
+  return std::nullopt;
+}
+
+void Acting::begin_hold(StepResult& result) {
+  end_running(result, "another action");
+  World& world = rollout.world();
+  if (world.steered())
+    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+  to_frame();
+  if (over != Reason::none || success) return;
+  close_control();
+  track.here();
+  running.what = Running::What::hold;
+  running.name = "hold";
+  running.watch = track.watch_goal();
+}
+
+void Acting::advance() { over = rollout.advance(); }
+
+// One frame of what was asked for; `control` in the record, from the first such frame to the next skill.
+void Acting::one_frame(const std::vector<Operation>& operations) {
+  open_control();
+  for (const Operation& operation : operations) rollout.world().apply(operation);
+  do advance();
+  while (over == Reason::none && !rollout.at_frame());
+  look_at_goal();
+}
+
+// After a skill, or an episode, that ended between two frames: a frame is what is observed.
+void Acting::to_frame() {
+  if (rollout.at_frame()) return;
+  if (over == Reason::none) return one_frame({});
+  while (!rollout.at_frame()) rollout.advance();
+}
+
+void Acting::open_control() {
+  controlled = true;
+  const std::string controller(to_string(rollout.world().controller().kind));
+  if (control_segment >= 0) return;
+  SegmentRecord segment;
+  segment.kind = SegmentKind::motion;
+  segment.parent = track.subgoal_segment();
+  segment.robot = rollout.view().scene().robot.name;
+  segment.skill = kControl;
+  segment.controller = controller;
+  control_segment = rollout.recorder().open_segment(std::move(segment), rollout.step());
+}
+
+void Acting::close_control() {
+  if (control_segment < 0) return;
+  rollout.recorder().close_segment(control_segment, rollout.step(), Outcome::success, Reason::none, {});
+  control_segment = -1;
+  track.advance_subgoals();
+  if (!rollout.keeps_record()) track.forget();
+}
+
+// At a frame at which no skill runs: the goal must hold for the task's `hold_s`.
+void Acting::look_at_goal() {
+  if (over != Reason::none || !rollout.at_frame()) return;
+  held = rollout.goal_holds() ? held + 1 : -1;
+  const double wanted = std::ceil(rollout.task().hold_s * rollout.view().scene().frame_hz - 1e-9);
+  if (held >= static_cast<std::int64_t>(wanted)) success = true;
+}
+
+// Ticks what is running: to its end, or for so many frames.
+void Acting::go_on(int frames, StepResult& result) {
+  const int most = frames > 0 ? frames : kMostFrames;
+  for (int count = 0; running.what != Running::What::nothing && count < most;) {
+    if (!tick(result)) break;
+    advance();
+    if (over != Reason::none) {
+      tick(result);  // it learns that the episode has ended
+      break;
+    }
+    if (rollout.at_frame()) ++count;
+  }
+  to_frame();
+}
+
+// False: it is over.
+bool Acting::tick(StepResult& result) {
+  if (running.what == Running::What::skill) {
+    if (track.execution().tick() == SkillStatus::running) return true;
+    skill_over(result);
+    return false;
+  }
+  if (running.what == Running::What::hold) {
+    if (running.watch->tick() == SkillStatus::running) return true;
+    const SkillResult how = running.watch->result();
+    track.end_goal(how, skills);
+    if (how.ok()) success = true;
+    result.ended.push_back({"hold", {}, how.ok(), std::string(to_string(how.reason)), how.detail, {}, {}, {}});
+    running = {};
+    return false;
+  }
+  if (running.what != Running::What::path) return false;
+  if (over != Reason::none) {
+    path_over(result, {over, std::string(describe(over))});
+    return false;
+  }
+  const MotionResult moved = running.path->step(rollout.world());
+  if (moved.status == MotionStatus::running) return true;
+  path_over(result, {moved.reason, moved.reason == Reason::none ? std::string() : std::string(describe(moved.reason))});
+  return false;
+}
+
+void Acting::skill_over(StepResult& result) {
+  const SkillResult how = track.execution().result();
+  result.ended.push_back(told(rollout.recorder().segment(how.segment), done.back(), how));
+  track.end(skills - 1);
+  running = {};
+  held = -1;
+  if (!rollout.keeps_record()) track.forget();
+  look_at_goal();
+}
+
+void Acting::path_over(StepResult& result, const SkillResult& how) {
+  rollout.recorder().close_segment(running.segment, rollout.step(), how.ok() ? Outcome::success : Outcome::failure,
+                                   how.reason, how.detail);
+  result.ended.push_back({running.name, {}, how.ok(), std::string(to_string(how.reason)), how.detail, {}, {}, {}});
+  running = {};
+  held = -1;
+  if (how.reason == Reason::dropped) rollout.keep.reset();
+  if (!rollout.keeps_record()) track.forget();
+  look_at_goal();
+}
+
+void Acting::end_running(StepResult& result, const std::string& why) {
+  if (running.what == Running::What::skill) {
+    track.execution().interrupt(why);
+    skill_over(result);
+  } else if (running.what == Running::What::path) {
+    running.path->interrupt(rollout.world());
+    path_over(result, {Reason::interrupted, why});
+  } else if (running.what == Running::What::hold) {
+    running.watch->interrupt(why);
+    track.end_goal(running.watch->result(), skills);
+    result.ended.push_back({"hold", {}, false, "interrupted", why, {}, {}, {}});
+    running = {};
+  }
+}
+
+void Acting::finish(const SkillResult& verdict) {
+  StepResult ignored;
+  end_running(ignored, "the episode was ended");
+  to_frame();
+  close_control();
+  last = observer.observe();
+  track.close(verdict);
+  track.place_attempts();
+  record.options["behaviour"] = "agent";
+  close_record(rollout, verdict, to_pddl(done), record);
+  ended = true;
+}
+
+}  // namespace stampede

@@ -1,0 +1,75 @@
+// One episode that is acted in from outside, action by action. Inside this room only: the public face is Environment.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/episode/dense_reward.h"
+#include "engine/episode/episode_source.h"
+#include "engine/episode/observer.h"
+#include "engine/episode/skill_track.h"
+#include "engine/episode/start.h"
+
+namespace stampede {
+
+// What goes on beyond the step that began it.
+struct Running {
+  enum class What { nothing, skill, path, hold } what = What::nothing;
+  std::string name;
+  std::unique_ptr<Motion> path;
+  std::unique_ptr<GoalWatch> watch;
+  int segment = -1;  // of a path
+};
+
+// Lifetime: refers to settings and renderer.
+struct Acting {
+  Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& settings, EpisodeRecord described_record,
+         const PreparedStart& start, std::unique_ptr<Renderer>& renderer);
+
+  // Why an action makes no sense here, whatever the world is like.
+  std::optional<ActionRefusal> refusal_of(const AgentAction& action) const;
+  // Does it, and adds what ended to the result. A refusal: nothing has changed.
+  std::optional<ActionRefusal> carry_out(const AgentAction& action, StepResult& result);
+  // What runs is cut off here.
+  void end_running(StepResult& result, const std::string& why);
+  // The record gets all that the rollout holds.
+  void finish(const SkillResult& verdict);
+
+  EpisodeSource::Opened opened;
+  EpisodeRecord record;
+  Rollout rollout;
+  SkillTrack track;
+  Observer observer;
+  std::vector<ActionSpace> spaces;
+  std::optional<DenseReward> dense;
+  Running running;
+  std::size_t skills = 0;      // begun so far: the place of the next one
+  std::int64_t held = -1;      // frames for which the goal has held without a skill; -1: it does not
+  bool controlled = false;     // low-level actions since the last skill: the hand may hold something else
+  int control_segment = -1;    // open; -1: none
+  std::vector<PlanStep> done;  // skills, for the episode's plan
+  Reason over = Reason::none;
+  bool success = false, ended = false;
+  std::optional<EnvironmentObservation> last;  // once the record has been given away
+  std::string identity;
+
+ private:
+  std::optional<ActionRefusal> begin_skill(const AgentAction& action, StepResult& result);
+  std::optional<ActionRefusal> begin_path(const AgentAction& action, StepResult& result);
+  void begin_hold(StepResult& result);
+  void one_frame(const std::vector<Operation>& operations);
+  void to_frame();
+  void advance();
+  void go_on(int frames, StepResult& result);
+  bool tick(StepResult& result);
+  void skill_over(StepResult& result);
+  void path_over(StepResult& result, const SkillResult& how);
+  void look_at_hand();
+  void look_at_goal();
+  void open_control();
+  void close_control();
+};
+
+}  // namespace stampede

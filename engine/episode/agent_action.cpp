@@ -1,0 +1,244 @@
+#include "engine/episode/agent_action.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+#include "engine/episode/call_settings.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kToolSpeed = 1.7, kToolTurn = 2.5;            // m/s, rad/s
+constexpr double kReach_m = 1.5;                               // of any pose, from the robot's base
+constexpr double kFarthest_m = 3, kHalfTurn = 3.1416;          // of a path
+constexpr double kLeastStiffness = 10, kMostStiffness = 3000;  // N/m
+constexpr double kSlack = 1e-9;                                // of bounds: a sum of deltas may miss them by a digit
+constexpr double kDamping = 0.01;                              // of the pseudo-inverse, m or rad per rad
+
+using Components = std::vector<ActionComponent>;
+
+void add(Components& components, std::initializer_list<const char*> names, const char* unit, double most) {
+  for (const char* name : names) components.push_back({name, unit, -most, most});
+}
+
+Components pose_components(const Scene& scene) {
+  Components components;
+  const Vector3 base = scene.robot.body.world_from_body.translation();
+  const std::array<const char*, 3> names = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    components.push_back({names[static_cast<std::size_t>(i)], "m", base[i] - kReach_m, base[i] + kReach_m});
+  add(components, {"qx", "qy", "qz", "qw"}, "1", 1);
+  return components;
+}
+
+Components twist_components(const char* metres, double way, const char* radians, double turn) {
+  Components components;
+  add(components, {"x", "y", "z"}, metres, way);
+  add(components, {"rx", "ry", "rz"}, radians, turn);
+  return components;
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
+}
+
+Vector3 three(const std::vector<double>& values, std::size_t from) {
+  return {values[from], values[from + 1], values[from + 2]};
+}
+
+Transform pose_of(const std::vector<double>& values) {
+  Transform pose = Transform::Identity();
+  pose.translation() = three(values, 0);
+  pose.linear() = Quaternion(values[6], values[3], values[4], values[5]).normalized().toRotationMatrix();
+  return pose;
+}
+
+Matrix3 turned(const Vector3& rotation) {
+  const double angle = rotation.norm();
+  if (angle < 1e-12) return Matrix3::Identity();
+  return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+}
+
+JointVector vector_of(const std::vector<double>& values, std::size_t count) {
+  JointVector result(static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) result[static_cast<Eigen::Index>(i)] = values[i];
+  return result;
+}
+
+// Damped least squares along a twist that stays the same for one frame, in small steps (Nakamura, Hanafusa, JDSMC
+// 1986, doi:10.1115/1.3143764).
+JointVector along(const Arm& arm, JointVector q, const Eigen::Matrix<double, 6, 1>& twist, double seconds) {
+  constexpr int kParts = 12;
+  using Square = Eigen::Matrix<double, 6, 6>;
+  for (int i = 0; i < kParts; ++i) {
+    const auto jacobian = arm.jacobian(q);
+    const Square squared = jacobian * jacobian.transpose() + kDamping * kDamping * Square::Identity();
+    q += jacobian.transpose() * squared.ldlt().solve(twist) * (seconds / kParts);
+    for (Eigen::Index k = 0; k < q.size(); ++k) {
+      const JointLimits& limits = arm.limits()[static_cast<std::size_t>(k)];
+      if (limits.lower < limits.upper) q[k] = std::clamp(q[k], limits.lower, limits.upper);
+    }
+  }
+  return q;
+}
+
+ControllerKind controller_of(const AgentAction& action) {
+  if (action.space == "tool_impedance") return ControllerKind::cartesian_impedance;
+  return controller_from(action.controller).value_or(ControllerKind::joint_position);
+}
+
+// A controller that is stiffer than the one before begins where contact has left the arm: it must not jump.
+void set_controller(const AgentAction& action, const World& world, std::vector<Operation>& operations) {
+  operation::Controller wanted{controller_of(action), action.space == "tool_impedance" ? action.values[7] : 0};
+  const operation::Controller& now = world.controller();
+  if (wanted.kind == now.kind && wanted.stiffness == now.stiffness) return;
+  if (wanted.kind == ControllerKind::joint_position)
+    operations.push_back(operation::Setpoint{world.arm_position(), world.arm_velocity()});
+  operations.push_back(wanted);
+}
+
+void set_hand(double opening, const World& world, std::vector<Operation>& operations) {
+  if (opening != world.commanded_opening())
+    operations.push_back(operation::Hand{opening, world.scene().robot.grip_force});
+}
+
+}  // namespace
+
+bool is_planned(std::string_view space) { return space == "tool_path" || space == "tool_path_delta"; }
+
+bool lasts_a_frame(std::string_view space) {
+  return !is_planned(space) && space != "skill" && space != "hold" && space != "go_on";
+}
+
+std::vector<ActionSpace> action_spaces(const Scene& scene) {
+  const double frame_s = 1.0 / scene.frame_hz;
+  Components positions, deltas, velocities, torques;
+  for (std::size_t j = 0; j < scene.robot.arm.size(); ++j) {
+    const JointLimits& limits = scene.robot.limits[j];
+    const std::string name =
+        scene.robot.name + "." + scene.robot.body.parts[static_cast<std::size_t>(scene.robot.arm[j])].joint.name;
+    positions.push_back({name, "rad", limits.lower, limits.upper});
+    deltas.push_back({name, "rad", -limits.velocity * frame_s, limits.velocity * frame_s});
+    velocities.push_back({name, "rad/s", -limits.velocity, limits.velocity});
+    torques.push_back({name, "N m", -limits.effort, limits.effort});
+  }
+  const Components pose = pose_components(scene);
+  Components soft = pose;
+  soft.push_back({"stiffness", "N/m", kLeastStiffness, kMostStiffness});
+  return {{"joint_position", positions},
+          {"joint_delta", deltas},
+          {"joint_velocity", velocities},
+          {"joint_torque", torques},
+          {"tool_pose", pose},
+          {"tool_delta", twist_components("m", kToolSpeed * frame_s, "rad", kToolTurn * frame_s)},
+          {"tool_velocity", twist_components("m/s", kToolSpeed, "rad/s", kToolTurn)},
+          {"tool_impedance", soft},
+          {"tool_path", pose},
+          {"tool_path_delta", twist_components("m", kFarthest_m, "rad", kHalfTurn)},
+          {"gripper", {{"opening", "m", 0, scene.robot.opening_max}}},
+          {"hold", {}},
+          {"skill", {}},
+          {"go_on", {}}};
+}
+
+std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces) {
+  const auto space =
+      std::find_if(spaces.begin(), spaces.end(), [&](const ActionSpace& one) { return one.name == action.space; });
+  if (space == spaces.end()) {
+    std::vector<std::string> names;
+    for (const ActionSpace& one : spaces) names.push_back(one.name);
+    return ActionRefusal{"there is no action space '" + action.space + "'", did_you_mean(action.space, names)};
+  }
+  const bool pose = action.space == "tool_pose" || action.space == "tool_path" || action.space == "tool_impedance";
+  const bool relative = action.frame == "tool";
+  if (action.frame != "world" && action.frame != "tool")
+    return ActionRefusal{"there is no frame of reference '" + action.frame + "'", "say world or tool"};
+  if (action.values.size() != space->components.size())
+    return ActionRefusal{action.space + " has " + std::to_string(space->components.size()) + " values, not " +
+                             std::to_string(action.values.size()),
+                         "spaces() lists them"};
+  const auto check = [](const ActionComponent& component, double value) -> std::optional<ActionRefusal> {
+    if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
+    if (value >= component.lower - kSlack && value <= component.upper + kSlack) return std::nullopt;
+    return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
+                         "it goes from " + number(component.lower) + " to " + number(component.upper)};
+  };
+  for (std::size_t i = 0; i < action.values.size(); ++i) {
+    ActionComponent component = space->components[i];
+    if (pose && relative && i < 3) component.lower = -kReach_m, component.upper = kReach_m;
+    if (auto refusal = check(component, action.values[i])) return refusal;
+  }
+  if (pose && Eigen::Vector4d(action.values[3], action.values[4], action.values[5], action.values[6]).norm() < 1e-3)
+    return ActionRefusal{"its quaternion has no length", "x y z, then the quaternion x y z w: 0 0 0 1"};
+  if (action.gripper) {
+    const auto gripper =
+        std::find_if(spaces.begin(), spaces.end(), [](const ActionSpace& one) { return one.name == "gripper"; });
+    if (auto refusal = check(gripper->components.front(), *action.gripper)) return refusal;
+  }
+  if (!action.controller.empty() && !controller_from(action.controller))
+    return ActionRefusal{"there is no controller '" + action.controller + "'",
+                         did_you_mean(action.controller, controller_names())};
+  if (action.frames < 0) return ActionRefusal{"a number of frames is not negative", "0: to its end"};
+  return std::nullopt;
+}
+
+Transform tool_target(const AgentAction& action, const World& world) {
+  const Transform now = world.arm().world_from_tip(world.reference().position);
+  const bool own = action.frame == "tool";
+  if (action.space != "tool_delta" && action.space != "tool_path_delta")
+    return own ? now * pose_of(action.values) : pose_of(action.values);
+  const Vector3 way = three(action.values, 0), turn = three(action.values, 3);
+  Transform target = now;
+  target.translation() += own ? Vector3(now.linear() * way) : way;
+  target.linear() = own ? Matrix3(now.linear() * turned(turn)) : Matrix3(turned(turn) * now.linear());
+  return target;
+}
+
+std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, const World& world) {
+  using operation::Servo;
+  std::vector<Operation> operations;
+  const Arm& arm = world.arm();
+  const auto joints = static_cast<std::size_t>(arm.joints());
+  const std::string& space = action.space;
+  if (space == "gripper") {
+    if (world.steered()) operations.push_back(Servo{Servo::Of::velocity, JointVector::Zero(arm.joints())});
+    set_hand(action.values[0], world, operations);
+    return operations;
+  }
+  if (action.gripper) set_hand(*action.gripper, world, operations);
+  if (space == "joint_torque") {
+    operations.push_back(Servo{Servo::Of::torque, vector_of(action.values, joints)});
+    return operations;
+  }
+  set_controller(action, world, operations);
+  const JointVector from = world.reference().position;
+  if (space == "joint_velocity") {
+    operations.push_back(Servo{Servo::Of::velocity, vector_of(action.values, joints)});
+    return operations;
+  }
+  JointVector target;
+  if (space == "joint_position") {
+    target = vector_of(action.values, joints);
+  } else if (space == "joint_delta") {
+    target = from + vector_of(action.values, joints);
+  } else if (space == "tool_velocity") {
+    const Matrix3 axes =
+        action.frame == "tool" ? Matrix3(arm.world_from_tip(from).linear()) : Matrix3(Matrix3::Identity());
+    Eigen::Matrix<double, 6, 1> twist;
+    twist << axes * three(action.values, 0), axes * three(action.values, 3);
+    target = along(arm, from, twist, 1.0 / world.scene().frame_hz);
+  } else {
+    const auto found = arm.solve(tool_target(action, world), from, RandomKey("tool"), 0);
+    if (!found)
+      return ActionRefusal{"no joint positions near the present ones reach that pose", "a nearer pose, or tool_path"};
+    target = *found;
+  }
+  operations.push_back(Servo{Servo::Of::position, std::move(target)});
+  return operations;
+}
+
+}  // namespace stampede

@@ -1,0 +1,33 @@
+// An agent's low-level actions: what they may hold, and the operations that they mean.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/sim/world.h"
+#include "stampede/action.h"
+#include "stampede/environment.h"
+
+namespace stampede {
+
+// All spaces of an arm, in the order of the table in stampede/action.h. Joint limits are those of the scene; the tool's
+// are those of a Panda: 1.7 m/s and 2.5 rad/s, per frame where a space counts in frames.
+std::vector<ActionSpace> action_spaces(const Scene& scene);
+
+// What is wrong with an action's form: its space, number of values, bounds, controller, frame of reference. `space`: of
+// that name; nothing: there is none.
+std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces);
+
+// What a space with values of the arm or hand asks for during the next frame. Repeatable: a pure function of its
+// arguments. Nothing has been applied yet, so a refusal changes nothing.
+std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, const World& world);
+
+// Where a tool space's values lead: of tool_pose, tool_delta, tool_impedance, tool_path and tool_path_delta.
+Transform tool_target(const AgentAction& action, const World& world);
+
+bool is_planned(std::string_view space);     // tool_path, tool_path_delta
+bool lasts_a_frame(std::string_view space);  // all but these, skill, hold and go_on
+
+}  // namespace stampede

@@ -1,0 +1,108 @@
+#include "engine/episode/skill_policy.h"
+
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
+#include "engine/episode/agent_action.h"
+#include "engine/episode/priority_policy.h"
+
+namespace stampede {
+namespace {
+
+const PolicyEntry& entry_of(const RunOptions& options, const std::string& name) {
+  std::vector<std::string> names;
+  const auto find = [&](const std::map<std::string, PolicyEntry>& entries) -> const PolicyEntry* {
+    for (const auto& [own, entry] : entries) names.push_back(own);
+    const auto found = entries.find(name);
+    return found == entries.end() ? nullptr : &found->second;
+  };
+  if (options.policies)
+    if (const PolicyEntry* entry = find(*options.policies)) return *entry;
+  if (const PolicyEntry* entry = find(shipped_policies())) return *entry;
+  throw Error("policy '" + name + "'", "nobody has registered it", did_you_mean(name, names));
+}
+
+MotionResult failed(std::string detail) { return {MotionStatus::failed, Reason::policy_error, std::move(detail)}; }
+
+void stop(World& world) {
+  if (world.steered())
+    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+}
+
+}  // namespace
+
+const std::map<std::string, PolicyEntry>& shipped_policies() {
+  static const std::map<std::string, PolicyEntry> entries = {{"keep_tool", keep_tool_policy()}};
+  return entries;
+}
+
+Policy::~Policy() = default;
+
+class SkillPolicy::Acting final : public Motion {
+ public:
+  explicit Acting(SkillPolicy& run) : run_(run) {}
+  std::string kind() const override { return "policy"; }
+  MotionResult step(World& world) override {
+    MotionResult result = run_.step(world);
+    if (result.status != MotionStatus::running) stop(world);
+    return result;
+  }
+  void interrupt(World& world) override { stop(world); }
+
+ private:
+  SkillPolicy& run_;
+};
+
+SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, PolicyCall call,
+                         double seconds, ControllerKind controller, std::function<bool()> finished)
+    : rollout_(rollout),
+      spaces_(action_spaces(rollout.view().scene())),
+      controller_(controller),
+      finished_(std::move(finished)),
+      until_(rollout.step() + std::llround(seconds * rollout.view().scene().physics_hz)) {
+  const PolicyEntry& entry = entry_of(options, name);
+  settings_.channels = entry.channels;
+  settings_.hidden = entry.hidden;
+  settings_.width = entry.width;
+  settings_.height = entry.height;
+  EpisodeRecord episode;
+  episode.task = rollout.task().name;
+  episode.variation = rollout.task().variation;
+  episode.seed = options.seed;
+  observer_.emplace(rollout, rollout.scene(), options, settings_, episode, renderer_);
+  policy_ = entry.make();
+  policy_->begin(call);
+}
+
+std::unique_ptr<Motion> SkillPolicy::motion() { return std::make_unique<Acting>(*this); }
+
+std::optional<AgentAction> SkillPolicy::take_pending() { return std::exchange(pending_, std::nullopt); }
+
+// Before a physics step: at a frame it is asked, in between its last action goes on.
+MotionResult SkillPolicy::step(World& world) {
+  if (!rollout_.at_frame()) return {};
+  over_ = over_ || world.step_count() >= until_ || finished_();
+  if (over_) return {MotionStatus::done};
+  std::optional<AgentAction> action;
+  try {
+    action = policy_->act(observer_->observe());
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+  over_ = !action;
+  if (over_) return {MotionStatus::done};
+  if (auto mistake = mistake_in(*action, spaces_)) return failed(mistake->what + ": " + mistake->cure);
+  if (action->space == "hold" || action->space == "go_on") return failed("a policy cannot ask for " + action->space);
+  if (!lasts_a_frame(action->space)) {
+    pending_ = std::move(action);
+    return {MotionStatus::done};
+  }
+  if (action->controller.empty()) action->controller = to_string(controller_);
+  auto operations = operations_for(*action, world);
+  if (const auto* refusal = std::get_if<ActionRefusal>(&operations)) return failed(refusal->what);
+  for (const Operation& operation : std::get<std::vector<Operation>>(operations)) world.apply(operation);
+  return {};
+}
+
+}  // namespace stampede

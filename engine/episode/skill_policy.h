@@ -1,0 +1,49 @@
+// A policy as the body of a skill: asked at each frame, until it is done.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/episode/observer.h"
+#include "engine/motion/motion.h"
+
+namespace stampede {
+
+// Those that come with the engine.
+const std::map<std::string, PolicyEntry>& shipped_policies();
+
+// One call of a policy. Its actions of a frame are a Motion; a path or a skill that it asks for is whoever's task who
+// runs the motion: `pending` holds it when the motion is done, and another motion goes on after it. Lifetime: refers
+// to the rollout and the options.
+class SkillPolicy {
+ public:
+  // `finished`: asked at each frame; true ends it, as does the time. `controller`: of actions that name none.
+  // Throws Error when there is no policy of that name, with the nearest one as cure.
+  SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, PolicyCall call, double seconds,
+              ControllerKind controller, std::function<bool()> finished);
+
+  std::unique_ptr<Motion> motion();  // `policy`, to the next path or skill, or the end
+  std::optional<AgentAction> take_pending();
+  bool over() const { return over_; }
+
+ private:
+  class Acting;
+  MotionResult step(World& world);
+
+  Rollout& rollout_;
+  EnvironmentSettings settings_;
+  std::unique_ptr<Renderer> renderer_;
+  std::optional<Observer> observer_;
+  std::vector<ActionSpace> spaces_;
+  std::unique_ptr<Policy> policy_;
+  ControllerKind controller_;
+  std::function<bool()> finished_;
+  std::int64_t until_ = 0;
+  bool over_ = false;
+  std::optional<AgentAction> pending_;
+};
+
+}  // namespace stampede

@@ -1,0 +1,570 @@
+// Acting in a task: every space, every channel, rewards, and going back.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <thread>
+
+#include "engine/base/random.h"
+#include "engine/episode/arrays.h"
+#include "engine/episode/record.h"
+#include "engine/episode/runner.h"
+#include "scripting/session/session_core.h"
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+// One for all tests; never destroyed, because what draws for it must not outlive Mesa's own statics.
+std::shared_ptr<SessionCore> session() {
+  static const auto* const core = new std::shared_ptr<SessionCore>(
+      std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector<std::filesystem::path>{}, ""));
+  return *core;
+}
+
+Environment environment(const std::string& task, const EnvironmentSettings& settings = {}) {
+  return session()->environment(task, settings);
+}
+
+AgentAction skill(const TaskPlanStep& step) {
+  return {.space = "skill", .skill = step.action, .arguments = step.arguments};
+}
+
+// The skills of an episode that nobody called from within another one.
+std::vector<TaskPlanStep> calls_of(const EpisodeRecord& record) {
+  std::vector<TaskPlanStep> calls;
+  for (const SegmentRecord& one : record.segments) {
+    if (one.kind != SegmentKind::skill) continue;
+    if (record.segments.at(static_cast<std::size_t>(one.parent)).kind != SegmentKind::subgoal) continue;
+    calls.push_back({one.case_name.empty() ? one.skill : one.skill + "_" + one.case_name, one.arguments});
+  }
+  return calls;
+}
+
+// Within the bounds, and no further than a policy would go in a frame where they are wide.
+AgentAction random_action(const ActionSpace& space, Random& random) {
+  AgentAction action{.space = space.name};
+  for (const ActionComponent& one : space.components)
+    action.values.push_back(random.between(std::max(one.lower, -3000.0), std::min(one.upper, 3000.0)));
+  return action;
+}
+
+const ActionSpace& space_of(const std::vector<ActionSpace>& spaces, const std::string& name) {
+  return *std::find_if(spaces.begin(), spaces.end(), [&](const ActionSpace& one) { return one.name == name; });
+}
+
+// All that is observed, as one list of numbers.
+std::vector<double> numbers(const EnvironmentObservation& observation) {
+  std::vector<double> all = {static_cast<double>(observation.frame), observation.time_s};
+  for (const ChannelValue& one : observation.channels)
+    std::visit(
+        [&](const auto& data) {
+          if constexpr (std::is_arithmetic_v<typename std::remove_cvref_t<decltype(data)>::value_type>)
+            for (const auto value : data) all.push_back(static_cast<double>(value));
+        },
+        one.data);
+  return all;
+}
+
+std::vector<double> row_of(const ArrayColumn& column, std::int64_t frame) {
+  std::size_t width = 1;
+  for (std::size_t i = 1; i < column.shape.size(); ++i) width *= static_cast<std::size_t>(column.shape[i]);
+  const auto data = column.reals().subspan(static_cast<std::size_t>(frame) * width, width);
+  return {data.begin(), data.end()};
+}
+
+}  // namespace
+
+TEST_CASE("an agent that plays back a plan's skills gets the bytes of the run") {
+  for (const std::string task : {"reach_target", "close_drawer", "pick_and_lift", "stack_blocks"}) {
+    CAPTURE(task);
+    const Episode run = session()->run(task, {.seed = 5, .on_failure = OnFailure::stop});
+    REQUIRE(run.outcome == Outcome::success);
+    Environment world = environment(task, {.record = true});
+    world.reset({.seed = 5});
+    StepResult now;
+    for (const TaskPlanStep& step : calls_of(*run.record)) {
+      now = world.step(skill(step));
+      REQUIRE_FALSE(now.refusal);
+      REQUIRE(now.ended.size() == 1);
+      CHECK(now.ended.front().success);
+      CHECK(now.ended.front().effect_held == true);
+      CHECK_FALSE(now.terminated);
+    }
+    now = world.step({.space = "hold"});
+    CHECK(now.terminated);
+    CHECK(now.success);
+    CHECK(now.reward == 1);
+    const Episode acted = world.episode();
+    CHECK(acted.outcome == Outcome::success);
+    CHECK(acted.key != run.key);
+    CHECK(first_difference(session()->arrays(run, {}), session()->arrays(acted, {})) == "");
+    CHECK(first_difference(session()->arrays(acted, {}), session()->arrays(run, {})) == "");
+    CHECK(acted.record->segments.size() == run.record->segments.size());
+  }
+}
+
+TEST_CASE("every action space moves the arm within its limits, and what was done replays") {
+  const std::vector<std::string> spaces = {"joint_position", "joint_delta",    "joint_velocity",
+                                           "joint_torque",   "tool_pose",      "tool_delta",
+                                           "tool_velocity",  "tool_impedance", "gripper"};
+  for (const std::string& name : spaces) {
+    CAPTURE(name);
+    Environment world = environment("pick_and_lift", {.channels = {"joint_positions", "gripper_pose"}, .record = true});
+    EnvironmentObservation seen = world.reset({.seed = 11});
+    const std::vector<double> first = seen["joint_positions"].reals();
+    const auto limits = space_of(world.spaces(), "joint_position").components;
+    REQUIRE(first.size() == limits.size());
+    Random random(RandomKey("actions").with(name));
+    const ActionSpace space = space_of(world.spaces(), name);
+    double moved = 0;
+    for (int i = 0; i < 60; ++i) {
+      AgentAction action = random_action(space, random);
+      if (name == "tool_pose" || name == "tool_impedance") {  // near where the tool is, or nothing reaches it
+        const std::vector<double> pose = seen["gripper_pose"].reals();
+        for (std::size_t k = 0; k < 7; ++k) action.values[k] = pose[k];
+        for (std::size_t k = 0; k < 3; ++k) action.values[k] += random.between(-0.03, 0.03);
+      }
+      if (i % 7 == 0 && name != "gripper") action.gripper = random.between(0, 0.08);
+      const StepResult now = world.step(action);
+      if (now.refusal)
+        CHECK_THAT(now.refusal->what, Catch::Contains("no joint positions"));
+      else
+        CHECK(now.frames == 1);
+      seen = now.observation;
+      const std::vector<double>& q = seen["joint_positions"].reals();
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        REQUIRE(std::isfinite(q[j]));
+        CHECK(q[j] >= limits[j].lower - 1.1e-3);
+        CHECK(q[j] <= limits[j].upper + 1.1e-3);
+        moved = std::max(moved, std::abs(q[j] - first[j]));
+      }
+    }
+    if (name != "gripper") CHECK(moved > 0.05);
+    const Episode episode = world.episode();
+    CHECK(episode.reason == "goal_false");
+    REQUIRE(episode.record);
+    CHECK(replay_episode(*episode.record).empty());
+    CHECK(episode.record->segments.back().skill == "control");
+  }
+}
+
+TEST_CASE("a position is reached, a velocity is kept, and a path goes around what is in the way") {
+  Environment world =
+      environment("reach_target", {.channels = {"joint_positions", "joint_velocities", "gripper_pose"}});
+  const std::vector<double> start = world.reset({.seed = 1})["joint_positions"].reals();
+  std::vector<double> wanted = start;
+  for (double& value : wanted) value += 0.1;
+  StepResult now;
+  for (int i = 0; i < 10; ++i) now = world.step({.space = "joint_position", .values = wanted});
+  for (std::size_t j = 0; j < wanted.size(); ++j)
+    CHECK(now.observation["joint_positions"].reals()[j] == Approx(wanted[j]).margin(2e-3));
+  std::vector<double> still(wanted.size(), 0.0), turning = still;
+  turning[0] = 0.5;
+  for (int i = 0; i < 8; ++i) now = world.step({.space = "joint_velocity", .values = turning});
+  CHECK(now.observation["joint_velocities"].reals()[0] == Approx(0.5).margin(0.02));
+  for (int i = 0; i < 6; ++i) now = world.step({.space = "joint_velocity", .values = still});
+  CHECK(now.observation["joint_velocities"].reals()[0] == Approx(0).margin(2e-3));
+  std::vector<double> pose = now.observation["gripper_pose"].reals();
+  pose[0] -= 0.1, pose[1] += 0.1;
+  now = world.step({.space = "tool_path", .values = pose});
+  REQUIRE_FALSE(now.refusal);
+  REQUIRE(now.ended.size() == 1);
+  CHECK(now.ended.front().success);
+  CHECK(now.frames > 3);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(now.observation["gripper_pose"].reals()[k] == Approx(pose[k]).margin(3e-3));
+  now = world.step({.space = "tool_delta", .values = {0.02, 0, 0, 0, 0, 0}, .frame = "tool"});
+  CHECK_FALSE(now.refusal);
+  pose[2] = -3;  // below the floor
+  now = world.step({.space = "tool_path", .values = pose});
+  CHECK(now.refusal);
+  CHECK(now.frames == 0);
+}
+
+TEST_CASE("what cannot be done is said, and nothing changes") {
+  Environment world = environment("stack_blocks", {.channels = {"task_low_dim_state", "joint_positions", "facts"}});
+  const std::vector<double> before = numbers(world.reset({.seed = 2}));
+  const double nan = std::nan("");
+  const std::vector<double> zero(7, 0.0);
+  const std::vector<std::pair<AgentAction, std::string>> wrong = {
+      {{.space = "joint_positions", .values = zero}, "there is no action space"},
+      {{.space = "joint_velocity", .values = {0, 0, 0}}, "has 7 values, not 3"},
+      {{.space = "joint_velocity", .values = {0, nan, 0, 0, 0, 0, 0}}, "not a finite number"},
+      {{.space = "joint_velocity", .values = {0, 99, 0, 0, 0, 0, 0}}, "out of its bounds"},
+      {{.space = "joint_velocity", .values = zero, .gripper = 0.5}, "out of its bounds"},
+      {{.space = "joint_velocity", .values = zero, .controller = "magic"}, "there is no controller"},
+      {{.space = "tool_delta", .values = {0, 0, 0, 0, 0, 0}, .frame = "camera"}, "frame of reference"},
+      {{.space = "tool_pose", .values = {0.4, 0, 0.3, 0, 0, 0, 0}}, "quaternion has no length"},
+      {{.space = "tool_pose", .values = {0.3, 0.3, 1.4, 1, 0, 0, 0}}, "no joint positions"},
+      {{.space = "skill", .skill = "pik"}, "there is no skill 'pik'"},
+      {{.space = "skill", .skill = "pick", .arguments = {"block1"}}, "takes 3 arguments"},
+      {{.space = "skill", .skill = "pick", .arguments = {"nothing", "table", "panda.hand"}}, "there is no 'nothing'"},
+      {{.space = "skill",
+        .skill = "pick",
+        .arguments = {"block1", "table", "panda.hand"},
+        .parameters = {{"speed", {1}}}},
+       "no continuous parameter"},
+      {{.space = "skill",
+        .skill = "pick",
+        .arguments = {"block1", "table", "panda.hand"},
+        .parameters = {{"grasp", {1}}}},
+       "has 7 values, not 1"},
+      {{.space = "hold", .frames = -1}, "not negative"},
+      {{.space = "go_on"}, "nothing that could go on"},
+  };
+  for (const auto& [action, what] : wrong) {
+    CAPTURE(action.space, what);
+    const StepResult now = world.step(action);
+    REQUIRE(now.refusal);
+    CHECK_THAT(now.refusal->what, Catch::Contains(what));
+    CHECK(now.frames == 0);
+    CHECK(numbers(now.observation) == before);
+  }
+  CHECK_THROWS_WITH(environment("stack_blocks").step({.space = "hold"}), Catch::Contains("call reset()"));
+  CHECK_THROWS_WITH(environment("stack_block"), Catch::Contains("stack_blocks"));
+  CHECK_THROWS_WITH(world.reset({.variation = "colour=plaid"}), Catch::Contains("has no variation"));
+  CHECK_THROWS_WITH(world.reset({.channels = std::vector<std::string>{"joint_position"}}),
+                    Catch::Contains("joint_positions"));
+}
+
+TEST_CASE("a skill goes on in parts, and another action cuts it off") {
+  const TaskPlan plan = session()->plan("pick_and_lift", {.seed = 3});
+  REQUIRE_FALSE(plan.steps.empty());
+  Environment whole = environment("pick_and_lift"), parts = environment("pick_and_lift", {.record = true});
+  whole.reset({.seed = 3});
+  parts.reset({.seed = 3});
+  const StepResult once = whole.step(skill(plan.steps.front()));
+  AgentAction some = skill(plan.steps.front());
+  some.frames = 4;
+  StepResult now = parts.step(some);
+  CHECK(now.frames == 4);
+  CHECK_THAT(now.running, Catch::StartsWith("(pick"));
+  CHECK(now.ended.empty());
+  while (!now.running.empty()) now = parts.step({.space = "go_on", .frames = 3});
+  CHECK(numbers(now.observation) == numbers(once.observation));
+  CHECK(now.ended.front().success);
+
+  parts.reset({.seed = 3});
+  parts.step(some);
+  now = parts.step({.space = "joint_velocity", .values = std::vector<double>(7, 0.0)});
+  REQUIRE(now.ended.size() == 1);
+  CHECK(now.ended.front().reason == "interrupted");
+  CHECK(now.running.empty());
+  now = parts.step(skill(plan.steps.front()));  // and it can be begun again
+  REQUIRE(now.ended.size() == 1);
+  CHECK(now.ended.front().success);
+  const Episode episode = parts.episode();
+  CHECK(replay_episode(*episode.record).empty());
+  std::vector<std::string> names;
+  for (const SegmentRecord& one : episode.record->segments)
+    if (one.kind == SegmentKind::skill || one.skill == "control") names.push_back(one.skill);
+  CHECK(names == std::vector<std::string>{"pick", "control", "pick"});
+}
+
+TEST_CASE("parameters and the controller of a skill are the agent's to choose") {
+  const TaskPlan plan = session()->plan("pick_and_lift", {.seed = 3});
+  Environment world = environment("pick_and_lift", {.record = true});
+  world.reset({.seed = 3});
+  const auto described = world.skill_descriptions();
+  const auto pick =
+      std::find_if(described.begin(), described.end(), [](const auto& one) { return one.skill == "pick"; });
+  REQUIRE(pick != described.end());
+  const auto height = std::find_if(pick->continuous.begin(), pick->continuous.end(),
+                                   [](const auto& one) { return one.name == "height"; });
+  REQUIRE(height != pick->continuous.end());
+  CHECK(height->unit == "m");
+  const double wanted = (height->lower[0] + height->upper[0]) / 2;
+  AgentAction action = skill(plan.steps.front());
+  action.parameters = {{"height", {wanted}}};
+  action.controller = "joint_impedance";
+  const StepResult now = world.step(action);
+  REQUIRE_FALSE(now.refusal);
+  CHECK(now.ended.front().success);
+  const Episode episode = world.episode();
+  const auto segment = std::find_if(episode.record->segments.begin(), episode.record->segments.end(),
+                                    [](const SegmentRecord& one) { return one.kind == SegmentKind::skill; });
+  CHECK(segment->controller == "joint_impedance");
+  int chosen = 0;
+  for (const ParameterRecord& one : segment->parameters) {
+    if (one.name == "height") CHECK(one.values == std::vector<double>{wanted});
+    if (one.name == "height" || one.name == "controller") chosen += one.chosen_by == ChosenBy::agent ? 1 : 0;
+  }
+  CHECK(chosen == 2);
+}
+
+TEST_CASE("the skills that can be done now are those whose precondition holds") {
+  Environment world = environment("stack_blocks", {.channels = {"applicable", "feasible_skills"}});
+  EnvironmentObservation seen = world.reset({.seed = 4});
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<SkillChoice> choices = world.skills();
+    std::vector<std::string> names;
+    REQUIRE(seen["applicable"].bytes().size() == choices.size());
+    for (std::size_t i = 0; i < choices.size(); ++i) CHECK((seen["applicable"].bytes()[i] != 0) == choices[i].feasible);
+    CHECK(seen["feasible_skills"].texts().size() ==
+          static_cast<std::size_t>(
+              std::count_if(choices.begin(), choices.end(), [](const auto& one) { return one.feasible; })));
+    int tried = 0;
+    const SavedState here = world.save();
+    for (const SkillChoice& one : choices) {  // what is masked is refused by its precondition, the rest is not
+      if (tried > 5) break;
+      tried += one.feasible ? 0 : 1;
+      if (one.feasible) continue;
+      const StepResult now = world.step({.space = "skill", .skill = one.skill, .arguments = one.arguments});
+      REQUIRE(now.ended.size() == 1);
+      CHECK(now.ended.front().precondition_held == false);
+      CHECK(now.ended.front().reason == "precondition_false");
+      world.restore(here);
+    }
+    const auto pick = std::find_if(choices.begin(), choices.end(),
+                                   [](const SkillChoice& one) { return one.feasible && one.skill == "pick"; });
+    if (round == 0) {
+      REQUIRE(pick != choices.end());
+      const StepResult now = world.step({.space = "skill", .skill = pick->skill, .arguments = pick->arguments});
+      REQUIRE(now.ended.front().success);
+      seen = now.observation;
+    }
+  }
+}
+
+TEST_CASE("a saved state branches: the same future, bit for bit, here and in another environment") {
+  const EnvironmentSettings settings{
+      .channels = {"joint_positions", "task_low_dim_state", "facts"}, .reward = RewardKind::dense, .record = true};
+  Environment one = environment("stack_blocks", settings), two = environment("stack_blocks", settings);
+  one.reset({.seed = 6});
+  two.reset({.seed = 6});
+  const TaskPlan plan = session()->plan("stack_blocks", {.seed = 6});
+  one.step(skill(plan.steps.at(0)));
+  const SavedState saved = one.save();
+  const auto future = [&](Environment& world) {
+    std::vector<double> all;
+    Random random(RandomKey("future"));
+    const ActionSpace space = space_of(world.spaces(), "joint_delta");
+    for (int i = 0; i < 5; ++i) {
+      const StepResult now = world.step(random_action(space, random));
+      const std::vector<double> seen = numbers(now.observation);
+      all.insert(all.end(), seen.begin(), seen.end());
+      all.push_back(now.reward);
+    }
+    const StepResult now = world.step(skill(plan.steps.at(1)));
+    const std::vector<double> seen = numbers(now.observation);
+    all.insert(all.end(), seen.begin(), seen.end());
+    all.push_back(now.reward);
+    return all;
+  };
+  const std::vector<double> first = future(one);
+  const SavedState later = one.save();
+  one.restore(saved);
+  one.step({.space = "gripper", .values = {0.08}});  // another branch
+  one.restore(saved);
+  CHECK(future(one) == first);
+  two.restore(saved);
+  CHECK(future(two) == first);
+  two.restore(later);  // from another branch to a later moment
+  const Episode episode = two.episode();
+  CHECK(replay_episode(*episode.record).empty());
+  CHECK_THROWS_WITH(environment("stack_blocks", settings).restore(saved), Catch::Contains("call reset()"));
+  Environment other = environment("reach_target");
+  other.reset();
+  CHECK_THROWS_WITH(other.restore(saved), Catch::Contains("of another task"));
+  CHECK_THROWS_WITH(one.restore({}), Catch::Contains("empty state"));
+}
+
+TEST_CASE("channels say what the arrays of the recorded episode say") {
+  Environment world = environment("close_drawer", {.channels = {"time",
+                                                                "joint_positions",
+                                                                "joint_velocities",
+                                                                "joint_forces",
+                                                                "gripper_open",
+                                                                "gripper_pose",
+                                                                "gripper_matrix",
+                                                                "gripper_touch_forces",
+                                                                "task_low_dim_state",
+                                                                "object_pose",
+                                                                "object_pose_in_tool",
+                                                                "object_joint_positions",
+                                                                "progress",
+                                                                "front_camera_intrinsics",
+                                                                "wrist_camera_extrinsics",
+                                                                "front_rgb",
+                                                                "wrist_depth",
+                                                                "front_point_cloud",
+                                                                "sentences",
+                                                                "pddl",
+                                                                "fact_names",
+                                                                "known"},
+                                                   .record = true,
+                                                   .width = 32,
+                                                   .height = 32});
+  std::vector<EnvironmentObservation> seen = {world.reset({.seed = 8})};
+  AgentAction some = skill(session()->plan("close_drawer", {.seed = 8}).steps.front());
+  some.frames = 9;
+  seen.push_back(world.step(some).observation);
+  seen.push_back(world.step({.space = "go_on", .frames = 20}).observation);
+  seen.push_back(world.step({.space = "gripper", .values = {0.05}}).observation);
+  const Episode episode = world.episode();
+  const EpisodeArrays arrays = session()->arrays(episode, {});
+  for (const EnvironmentObservation& now : seen) {
+    CAPTURE(now.frame);
+    int compared = 0;
+    for (const ChannelValue& one : now.channels) {
+      const ArrayColumn* column = arrays.find(one.name);
+      if (column == nullptr || column->type() != "float64") continue;
+      CAPTURE(one.name);
+      ++compared;
+      CHECK(one.unit == column->unit);
+      CHECK(one.frame == column->frame);
+      if (column->rate_hz == 0) {
+        CHECK(one.shape == column->shape);
+        continue;
+      }
+      CHECK(one.shape == std::vector<std::int64_t>(column->shape.begin() + 1, column->shape.end()));
+      CHECK(one.reals() == row_of(*column, now.frame));
+    }
+    CHECK(compared > 15);
+    CHECK(now["front_camera_intrinsics"].reals()[0] > 0);
+    CHECK(now["front_rgb"].shape == std::vector<std::int64_t>{32, 32, 3});
+    CHECK(now["front_rgb"].bytes() ==
+          session()->picture(episode, now.frame, {.camera = "front", .width = 32, .height = 32}).rgb);
+    CHECK(now["front_point_cloud"].shape == std::vector<std::int64_t>{32, 32, 3});
+    CHECK_FALSE(now["sentences"].texts().empty());
+    CHECK_THAT(now["pddl"].texts().front(), Catch::Contains("(:goal"));
+  }
+  CHECK_THROWS_WITH(seen.front()["front_depth"], Catch::Contains("was not asked for"));
+  CHECK_THROWS_WITH(seen.front()["pddl"].reals(), Catch::Contains("no float64"));
+}
+
+TEST_CASE("what nobody can see is left out unless it is asked for") {
+  for (const bool hidden : {false, true}) {
+    Environment world =
+        environment("find_item_in_drawer", {.channels = {"object_pose/item", "facts"}, .hidden = hidden});
+    const EnvironmentObservation seen = world.reset({.seed = 7});
+    CHECK(std::isnan(seen["object_pose/item"].reals()[0]) != hidden);
+    const std::vector<StateFact> atoms = world.atoms();
+    bool known = false;
+    for (std::size_t i = 0; i < atoms.size(); ++i)
+      known =
+          known || (seen["facts"].bytes()[i] != 0 && !atoms[i].arguments.empty() && atoms[i].arguments[0] == "item");
+    CHECK(known == hidden);
+  }
+}
+
+TEST_CASE("the dense reward rises along a demonstration, and is 1 where the goal holds alone") {
+  // Tests beside facts, effects that come true one after the other, objects that the tip is in before they are grasped.
+  for (const std::string task : {"reach_target", "close_drawer", "stack_blocks", "pick_up_cup",
+                                 "take_toilet_roll_off_stand", "take_usb_out_of_computer"}) {
+    CAPTURE(task);
+    const Episode run = session()->run(task, {.seed = 7, .on_failure = OnFailure::stop});
+    REQUIRE(run.outcome == Outcome::success);
+    Environment world = environment(task, {.channels = {"progress"}, .reward = RewardKind::dense});
+    world.reset({.seed = 7});
+    double best = -1;
+    StepResult now;
+    for (const TaskPlanStep& step : calls_of(*run.record)) {
+      AgentAction action = skill(step);
+      action.frames = 1;
+      for (now = world.step(action);; now = world.step({.space = "go_on", .frames = 1})) {
+        CHECK(now.reward > best - 0.25);  // fingers that close push what they are about to hold
+        if (now.reward == 1) CHECK(now.observation["progress"].reals()[0] == 1);
+        best = std::max(best, now.reward);
+        if (now.running.empty()) break;
+      }
+    }
+    CHECK(now.reward == 1);
+    CHECK(world.step({.space = "tool_pose", .values = {9, 9, 9, 0, 0, 0, 1}}).reward == 1);  // refused: as things stand
+    CHECK(world.step({.space = "hold"}).success);
+  }
+}
+
+TEST_CASE("an episode that ends between two frames is recorded to the next one, and replays") {
+  const Folder folder;
+  const Said made = say({"run", "push_buttons", "--root", kRoot, "--behaviour", "random_applicable", "--skills", "6",
+                         "--episodes", "6", "--out", folder / "d.db"});
+  CHECK(made.code == kDone);
+  const Said out_of_order =
+      say({"query", folder / "d.db", "SELECT count(*) FROM episodes WHERE reason = 'out_of_order'"});
+  CHECK_FALSE(says(out_of_order.out, " 0"));
+  CHECK(say({"replay", folder / "d.db"}).code == kDone);
+}
+
+TEST_CASE("an episode's frame is a start, and goes on as it did") {
+  const Episode run = session()->run("pick_and_lift", {.seed = 9, .on_failure = OnFailure::stop});
+  const EpisodeArrays arrays = session()->arrays(run, {});
+  Environment world = environment("pick_and_lift", {.channels = {"joint_positions", "task_low_dim_state"}});
+  const EnvironmentObservation seen = world.reset({.episode = run, .frame = run.frames / 2});
+  CHECK(seen.frame == run.frames / 2);
+  CHECK(seen["joint_positions"].reals() == row_of(arrays.column("joint_positions"), run.frames / 2));
+  CHECK(seen["task_low_dim_state"].reals() == row_of(arrays.column("task_low_dim_state"), run.frames / 2));
+  CHECK_FALSE(world.step({.space = "gripper", .values = {0.08}}).refusal);
+  CHECK_THROWS_WITH(world.reset({.episode = run, .frame = run.frames}), Catch::Contains("it has no frame"));
+  CHECK_THROWS_WITH(environment("reach_target").reset({.episode = run}), Catch::Contains("of task 'pick_and_lift'"));
+}
+
+TEST_CASE("rates, horizon, start and goal are the caller's") {
+  Environment world = environment("pick_and_lift", {.frame_hz = 10, .physics_hz = 480, .horizon_s = 0.5});
+  world.reset({.seed = 1});
+  StepResult now;
+  int steps = 0;
+  do {
+    now = world.step({.space = "gripper", .values = {0.08}});
+    ++steps;
+  } while (!now.terminated && !now.truncated && steps < 100);
+  CHECK(steps == 5);
+  CHECK(now.truncated);
+  CHECK_FALSE(now.terminated);
+  CHECK(now.reason == "timeout");
+  CHECK(now.observation.time_s == Approx(0.5));
+  CHECK(world.step({.space = "hold"}).refusal->what == "the episode has ended");
+  CHECK_THROWS_WITH(environment("pick_and_lift", {.frame_hz = 7}).reset(), Catch::Contains("no whole number of steps"));
+
+  Environment other = environment("close_drawer", {.channels = {"pddl"}});
+  const EnvironmentObservation seen = other.reset({.seed = 2, .goal = "(open chest.top_drawer)"});
+  CHECK_THAT(seen["pddl"].texts().front(), Catch::Contains("(open chest--top_drawer)"));
+}
+
+TEST_CASE("what an agent did is in the catalogue, with its name, and replays from there") {
+  const Folder folder;
+  const auto core =
+      std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector<std::filesystem::path>{}, folder / "d.db");
+  Environment world = core->environment("reach_target", {.record = true});
+  for (int i = 0; i < 2; ++i) {  // the same start, other actions: two episodes
+    world.reset({.seed = 3});
+    for (int k = 0; k < 6; ++k)
+      world.step({.space = "joint_velocity", .values = std::vector<double>(7, 0.1 * (i + 1))});
+    const Episode episode = world.episode();
+    CHECK(episode.id == i + 1);
+    CHECK(episode.frames == 7);
+    CHECK(world.step({.space = "hold"}).refusal);
+    CHECK_THROWS_WITH(world.episode(), Catch::Contains("taken already"));
+  }
+  CHECK(core->query("SELECT episode FROM episodes WHERE reason = 'goal_false'").rows.size() == 2);
+  const auto stored = [&](std::int64_t id) {
+    return std::get<std::int64_t>(
+        core->query("SELECT count(*) FROM steps WHERE episode = " + std::to_string(id)).rows[0][0]);
+  };
+  CHECK(stored(1) == 7);
+  CHECK(say({"replay", folder / "d.db"}).code == kDone);
+  Environment unrecorded = core->environment("reach_target", {});
+  unrecorded.reset();
+  CHECK_THROWS_WITH(unrecorded.episode(), Catch::Contains("nothing was recorded"));
+}
+
+TEST_CASE("environments in two threads do what one does alone") {
+  const auto drive = [](std::int64_t seed) {
+    Environment world = environment("reach_target");
+    std::vector<double> all = numbers(world.reset({.seed = seed}));
+    Random random(RandomKey("drive").with(seed));
+    const ActionSpace space = space_of(world.spaces(), "joint_delta");
+    for (int i = 0; i < 30; ++i) {
+      const std::vector<double> now = numbers(world.step(random_action(space, random)).observation);
+      all.insert(all.end(), now.begin(), now.end());
+    }
+    return all;
+  };
+  const std::vector<double> first = drive(1), second = drive(2);
+  std::vector<double> a, b;
+  std::thread left([&] { a = drive(1); }), right([&] { b = drive(2); });
+  left.join();
+  right.join();
+  CHECK(a == first);
+  CHECK(b == second);
+}
+
+}  // namespace stampede::program

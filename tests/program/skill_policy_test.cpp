@@ -1,0 +1,189 @@
+// Policies as the bodies of skills.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "engine/episode/priority_policy.h"
+#include "engine/episode/record.h"
+#include "engine/episode/runner.h"
+#include "scripting/session/session_core.h"
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+// Brings the tip to the target by small steps, as a network would that was trained to.
+class Servo final : public Policy {
+ public:
+  void begin(const PolicyCall& call) override {
+    target_ = call.arguments.at("target"), speed_ = call.parameters.at("gain")[0];
+  }
+  std::optional<AgentAction> act(const EnvironmentObservation& now) override {
+    const std::vector<double>&tip = now["gripper_pose"].reals(), &goal = now["object_pose/" + target_].reals();
+    AgentAction action{.space = "tool_velocity", .values = std::vector<double>(6, 0.0)};
+    for (std::size_t i = 0; i < 3; ++i) action.values[i] = std::clamp(speed_ * (goal[i] - tip[i]), -0.4, 0.4);
+    return action;
+  }
+
+ private:
+  std::string target_;
+  double speed_ = 1;
+};
+
+template <typename Act>
+PolicyEntry entry(Act act) {
+  class Simple final : public Policy {
+   public:
+    explicit Simple(Act own) : act_(own) {}
+    std::optional<AgentAction> act(const EnvironmentObservation& now) override { return act_(now, frame_++); }
+
+   private:
+    Act act_;
+    int frame_ = 0;
+  };
+  return {.make = [act] { return std::make_unique<Simple>(act); }};
+}
+
+// A folder in which `reach` has another body.
+std::filesystem::path own_reach(const Folder& folder, const std::string& run) {
+  std::filesystem::create_directories(folder / "skills");
+  std::ofstream(folder / "skills/reach.lua") << R"(-- Bring the tip of the hand into the target.
+return skill {
+  params = { "target: target" },
+  precondition = { is_not.at("target") },
+  effect = { is.at("target") },
+  continuous = { gain = { 3, min = 1, max = 5 } },
+  label = "reach for the {target}",
+  run = )" << run << "\n}\n";
+  return folder / "";
+}
+
+std::shared_ptr<SessionCore> session(const Folder& folder, const std::string& run) {
+  return std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector{own_reach(folder, run)}, "");
+}
+
+const SegmentRecord& skill_of(const Episode& episode) {
+  const auto& segments = episode.record->segments;
+  return *std::find_if(segments.begin(), segments.end(),
+                       [](const SegmentRecord& one) { return one.kind == SegmentKind::skill; });
+}
+
+}  // namespace
+
+TEST_CASE("a policy is the body of a skill: planned, tested, labelled, and replayed without it") {
+  const Folder folder;
+  const auto core = session(folder, R"(policy("servo", { seconds = 8 }),)");
+  core->add_policy("servo",
+                   {.make = [] { return std::make_unique<Servo>(); }, .channels = {"gripper_pose", "object_pose"}});
+  const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+  CAPTURE(episode.reason, episode.detail);
+  CHECK(episode.outcome == Outcome::success);
+  CHECK(replay_episode(*episode.record).empty());
+  const SegmentRecord& skill = skill_of(episode);
+  CHECK(skill.effect_held == true);
+  CHECK_THAT(skill.label, Catch::StartsWith("reach for the"));
+  int policies = 0;
+  for (const SegmentRecord& one : episode.record->segments) policies += one.skill == "policy" ? 1 : 0;
+  CHECK(policies == 1);
+}
+
+TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it back") {
+  const Folder folder;
+  const std::vector<std::pair<PolicyEntry, std::string>> bad = {
+      {entry([](const auto&, int) -> std::optional<AgentAction> { throw std::runtime_error("no weights"); }),
+       "no weights"},
+      {entry([](const auto&, int) { return std::optional<AgentAction>({.space = "joint_torques"}); }),
+       "no action space"},
+      {entry(
+           [](const auto&, int) { return std::optional<AgentAction>({.space = "gripper", .values = {std::nan("")}}); }),
+       "not a finite number"},
+      {entry([](const auto&, int) { return std::optional<AgentAction>({.space = "hold"}); }), "cannot ask for hold"},
+      {entry([](const auto&, int) { return std::optional<AgentAction>({.space = "skill", .skill = "fly"}); }),
+       "no skill 'fly'"},
+  };
+  for (const auto& [policy, what] : bad) {
+    CAPTURE(what);
+    const auto core = session(folder, R"(policy("bad"),)");
+    core->add_policy("bad", policy);
+    const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+    CHECK(episode.reason == "policy_error");
+    CHECK_THAT(episode.detail, Catch::Contains(what));
+  }
+  const auto core = session(folder, R"(policy("nobody"),)");
+  const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+  CHECK_THAT(episode.detail, Catch::Contains("nobody has registered it"));
+  CHECK_THROWS_WITH(core->add_policy("", {}), Catch::Contains("has a name"));
+
+  // Time is up, or it says that it is done: the effect is tested.
+  for (const bool waits : {true, false}) {
+    const auto still = session(folder, R"(policy("still", { seconds = 0.5 }),)");
+    still->add_policy("still", entry([waits](const auto&, int) {
+                        return waits ? std::optional<AgentAction>({.space = "gripper", .values = {0.04}})
+                                     : std::nullopt;
+                      }));
+    const Episode idle = still->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+    CHECK(idle.reason == "effect_mismatch");
+    const std::int64_t frames = waits ? 10 : 0;
+    CHECK(idle.frames > frames);
+  }
+}
+
+TEST_CASE("a policy may ask for paths and skills, between set-points") {
+  const Folder folder;
+  const auto core = session(
+      folder,
+      R"(function(robot, p) robot:policy("mixed", { until_effect = false }) robot:move_to(robot:tip():with_position(robot:view():pose(p.target):position())) end,)");
+  core->add_policy("mixed", entry([](const EnvironmentObservation& now, int frame) -> std::optional<AgentAction> {
+                     if (frame < 5) return AgentAction{.space = "joint_velocity", .values = {0.2, 0, 0, 0, 0, 0, 0}};
+                     if (frame == 5) {
+                       std::vector<double> pose = now["gripper_pose"].reals();
+                       pose[2] += 0.05;
+                       return AgentAction{.space = "tool_path", .values = pose};
+                     }
+                     if (frame < 9) return AgentAction{.space = "joint_delta", .values = {0, 0, 0, 0, 0, 0, 0.05}};
+                     return std::nullopt;
+                   }));
+  const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+  CAPTURE(episode.reason, episode.detail);
+  CHECK(episode.outcome == Outcome::success);
+  std::vector<std::string> motions;
+  for (const SegmentRecord& one : episode.record->segments)
+    if (one.kind == SegmentKind::motion) motions.push_back(one.skill);
+  CHECK(motions ==
+        std::vector<std::string>{"policy", "brake", "move_to", "policy", "brake", "move_to", "settle", "hold"});
+  CHECK(replay_episode(*episode.record).empty());
+}
+
+TEST_CASE("what comes later in the order of priorities does not disturb what comes before") {
+  Random random(RandomKey("priorities"));
+  const auto drawn = [&](Eigen::Index rows) {
+    Objective one{Eigen::MatrixXd(rows, 7), Eigen::VectorXd(rows)};
+    for (double& value : one.jacobian.reshaped()) value = random.normal();
+    for (double& value : one.rate) value = random.normal();
+    return one;
+  };
+  for (int i = 0; i < 20; ++i) {
+    const std::vector<Objective> all = {drawn(3), drawn(2), drawn(4)};
+    const Eigen::VectorXd rate = by_priority(all, 7);
+    CHECK((all[0].jacobian * rate - all[0].rate).norm() < 0.02 * (1 + all[0].rate.norm()));
+    const Eigen::VectorXd first = by_priority({all[0]}, 7);
+    CHECK((all[0].jacobian * (rate - first)).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("the tool stays while the elbow moves away") {
+  const Folder folder;
+  const auto core =
+      session(folder, R"(policy("keep_tool", { with = { elbow = 0.3 }, until_effect = false, seconds = 6 }),)");
+  const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+  const auto& frames = episode.record->frames;
+  const SegmentRecord& skill = skill_of(episode);
+  const FrameRecord &first = frames.at(static_cast<std::size_t>(skill.span.first_frame)),
+                    &last = frames.at(static_cast<std::size_t>(skill.span.end_frame) - 1);
+  CHECK(std::abs(last.joint_position[0] - first.joint_position[0]) > 0.25);
+  for (const FrameRecord& frame : frames)
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(std::abs(frame.hands[0].tip.position[i] - first.hands[0].tip.position[i]) < 3e-3);
+}
+
+}  // namespace stampede::program
