@@ -25,10 +25,6 @@ SkillEnd told(const SegmentRecord& segment, const PlanStep& step, const SkillRes
           segment.effect_held, segment.missing_effects};
 }
 
-SensorReader sensors_of(const Scene& scene, const EpisodeRecord& record) {
-  return {scene, chosen(observation_of(record)), sensor_key(record.task, record.variation, record.seed)};
-}
-
 }  // namespace
 
 Acting::Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& settings, EpisodeRecord described_record,
@@ -73,16 +69,15 @@ void Acting::look_at_hand() {
 
 std::optional<ActionRefusal> Acting::begin_skill(const AgentAction& action, StepResult& result) {
   const Domain& domain = rollout.domain();
-  std::vector<std::string> names;
-  for (const Action& one : domain.actions) names.push_back(one.name);
-  if (domain.action(action.skill) == nullptr)
+  if (domain.action(action.skill) == nullptr) {
+    std::vector<std::string> names;
+    for (const Action& one : domain.actions) names.push_back(one.name);
     return ActionRefusal{"there is no skill '" + action.skill + "'", did_you_mean(action.skill, names)};
+  }
   SkillRequest request;
   request.step = {action.skill, action.arguments};
   request.set_by = ChosenBy::agent;
-  for (const SkillParameter& parameter : action.parameters)
-    request.set.values.push_back({parameter.name, 0, parameter.values});
-  request.set.controller = controller_from(action.controller);
+  request.set = settings_of(action);
   // Looked at before anything that runs is cut off: a refusal leaves all as it is.
   if (const auto mistake = track.execution().mistake_in(request)) return ActionRefusal{mistake->what(), {}};
   end_running(result, "another skill");
@@ -115,7 +110,7 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
   end_running(result, "another action");
   if (over != Reason::none) return std::nullopt;
   if (!rollout.at_frame() || reference_moves(world)) {  // it was planned from rest: brake, then plan from there
-    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+    world.apply(rest(world));
     open_control();
     for (int i = 0; i < 20 && over == Reason::none && !success &&
                     (i == 0 || world.reference().velocity.cwiseAbs().maxCoeff() > 1e-9);
@@ -140,24 +135,18 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
   FollowOptions follow;
   follow.kind = "move_to";
   follow.keep = rollout.keep;
-  SegmentRecord segment;
-  segment.kind = SegmentKind::motion;
-  segment.parent = track.subgoal_segment();
-  segment.robot = world.scene().robot.name;
-  segment.skill = follow.kind;
-  segment.controller = to_string(world.controller().kind);
+  running.segment =
+      rollout.open_motion(follow.kind, track.subgoal_segment(), std::string(to_string(world.controller().kind)));
   running.what = Running::What::path;
   running.name = action.space;
   running.path = make_follow(std::move(planned.trajectory), std::move(follow));
-  running.segment = rollout.recorder().open_segment(std::move(segment), rollout.step());
   return std::nullopt;
 }
 
 void Acting::begin_hold(StepResult& result) {
   end_running(result, "another action");
   World& world = rollout.world();
-  if (world.steered())
-    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+  if (world.steered()) world.apply(rest(world));
   to_frame();
   if (over != Reason::none || success) return;
   close_control();
@@ -187,15 +176,9 @@ void Acting::to_frame() {
 
 void Acting::open_control() {
   controlled = true;
-  const std::string controller(to_string(rollout.world().controller().kind));
   if (control_segment >= 0) return;
-  SegmentRecord segment;
-  segment.kind = SegmentKind::motion;
-  segment.parent = track.subgoal_segment();
-  segment.robot = rollout.view().scene().robot.name;
-  segment.skill = kControl;
-  segment.controller = controller;
-  control_segment = rollout.recorder().open_segment(std::move(segment), rollout.step());
+  control_segment =
+      rollout.open_motion(kControl, track.subgoal_segment(), std::string(to_string(rollout.world().controller().kind)));
 }
 
 void Acting::close_control() {

@@ -23,8 +23,17 @@ struct Running {
   int segment = -1;  // of a path
 };
 
+// Where an episode stands beside its rollout: what a saved state holds of it.
+struct ActingPlace {
+  std::size_t skills = 0;      // begun so far: the place of the next one
+  std::int64_t held = -1;      // frames for which the goal has held without a skill; -1: it does not
+  bool controlled = false;     // low-level actions since the last skill: the hand may hold something else
+  int control_segment = -1;    // open; -1: none
+  std::vector<PlanStep> done;  // skills, for the episode's plan
+};
+
 // Lifetime: refers to settings and renderer.
-struct Acting {
+struct Acting : ActingPlace {
   Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& settings, EpisodeRecord described_record,
          const PreparedStart& start, std::unique_ptr<Renderer>& renderer);
 
@@ -45,11 +54,6 @@ struct Acting {
   std::vector<ActionSpace> spaces;
   std::optional<DenseReward> dense;
   Running running;
-  std::size_t skills = 0;      // begun so far: the place of the next one
-  std::int64_t held = -1;      // frames for which the goal has held without a skill; -1: it does not
-  bool controlled = false;     // low-level actions since the last skill: the hand may hold something else
-  int control_segment = -1;    // open; -1: none
-  std::vector<PlanStep> done;  // skills, for the episode's plan
   Reason over = Reason::none;
   bool success = false, ended = false;
   std::optional<EnvironmentObservation> last;  // once the record has been given away

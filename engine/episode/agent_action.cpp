@@ -108,6 +108,17 @@ void set_hand(double opening, const World& world, std::vector<Operation>& operat
 
 }  // namespace
 
+Operation rest(const World& world) {
+  return operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())};
+}
+
+CallSettings settings_of(const AgentAction& action) {
+  CallSettings set;
+  for (const SkillParameter& one : action.parameters) set.values.push_back({one.name, 0, one.values});
+  set.controller = controller_from(action.controller);
+  return set;
+}
+
 bool is_planned(std::string_view space) { return space == "tool_path" || space == "tool_path_delta"; }
 
 bool lasts_a_frame(std::string_view space) {
@@ -205,7 +216,7 @@ std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAc
   const auto joints = static_cast<std::size_t>(arm.joints());
   const std::string& space = action.space;
   if (space == "gripper") {
-    if (world.steered()) operations.push_back(Servo{Servo::Of::velocity, JointVector::Zero(arm.joints())});
+    if (world.steered()) operations.push_back(rest(world));
     set_hand(action.values[0], world, operations);
     return operations;
   }

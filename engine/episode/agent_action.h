@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/sim/world.h"
+#include "engine/episode/interfaces.h"
 #include "stampede/action.h"
 #include "stampede/environment.h"
 
@@ -26,6 +26,12 @@ std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAc
 
 // Where a tool space's values lead: of tool_pose, tool_delta, tool_impedance, tool_path and tool_path_delta.
 Transform tool_target(const AgentAction& action, const World& world);
+
+// What brings an arm to rest that an agent steers.
+Operation rest(const World& world);
+
+// What a skill action sets of its call.
+CallSettings settings_of(const AgentAction& action);
 
 bool is_planned(std::string_view space);     // tool_path, tool_path_delta
 bool lasts_a_frame(std::string_view space);  // all but these, skill, hold and go_on

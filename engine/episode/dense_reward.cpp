@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/episode/effects.h"
-#include "engine/episode/planning.h"
 #include "engine/symbolic/drawn_choice.h"
 
 namespace stampede {
@@ -22,8 +21,7 @@ DenseReward::DenseReward(Rollout& rollout, Symbols& symbols, RandomKey key)
 }
 
 // Do the steps from `from` on work, one after the other, and end in the goal?
-bool DenseReward::leads(std::size_t from, Facts facts) const {
-  const PlanningTask asked = planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage());
+bool DenseReward::leads(std::size_t from, Facts facts, const PlanningTask& asked) const {
   const auto& objects = asked.problem.objects;
   for (std::size_t i = from; i < state_.plan.size(); ++i) {
     const Action& action = *asked.domain.action(state_.plan[i].action);
@@ -36,18 +34,16 @@ bool DenseReward::leads(std::size_t from, Facts facts) const {
 
 // Has the present step begun to do what it should, so that the rest works once it has? What it brings about comes true
 // one fact after the other: in between neither it nor what follows is possible.
-bool DenseReward::under_way() const {
+bool DenseReward::under_way(const Facts& now, const PlanningTask& asked) const {
   if (state_.next >= state_.plan.size()) return false;
-  const PlanningTask asked = planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage());
   const auto& objects = asked.problem.objects;
   const PlanStep& step = state_.plan[state_.next];
   const Action& action = *asked.domain.action(step.action);
-  const Facts now = with_derived(asked.problem.init, asked.domain, objects);
   const std::vector<Literal> effects = ground_effects(action, step.arguments, now, asked.domain, objects);
   const auto came = [&](const Literal& one) { return !one.negated && now.contains(one.fact); };
   if (std::none_of(effects.begin(), effects.end(), came)) return false;
   return leads(state_.next + 1,
-               with_derived(apply(action, step.arguments, now, asked.domain, objects), asked.domain, objects));
+               with_derived(apply(action, step.arguments, now, asked.domain, objects), asked.domain, objects), asked);
 }
 
 void DenseReward::look() {
@@ -59,11 +55,11 @@ void DenseReward::look() {
   const Facts now = with_derived(asked.problem.init, asked.domain, asked.problem.objects);
   state_.lost = false;
   for (std::size_t i = state_.plan.size() + 1; i-- > 0;)  // the shortest rest that will do; of a goal that holds, none
-    if (leads(i, now)) {
+    if (leads(i, now, asked)) {
       state_.next = i;
       return;
     }
-  if (under_way()) return;
+  if (under_way(now, asked)) return;
   const PlanOutcome found = solve_drawn(asked.domain, asked.problem, {}, key_);
   state_.lost = !found.solved;
   if (state_.lost) return;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "engine/episode/planning.h"
 #include "engine/episode/rollout.h"
 
 namespace stampede {
@@ -31,8 +32,8 @@ class DenseReward {
 
  private:
   void look();  // plans again when facts have changed and no rest of the present plan leads to the goal
-  bool leads(std::size_t from, Facts facts) const;
-  bool under_way() const;
+  bool leads(std::size_t from, Facts facts, const PlanningTask& asked) const;
+  bool under_way(const Facts& now, const PlanningTask& asked) const;
   double nearness() const;
 
   Rollout& rollout_;

@@ -30,11 +30,7 @@ struct SavedState::Data {
   std::string identity;  // of task, variation, seed and rates
   Rollout::Branch branch;
   SkillTrack::State track;
-  std::size_t skills = 0;
-  std::int64_t held = -1;
-  bool controlled = false;
-  int control_segment = -1;
-  std::vector<PlanStep> done;
+  ActingPlace place;
   std::optional<DenseReward::State> dense;
 };
 
@@ -233,8 +229,8 @@ SavedState Environment::save() {
   if (own.running.what != Running::What::nothing)
     throw Error("Environment::save", own.running.name + " is under way", "let it go_on to its end, or act otherwise");
   auto data = std::make_shared<SavedState::Data>(
-      SavedState::Data{own.identity, own.rollout.branch(), own.track.state(), own.skills, own.held, own.controlled,
-                       own.control_segment, own.done, own.dense ? std::optional(own.dense->state()) : std::nullopt});
+      SavedState::Data{own.identity, own.rollout.branch(), own.track.state(), own,
+                       own.dense ? std::optional(own.dense->state()) : std::nullopt});
   return {std::move(data)};
 }
 
@@ -250,11 +246,7 @@ EnvironmentObservation Environment::restore(const SavedState& state) {
   const SavedState::Data& data = *state.data;
   own.rollout.restore(data.branch);
   own.track.restore(data.track);
-  own.skills = data.skills;
-  own.held = data.held;
-  own.controlled = data.controlled;
-  own.control_segment = data.control_segment;
-  own.done = data.done;
+  static_cast<ActingPlace&>(own) = data.place;
   own.over = data.branch.ended;
   if (own.dense && data.dense) own.dense->restore(*data.dense);
   own.success = false;
@@ -272,7 +264,7 @@ Episode Environment::episode() {
   if (!own.success && own.over == Reason::none)
     verdict = {Reason::goal_false, "the agent ended the episode before the goal had held long enough"};
   own.finish(verdict);
-  return impl_->source->close(std::move(own.record), own.opened.options, own.opened.owner);
+  return impl_->source->close(std::move(own.record), own.opened.owner);
 }
 
 Environment make_environment(std::shared_ptr<EpisodeSource> source, EnvironmentSettings settings) {
@@ -300,11 +292,10 @@ const std::vector<std::string>& ChannelValue::texts() const {
 }
 
 const ChannelValue& EnvironmentObservation::operator[](std::string_view name) const {
-  std::vector<std::string> names;
-  for (const ChannelValue& one : channels) {
+  for (const ChannelValue& one : channels)
     if (one.name == name) return one;
-    names.push_back(one.name);
-  }
+  std::vector<std::string> names;
+  for (const ChannelValue& one : channels) names.push_back(one.name);
   throw Error("channel '" + std::string(name) + "'", "it was not asked for", did_you_mean(name, names));
 }
 

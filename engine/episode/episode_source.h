@@ -42,7 +42,7 @@ class EpisodeSource {
   virtual Opened open(const ResetRequest& request) = 0;
 
   // One that has ended: gets its key and definitions, and is stored where there is a catalogue.
-  virtual Episode close(EpisodeRecord record, const RunOptions& options, const std::shared_ptr<void>& owner) = 0;
+  virtual Episode close(EpisodeRecord record, const std::shared_ptr<void>& owner) = 0;
 
   // What one was recorded as, from memory or the catalogue. Throws Error.
   virtual std::shared_ptr<const EpisodeRecord> record_of(const Episode& episode) = 0;

@@ -2,18 +2,9 @@
 
 namespace stampede {
 
-int open_hold(Rollout& rollout, int parent_segment) {
-  SegmentRecord segment;
-  segment.kind = SegmentKind::motion;
-  segment.parent = parent_segment;
-  segment.robot = rollout.view().scene().robot.name;
-  segment.skill = kHold;
-  return rollout.recorder().open_segment(std::move(segment), rollout.step());
-}
-
 GoalWatch::GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, int parent_segment)
     : rollout_(rollout), patience_(patience), hold_(hold) {
-  result_.segment = open_hold(rollout, parent_segment);
+  result_.segment = rollout.open_motion(kHold, parent_segment);
   seen_ = rollout_.at_frame() && rollout_.goal_holds();
 }
 

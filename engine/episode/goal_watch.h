@@ -7,7 +7,6 @@
 namespace stampede {
 
 inline constexpr const char* kHold = "hold";  // the motion's name
-int open_hold(Rollout& rollout, int parent_segment);
 
 // Ticked like a skill's call; nobody planned it, so it is no skill but one motion segment, `hold`. Waits until the goal
 // holds (`patience` frames at most, else goal_false) and then for `hold` frames more, through which it must stay true

@@ -40,8 +40,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
   World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
   WorldView view(world);
   const FrameReader reader(view);
-  SensorReader sensors(world.scene(), chosen(observation_of(episode)),
-                       sensor_key(episode.task, episode.variation, episode.seed));
+  SensorReader sensors = sensors_of(world.scene(), episode);
   const std::int64_t per_frame = episode.physics_hz / episode.frame_hz;
   std::vector<FrameRecord> frames;
   std::size_t next = 0;

@@ -83,6 +83,16 @@ Rollout::Checkpoint Rollout::checkpoint() {
   return {world_.snapshot(), view_.history(), facts_.save(), recorder_.mark(), sensors_.mark(), keep, stage_};
 }
 
+int Rollout::open_motion(std::string kind, int parent_segment, std::string controller) {
+  SegmentRecord segment;
+  segment.kind = SegmentKind::motion;
+  segment.parent = parent_segment;
+  segment.robot = view_.scene().robot.name;
+  segment.skill = std::move(kind);
+  segment.controller = std::move(controller);
+  return recorder_.open_segment(std::move(segment), step());
+}
+
 void Rollout::keep_record(bool wanted) {
   keeps_record_ = wanted;
   world_.keep_log(wanted);

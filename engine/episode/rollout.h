@@ -48,6 +48,9 @@ class Rollout {
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
 
+  // Opens the segment of a motion, here and now. Result: its ordinal.
+  int open_motion(std::string kind, int parent_segment, std::string controller = {});
+
   // A skill's call is under way; there is one at a time.
   bool calling = false;
 

@@ -102,8 +102,9 @@ void SensorReader::forget() {
   }
 }
 
-RandomKey sensor_key(const std::string& task, const std::string& variation, std::int64_t seed) {
-  return RandomKey("sensor noise").with(task).with(variation).with(seed);
+SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode) {
+  return {scene, chosen(observation_of(episode)),
+          RandomKey("sensor noise").with(episode.task).with(episode.variation).with(episode.seed)};
 }
 
 }  // namespace stampede

@@ -41,6 +41,7 @@ class SensorReader {
   std::vector<ChannelRecord> channels_;
 };
 
-RandomKey sensor_key(const std::string& task, const std::string& variation, std::int64_t seed);
+// As the episode's own options want them, with the noise that is its own.
+SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode);
 
 }  // namespace stampede

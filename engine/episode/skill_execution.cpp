@@ -272,14 +272,11 @@ bool SkillExecution::go_on_with_policy(RandomKey key) {
   if (asked->space != "skill") return plan_motion(robot_call::MoveThrough{{{"goal", tool_target(*asked, world)}}}, key);
   const Action* action = rollout_.domain().action(asked->skill);
   if (action == nullptr) return finish({Reason::policy_error, "there is no skill '" + asked->skill + "'"});
-  AskedCall call{action->skill, action->case_name, asked->arguments, {}};
-  for (const SkillParameter& one : asked->parameters) call.set.values.push_back({one.name, 0, one.values});
-  call.set.controller = controller_from(asked->controller);
   SkillRequest request;
   request.step = {asked->skill, asked->arguments};
-  request.set = call.set;
+  request.set = settings_of(*asked);
   if (const auto mistake = mistake_in(request)) return finish({Reason::policy_error, mistake->what()});
-  return start_child(call, key);
+  return start_child({action->skill, action->case_name, asked->arguments, request.set}, key);
 }
 
 bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
@@ -412,13 +409,7 @@ void SkillExecution::interrupt(const std::string& why) {
 }
 
 int SkillExecution::open_motion_segment(const std::string& kind) {
-  SegmentRecord segment;
-  segment.kind = SegmentKind::motion;
-  segment.parent = context_.segment;
-  segment.robot = rollout_.view().scene().robot.name;
-  segment.skill = kind;
-  segment.controller = rollout_.recorder().segment(context_.segment).controller;
-  return rollout_.recorder().open_segment(std::move(segment), rollout_.step());
+  return rollout_.open_motion(kind, context_.segment, rollout_.recorder().segment(context_.segment).controller);
 }
 
 void SkillExecution::close(int segment, const SkillResult& result) {

@@ -26,8 +26,7 @@ const PolicyEntry& entry_of(const RunOptions& options, const std::string& name) 
 MotionResult failed(std::string detail) { return {MotionStatus::failed, Reason::policy_error, std::move(detail)}; }
 
 void stop(World& world) {
-  if (world.steered())
-    world.apply(operation::Servo{operation::Servo::Of::velocity, JointVector::Zero(world.arm().joints())});
+  if (world.steered()) world.apply(rest(world));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ void SkillTrack::forget() {
 
 void SkillTrack::close(const SkillResult& verdict) {
   if (!rollout_.at_frame() || rollout_.step() == 0) {
-    const int hold = open_hold(rollout_, subgoal_segment_);
+    const int hold = rollout_.open_motion(kHold, subgoal_segment_);
     do rollout_.advance();
     while (!rollout_.at_frame());  // also after an end between two frames: a frame is what is recorded and replayed
     rollout_.recorder().close_segment(hold, rollout_.step(), Outcome::success, Reason::none, {});

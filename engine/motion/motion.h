@@ -26,7 +26,6 @@ struct PlannedVia {
   std::int64_t step = 0;  // planned passage, in steps from the motion's start
 };
 
-// Embedders may write their own: a policy is a Motion too.
 class Motion {
  public:
   virtual ~Motion() = default;

@@ -31,7 +31,7 @@ class PreparedSource final : public EpisodeSource {
     EpisodeScripts& scripts = prepared_.scripts();
     return {scripts.task(), &scripts.symbols(), &scripts.skills(), prepared_.options(), nullptr};
   }
-  Episode close(EpisodeRecord record, const RunOptions&, const std::shared_ptr<void>&) override {
+  Episode close(EpisodeRecord record, const std::shared_ptr<void>&) override {
     record.options["policy"] = policy_;
     prepared_.complete(record);
     record.key = acted_key(record);
@@ -48,7 +48,7 @@ class PreparedSource final : public EpisodeSource {
   EpisodeRecord failed(Reason reason, const std::string& detail) {
     EpisodeRecord record = prepared_.failed(reason, detail);
     record.options["behaviour"] = "agent";
-    close(std::move(record), prepared_.options(), nullptr);
+    close(std::move(record), nullptr);
     return take();
   }
 

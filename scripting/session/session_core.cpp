@@ -168,7 +168,7 @@ class TaskSource final : public EpisodeSource {
             prepared->options(), prepared};
   }
 
-  Episode close(EpisodeRecord record, const RunOptions&, const std::shared_ptr<void>& owner) override {
+  Episode close(EpisodeRecord record, const std::shared_ptr<void>& owner) override {
     const std::lock_guard lock(core_->mutex_);
     static_cast<const PreparedEpisode*>(owner.get())->complete(record);
     record.key = acted_key(record);
