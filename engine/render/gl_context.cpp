@@ -3,6 +3,7 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <mutex>
 
@@ -41,6 +42,15 @@ const OsMesa& osmesa() {
 void settle_environment() {
   static std::once_flag once;
   std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", 1); });
+}
+
+// A static object may hold a renderer. It goes when the process ends, after what Mesa keeps for all contexts: Mesa is
+// loaded later, and what was made last goes first. From then on contexts are left to the process's end.
+std::atomic<bool> process_ends = false;
+
+void watch_for_the_end() {
+  static std::once_flag once;
+  std::call_once(once, [] { std::atexit([] { process_ends = true; }); });
 }
 
 }  // namespace
@@ -84,9 +94,11 @@ GlContext::GlContext() : inside_(std::make_unique<Inside>()) {
     throw Error("renderer", "OSMesa gives no OpenGL 4.5 core context", "install libosmesa6 22 or later");
   make_current();
   gl_ = load_gl_functions();
+  watch_for_the_end();
 }
 
 GlContext::~GlContext() {
+  if (process_ends) return;
   if (osmesa().current() == inside_->context) osmesa().make_current(nullptr, nullptr, 0, 0, 0);
   osmesa().destroy(inside_->context);
 }
