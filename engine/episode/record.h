@@ -14,7 +14,7 @@
 #include "engine/model/masks.h"
 #include "engine/sim/world.h"
 #include "engine/symbolic/symbols.h"
-#include "stampede/outcome.h"
+#include "stampede/episode.h"
 
 namespace stampede {
 

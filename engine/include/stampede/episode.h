@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "stampede/outcome.h"
 #include "stampede/picture.h"
 
 namespace stampede {
@@ -16,6 +15,16 @@ namespace stampede {
 struct EpisodeRequest {
   std::string variation = {};  // canonical text, or axes of it (`colour=red`: the first that has them); empty: first
   std::int64_t seed = 0;       // from 1'000'000 up: the test split
+enum class Outcome { success, failure };
+
+// What is done about a failed skill. undo: back to the last skill boundary and the next draws; stop: the failure is the
+// episode; recover: plan again.
+enum class OnFailure { undo, stop, recover };
+
+// What decides on the next skill: a plan for the goal, or seeded draws: of any skill and arguments of the right types
+// and traits, or of those whose precondition holds. Draws include continuous parameters; failures stay in the episode.
+enum class Behaviour { plan, random_skills, random_applicable };
+
   OnFailure on_failure = OnFailure::undo;
   std::string controller = {};  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
   // Continuous parameters and controllers of skills, instead of what is drawn: `pick.height=0.2`, `push.direction=1,0`,

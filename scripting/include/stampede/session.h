@@ -11,7 +11,6 @@
 #include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
-#include "stampede/outcome.h"
 #include "stampede/picture.h"
 #include "stampede/rows.h"
 #include "stampede/task_plan.h"
