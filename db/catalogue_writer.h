@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "db/catalogue.h"
+#include "engine/episode/episode_queue.h"
 
 namespace stampede {
 
@@ -18,20 +19,15 @@ struct CatalogueWriterOptions {
   std::function<void(std::int64_t id, const EpisodeRecord& episode)> committed;
 };
 
-// Every episode of a run has a place, 0, 1, 2 …, and is committed in that order; each place is finished or abandoned
-// once. Start the work on them in this order: then a full queue can never hold up the next in line.
 // Repeatable: the rows and their ids depend on the places only, not on who finishes first.
-class CatalogueWriter {
+class CatalogueWriter final : public EpisodeSink {
  public:
   CatalogueWriter(const std::filesystem::path& path, CatalogueWriterOptions options);
-  ~CatalogueWriter();  // as finish(), but throws nothing
+  ~CatalogueWriter() override;  // as finish(), but throws nothing
 
-  bool has(std::string_view key) const;  // stored already, by another run too, or received
-
-  // One whose key is stored (by another run too), or that was interrupted, leaves no trace. Throws CatalogueError once
-  // writing has failed.
-  void finished(std::int64_t place, EpisodeRecord episode);
-  void abandon(std::int64_t place);  // it will not come: do not wait for it
+  bool has(std::string_view key) const override;                      // stored already, by another run too, or received
+  void finished(std::int64_t place, EpisodeRecord episode) override;  // throws CatalogueError once writing has failed
+  void abandon(std::int64_t place) override;
 
   // Commits what has arrived, in order, over the gaps of what has not, and closes the file. Throws CatalogueError.
   void finish();
