@@ -42,7 +42,7 @@ void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, 
       if (i >= count) return;
       try {
         work(i, renderer);
-      } catch (const std::exception&) {
+      } catch (...) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();
         failed = true;
@@ -77,7 +77,7 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
 }  // namespace
 
 RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, const RunSettings& settings,
-                  CatalogueWriter* writer) {
+                  EpisodeSink* sink) {
   RunTally tally;
   tally.total = jobs.size();
   const std::atomic<bool>* stop = settings.stop;
@@ -95,8 +95,8 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
       const EpisodeJob job = jobs[place];
       PreparedEpisode prepared(library, job, options_for(job.task, renderer));
       const auto is_there = [&](const std::string& key) {
-        if (!writer || !writer->has(key)) return false;
-        writer->abandon(place);
+        if (!sink || !sink->has(key)) return false;
+        sink->abandon(place);
         const std::lock_guard lock(mutex);
         ++tally.existing;
         ++tally.tasks[job.task].existing;
@@ -105,7 +105,7 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
       if (!settings.act && is_there(prepared.key())) return;
       EpisodeRecord episode = settings.act ? settings.act(prepared) : prepared.run(stop);
       if (episode.reason == Reason::interrupted) {
-        if (writer) writer->abandon(place);
+        if (sink) sink->abandon(place);
         return;
       }
       if (settings.act && is_there(episode.key)) return;
@@ -114,9 +114,9 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
         count_episode(episode, tally);
         if (settings.progress) settings.progress(episode, tally);
       }
-      if (writer) writer->finished(place, std::move(episode));
-    } catch (const std::exception&) {
-      if (writer) writer->abandon(place);  // the others must not wait for it
+      if (sink) sink->finished(place, std::move(episode));
+    } catch (...) {
+      if (sink) sink->abandon(place);  // the others must not wait for it
       throw;
     }
   });

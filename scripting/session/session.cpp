@@ -20,6 +20,8 @@ std::vector<std::string> Session::variations(const std::string& task) const { re
 
 Episode Session::run(const std::string& task, const EpisodeRequest& request) { return impl_->core->run(task, request); }
 
+RunTally Session::run_all(const RunRequest& request) { return impl_->core->run_all(request); }
+
 void Session::add_policy(const std::string& name, PolicyEntry entry) {
   impl_->core->add_policy(name, std::move(entry));
 }

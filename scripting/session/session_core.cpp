@@ -1,5 +1,8 @@
 #include "scripting/session/session_core.h"
 
+#include <exception>
+#include <thread>
+
 #include "engine/episode/abstract_state.h"
 #include "engine/episode/arrays.h"
 #include "engine/episode/episode_source.h"
@@ -9,6 +12,7 @@
 #include "scripting/session/episode_job.h"
 #include "scripting/session/numerics.h"
 #include "scripting/session/roots.h"
+#include "scripting/session/run_job.h"
 #include "scripting/session/settings_fit.h"
 #include "scripting/session/start_question.h"
 
@@ -89,6 +93,29 @@ Episode told(const EpisodeRecord& record) {
   return episode;
 }
 
+std::vector<std::string> keys_in(const Catalogue& catalogue) {
+  std::vector<std::string> keys;
+  for (const auto& row : catalogue.query("SELECT key FROM episode", {{}, 0}).rows)
+    keys.push_back(std::get<std::string>(row[0]));
+  return keys;
+}
+
+JobList jobs_of(const std::shared_ptr<const Library>& library, const RunRequest& asked, const RunOptions& options) {
+  if (asked.tasks.empty()) throw Error("RunRequest::tasks", "no task is named", "name one of Session::tasks()");
+  if (asked.episodes < 1) throw Error("RunRequest::episodes", "it is at least 1");
+  if (asked.workers < 1) throw Error("RunRequest::workers", "it is at least 1");
+  check_split(options.split, asked.each.seed, asked.each.seed + asked.episodes - 1);
+  JobRequest request{asked.tasks, asked.episodes, asked.each.seed, asked.each.variation};
+  if (options.where || options.goal) {
+    request.variations.emplace();
+    for (const std::string& task : asked.tasks)
+      (*request.variations)[task] =
+          fitting_variations(library, task, matching_variations(task_info(*library, task), asked.each.variation),
+                             asked.each.seed, options);
+  }
+  return JobList(*library, request);
+}
+
 TaskPlan told(const PlanOutcome& outcome) {
   TaskPlan plan;
   plan.found = outcome.solved;
@@ -127,10 +154,15 @@ std::optional<Episode> SessionCore::stored(const std::string& key) {
   return episode;
 }
 
-PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
+RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
   RunOptions options = options_of(request);
   options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
   options.policies = policies_;
+  return options;
+}
+
+PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
+  const RunOptions options = options_for(request);
   const std::vector<std::string> variations = fitting_variations(
       library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
   return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};
@@ -150,6 +182,62 @@ Episode SessionCore::keep(EpisodeRecord made) {
   else
     episode.id = catalogue_to_write().add(*record, {STAMPEDE_VERSION, numerics_probe()});
   return episode;
+}
+
+Episode SessionCore::keep_for(const RunRequest& request, EpisodeRecord made) {
+  if (!request.sink) {
+    const std::lock_guard lock(mutex_);
+    const std::optional<std::int64_t> id = catalogue_to_write().add_if_new(made, {STAMPEDE_VERSION, numerics_probe()});
+    Episode episode = told(made);
+    episode.id = id ? *id : catalogue_to_write().find(made.key).value_or(0);  // another run may have been faster
+    return episode;
+  }
+  Episode episode = told(made);
+  episode.record = std::make_shared<const EpisodeRecord>(std::move(made));
+  request.sink(episode);
+  return episode;
+}
+
+// Workers run the episodes; this thread keeps them and calls the program's functions.
+RunTally SessionCore::run_all(const RunRequest& request) {
+  RunSettings settings;
+  settings.options = options_for(request.each);
+  settings.workers = request.workers;
+  settings.stop = request.stop;
+  const JobList jobs = jobs_of(library_, request, settings.options);
+  EpisodeQueue queue;
+  if (!request.sink) {
+    if (path_.empty())
+      throw Error("RunRequest", "nobody would keep the episodes", "set SessionOptions::catalogue, or RunRequest::sink");
+    const std::lock_guard lock(mutex_);
+    queue.know(keys_in(catalogue_to_write()));
+  }
+  RunTally tally;
+  std::exception_ptr failed, thrown;  // by the workers; by who keeps the episodes, and by the program's functions
+  std::thread workers([&] {
+    try {
+      tally = run_jobs(library_, jobs, settings, &queue);
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    queue.end();
+  });
+  while (auto next = queue.next()) {
+    bool kept = false;
+    try {
+      const Episode episode = keep_for(request, std::move(next->episode));
+      kept = true;
+      if (request.progress && !thrown) request.progress({episode, next->place + 1, jobs.size()});
+    } catch (...) {
+      if (!thrown) thrown = std::current_exception();
+      queue.fail(thrown);
+      if (!kept) break;
+    }
+  }
+  workers.join();
+  if (thrown) std::rethrow_exception(thrown);
+  if (failed) std::rethrow_exception(failed);
+  return tally;
 }
 
 // A task of this session, for an environment.

@@ -1,4 +1,4 @@
-// What a Session does, behind the public header: the two spell the same enumerations and never meet in one file.
+// What a Session does, behind the public header.
 #pragma once
 
 #include <filesystem>
@@ -28,6 +28,7 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   std::vector<std::string> tasks() const;
   std::vector<std::string> variations(const std::string& task) const;
   Episode run(const std::string& task, const EpisodeRequest& request);
+  RunTally run_all(const RunRequest& request);
   void add_policy(const std::string& name, PolicyEntry entry);
   Environment environment(const std::string& task, const EnvironmentSettings& settings);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
@@ -38,10 +39,12 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   EpisodeArrays arrays(const Episode& episode, const ArrayRequest& request);
 
  private:
+  struct RunOptions options_for(const EpisodeRequest& request) const;
   class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request) const;
   std::optional<Episode> stored(const std::string& key);
   friend class TaskSource;
   Episode keep(EpisodeRecord record);  // in the catalogue, or in the episode
+  Episode keep_for(const RunRequest& request, EpisodeRecord record);
   std::shared_ptr<const EpisodeRecord> record_of(const Episode& episode);
   Catalogue& catalogue();  // opened to be read; throws Error when there is none
   Catalogue& catalogue_to_write();

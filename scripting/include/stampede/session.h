@@ -43,6 +43,10 @@ class STAMPEDE_EXPORT Session {
   // Repeatable: the same episode, bit for bit, in any session of the same scripts.
   Episode run(const std::string& task, const EpisodeRequest& request = {});
 
+  // Runs many episodes in several threads and keeps each, in a fixed order: in the catalogue, where those that it has
+  // already are not run again, or as the request's sink likes. The same bytes for any number of workers.
+  RunTally run_all(const RunRequest& request);
+
   // A controller that skills may have as their body: `run = policy("grasp_net")`, or robot:policy("grasp_net") inside
   // of it. Before the first run that needs it; one of the same name takes the place of the first.
   void add_policy(const std::string& name, PolicyEntry entry);
