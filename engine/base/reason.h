@@ -31,7 +31,8 @@ namespace stampede {
   X(script_error, "a script raised an error")                                 \
   X(budget, "the tries allowed were used up")                                 \
   X(interrupted, "the run was interrupted")                                   \
-  X(policy_error, "a policy failed, or asked for what cannot be done")
+  X(policy_error, "a policy failed, or asked for what cannot be done")        \
+  X(sensor_error, "a sensor of the program failed")
 
 enum class Reason {
 #define X(name, text) name,

@@ -73,7 +73,7 @@ void close_record(Rollout& rollout, const SkillResult& verdict, const std::strin
   }
   record.outcome = success ? Outcome::success : Outcome::failure;
   record.reason = verdict.reason;
-  record.detail = verdict.detail;
+  record.detail = verdict.reason == Reason::sensor_error ? rollout.sensors().failure() : verdict.detail;
   record.steps = rollout.step();
   record.commands = rollout.world().log();
   record.facts = rollout.facts().intervals(record.steps, rollout.steps_per_frame());

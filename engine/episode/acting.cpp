@@ -31,7 +31,7 @@ Acting::Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& setti
                const PreparedStart& start, std::unique_ptr<Renderer>& renderer)
     : opened(std::move(opened_in)),
       record(std::move(described_record)),
-      rollout(*opened.symbols, start, sensors_of(*start.scene, record), nullptr),
+      rollout(*opened.symbols, start, sensors_of(*start.scene, record, opened.options.sensors), nullptr),
       track(rollout, *opened.symbols, *opened.skills, opened.options, draw_key("skill", record)),
       observer(rollout, start.scene, opened.options, settings, record, renderer),
       spaces(action_spaces(*start.scene)) {}

@@ -131,6 +131,7 @@ StepResult Environment::Impl::step(const AgentAction& action) {
     result.terminated = !result.truncated;
     result.reason = to_string(own.over);
     if (own.over != Reason::none) result.detail = describe(own.over);
+    if (own.over == Reason::sensor_error) result.detail = own.rollout.sensors().failure();
   }
   if (own.running.what != Running::What::nothing) result.running = own.running.name;
   // Success is rewarded once; what says how things stand does so again.

@@ -43,6 +43,12 @@ ChannelValue value_of(ArrayColumn column) {
   value.shape = std::move(column.shape);
   if (column.rate_hz > 0 && !value.shape.empty()) value.shape.erase(value.shape.begin());
   std::visit([&](auto& data) { value.data = std::move(data); }, column.data);
+  auto* reals = std::get_if<std::vector<double>>(&value.data);
+  if (reals != nullptr && reals->empty()) {  // a sensor that has not been read yet
+    std::size_t count = 1;
+    for (const std::int64_t extent : value.shape) count *= static_cast<std::size_t>(extent);
+    reals->assign(count, kUnknown);
+  }
   return value;
 }
 

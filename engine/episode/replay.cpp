@@ -4,7 +4,6 @@
 #include "engine/episode/arrays.h"
 #include "engine/episode/recorder.h"
 #include "engine/episode/runner.h"
-#include "engine/episode/sensors.h"
 
 namespace stampede {
 namespace {
@@ -40,7 +39,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
   World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
   WorldView view(world);
   const FrameReader reader(view);
-  SensorReader sensors = sensors_of(world.scene(), episode);
+  SensorReader sensors = sensors_of(world.scene(), episode, nullptr);
   const std::int64_t per_frame = episode.physics_hz / episode.frame_hz;
   std::vector<FrameRecord> frames;
   std::size_t next = 0;
@@ -49,7 +48,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
       while (next < episode.commands.size() && episode.commands[next].step == world.step_count())
         world.apply(episode.commands[next++].operation);
       world.step();
-      sensors.step(world);
+      sensors.step(view);
     }
     if (index > 0) {
       world.close_window();
@@ -60,6 +59,13 @@ std::string replay_episode(const EpisodeRecord& episode) {
   if (std::string found = difference(episode, std::move(frames), sensors.channels()); !found.empty()) return found;
   if (world.state_hash() != episode.state_hash) return "the state at the end differs from the stored hash";
   return {};
+}
+
+std::vector<std::string> not_replayed(const EpisodeRecord& episode) {
+  std::vector<std::string> names;
+  for (const ChannelRecord& channel : episode.channels)
+    if (episode.options.contains("sensor_" + channel.name)) names.push_back(channel.name);
+  return names;
 }
 
 }  // namespace stampede

@@ -28,7 +28,7 @@ Reason Rollout::advance() {
   const auto before = std::chrono::steady_clock::now();  // a host time: reported, never decided upon
   world_.step();
   physics_wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  sensors_.step(world_);
+  sensors_.step(view_);
   facts_.step(view_);
   return ended_ = close_step();
 }
@@ -51,6 +51,7 @@ Reason Rollout::close_frame() {
     sensors_.forget();
   }
   if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return Reason::interrupted;
+  if (!sensors_.failure().empty()) return Reason::sensor_error;
   if (task_.fails && task_.fails(view_)) return Reason::failed_by_task;
   return step() >= horizon_steps_ ? Reason::timeout : Reason::none;
 }

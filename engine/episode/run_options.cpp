@@ -87,6 +87,8 @@ std::map<std::string, std::string> RunOptions::as_text() const {
   if (horizon_s > 0) text["horizon_s"] = std::to_string(horizon_s);
   if (policies)
     for (const auto& [name, entry] : *policies) text["policy_" + name] = entry.version;
+  if (sensors)
+    for (const auto& [name, entry] : *sensors) text["sensor_" + name] = to_text(entry);
   if (planner) text["planner"] = planner_name;
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);

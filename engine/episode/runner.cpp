@@ -72,7 +72,7 @@ EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& 
     check_observation(*start.scene, chosen(observation_of(record)));  // now, not after the run
   }
   if (start.reason != Reason::none) return record;
-  Rollout rollout(symbols, start, sensors_of(*start.scene, record), stop);
+  Rollout rollout(symbols, start, sensors_of(*start.scene, record, options.sensors), stop);
   execute(rollout, symbols, skills, options, record);
   paint(options.renderer, record);
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -8,6 +8,7 @@
 
 #include "engine/episode/interfaces.h"
 #include "engine/episode/observation.h"
+#include "engine/episode/sensors.h"
 #include "engine/model/randomise.h"
 #include "stampede/environment.h"
 
@@ -41,6 +42,8 @@ struct RunOptions {
   std::string planner_name;
   // By name: bodies of skills. Their names and versions are in the key. Null: none but those that come with the engine.
   std::shared_ptr<const std::map<std::string, PolicyEntry>> policies;
+  // Sensors of the program, likewise.
+  SensorEntries sensors;
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
@@ -65,5 +68,7 @@ Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& optio
 // Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
 // difference in words (frame, value, stored, now).
 std::string replay_episode(const EpisodeRecord& episode);
+// What that leaves out: channels of sensors that belong to the program which recorded the episode.
+std::vector<std::string> not_replayed(const EpisodeRecord& episode);
 
 }  // namespace stampede

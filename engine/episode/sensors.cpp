@@ -1,6 +1,10 @@
 #include "engine/episode/sensors.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest.h"
 
 namespace stampede {
 namespace {
@@ -27,7 +31,69 @@ ChannelRecord channel_of(const Sensor& sensor, const Robot& robot) {
   return channel;
 }
 
+// A moving part by the name of its joint: `panda.joint1`, `chest.top_drawer`.
+PartRef joint_named(const Scene& scene, std::string_view name) {
+  std::vector<std::string> names;
+  const auto look = [&](const Body& body, int index) -> std::optional<PartRef> {
+    for (std::size_t part = 1; part < body.parts.size(); ++part) {
+      const Joint& joint = body.parts[part].joint;
+      if (joint.kind == JointKind::fixed) continue;
+      names.push_back(body.name + "." + (joint.name.empty() ? body.parts[part].name : joint.name));
+      if (names.back() == name) return PartRef{index, static_cast<int>(part)};
+    }
+    return std::nullopt;
+  };
+  if (const auto found = look(scene.robot.body, -1)) return *found;
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    if (const auto found = look(scene.bodies[body], static_cast<int>(body))) return *found;
+  throw Error("", "the scene has no joint '" + std::string(name) + "'", did_you_mean(name, names));
+}
+
+Vector3 vector_of(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
+
 }  // namespace
+
+double SimulatorView::time_s() const { return view_->time_s(); }
+
+double SimulatorView::joint_position(std::string_view joint) const {
+  return view_->world().joint_position(joint_named(view_->scene(), joint));
+}
+
+double SimulatorView::joint_velocity(std::string_view joint) const {
+  return view_->world().joint_velocity(joint_named(view_->scene(), joint));
+}
+
+double SimulatorView::joint_effort(std::string_view joint) const {
+  return view_->world().joint_effort(joint_named(view_->scene(), joint));
+}
+
+StatePose SimulatorView::pose(std::string_view object) const {
+  const Pose pose = to_pose(view_->world_from(object));
+  return {std::string(object), pose.position, pose.quaternion};
+}
+
+std::array<double, 3> SimulatorView::velocity(std::string_view object) const {
+  const Vector3 velocity = view_->velocity(object);
+  return {velocity.x(), velocity.y(), velocity.z()};
+}
+
+double SimulatorView::opening_m() const { return view_->opening(); }
+
+double SimulatorView::contact_force(std::string_view one, std::string_view other) const {
+  return view_->contact_force(one, other);
+}
+
+std::optional<double> SimulatorView::distance(const std::array<double, 3>& from,
+                                              const std::array<double, 3>& to) const {
+  const std::optional<RayHit> hit = view_->world().ray(vector_of(from), vector_of(to));
+  return hit ? std::optional(hit->distance) : std::nullopt;
+}
+
+std::string to_text(const SensorEntry& entry) {
+  std::string text = entry.version + "; " + std::to_string(entry.rate_hz) + " Hz; " + entry.unit;
+  for (const std::string& component : entry.components) text += "; " + component;
+  return text;
+}
 
 SensorReader::SensorReader(const Scene& scene, const Observation& observation, RandomKey key)
     : arm_(scene.robot.arm), torque_noise_(observation.torque_noise), key_(key) {
@@ -36,6 +102,42 @@ SensorReader::SensorReader(const Scene& scene, const Observation& observation, R
     channels_.push_back(channel_of(sensor, scene.robot));
     sources_.push_back(
         {sensor, scene.physics_hz / sensor.rate_hz, std::vector<double>(channels_.back().components.size(), 0.0)});
+  }
+}
+
+void SensorReader::add(const Scene& scene, const std::string& name, const SensorEntry& entry) {
+  const std::string where = "sensor '" + name + "'";
+  for (const Sensor& sensor : scene.sensors)
+    if (sensor.name == name) throw Error(where, "world " + scene.world + " has one of that name", "choose another one");
+  if (entry.rate_hz < 1 || scene.physics_hz % entry.rate_hz != 0)
+    throw Error(where, "world " + scene.world + " cannot be read " + std::to_string(entry.rate_hz) + " times a second",
+                "choose a rate that divides its " + std::to_string(scene.physics_hz) + " steps a second");
+  own_.push_back({entry, scene.physics_hz / entry.rate_hz, channels_.size()});
+  ChannelRecord& channel = channels_.emplace_back();
+  channel.name = name;
+  channel.unit = entry.unit;
+  channel.components = entry.components;
+  channel.rate_hz = entry.rate_hz;
+}
+
+void SensorReader::read_own(const Own& own, const WorldView& view) {
+  ChannelRecord& channel = channels_[own.channel];
+  const auto fail = [&](const std::string& what) {
+    failure_ = "sensor '" + channel.name + "' at " + std::to_string(view.time_s()) + " s: " + what;
+  };
+  try {
+    const std::vector<double> values = own.entry.read(SimulatorView(view));
+    if (values.size() != channel.components.size())
+      return fail("it gave " + std::to_string(values.size()) + " values for " +
+                  std::to_string(channel.components.size()) + " components");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i])) return fail(channel.components[i] + " is not a finite number");
+    channel.steps.push_back(view.world().step_count());
+    channel.values.insert(channel.values.end(), values.begin(), values.end());
+  } catch (const std::exception& error) {
+    fail(error.what());
+  } catch (...) {
+    fail("it threw what is no std::exception");
   }
 }
 
@@ -57,7 +159,10 @@ void SensorReader::add_noise(std::size_t index, std::int64_t step, std::vector<d
   for (double& value : values) value += torque_noise_ * random.normal();
 }
 
-void SensorReader::step(const World& world) {
+void SensorReader::step(const WorldView& view) {
+  const World& world = view.world();
+  for (const Own& own : own_)
+    if (failure_.empty() && world.step_count() % own.period == 0) read_own(own, view);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& source = sources_[i];
     const bool mean = source.sensor.kind == kForceTorque;  // contact impulses flicker from step to step
@@ -78,19 +183,18 @@ void SensorReader::step(const World& world) {
 
 SensorReader::Mark SensorReader::mark() const {
   Mark mark;
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    mark.samples.push_back(channels_[i].steps.size());
-    mark.sums.push_back(sources_[i].sums);
-  }
+  for (const ChannelRecord& channel : channels_) mark.samples.push_back(channel.steps.size());
+  for (const Source& source : sources_) mark.sums.push_back(source.sums);
   return mark;
 }
 
 void SensorReader::cut(const Mark& mark) {
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
     channels_[i].steps.resize(mark.samples[i]);
     channels_[i].values.resize(mark.samples[i] * channels_[i].components.size());
-    sources_[i].sums = mark.sums[i];
   }
+  for (std::size_t i = 0; i < sources_.size(); ++i) sources_[i].sums = mark.sums[i];
+  failure_.clear();
 }
 
 void SensorReader::forget() {
@@ -102,9 +206,12 @@ void SensorReader::forget() {
   }
 }
 
-SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode) {
-  return {scene, chosen(observation_of(episode)),
-          RandomKey("sensor noise").with(episode.task).with(episode.variation).with(episode.seed)};
+SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode, const SensorEntries& own) {
+  SensorReader reader(scene, chosen(observation_of(episode)),
+                      RandomKey("sensor noise").with(episode.task).with(episode.variation).with(episode.seed));
+  if (own)
+    for (const auto& [name, entry] : *own) reader.add(scene, name, entry);
+  return reader;
 }
 
 }  // namespace stampede

@@ -1,19 +1,31 @@
-// What the scene's sensors say, at their own rates, while a world is stepped: by the runner, and again by replay.
+// What sensors say, at their own rates, while a world is stepped: those of the scene by the runner, and again by
+// replay; those of the program by the runner alone.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/episode/observation.h"
-#include "engine/sim/world.h"
+#include "engine/episode/world_view.h"
+#include "stampede/world_state.h"
 
 namespace stampede {
+
+using SensorEntries = std::shared_ptr<const std::map<std::string, SensorEntry>>;  // by name; null: none
 
 class SensorReader {
  public:
   // Reads the sensors that the observation wants, and no others. `key` tells episodes apart, for noise.
   SensorReader(const Scene& scene, const Observation& observation, RandomKey key);
 
-  void step(const World& world);  // after every physics step
+  // Beside these, whatever is wanted. Throws Error for a name that is taken, and a rate that does not fit the scene's.
+  void add(const Scene& scene, const std::string& name, const SensorEntry& entry);
+
+  void step(const WorldView& view);  // after every physics step
+  // Why the program's sensors are not read any more; empty: they are.
+  const std::string& failure() const { return failure_; }
 
   struct Mark {
     std::vector<std::size_t> samples;
@@ -23,7 +35,8 @@ class SensorReader {
   void cut(const Mark& mark);  // everything after the mark never happened
   void forget();               // all samples but the last of each channel
 
-  const std::vector<ChannelRecord>& channels() const { return channels_; }  // in the scene's order
+  // The scene's, in its order, then the program's.
+  const std::vector<ChannelRecord>& channels() const { return channels_; }
 
  private:
   struct Source {
@@ -31,7 +44,13 @@ class SensorReader {
     int period = 1;            // steps
     std::vector<double> sums;  // since the last sample
   };
+  struct Own {  // of the program
+    SensorEntry entry;
+    int period = 1;           // steps
+    std::size_t channel = 0;  // place in channels_
+  };
   std::vector<double> read(const Source& source, const World& world) const;
+  void read_own(const Own& own, const WorldView& view);
   void add_noise(std::size_t index, std::int64_t step, std::vector<double>& values) const;
 
   std::vector<int> arm_;
@@ -39,9 +58,14 @@ class SensorReader {
   RandomKey key_;
   std::vector<Source> sources_;
   std::vector<ChannelRecord> channels_;
+  std::vector<Own> own_;
+  std::string failure_;
 };
 
-// As the episode's own options want them, with the noise that is its own.
-SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode);
+// As text for an episode's options: all but what it reads.
+std::string to_text(const SensorEntry& entry);
+
+// As the episode's own options want them, with the noise that is its own; and those of the program.
+SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode, const SensorEntries& own);
 
 }  // namespace stampede

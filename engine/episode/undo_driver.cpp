@@ -70,7 +70,8 @@ SkillResult Undo::run() {
         step_done();
         continue;
       }
-      if (last.reason == Reason::interrupted || ++tries >= drive_.options.tries_per_episode) return last;
+      const bool hopeless = last.reason == Reason::interrupted || last.reason == Reason::sensor_error;
+      if (hopeless || ++tries >= drive_.options.tries_per_episode) return last;
       if (i_ == plan_.size() && i_ > 0) --i_;
       if (i_ < plan_.size()) ++blame_[plan_.steps[i_]];
       if (!try_again(last)) break;

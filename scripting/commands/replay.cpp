@@ -45,10 +45,15 @@ ExitCode do_replay(const Arguments& arguments, Console& console) {
     const EpisodeRecord episode = catalogue.read_episode(id);
     const std::string difference = replay_episode(episode);
     ++(difference.empty() ? same : different);
-    text.object().field("episode", id).field("same", difference.empty()).field("difference", difference).end();
+    text.object().field("episode", id).field("same", difference.empty()).field("difference", difference);
+    text.key("not_replayed").array();
+    for (const std::string& sensor : not_replayed(episode)) text.value(sensor);
+    text.end().end();
     if (json) continue;
-    const std::string verdict =
+    std::string verdict =
         difference.empty() ? fmt::format("same, {} frames", episode.frames.size()) : "DIFFERENT: " + difference;
+    for (const std::string& sensor : not_replayed(episode))
+      verdict += fmt::format("; sensor {} left out: only the program that recorded it can read it", sensor);
     console.out << fmt::format("{:>5}  {} {} seed {}: {}", id, episode.task, episode.variation, episode.seed, verdict)
                 << std::endl;
   }
@@ -67,7 +72,9 @@ CommandRow replay_command() {
           "Simulate stored episodes again and compare every frame, bit for bit",
           "Needs the catalogue only: no scripts and no planner. Without EPISODE it replays all. The first value that "
           "differs is named, and the exit code is then 1. The promise holds for one build on one class of processor; "
-          "where that does not hold it is said first.",
+          "where that does not hold it is said first. Sensors of a program that recorded episodes cannot be read here; "
+          "each "
+          "is named and left out.",
           {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
           {},
           {"stampede replay demos.db", "stampede replay demos.db 3 5"},

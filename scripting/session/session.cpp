@@ -26,6 +26,10 @@ void Session::add_policy(const std::string& name, PolicyEntry entry) {
   impl_->core->add_policy(name, std::move(entry));
 }
 
+void Session::add_sensor(const std::string& name, SensorEntry entry) {
+  impl_->core->add_sensor(name, std::move(entry));
+}
+
 Environment Session::environment(const std::string& task, const EnvironmentSettings& settings) const {
   return impl_->core->environment(task, settings);
 }

@@ -1,5 +1,7 @@
 #include "scripting/session/session_core.h"
 
+#include <algorithm>
+#include <cctype>
 #include <exception>
 #include <thread>
 
@@ -158,6 +160,7 @@ RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
   RunOptions options = options_of(request);
   options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
   options.policies = policies_;
+  options.sensors = sensors_;
   return options;
 }
 
@@ -286,6 +289,23 @@ void SessionCore::add_policy(const std::string& name, PolicyEntry entry) {
   auto all = policies_ ? *policies_ : std::map<std::string, PolicyEntry>{};
   all[name] = std::move(entry);
   policies_ = std::make_shared<const std::map<std::string, PolicyEntry>>(std::move(all));
+}
+
+// The name becomes part of names of columns, and of an option.
+void SessionCore::add_sensor(const std::string& name, SensorEntry entry) {
+  const std::string where = "Session::add_sensor";
+  const auto letter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), letter))
+    throw Error(where, "'" + name + "' is no name for a sensor", "use letters, digits and _");
+  if (!entry.read) throw Error(where, "sensor '" + name + "' has no function that reads it", "set SensorEntry::read");
+  if (entry.components.empty() || std::count(entry.components.begin(), entry.components.end(), std::string()) > 0)
+    throw Error(where, "sensor '" + name + "' does not say what its values are called",
+                "give SensorEntry::components a name for each value");
+  if (entry.rate_hz < 1) throw Error(where, "sensor '" + name + "' is never read", "set SensorEntry::rate_hz");
+  const std::lock_guard lock(mutex_);
+  auto all = sensors_ ? *sensors_ : std::map<std::string, SensorEntry>{};
+  all[name] = std::move(entry);
+  sensors_ = std::make_shared<const std::map<std::string, SensorEntry>>(std::move(all));
 }
 
 Environment SessionCore::environment(const std::string& task, const EnvironmentSettings& settings) {

@@ -30,6 +30,7 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   Episode run(const std::string& task, const EpisodeRequest& request);
   RunTally run_all(const RunRequest& request);
   void add_policy(const std::string& name, PolicyEntry entry);
+  void add_sensor(const std::string& name, SensorEntry entry);
   Environment environment(const std::string& task, const EnvironmentSettings& settings);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
   Rows query(std::string_view question);
@@ -51,6 +52,7 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   std::shared_ptr<const class Library> library_;
   std::mutex mutex_;                                                    // held while an environment asks
   std::shared_ptr<const std::map<std::string, PolicyEntry>> policies_;  // null: none
+  std::shared_ptr<const std::map<std::string, SensorEntry>> sensors_;   // likewise
   std::filesystem::path path_;                                          // of the catalogue; empty: none
   std::optional<Catalogue> catalogue_;
   bool writable_ = false;

@@ -51,6 +51,12 @@ class STAMPEDE_EXPORT Session {
   // of it. Before the first run that needs it; one of the same name takes the place of the first.
   void add_policy(const std::string& name, PolicyEntry entry);
 
+  // Another sensor of every world: read while an episode runs, at its own rate, and part of it as those of the world
+  // are: columns `sensor/NAME` and `sensor_time/NAME` of arrays, channels of environments and policies, view `sensors`.
+  // Before the first run or environment that needs it; one of the same name takes the place of the first. `stampede
+  // replay`, which does not know it, leaves it out and says so.
+  void add_sensor(const std::string& name, SensorEntry entry);
+
   // The task as an environment that the caller steps (stampede/environment.h). It may outlive the session, and act in
   // another thread; episodes that it records go where this session's go.
   Environment environment(const std::string& task, const EnvironmentSettings& settings = {}) const;
