@@ -15,6 +15,7 @@
 namespace stampede {
 namespace {
 
+constexpr std::int64_t kWhoDrives = -1;      // instead of a skill's segment
 constexpr const char* kControl = "control";  // the motion of a stretch of low-level actions
 constexpr int kMostFrames = std::numeric_limits<int>::max();
 
@@ -42,6 +43,22 @@ std::optional<ActionRefusal> Acting::refusal_of(const AgentAction& action) const
   if (action.space == "go_on" && running.what == Running::What::nothing)
     return ActionRefusal{"there is nothing that could go on", "it follows a skill, path or hold that `frames` cut off"};
   return std::nullopt;
+}
+
+std::optional<ActionRefusal> Acting::do_asked(const AgentAction& action, StepResult& result) {
+  rollout.note_asked(action, kWhoDrives);
+  auto refusal = carry_out(action, result);
+  if (refusal) rollout.recorder().refuse_asked(kWhoDrives);
+  return refusal;
+}
+
+void Acting::note_result(const StepResult& result) {
+  AskedAction* noted = rollout.recorder().last_asked(kWhoDrives);
+  if (result.refusal || noted == nullptr) return;
+  rollout.recorder().end_asked(kWhoDrives, rollout.step());
+  noted->reward = result.reward;
+  noted->terminated = result.terminated;
+  noted->truncated = result.truncated;
 }
 
 std::optional<ActionRefusal> Acting::carry_out(const AgentAction& action, StepResult& result) {

@@ -40,7 +40,9 @@ struct Acting : ActingPlace {
   // Why an action makes no sense here, whatever the world is like.
   std::optional<ActionRefusal> refusal_of(const AgentAction& action) const;
   // Does it, and adds what ended to the result. A refusal: nothing has changed.
-  std::optional<ActionRefusal> carry_out(const AgentAction& action, StepResult& result);
+  std::optional<ActionRefusal> do_asked(const AgentAction& action, StepResult& result);
+  // Of the action that was done last: what came of it, for the record.
+  void note_result(const StepResult& result);
   // What runs is cut off here.
   void end_running(StepResult& result, const std::string& why);
   // The record gets all that the rollout holds.
@@ -60,6 +62,7 @@ struct Acting : ActingPlace {
   std::string identity;
 
  private:
+  std::optional<ActionRefusal> carry_out(const AgentAction& action, StepResult& result);
   std::optional<ActionRefusal> begin_skill(const AgentAction& action, StepResult& result);
   std::optional<ActionRefusal> begin_path(const AgentAction& action, StepResult& result);
   void begin_hold(StepResult& result);

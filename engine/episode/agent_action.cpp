@@ -24,9 +24,8 @@ void add(Components& components, std::initializer_list<const char*> names, const
   for (const char* name : names) components.push_back({name, unit, -most, most});
 }
 
-Components pose_components(const Scene& scene) {
+Components pose_components(const Vector3& base) {
   Components components;
-  const Vector3 base = scene.robot.body.world_from_body.translation();
   const std::array<const char*, 3> names = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i)
     components.push_back({names[static_cast<std::size_t>(i)], "m", base[i] - kReach_m, base[i] + kReach_m});
@@ -39,6 +38,39 @@ Components twist_components(const char* metres, double way, const char* radians,
   add(components, {"x", "y", "z"}, metres, way);
   add(components, {"rx", "ry", "rz"}, radians, turn);
   return components;
+}
+
+struct NamedLimits {
+  std::string name;
+  JointLimits limits;
+};
+
+std::vector<ActionSpace> all_spaces(const std::vector<NamedLimits>& joints, const Vector3& base, double frame_s,
+                                    double opening_max) {
+  Components positions, deltas, velocities, torques;
+  for (const auto& [name, limits] : joints) {
+    positions.push_back({name, "rad", limits.lower, limits.upper});
+    deltas.push_back({name, "rad", -limits.velocity * frame_s, limits.velocity * frame_s});
+    velocities.push_back({name, "rad/s", -limits.velocity, limits.velocity});
+    torques.push_back({name, "N m", -limits.effort, limits.effort});
+  }
+  const Components pose = pose_components(base);
+  Components soft = pose;
+  soft.push_back({"stiffness", "N/m", kLeastStiffness, kMostStiffness});
+  return {{"joint_position", positions},
+          {"joint_delta", deltas},
+          {"joint_velocity", velocities},
+          {"joint_torque", torques},
+          {"tool_pose", pose},
+          {"tool_delta", twist_components("m", kToolSpeed * frame_s, "rad", kToolTurn * frame_s)},
+          {"tool_velocity", twist_components("m/s", kToolSpeed, "rad/s", kToolTurn)},
+          {"tool_impedance", soft},
+          {"tool_path", pose},
+          {"tool_path_delta", twist_components("m", kFarthest_m, "rad", kHalfTurn)},
+          {"gripper", {{"opening", "m", 0, opening_max}}},
+          {"hold", {}},
+          {"skill", {}},
+          {"go_on", {}}};
 }
 
 std::string number(double value) {
@@ -119,6 +151,8 @@ CallSettings settings_of(const AgentAction& action) {
   return set;
 }
 
+bool is_of_tool(std::string_view space) { return space.starts_with("tool_"); }
+
 bool is_planned(std::string_view space) { return space == "tool_path" || space == "tool_path_delta"; }
 
 bool lasts_a_frame(std::string_view space) {
@@ -126,34 +160,22 @@ bool lasts_a_frame(std::string_view space) {
 }
 
 std::vector<ActionSpace> action_spaces(const Scene& scene) {
-  const double frame_s = 1.0 / scene.frame_hz;
-  Components positions, deltas, velocities, torques;
+  std::vector<NamedLimits> joints;
   for (std::size_t j = 0; j < scene.robot.arm.size(); ++j) {
-    const JointLimits& limits = scene.robot.limits[j];
-    const std::string name =
-        scene.robot.name + "." + scene.robot.body.parts[static_cast<std::size_t>(scene.robot.arm[j])].joint.name;
-    positions.push_back({name, "rad", limits.lower, limits.upper});
-    deltas.push_back({name, "rad", -limits.velocity * frame_s, limits.velocity * frame_s});
-    velocities.push_back({name, "rad/s", -limits.velocity, limits.velocity});
-    torques.push_back({name, "N m", -limits.effort, limits.effort});
+    const auto part = static_cast<std::size_t>(scene.robot.arm[j]);
+    joints.push_back({scene.robot.name + "." + scene.robot.body.parts[part].joint.name, scene.robot.limits[j]});
   }
-  const Components pose = pose_components(scene);
-  Components soft = pose;
-  soft.push_back({"stiffness", "N/m", kLeastStiffness, kMostStiffness});
-  return {{"joint_position", positions},
-          {"joint_delta", deltas},
-          {"joint_velocity", velocities},
-          {"joint_torque", torques},
-          {"tool_pose", pose},
-          {"tool_delta", twist_components("m", kToolSpeed * frame_s, "rad", kToolTurn * frame_s)},
-          {"tool_velocity", twist_components("m/s", kToolSpeed, "rad/s", kToolTurn)},
-          {"tool_impedance", soft},
-          {"tool_path", pose},
-          {"tool_path_delta", twist_components("m", kFarthest_m, "rad", kHalfTurn)},
-          {"gripper", {{"opening", "m", 0, scene.robot.opening_max}}},
-          {"hold", {}},
-          {"skill", {}},
-          {"go_on", {}}};
+  return all_spaces(joints, scene.robot.body.world_from_body.translation(), 1.0 / scene.frame_hz,
+                    scene.robot.opening_max);
+}
+
+std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints) {
+  std::vector<NamedLimits> limits;
+  for (const std::string& name : joints) limits.push_back({name, {}});
+  std::vector<ActionSpace> spaces = all_spaces(limits, Vector3::Zero(), 1, 0);
+  for (ActionSpace& space : spaces)
+    for (ActionComponent& one : space.components) one = {one.name, one.unit};
+  return spaces;
 }
 
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces) {

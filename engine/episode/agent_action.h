@@ -16,6 +16,9 @@ namespace stampede {
 // are those of a Panda: 1.7 m/s and 2.5 rad/s, per frame where a space counts in frames.
 std::vector<ActionSpace> action_spaces(const Scene& scene);
 
+// The same for an arm with these joints, by name and unit alone: nothing has bounds.
+std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints);
+
 // What is wrong with an action's form: its space, number of values, bounds, controller, frame of reference. `space`: of
 // that name; nothing: there is none.
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces);
@@ -33,6 +36,7 @@ Operation rest(const World& world);
 // What a skill action sets of its call.
 CallSettings settings_of(const AgentAction& action);
 
+bool is_of_tool(std::string_view space);     // its values are a pose or a motion of the tool
 bool is_planned(std::string_view space);     // tool_path, tool_path_delta
 bool lasts_a_frame(std::string_view space);  // all but these, skill, hold and go_on
 

@@ -15,6 +15,8 @@
 namespace stampede {
 namespace {
 
+constexpr const char* kRewardKinds[] = {"sparse", "dense", "task"};  // as RewardKind counts them
+
 std::vector<StateFact> difference(const Facts& before, const Facts& now) {
   std::vector<StateFact> changes;
   for (const Fact& fact : now)
@@ -119,7 +121,7 @@ StepResult Environment::Impl::step(const AgentAction& action) {
   if (auto refusal = own.refusal_of(action))
     result.refusal = std::move(refusal);
   else
-    result.refusal = own.carry_out(action, result);
+    result.refusal = own.do_asked(action, result);
   result.frames = (own.rollout.step() - before_step) / own.rollout.steps_per_frame();
   if (own.rollout.facts().changes() != changes) {
     const Facts before = own.observer.last_facts();
@@ -136,6 +138,7 @@ StepResult Environment::Impl::step(const AgentAction& action) {
   if (own.running.what != Running::What::nothing) result.running = own.running.name;
   // Success is rewarded once; what says how things stand does so again.
   result.reward = result.refusal && settings.reward == RewardKind::sparse ? 0 : reward();
+  own.note_result(result);
   result.observation = observe();
   return result;
 }
@@ -264,6 +267,7 @@ Episode Environment::episode() {
   if (!own.success && own.over != Reason::none) verdict = {own.over, std::string(describe(own.over)), true};
   if (!own.success && own.over == Reason::none)
     verdict = {Reason::goal_false, "the agent ended the episode before the goal had held long enough"};
+  own.record.options["reward"] = kRewardKinds[static_cast<std::size_t>(impl_->settings.reward)];
   own.finish(verdict);
   return impl_->source->close(std::move(own.record), own.opened.owner);
 }

@@ -14,6 +14,7 @@
 #include "engine/model/masks.h"
 #include "engine/sim/world.h"
 #include "engine/symbolic/symbols.h"
+#include "stampede/action.h"
 #include "stampede/episode.h"
 
 namespace stampede {
@@ -244,6 +245,7 @@ struct EpisodeRecord {
   std::vector<ChannelRecord> channels;
   std::vector<FrameRecord> frames;
   std::vector<Command> commands;
+  std::vector<AskedAction> agent_actions;  // in the order in which they were asked for, the asker's before its skill's
   std::vector<SegmentRecord> segments;
   std::vector<AttemptRecord> attempts;
   std::vector<ViaRecord> vias;

@@ -129,8 +129,24 @@ void Recorder::close_segment(int ordinal, std::int64_t step, Outcome outcome, Re
   record.detail = std::move(detail);
 }
 
+AskedAction* Recorder::last_asked(std::int64_t segment) {
+  const auto found = std::find_if(agent_actions.rbegin(), agent_actions.rend(),
+                                  [&](const AskedAction& one) { return one.segment == segment; });
+  return found == agent_actions.rend() ? nullptr : &*found;
+}
+
+void Recorder::end_asked(std::int64_t segment, std::int64_t step) {
+  if (AskedAction* last = last_asked(segment)) last->end_frame = frame_at(step);
+}
+
+void Recorder::refuse_asked(std::int64_t segment) {
+  if (const AskedAction* last = last_asked(segment))
+    agent_actions.erase(agent_actions.begin() + (last - agent_actions.data()));
+}
+
 Recorder::Mark Recorder::mark() const {
-  return {frames.size(), segments.size(), vias.size(), grasps.size(), contacts_closed_.size(), contacts_open_};
+  return {frames.size(),           segments.size(),      vias.size(),   grasps.size(),
+          contacts_closed_.size(), agent_actions.size(), contacts_open_};
 }
 
 void Recorder::cut(const Mark& mark) {
@@ -141,6 +157,7 @@ void Recorder::cut(const Mark& mark) {
   vias.resize(mark.vias);
   grasps.resize(mark.grasps);
   contacts_closed_.resize(mark.contacts_closed);
+  agent_actions.resize(mark.agent_actions);
   contacts_open_ = mark.contacts_open;
 }
 
@@ -173,6 +190,7 @@ void Recorder::finish(EpisodeRecord& episode, std::int64_t end_step) {
   episode.vias = std::move(vias);
   episode.grasps = std::move(grasps);
   episode.contacts = std::move(contacts_closed_);
+  episode.agent_actions = std::move(agent_actions);
 }
 
 }  // namespace stampede

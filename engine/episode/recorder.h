@@ -38,9 +38,14 @@ class Recorder {
   std::int64_t frame_at(std::int64_t step) const { return (step + steps_per_frame_ - 1) / steps_per_frame_; }
 
   struct Mark {
-    std::size_t frames, segments, vias, grasps, contacts_closed;
+    std::size_t frames, segments, vias, grasps, contacts_closed, agent_actions;
     std::map<std::pair<std::string, std::string>, ContactRecord> contacts_open;
   };
+  // The last one that was asked for by a skill's policy, or with -1 by who drives the episode; null: there is none.
+  AskedAction* last_asked(std::int64_t segment);
+  void end_asked(std::int64_t segment, std::int64_t step);  // that one ends here
+  void refuse_asked(std::int64_t segment);                  // that one was not done
+
   Mark mark() const;
   void cut(const Mark& mark);  // everything after the mark never happened
   // All frames but the last, and of contacts, vias, grasps and attempts what is over. Segments from `first_segment` on
@@ -54,6 +59,7 @@ class Recorder {
   std::vector<AttemptRecord> attempts;  // never cut
   std::vector<ViaRecord> vias;
   std::vector<GraspRecord> grasps;
+  std::vector<AskedAction> agent_actions;
 
  private:
   FrameReader reader_;

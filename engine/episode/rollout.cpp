@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/episode/agent_action.h"
+
 namespace stampede {
 
 Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sensors, const std::atomic<bool>* stop)
@@ -97,6 +99,15 @@ int Rollout::open_motion(std::string kind, int parent_segment, std::string contr
 void Rollout::keep_record(bool wanted) {
   keeps_record_ = wanted;
   world_.keep_log(wanted);
+}
+
+void Rollout::note_asked(const AgentAction& action, std::int64_t segment) {
+  if (!keeps_record_) return;
+  AskedAction& noted = recorder_.agent_actions.emplace_back();
+  noted.asked = action;
+  if (!is_of_tool(action.space)) noted.asked.frame = AgentAction{}.frame;
+  noted.first_frame = noted.end_frame = recorder_.frame_at(step());
+  noted.segment = segment;
 }
 
 Rollout::Branch Rollout::branch() { return {checkpoint(), recorder_, sensors_, ended_}; }

@@ -45,6 +45,9 @@ class Rollout {
   void keep_record(bool wanted);
   bool keeps_record() const { return keeps_record_; }
 
+  // Where a record is kept: what the policy of a skill asks for now, or with -1 who drives the episode.
+  void note_asked(const AgentAction& action, std::int64_t segment);
+
   // Whom the hand has been asked to hold; lost in a motion, it is `dropped`.
   std::optional<PartRef> keep;
 

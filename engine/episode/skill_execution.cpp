@@ -242,9 +242,9 @@ bool SkillExecution::start_policy(const robot_call::Policy& call) {
   for (const ContinuousValue& value : call_.continuous)
     told.parameters.try_emplace(value.record.name, value.record.values);
   try {
-    policy_ =
-        std::make_unique<SkillPolicy>(rollout_, options_, call.name, std::move(told), call.seconds, controller_.kind,
-                                      [this, until = call.until_effect] { return until && missing_effects().empty(); });
+    policy_ = std::make_unique<SkillPolicy>(
+        rollout_, options_, call.name, std::move(told), call.seconds, controller_.kind, context_.segment,
+        [this, until = call.until_effect] { return until && missing_effects().empty(); });
   } catch (const std::exception& error) {
     return finish({Reason::policy_error, error.what()});
   }
@@ -269,14 +269,22 @@ bool SkillExecution::go_on_with_policy(RandomKey key) {
     follow(policy_->motion());
     return false;
   }
-  if (asked->space != "skill") return plan_motion(robot_call::MoveThrough{{{"goal", tool_target(*asked, world)}}}, key);
-  const Action* action = rollout_.domain().action(asked->skill);
-  if (action == nullptr) return finish({Reason::policy_error, "there is no skill '" + asked->skill + "'"});
+  if (asked->space == "skill")
+    start_asked_skill(*asked, key);
+  else
+    plan_motion(robot_call::MoveThrough{{{"goal", tool_target(*asked, world)}}}, key);
+  if (phase_ == Phase::over) rollout_.recorder().refuse_asked(context_.segment);
+  return false;
+}
+
+bool SkillExecution::start_asked_skill(const AgentAction& asked, RandomKey key) {
+  const Action* action = rollout_.domain().action(asked.skill);
+  if (action == nullptr) return finish({Reason::policy_error, "there is no skill '" + asked.skill + "'"});
   SkillRequest request;
-  request.step = {asked->skill, asked->arguments};
-  request.set = settings_of(*asked);
+  request.step = {asked.skill, asked.arguments};
+  request.set = settings_of(asked);
   if (const auto mistake = mistake_in(request)) return finish({Reason::policy_error, mistake->what()});
-  return start_child({action->skill, action->case_name, asked->arguments, request.set}, key);
+  return start_child({action->skill, action->case_name, asked.arguments, request.set}, key);
 }
 
 bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
@@ -418,6 +426,7 @@ void SkillExecution::close(int segment, const SkillResult& result) {
 
 // Always false, as step_due says that no step is due.
 bool SkillExecution::finish(SkillResult result) {
+  if (policy_) policy_->end_asked();
   result.segment = context_.segment;
   result.step = result_.step;
   close(context_.segment, result);

@@ -62,6 +62,7 @@ class SkillExecution {
   bool start_child(const AskedCall& call, RandomKey key);
   bool start_policy(const robot_call::Policy& call);
   bool go_on_with_policy(RandomKey key);
+  bool start_asked_skill(const AgentAction& asked, RandomKey key);
   void restore_controller();
   bool plan_motion(const RobotCall& call, RandomKey key);
   void follow(std::unique_ptr<Motion> motion);

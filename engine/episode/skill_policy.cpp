@@ -54,10 +54,12 @@ class SkillPolicy::Acting final : public Motion {
 };
 
 SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, PolicyCall call,
-                         double seconds, ControllerKind controller, std::function<bool()> finished)
+                         double seconds, ControllerKind controller, std::int64_t segment,
+                         std::function<bool()> finished)
     : rollout_(rollout),
       spaces_(action_spaces(rollout.view().scene())),
       controller_(controller),
+      segment_(segment),
       finished_(std::move(finished)),
       until_(rollout.step() + std::llround(seconds * rollout.view().scene().physics_hz)) {
   const PolicyEntry& entry = entry_of(options, name);
@@ -78,9 +80,20 @@ std::unique_ptr<Motion> SkillPolicy::motion() { return std::make_unique<Acting>(
 
 std::optional<AgentAction> SkillPolicy::take_pending() { return std::exchange(pending_, std::nullopt); }
 
+void SkillPolicy::end_asked() {
+  if (asked_) rollout_.recorder().end_asked(segment_, rollout_.step());
+  asked_ = false;
+}
+
+void SkillPolicy::note_asked(const AgentAction& action) {
+  rollout_.note_asked(action, segment_);
+  asked_ = true;
+}
+
 // Before a physics step: at a frame it is asked, in between its last action goes on.
 MotionResult SkillPolicy::step(World& world) {
   if (!rollout_.at_frame()) return {};
+  end_asked();
   over_ = over_ || world.step_count() >= until_ || finished_();
   if (over_) return {MotionStatus::done};
   std::optional<AgentAction> action;
@@ -94,12 +107,15 @@ MotionResult SkillPolicy::step(World& world) {
   if (auto mistake = mistake_in(*action, spaces_)) return failed(mistake->what + ": " + mistake->cure);
   if (action->space == "hold" || action->space == "go_on") return failed("a policy cannot ask for " + action->space);
   if (!lasts_a_frame(action->space)) {
+    note_asked(*action);
     pending_ = std::move(action);
     return {MotionStatus::done};
   }
-  if (action->controller.empty()) action->controller = to_string(controller_);
-  auto operations = operations_for(*action, world);
+  AgentAction complete = *action;
+  if (complete.controller.empty()) complete.controller = to_string(controller_);
+  auto operations = operations_for(complete, world);
   if (const auto* refusal = std::get_if<ActionRefusal>(&operations)) return failed(refusal->what);
+  note_asked(*action);
   for (const Operation& operation : std::get<std::vector<Operation>>(operations)) world.apply(operation);
   return {};
 }

@@ -21,17 +21,20 @@ const std::map<std::string, PolicyEntry>& shipped_policies();
 class SkillPolicy {
  public:
   // `finished`: asked at each frame; true ends it, as does the time. `controller`: of actions that name none.
-  // Throws Error when there is no policy of that name, with the nearest one as cure.
+  // `segment`: of the skill, for the record of what was asked. Throws Error when there is no policy of that name, with
+  // the nearest one as cure.
   SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, PolicyCall call, double seconds,
-              ControllerKind controller, std::function<bool()> finished);
+              ControllerKind controller, std::int64_t segment, std::function<bool()> finished);
 
   std::unique_ptr<Motion> motion();  // `policy`, to the next path or skill, or the end
   std::optional<AgentAction> take_pending();
+  void end_asked();  // in the record: what it asked for last ends here, if it has not ended
   bool over() const { return over_; }
 
  private:
   class Acting;
   MotionResult step(World& world);
+  void note_asked(const AgentAction& action);
 
   Rollout& rollout_;
   EnvironmentSettings settings_;
@@ -40,9 +43,10 @@ class SkillPolicy {
   std::vector<ActionSpace> spaces_;
   std::unique_ptr<Policy> policy_;
   ControllerKind controller_;
+  std::int64_t segment_;
   std::function<bool()> finished_;
   std::int64_t until_ = 0;
-  bool over_ = false;
+  bool over_ = false, asked_ = false;
   std::optional<AgentAction> pending_;
 };
 

@@ -14,6 +14,29 @@
 namespace stampede {
 namespace {
 
+void hash_asked(Hasher& hasher, const AskedAction& one) {
+  const auto list = [&](const auto& items, const auto& add) {
+    hasher.number(items.size());
+    for (const auto& item : items) add(item);
+  };
+  const auto number = [&](double value) { hasher.number(value); };
+  const auto text = [&](const std::string& value) { hasher.text(value); };
+  const auto maybe = [&](const std::optional<double>& value) {
+    hasher.number<std::uint8_t>(value.has_value()).number(value.value_or(0));
+  };
+  const AgentAction& asked = one.asked;
+  hasher.number(one.first_frame).number(one.end_frame).number(one.segment).text(asked.space);
+  list(asked.values, number);
+  maybe(asked.gripper);
+  hasher.text(asked.frame).text(asked.controller).number(asked.frames).text(asked.skill);
+  list(asked.arguments, text);
+  list(asked.parameters, [&](const SkillParameter& parameter) {
+    hasher.text(parameter.name);
+    list(parameter.values, number);
+  });
+  maybe(one.reward);
+}
+
 // The key holds the task alone, so that every run of a task meets its variations in one order.
 std::vector<std::string> shuffled(std::vector<std::string> variations, const std::string& task) {
   Random(RandomKey("variations").with(task)).shuffle(variations);
@@ -157,6 +180,7 @@ std::string acted_key(const EpisodeRecord& record) {
   for (const auto& [name, value] : record.options) hasher.text(name).text(value);
   for (const Command& command : record.commands)
     hasher.number(command.step).text(operation_kind(command.operation)).text(operation_to_bytes(command.operation));
+  for (const AskedAction& one : record.agent_actions) hash_asked(hasher, one);
   return hasher.digest();
 }
 

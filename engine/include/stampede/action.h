@@ -1,6 +1,7 @@
 // What an agent can ask of the robot, one step at a time: low-level set-points, tool poses, whole skills.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ struct ActionSpace {
 struct SkillParameter {
   std::string name;
   std::vector<double> values;
+  friend bool operator==(const SkillParameter&, const SkillParameter&) = default;
 };
 
 struct AgentAction {
@@ -60,6 +62,20 @@ struct AgentAction {
   std::string skill = {};                       // an action of the domain: `pick`, `open_drawer`; see skills()
   std::vector<std::string> arguments = {};      // one a parameter: names of objects, the hand among them
   std::vector<SkillParameter> parameters = {};  // those that are not to be drawn
+  friend bool operator==(const AgentAction&, const AgentAction&) = default;
+};
+
+// What an episode keeps of an action that was asked for and not refused: view `agent_actions` of a catalogue,
+// EpisodeArrays::agent_actions.
+struct AskedAction {
+  AgentAction asked;  // its frame of reference is `world` where the space is not of the tool
+  // From the frame of the observation that it answers to that of the next one; half-open. One and the same: a skill that
+  // failed before anything moved.
+  std::int64_t first_frame = 0, end_frame = 0;
+  std::int64_t segment = -1;  // of the skill whose body is the policy that asked; -1: who drives the episode asked
+  std::optional<double> reward = {};           // that the environment gave whoever drives the episode
+  bool terminated = false, truncated = false;  // as in StepResult
+  friend bool operator==(const AskedAction&, const AskedAction&) = default;
 };
 
 // A ground skill, and whether its precondition holds now.
