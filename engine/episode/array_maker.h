@@ -43,6 +43,11 @@ class ArrayMaker {
   void facts();
   void goal();
   void segments();
+  void agent_actions();  // array_agent.cpp
+  void asked_ids();
+  void asked_values();
+  void asked_openings();
+  void asked_rewards();
 
   const EpisodeRecord& episode_;
   const FrameTables& tables_;

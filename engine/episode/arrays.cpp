@@ -251,6 +251,7 @@ EpisodeArrays ArrayMaker::make() {
   objects();
   joints_of("object_", other_joints_);
   actions();
+  agent_actions();
   labels();
   sensors();
   cameras();
@@ -283,6 +284,7 @@ ArrayNeeds needs_of(const ArrayRequest& request) {
   needs.actions = starts({"action"});
   needs.samples = starts({"sensor"});
   needs.facts = starts({"facts", "known", "progress", "applicable"});
+  needs.agent = starts({"agent_"});
   needs.segments = starts({"subgoal", "skill", "motion"});
   needs.documents = starts({"progress", "applicable"});
   needs.pictures = ends("_rgb") || ends("_depth") || ends("_mask");

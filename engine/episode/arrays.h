@@ -18,7 +18,7 @@ EpisodeArrays arrays_of(const EpisodeRecord& labels, const FrameTables& tables, 
 // Which parts of an episode the wanted columns are made of; what is false need not be read.
 struct ArrayNeeds {
   bool frames = false, joints = false, objects = false, hands = false, cameras = false, actions = false;
-  bool samples = false, facts = false, segments = false, documents = false, pictures = false;
+  bool samples = false, facts = false, segments = false, agent = false, documents = false, pictures = false;
 };
 ArrayNeeds needs_of(const ArrayRequest& request);
 

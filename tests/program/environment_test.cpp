@@ -64,6 +64,12 @@ std::vector<double> numbers(const EnvironmentObservation& observation) {
   return all;
 }
 
+// What two episodes have in common whoever drove them.
+EpisodeArrays without_agent(EpisodeArrays arrays) {
+  std::erase_if(arrays.columns, [](const ArrayColumn& one) { return one.name.starts_with("agent_"); });
+  return arrays;
+}
+
 std::vector<double> row_of(const ArrayColumn& column, std::int64_t frame) {
   std::size_t width = 1;
   for (std::size_t i = 1; i < column.shape.size(); ++i) width *= static_cast<std::size_t>(column.shape[i]);
@@ -96,7 +102,7 @@ TEST_CASE("an agent that plays back a plan's skills gets the bytes of the run") 
     const Episode acted = world.episode();
     CHECK(acted.outcome == Outcome::success);
     CHECK(acted.key != run.key);
-    CHECK(first_difference(session()->arrays(run, {}), session()->arrays(acted, {})) == "");
+    CHECK(first_difference(session()->arrays(run, {}), without_agent(session()->arrays(acted, {}))) == "");
     CHECK(first_difference(session()->arrays(acted, {}), session()->arrays(run, {})) == "");
     CHECK(acted.record->segments.size() == run.record->segments.size());
   }

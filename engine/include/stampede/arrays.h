@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "stampede/action.h"
 #include "stampede/picture.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
@@ -61,10 +62,11 @@ struct STAMPEDE_EXPORT EpisodeArrays {
   std::int64_t frames = 0;
   double frame_hz = 0;
   std::vector<ArrayColumn> columns;
-  std::vector<StateFact> atoms;         // of `facts` and `known`, in the order of their last axis
-  std::vector<ArraySegment> segments;   // by id
-  std::vector<StateFact> skills;        // of `applicable`: name of the action and its arguments
-  std::vector<ArrayPictures> pictures;  // those that can be drawn
+  std::vector<StateFact> atoms;            // of `facts` and `known`, in the order of their last axis
+  std::vector<ArraySegment> segments;      // by id
+  std::vector<AskedAction> agent_actions;  // what `agent_action` counts, by id
+  std::vector<StateFact> skills;           // of `applicable`: name of the action and its arguments
+  std::vector<ArrayPictures> pictures;     // those that can be drawn
 
   const ArrayColumn* find(std::string_view name) const;    // nullptr: there is none
   const ArrayColumn& column(std::string_view name) const;  // throws Error with the nearest name as cure

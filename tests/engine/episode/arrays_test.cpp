@@ -1,6 +1,7 @@
 #include "engine/episode/arrays.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -183,6 +184,49 @@ TEST_CASE("ids of segments name what runs") {
     CHECK(skill[static_cast<std::size_t>(segment.first_frame)] >= segment.id);
     CHECK(skill[static_cast<std::size_t>(segment.end_frame - 1)] >= segment.id);
   }
+}
+
+TEST_CASE("what an agent asked for is told frame by frame, a policy's before that of who called its skill") {
+  EpisodeRecord acted = stacked();
+  const double nan = std::nan("");
+  acted.agent_actions = {{{.space = "joint_delta", .values = {1, 2, 3, 4, 5, 6, 7}, .gripper = 0.04}, 0, 1, -1, 0.25},
+                         {{.space = "skill", .gripper = 0.01, .frames = 4, .skill = "pick"}, 1, 5, -1, 0.5},
+                         {{.space = "tool_path", .values = {1, 2, 3, 0, 0, 0, 1}, .frame = "tool"}, 2, 7, 1, {}},
+                         {{.space = "go_on", .frames = 3}, 5, 8, -1, 0.75},
+                         {{.space = "tool_path", .values = {4, 5, 6, 0, 0, 0, 1}}, 8, 9, -1, 1},
+                         {{.space = "flight", .values = {8, 9}}, 9, 10, -1, 1},
+                         {{.space = "gripper", .values = {0.07}}, 10, 10, -1, 1},
+                         {{.space = "gripper", .values = {0.08}}, 10, 12, -1, 1}};
+  const EpisodeArrays told = episode_arrays(acted, {{"agent_action", "agent_reward"}});
+  CHECK(told.agent_actions == acted.agent_actions);
+  const auto begins = [](const auto& values, const auto& expected) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      INFO(i);
+      CHECK((values[i] == expected[i] || (values[i] != values[i] && expected[i] != expected[i])));
+    }
+    CHECK((values.back() == -1 || values.back() != values.back()));
+  };
+  begins(told.column("agent_action").integers(), std::vector<std::int64_t>{0, 1, 2, 2, 2, 2, 2, 3, 4, 5, 7, 7, -1, -1});
+  begins(told.column("agent_action/gripper").reals(),
+         std::vector<double>{0.04, nan, nan, nan, nan, nan, nan, nan, nan, nan, 0.08, 0.08, nan});
+  begins(told.column("agent_reward").reals(),
+         std::vector<double>{0.25, nan, nan, nan, 0.5, nan, nan, 0.75, 1, 1, nan, 1, nan});
+  const ArrayColumn &delta = told.column("agent_action/joint_delta"), &path = told.column("agent_action/tool_path"),
+                    &flight = told.column("agent_action/flight");
+  CHECK(delta.labels == arrays().column("joint_positions").labels);
+  CHECK((delta.unit == "rad" && delta.frame.empty() && delta.rate_hz == told.frame_hz));
+  begins(delta.reals(), std::vector<double>{1, 2, 3, 4, 5, 6, 7, nan});
+  CHECK(path.labels == arrays().column("gripper_pose").labels);
+  CHECK((path.unit == "m, 1" && path.frame == "world or tool"));
+  CHECK(std::isnan(path.reals()[7]));
+  for (const std::size_t frame : {2, 6}) CHECK(path.reals()[frame * 7 + 1] == 2);
+  CHECK(std::isnan(path.reals()[7 * 7]));
+  CHECK(path.reals()[8 * 7 + 1] == 5);
+  CHECK(flight.shape == std::vector<std::int64_t>{told.frames, 2});  // of another engine: as it is
+  CHECK((flight.labels.empty() && flight.unit.empty() && flight.reals()[9 * 2] == 8));
+  CHECK(told.columns.size() == 6);
+  CHECK_THROWS_WITH(episode_arrays(stacked(), {{"agent_action"}}), Catch::Contains("no column of that name"));
+  for (const ArrayColumn& column : arrays().columns) CHECK_FALSE(column.name.starts_with("agent_"));
 }
 
 TEST_CASE("only what is asked for is made, and what is not there is told with what is meant") {
