@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "db/catalogue.h"
 #include "db/sqlite.h"
@@ -27,6 +30,10 @@ void roll_back(const sql::Database& database);  // what has begun, if anything h
 // Lists of texts as JSON in a column.
 std::string to_json_list(const std::vector<std::string>& texts);
 std::vector<std::string> from_json_list(const sql::Database& database, const std::string& json);
+
+// Lists of numbers likewise, in as many digits as bring every bit back. Nothing: the text is no such list.
+std::string to_json_numbers(std::span<const double> numbers);
+std::optional<std::vector<double>> from_json_numbers(std::string_view json);
 
 // Rows of frames and sensors hold so many values each; a row's part says which.
 inline constexpr std::size_t kJointsARow = 12, kChannelsARow = 16, kComponentsARow = 8;

@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "db/check_numbers.h"
 #include "db/episode_reader.h"
@@ -24,6 +25,30 @@ std::vector<std::string> from_json_list(const sql::Database& database, const std
   sql::Statement items(database, "SELECT value FROM json_each(?1) ORDER BY key");
   for (items.start(json); items.step();) items.read(texts.emplace_back());
   return texts;
+}
+
+std::string to_json_numbers(std::span<const double> numbers) {
+  std::string json = "[";
+  std::array<char, 32> digits{};
+  for (const double number : numbers) {
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    json.append(json.size() > 1 ? "," : "").append(digits.data(), end);
+  }
+  return json + "]";
+}
+
+std::optional<std::vector<double>> from_json_numbers(std::string_view json) {
+  std::vector<double> numbers;
+  if (!json.starts_with('[') || !json.ends_with(']') || json.size() < 2) return std::nullopt;
+  const char* next = json.data() + 1;
+  const char* const end = json.data() + json.size() - 1;
+  while (next < end) {
+    const auto [stop, error] = std::from_chars(next, end, numbers.emplace_back());
+    if (error != std::errc() || !std::isfinite(numbers.back()) || (stop < end && *stop != ',') || stop + 1 == end)
+      return std::nullopt;
+    next = stop + 1;
+  }
+  return numbers;
 }
 
 std::string matrix_text(const Transform& transform) {
@@ -309,6 +334,34 @@ std::vector<ActionChannel> EpisodeReader::read_action_channels() {
     channels.back().component = static_cast<std::size_t>(component);
   });
   return channels;
+}
+
+void EpisodeReader::read_agent_actions() {
+  const auto numbers_in = [this](const std::string& text) {
+    auto numbers = from_json_numbers(text);
+    if (!numbers) damaged("agent_action");
+    return std::move(*numbers);
+  };
+  each(
+      "frame, end_frame, space, numbers, gripper, coalesce(reference, 'world'), coalesce(controller, ''), most_frames, "
+      "coalesce(skill, ''), arguments, parameters, coalesce(segment, -1), reward, terminated, truncated",
+      "agent_action", "ordinal", [&](sql::Statement& row) {
+        AskedAction& one = record_.agent_actions.emplace_back();
+        AgentAction& asked = one.asked;
+        std::string numbers, arguments, parameters;
+        row.read(one.first_frame, one.end_frame, asked.space, numbers, asked.gripper, asked.frame, asked.controller,
+                 asked.frames, asked.skill, arguments, parameters, one.segment, one.reward, one.terminated,
+                 one.truncated);
+        asked.values = numbers_in(numbers);
+        asked.arguments = from_json_list(database_, arguments);
+        if (parameters == "{}") return;
+        sql::Statement items(database_, "SELECT key, value FROM json_each(?1) ORDER BY id");
+        for (items.start(parameters); items.step();) {
+          std::string values;
+          items.read(asked.parameters.emplace_back().name, values);
+          asked.parameters.back().values = numbers_in(values);
+        }
+      });
 }
 
 void EpisodeReader::read_commands() {

@@ -45,6 +45,10 @@ class Checker {
       least = frame.step + 1;
     }
     for (const Command& command : e_.commands) within("a command's step", command.step, 0, e_.steps);
+    for (const AskedAction& one : e_.agent_actions) {
+      span("an agent's action", {0, 0, one.first_frame, one.end_frame}, 0, frames_);
+      within("an agent's action's segment", one.segment, -1, segments_ - 1);
+    }
     for (const ChannelRecord& channel : e_.channels) {
       for (const std::int64_t step : channel.steps) within("a sample's step", step, 0, e_.steps);
       const auto values = static_cast<std::int64_t>(channel.steps.size() * channel.components.size());

@@ -32,6 +32,7 @@ class EpisodeReader {
     read_channels();
     read_frames();
     read_actions();
+    read_agent_actions();
     read_commands();
     read_segments();
     read_facts();
@@ -88,6 +89,7 @@ class EpisodeReader {
   void read_track(const std::string& thing, const std::string& table, std::size_t things, const Place& place);
   void read_actions();
   std::vector<ActionChannel> read_action_channels();
+  void read_agent_actions();
   void read_commands();
   void read_segments();
   void read_segment_details();

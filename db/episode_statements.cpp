@@ -79,6 +79,9 @@ void EpisodeWriter::prepare_frames() {
   camera_pose_ = insert("camera_pose", "episode, camera, frame, x, y, z, qx, qy, qz, qw");
   action_channel_ = insert("action_channel", "episode, ordinal, space, component, name, unit");
   action_ = insert("action", "episode, frame, part, " + numbered("value", kChannelsARow));
+  agent_action_ = insert("agent_action",
+                         "episode, ordinal, frame, end_frame, space, numbers, gripper, reference, controller, "
+                         "most_frames, skill, arguments, parameters, segment, reward, terminated, truncated");
   command_ = insert("command", "episode, ordinal, step, kind, payload, robot");
   channel_ = insert("channel", "episode, ordinal, name, unit, rate_hz");
   component_ = insert("channel_component", "episode, channel, ordinal, name");

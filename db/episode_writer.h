@@ -37,6 +37,7 @@ class EpisodeWriter {
   void write_poses(const EpisodeRecord& episode);
   void write_camera_poses(int camera, std::size_t frames, const std::function<const Pose*(std::size_t)>& pose_at);
   void write_actions(const EpisodeRecord& episode);
+  void write_agent_actions(const EpisodeRecord& episode);
   void write_commands(const EpisodeRecord& episode);
   void write_channels(const EpisodeRecord& episode);
 
@@ -70,8 +71,8 @@ class EpisodeWriter {
   sql::Statement definition_, engine_run_, engine_run_definition_, predicate_, variation_, variation_axis_, scene_,
       asset_, text_store_;
   sql::Statement episode_, timing_, object_, object_trait_, object_attribute_, posed_, joint_, hand_, camera_;
-  sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_, command_,
-      channel_, component_, sample_;
+  sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_,
+      agent_action_, command_, channel_, component_, sample_;
   sql::Statement mask_, image_, visible_, stored_image_, mount_link_;
   sql::Statement segment_, parameter_, precondition_, effect_, effects_held_, undeclared_, via_, fact_, observed_fact_,
       contact_, grasp_, language_, document_, verdict_, keyframe_;

@@ -180,6 +180,7 @@ EpisodeArrays ArrayReader::read(const ArrayRequest& request) {
   if (needs.objects) read_pose_rows("posed", "object_state", record_.posed.size(), tables_.object_pose);
   if (needs.cameras) read_pose_rows("camera", "camera_pose", record_.cameras.size(), tables_.camera_pose);
   if (needs.actions) read_action_rows();
+  if (needs.agent) read_agent_actions();
   if (needs.segments) read_segment_heads();
   if (needs.facts) read_facts();
   if (needs.documents) read_documents();

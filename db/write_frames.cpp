@@ -2,11 +2,24 @@
 
 #include "db/catalogue_impl.h"
 #include "db/episode_writer.h"
+#include "db/table_text.h"
+#include "engine/episode/agent_action.h"
 
 namespace stampede {
 namespace {
 
 constexpr std::array<const char*, 7> kPoseNames{"x", "y", "z", "qx", "qy", "qz", "qw"};
+
+std::optional<std::string> text_where(bool there, const std::string& text) {
+  return there ? std::optional(text) : std::nullopt;
+}
+
+std::string parameters_text(const std::vector<SkillParameter>& parameters) {  // {"height":[0.2]}
+  std::string json = "{";
+  for (const SkillParameter& one : parameters)
+    json += (json.size() > 1 ? "," : "") + json_text(one.name) + ":" + to_json_numbers(one.values);
+  return json + "}";
+}
 
 // The innermost segment of a kind at each frame: children start no earlier than their parents and come later.
 std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::string_view kind) {
@@ -53,6 +66,7 @@ void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
   }
   write_poses(episode);
   write_actions(episode);
+  write_agent_actions(episode);
   write_commands(episode);
   write_channels(episode);
 }
@@ -111,6 +125,23 @@ void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
     values.emplace_back(action->gripper);
     for (std::size_t part = 0; part * kChannelsARow < values.size(); ++part)
       action_.run(id_, i, part, part_of<std::optional<double>>(values, part, kChannelsARow));
+  }
+}
+
+void EpisodeWriter::write_agent_actions(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const AskedAction& one : episode.agent_actions) {
+    const AgentAction& asked = one.asked;
+    const auto reference = text_where(is_of_tool(asked.space), asked.frame),
+               controller = text_where(!asked.controller.empty(), asked.controller),
+               skill = text_where(!asked.skill.empty(), asked.skill);
+    std::optional<std::int64_t> segment;
+    if (one.segment >= 0) segment = one.segment;
+    const std::string numbers = to_json_numbers(asked.values), arguments = to_json_list(asked.arguments),
+                      parameters = parameters_text(asked.parameters);
+    agent_action_.run(id_, ordinal++, one.first_frame, one.end_frame, asked.space, numbers, asked.gripper, reference,
+                      controller, asked.frames, skill, arguments, parameters, segment, one.reward, one.terminated,
+                      one.truncated);
   }
 }
 

@@ -10,5 +10,6 @@ CREATE INDEX IF NOT EXISTS fact_by_end ON fact (episode, end_step);
 CREATE INDEX IF NOT EXISTS skill_call ON segment (skill, case_name, kind, undone, outcome, try_number, effect_held,
   start_step, end_step, parent) WHERE kind = 'skill';
 CREATE INDEX IF NOT EXISTS segment_failed ON segment (episode, undone) WHERE outcome = 'failure';
+CREATE INDEX IF NOT EXISTS asked_at ON agent_action (episode, frame, end_frame);
 CREATE INDEX IF NOT EXISTS effect_missing ON segment_effect (episode, segment) WHERE held = 0;
 CREATE INDEX IF NOT EXISTS fact_hidden ON fact (episode, predicate, observed) WHERE observed = 0;

@@ -1,7 +1,7 @@
 -- changes segment attempt segment_parameter command action_channel episode fact segment_effect mask object object_attribute channel
 -- Segments and undone tries share a table, reasons and action spaces are open lists, a command names its robot, what
--- instance masks show is counted (count_visible.cpp), and rows of frames are wide. What preconditions were tested, no
--- earlier release wrote: there are no rows. Facts and objects change not: to read, they want indexes, or are asked here.
+-- instance masks show is counted (count_visible.cpp), and rows of frames are wide. What preconditions were tested and
+-- what agents asked for, no earlier release wrote: there are no rows. Facts and objects change not: to read, they want indexes, or are asked here.
 CREATE TABLE reason (
   name TEXT NOT NULL PRIMARY KEY
 ) STRICT, WITHOUT ROWID;
@@ -185,6 +185,28 @@ CREATE TABLE segment_precondition (
   fact TEXT NOT NULL,
   held INTEGER NOT NULL CHECK (held IN (0, 1)),
   PRIMARY KEY (episode, undone, segment, ordinal)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE agent_action (
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  frame INTEGER NOT NULL,
+  end_frame INTEGER NOT NULL,
+  space TEXT NOT NULL,
+  numbers TEXT NOT NULL,
+  gripper REAL,
+  reference TEXT,
+  controller TEXT,
+  most_frames INTEGER NOT NULL,
+  skill TEXT,
+  arguments TEXT NOT NULL,
+  parameters TEXT NOT NULL,
+  segment INTEGER,
+  reward REAL,
+  terminated INTEGER NOT NULL CHECK (terminated IN (0, 1)),
+  truncated INTEGER NOT NULL CHECK (truncated IN (0, 1)),
+  CHECK (frame <= end_frame),
+  PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 
 ALTER TABLE segment_effect ADD COLUMN held INTEGER CHECK (held IN (0, 1));

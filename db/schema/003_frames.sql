@@ -83,6 +83,28 @@ CREATE TABLE action (  -- commanded over [frame, frame + 1); sixteen channels a 
   PRIMARY KEY (episode, frame, part)
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE agent_action (  -- what an agent asked for: who drives the episode, or a policy that is a skill's body
+  episode INTEGER NOT NULL REFERENCES episode (id),
+  ordinal INTEGER NOT NULL,
+  frame INTEGER NOT NULL,  -- of the observation that it answers
+  end_frame INTEGER NOT NULL,
+  space TEXT NOT NULL,
+  numbers TEXT NOT NULL,  -- JSON list
+  gripper REAL,
+  reference TEXT,  -- frame of a space of the tool
+  controller TEXT,  -- where it names one
+  most_frames INTEGER NOT NULL,  -- after which its step ended; 0: where it ends
+  skill TEXT,
+  arguments TEXT NOT NULL,  -- JSON list of names
+  parameters TEXT NOT NULL,  -- JSON object of lists of numbers
+  segment INTEGER,  -- of the skill whose policy asked; NULL: who drives the episode
+  reward REAL,
+  terminated INTEGER NOT NULL CHECK (terminated IN (0, 1)),
+  truncated INTEGER NOT NULL CHECK (truncated IN (0, 1)),
+  CHECK (frame <= end_frame),
+  PRIMARY KEY (episode, ordinal)
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE command (  -- every operation on the simulated world: what replay applies
   episode INTEGER NOT NULL REFERENCES episode (id),
   ordinal INTEGER NOT NULL,

@@ -47,6 +47,7 @@ void check_same(const EpisodeArrays& a, const EpisodeArrays& b) {
   for (std::size_t i = 0; i < a.segments.size(); ++i)
     CHECK(std::tie(a.segments[i].id, a.segments[i].name, a.segments[i].arguments, a.segments[i].label) ==
           std::tie(b.segments[i].id, b.segments[i].name, b.segments[i].arguments, b.segments[i].label));
+  CHECK(a.agent_actions == b.agent_actions);
   REQUIRE(a.pictures.size() == b.pictures.size());
   for (std::size_t i = 0; i < a.pictures.size(); ++i) CHECK(a.pictures[i].stored == b.pictures[i].stored);
 }
@@ -70,7 +71,8 @@ TEST_CASE("arrays of a catalogue are those of the episode in memory, to the last
   CHECK(whole.pictures.at(0).stored == std::vector<std::int64_t>{0, 4});
   for (const ArrayRequest& request :
        {ArrayRequest{{"joint_positions"}}, ArrayRequest{{"object_pose", "skill"}}, ArrayRequest{{"action", "facts"}},
-        ArrayRequest{{"wrist_camera_extrinsics", "front_depth"}}, ArrayRequest{{"gripper_open", "gripper_pose"}}})
+        ArrayRequest{{"wrist_camera_extrinsics", "front_depth"}}, ArrayRequest{{"gripper_open", "gripper_pose"}},
+        ArrayRequest{{"agent_action"}}, ArrayRequest{{"agent_reward", "agent_action/tool_path"}}})
     check_same(catalogue.read_arrays(1, request), episode_arrays(episode, request));
   CHECK_THROWS_WITH(catalogue.read_arrays(2), Catch::Contains("there is no episode 2"));
 }
@@ -82,6 +84,7 @@ TEST_CASE("the README describes the columns of sensors and cameras") {
     for (const char* camera : {"front", "wrist"})
       if (name.starts_with(std::string(camera) + "_")) name = "CAMERA" + name.substr(5);
     if (name.starts_with("sensor")) name = name.substr(0, name.find('/')) + "/NAME";
+    if (name.starts_with("agent_action/") && name != "agent_action/gripper") name = "agent_action/SPACE";
     if (name.starts_with("object_pose")) return;
     INFO(name);
     CHECK(readme.find("`" + name + "`") != std::string::npos);

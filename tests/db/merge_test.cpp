@@ -45,6 +45,11 @@ TEST_CASE("merged parts are what one run would have made") {
       "frame, camera, instance";
   CHECK(!sum.query(visible).rows.empty());
   CHECK(sum.query(visible).rows == all.query(visible).rows);
+  const std::string asked =
+      "SELECT task, seed, ordinal, frame, end_frame, space, numbers, parameters, reward "
+      "FROM agent_actions ORDER BY 1, 2, 3";
+  CHECK(sum.query(asked).rows.size() == 8 * 6);
+  CHECK(sum.query(asked).rows == all.query(asked).rows);
   const sql::Database file((folder / "sum.db").string(), SQLITE_OPEN_READONLY, "sum.db");
   CHECK(file.number("SELECT count(*) FROM pragma_foreign_key_check") == 0);
   CHECK(file.number("SELECT count(*) FROM timing") == 8);

@@ -57,6 +57,29 @@ TEST_CASE("preconditions are told literal by literal, also of what was undone") 
   CHECK(std::get<std::int64_t>(rows.rows.back()[0]) == 1);
 }
 
+TEST_CASE("what an agent asked for is told action by action") {
+  const Filled filled;
+  const auto told = [&](const std::string& columns) {
+    return to_csv(filled.catalogue.query("SELECT " + columns + " FROM agent_actions ORDER BY ordinal"));
+  };
+  CHECK(told("frame, end_frame, space, gripper, reference, controller, most_frames, skill, segment") ==
+        "frame,end_frame,space,gripper,reference,controller,most_frames,skill,segment\n"
+        "0,1,joint_delta,0.04,,,0,,\n"
+        "1,5,skill,,,joint_impedance,4,pick,\n"
+        "1,2,tool_delta,,tool,,0,,0\n"
+        "2,6,tool_path,,world,,0,,0\n"
+        "5,8,go_on,,,,0,,\n"
+        "8,8,gripper,,,,0,,\n");
+  CHECK(told("time_s, reward, terminated, truncated") ==
+        "time_s,reward,terminated,truncated\n0.0,0.25,0,0\n0.05,0.5,0,0\n0.05,,0,0\n0.1,,0,0\n0.25,1.0,1,0\n0.4,0.0,0,"
+        "1\n");
+  const auto value = [&](const std::string& what) { return only(filled.catalogue, "SELECT " + what); };
+  CHECK(value("numbers FROM agent_actions WHERE ordinal = 0") == "[0.3333333333333333,-0]");
+  CHECK(value("numbers FROM agent_actions WHERE ordinal = 4") == "[]");
+  CHECK(value("arguments ->> 1 FROM agent_actions WHERE space = 'skill'") == "table");
+  CHECK(value("parameters -> 'height' FROM agent_actions WHERE space = 'skill'") == "[0.1]");
+}
+
 TEST_CASE("wide rows are told value by value, in as many rows as there are of them") {
   const Folder folder;
   Catalogue catalogue = Catalogue::write(folder / "a.db");

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "sample_episode.h"
 
@@ -84,6 +85,8 @@ TEST_CASE("an episode read back is the one that was stored, to the last bit") {
   check_segment(a.attempts[0].segment, b.attempts[0].segment);
   CHECK(a.attempts[0].before_segment == b.attempts[0].before_segment);
   CHECK(a.attempts[0].try_number == b.attempts[0].try_number);
+  CHECK(a.agent_actions == b.agent_actions);
+  CHECK(std::signbit(b.agent_actions.at(0).asked.values.at(1)));
 }
 
 TEST_CASE("names, labels and documents come back too") {

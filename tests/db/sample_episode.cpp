@@ -92,6 +92,28 @@ void add_commands(EpisodeRecord& e) {
                 {24, operation::Hand{0.08, 30, 1}}};
 }
 
+// Whoever drives the episode moves the arm, then calls the skill whose body is a policy; it goes on in parts.
+void add_agent_actions(EpisodeRecord& e) {
+  e.agent_actions = {
+      {{.space = "joint_delta", .values = {1.0 / 3, -0.0}, .gripper = 0.04}, 0, 1, -1, 0.25, false, false},
+      {{.space = "skill",
+        .controller = "joint_impedance",
+        .frames = 4,
+        .skill = "pick",
+        .arguments = {"block1", "table", "panda.hand"},
+        .parameters = {{"height", {0.1}}, {"say \"when\"", {1e-300, 2, 3}}}},
+       1,
+       5,
+       -1,
+       0.5,
+       false,
+       false},
+      {{.space = "tool_delta", .values = {0, 0, 1e-9, 0, 0, 0}, .frame = "tool"}, 1, 2, 0, {}, false, false},
+      {{.space = "tool_path", .values = {0.4, 0.1, 0.3, 1, 0, 0, 0}}, 2, 6, 0, {}, false, false},
+      {{.space = "go_on"}, 5, 8, -1, 1, true, false},
+      {{.space = "gripper", .values = {0.07}}, 8, 8, -1, -0.0, false, true}};
+}
+
 SegmentRecord pick_segment() {
   SegmentRecord s;
   s.kind = SegmentKind::skill, s.ordinal = 0, s.robot = "panda", s.skill = "pick", s.case_name = "off_surface";
@@ -177,6 +199,7 @@ EpisodeRecord sample_episode(const std::string& task, const std::string& variati
   add_scene(e, size);
   add_frames(e, size);
   add_commands(e);
+  add_agent_actions(e);
   add_labels(e);
   return e;
 }

@@ -110,8 +110,9 @@ TEST_CASE("the README documents every column of every view, and no other") {
 }
 
 TEST_CASE("the promised views are there") {
-  for (const char* name : {"episodes", "demos",    "segments", "tries",        "facts",       "frames",   "poses",
-                           "joints",   "hands",    "actions",  "camera_poses", "transitions", "failures", "coverage",
-                           "plans",    "problems", "grasps",   "instructions", "cameras",     "images",   "masks"})
+  for (const char* name :
+       {"episodes", "demos",        "segments",     "tries",       "facts",    "frames",       "poses", "joints",
+        "hands",    "actions",      "camera_poses", "transitions", "failures", "coverage",     "plans", "problems",
+        "grasps",   "instructions", "cameras",      "images",      "masks",    "agent_actions"})
     CHECK(std::any_of(embedded_views().begin(), embedded_views().end(), [&](auto& v) { return v.name == name; }));
 }
