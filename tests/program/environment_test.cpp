@@ -1,8 +1,10 @@
 // Acting in a task: every space, every channel, rewards, and going back.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 #include <thread>
 
+#include "db/catalogue.h"
 #include "engine/base/random.h"
 #include "engine/episode/arrays.h"
 #include "engine/episode/record.h"
@@ -69,6 +71,25 @@ EpisodeArrays without_agent(EpisodeArrays arrays) {
   std::erase_if(arrays.columns, [](const ArrayColumn& one) { return one.name.starts_with("agent_"); });
   return arrays;
 }
+
+// Steps, and keeps what an episode should say of what was asked.
+class Asker {
+ public:
+  explicit Asker(Environment world) : world_(std::move(world)) {}
+  StepResult step(const AgentAction& action) {
+    const std::int64_t frame = world_.observe().frame;
+    StepResult now = world_.step(action);
+    if (!now.refusal)
+      asked.push_back({action, frame, now.observation.frame, -1, now.reward, now.terminated, now.truncated});
+    return now;
+  }
+  Environment& world() { return world_; }
+
+  std::vector<AskedAction> asked;
+
+ private:
+  Environment world_;
+};
 
 std::vector<double> row_of(const ArrayColumn& column, std::int64_t frame) {
   std::size_t width = 1;
@@ -550,6 +571,141 @@ TEST_CASE("what an agent did is in the catalogue, with its name, and replays fro
   Environment unrecorded = core->environment("reach_target", {});
   unrecorded.reset();
   CHECK_THROWS_WITH(unrecorded.episode(), Catch::Contains("nothing was recorded"));
+}
+
+TEST_CASE(
+    "what an agent asked for is kept as it was asked, in memory and in the catalogue, and what was refused is not") {
+  const Folder folder;
+  const auto stored =
+      std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector<std::filesystem::path>{}, folder / "d.db");
+  const TaskPlanStep pick = session()->plan("pick_and_lift", {.seed = 3}).steps.front();
+  std::vector<Episode> episodes;
+  std::vector<std::vector<AskedAction>> asked;
+  std::vector<ActionSpace> spaces;
+  for (const auto& core : {session(), stored}) {
+    Asker agent(core->environment("pick_and_lift",
+                                  {.channels = {"gripper_pose"}, .reward = RewardKind::dense, .record = true}));
+    std::vector<double> pose = agent.world().reset({.seed = 3})["gripper_pose"].reals();
+    spaces = agent.world().spaces();
+    pose[2] -= 0.03;
+    const std::vector<double> turn(7, 0.01), still(7, 0.0);
+    agent.step({.space = "joint_delta", .values = turn, .gripper = 0.05});
+    agent.step({.space = "tool_delta", .values = {0.01, 0, 1.0 / 300, 0, 0.01, 0}, .frame = "tool"});
+    agent.step({.space = "joint_velocity", .values = turn, .controller = "joint_impedance"});
+    CHECK(agent.step({.space = "joint_delta", .values = std::vector<double>(7, 9.0)}).refusal);
+    CHECK(agent.step({.space = "tool_path", .values = {0, 0, -3, 1, 0, 0, 0}}).refusal);
+    CHECK(agent.step({.space = "skill", .skill = "pick", .arguments = {"nothing"}}).refusal);
+    agent.step({.space = "joint_torque", .values = still});
+    agent.step({.space = "gripper", .values = {0.08}});
+    agent.step({.space = "tool_path", .values = pose, .gripper = 0.08, .frames = 3});
+    agent.step({.space = "go_on"});
+    agent.step(
+        {.space = "tool_impedance", .values = {pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], pose[6], 800}});
+    AgentAction grasp = skill(pick);
+    grasp.parameters = {{"height", {0.1}}};
+    grasp.controller = "joint_impedance";
+    grasp.frames = 4;
+    agent.step(grasp);
+    CHECK_FALSE(agent.step({.space = "go_on", .frames = 5}).running.empty());
+    CHECK(agent.step({.space = "go_on"}).ended.front().success);
+    agent.step({.space = "hold", .frames = 2});
+    agent.step({.space = "tool_delta", .values = {0, 0, 0.01, 0, 0, 0}});
+    agent.step({.space = "hold"});
+    episodes.push_back(agent.world().episode());
+    asked.push_back(agent.asked);
+  }
+  REQUIRE(episodes.front().record);
+  CHECK(asked.front().size() == 14);
+  CHECK(episodes.front().record->agent_actions == asked.front());
+  const EpisodeArrays memory = session()->arrays(episodes.front(), {}), catalogue = stored->arrays(episodes.back(), {});
+  CHECK(catalogue.agent_actions == asked.back());
+  CHECK(asked.back() == asked.front());
+  CHECK(first_difference(memory, catalogue) == "");
+  CHECK(first_difference(catalogue, memory) == "");
+  CHECK(Catalogue::open(folder / "d.db").read_episode(episodes.back().id).agent_actions == asked.back());
+  CHECK(replay_episode(*episodes.front().record).empty());
+
+  const auto ids = memory.column("agent_action").integers();
+  const auto rewards = memory.column("agent_reward").reals();
+  for (std::size_t i = 0; i < asked.front().size(); ++i) {
+    const AskedAction& one = asked.front()[i];
+    CAPTURE(i, one.asked.space);
+    CHECK(one.first_frame == (i == 0 ? 0 : asked.front()[i - 1].end_frame));
+    const std::string name = "agent_action/" + one.asked.space;
+    for (std::int64_t frame = one.first_frame; frame < one.end_frame; ++frame) {
+      CHECK(ids[static_cast<std::size_t>(frame)] == static_cast<std::int64_t>(i));
+      if (one.asked.values.size() > 1) CHECK(row_of(memory.column(name), frame) == one.asked.values);
+    }
+    if (one.end_frame > one.first_frame) CHECK(rewards[static_cast<std::size_t>(one.end_frame - 1)] == one.reward);
+  }
+  CHECK(ids.back() == -1);
+  CHECK(std::isnan(row_of(memory.column("agent_action/joint_delta"), 1)[0]));
+  CHECK(memory.column("agent_action/gripper").reals()[0] == 0.05);
+  CHECK(memory.column("agent_action/tool_delta").frame == "world or tool");
+  CHECK(memory.column("agent_action/tool_impedance").unit == "m, 1, N/m");
+  int described = 0;
+  for (const ActionSpace& space : spaces) {
+    const ArrayColumn* column = memory.find("agent_action/" + space.name);
+    if (column == nullptr || space.name == "gripper") continue;
+    CAPTURE(space.name);
+    ++described;
+    REQUIRE(column->labels.size() == space.components.size());
+    for (std::size_t i = 0; i < space.components.size(); ++i) CHECK(column->labels[i] == space.components[i].name);
+  }
+  CHECK(described == 6);
+
+  const Rows rows = stored->query(
+      "SELECT parameters, controller, arguments ->> 0 AS first, end_frame - frame AS frames, segment "
+      "FROM agent_actions WHERE skill = 'pick'");
+  REQUIRE(rows.size() == 1);
+  CHECK(rows.text(0, "parameters") == R"({"height":[0.1]})");
+  CHECK(rows.text(0, "controller") == "joint_impedance");
+  CHECK(rows.text(0, "first") == pick.arguments.front());
+  CHECK(rows.integer(0, "frames") == 4);
+  CHECK(rows.is_null(0, "segment"));
+  CHECK(stored->query("SELECT * FROM agent_actions").size() == asked.back().size());
+  CHECK(stored->query("SELECT options ->> 'reward' AS kind FROM episodes").text(0, "kind") == "dense");
+}
+
+TEST_CASE("actions of a branch that was left are gone, and the last one tells how the episode ended") {
+  Asker agent(environment("reach_target", {.horizon_s = 0.3, .record = true}));
+  agent.world().reset({.seed = 2});
+  const AgentAction turn{.space = "joint_velocity", .values = std::vector<double>(7, 0.1)};
+  agent.step(turn);
+  const SavedState saved = agent.world().save();
+  const std::vector<AskedAction> before = agent.asked;
+  agent.step({.space = "gripper", .values = {0.02}});
+  agent.step(turn);
+  const SavedState later = agent.world().save();
+  const std::vector<AskedAction> others = agent.asked;
+  agent.world().restore(saved);
+  agent.asked = before;
+  agent.step({.space = "joint_delta", .values = std::vector<double>(7, 0.0)});
+  agent.world().restore(later);
+  agent.asked = others;
+  StepResult now;
+  while (!now.truncated) now = agent.step(turn);
+  CHECK(agent.step(turn).refusal);
+  CHECK(agent.asked.size() == 6);
+  CHECK(agent.asked.back().truncated);
+  const Episode episode = agent.world().episode();
+  CHECK(episode.record->agent_actions == agent.asked);
+}
+
+TEST_CASE("who asks otherwise makes another episode, though the same was done") {
+  std::set<std::string> keys, ends;
+  for (const double gripper : {0.08, 0.08, -1.0}) {  // it is open already
+    Environment world = environment("reach_target", {.record = true});
+    world.reset({.seed = 2});
+    AgentAction action{.space = "joint_velocity", .values = std::vector<double>(7, 0.1)};
+    if (gripper >= 0) action.gripper = gripper;
+    world.step(action);
+    const Episode episode = world.episode();
+    keys.insert(episode.key);
+    ends.insert(episode.record->state_hash);
+  }
+  CHECK(keys.size() == 2);
+  CHECK(ends.size() == 1);
 }
 
 TEST_CASE("environments in two threads do what one does alone") {

@@ -72,6 +72,13 @@ TEST_CASE("the shell example plays a skill, succeeds, and its episodes replay") 
                           "--format", "csv"});
   INFO(asked.err);
   CHECK(says(asked.out, "success,agent,1"));
+  const Said actions = say({"query", folder / "o.db",
+                            "SELECT space, skill, arguments, reward, terminated FROM "
+                            "agent_actions WHERE episode = 1",
+                            "--format", "csv"});
+  CHECK(actions.out ==
+        "space,skill,arguments,reward,terminated\n"
+        "skill,reach,\"[\"\"target\"\",\"\"panda.hand\"\"]\",0.0,0\nhold,,[],1.0,1\n");
   const Said again = acted("sh " + (folder / "policy.sh"), folder / "o.db", {"--episodes", "2"});
   CHECK(says(again.out, "2 were there already"));
   CHECK(episodes_in(folder / "o.db") == 2);
@@ -87,6 +94,24 @@ TEST_CASE("the example in Python brings the hand to the target") {
   REQUIRE(run.code == kDone);
   CHECK(says(run.out, "2 episodes, 2 succeeded"));
   CHECK(say({"replay", folder / "o.db"}).code == kDone);
+}
+
+TEST_CASE("the example in SQL gives observation, action and reward of each frame") {
+  const Folder folder;
+  const std::string policy =
+      "for i in 1 2 3; do read -r line; echo '" + kTurn + "'; done; read -r line; echo '{\"end\":true}'; cat";
+  REQUIRE(acted(policy, folder / "o.db").code == kNo);
+  const std::string question = example("sql", "agent_actions");
+  const Rows rows = Catalogue::open(folder / "o.db").query(question);
+  REQUIRE(rows.size() == 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CHECK(rows.integer(i, "frame") == static_cast<std::int64_t>(i));
+    CHECK(rows.text(i, "space") == "joint_velocity");
+    CHECK(rows.text(i, "numbers") == "[0.1,0,0,0,0,0,0]");
+    CHECK(rows.real(i, "reward") == 0);
+    CHECK(rows.real(i, "j4") < 0);
+    CHECK(rows.integer(i, "terminated") == 0);
+  }
 }
 
 TEST_CASE("a reset says what there is to do and to see, a step what came of it") {

@@ -85,6 +85,17 @@ TEST_CASE("a policy is the body of a skill: planned, tested, labelled, and repla
   int policies = 0;
   for (const SegmentRecord& one : episode.record->segments) policies += one.skill == "policy" ? 1 : 0;
   CHECK(policies == 1);
+  const auto& asked = episode.record->agent_actions;  // one at each frame of the skill until it is there
+  REQUIRE(asked.size() > 10);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    CHECK(asked[i].segment == skill.ordinal);
+    CHECK(asked[i].first_frame == skill.span.first_frame + static_cast<std::int64_t>(i));
+    CHECK(asked[i].end_frame == asked[i].first_frame + 1);
+    CHECK(asked[i].asked.space == "tool_velocity");
+    CHECK(asked[i].asked.controller.empty());
+    CHECK_FALSE(asked[i].reward);
+  }
+  CHECK(asked.back().end_frame <= skill.span.end_frame);
 }
 
 TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it back") {
@@ -108,6 +119,7 @@ TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it
     const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
     CHECK(episode.reason == "policy_error");
     CHECK_THAT(episode.detail, Catch::Contains(what));
+    CHECK(episode.record->agent_actions.empty());
   }
   const auto core = session(folder, R"(policy("nobody"),)");
   const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
@@ -152,6 +164,86 @@ TEST_CASE("a policy may ask for paths and skills, between set-points") {
   CHECK(motions ==
         std::vector<std::string>{"policy", "brake", "move_to", "policy", "brake", "move_to", "settle", "hold"});
   CHECK(replay_episode(*episode.record).empty());
+  const auto& asked = episode.record->agent_actions;
+  REQUIRE(asked.size() == 9);
+  for (std::size_t i = 1; i < asked.size(); ++i) CHECK(asked[i].first_frame == asked[i - 1].end_frame);
+  CHECK(asked[5].asked.space == "tool_path");
+  CHECK(asked[5].end_frame - asked[5].first_frame > 3);
+  CHECK(asked[8].end_frame == asked[8].first_frame + 1);  // and not to the skill's end
+}
+
+TEST_CASE("what policies of tries that were undone asked for is gone with them") {
+  const Folder folder;
+  const auto core = session(folder, R"(policy("third", { seconds = 8 }),)");
+  const auto calls = std::make_shared<int>(0);
+  class Third final : public Policy {
+   public:
+    explicit Third(bool fails) : fails_(fails) {}
+    void begin(const PolicyCall& call) override { servo_.begin(call); }
+    std::optional<AgentAction> act(const EnvironmentObservation& now) override {
+      if (!fails_) return servo_.act(now);
+      if (++frame_ > 3) throw std::runtime_error("lost");
+      return AgentAction{.space = "joint_velocity", .values = std::vector<double>(7, 0.1)};
+    }
+
+   private:
+    Servo servo_;
+    bool fails_ = false;
+    int frame_ = 0;
+  };
+  core->add_policy("third", {.make = [calls] { return std::make_unique<Third>(++*calls < 3); },
+                             .channels = {"gripper_pose", "object_pose"}});
+  const Episode episode = core->run("reach_target", {.seed = 4});
+  CAPTURE(episode.reason, episode.detail);
+  CHECK(episode.outcome == Outcome::success);
+  CHECK(episode.undone == 2);
+  const auto& asked = episode.record->agent_actions;
+  REQUIRE(asked.size() > 10);
+  CHECK(asked.front().first_frame == skill_of(episode).span.first_frame);
+  for (const AskedAction& one : asked) CHECK(one.asked.space == "tool_velocity");
+}
+
+TEST_CASE("an agent that calls a skill with a policy as its body: what both asked for is there, each with its frames") {
+  const Folder folder;
+  const auto core = std::make_shared<SessionCore>(
+      STAMPEDE_SOURCE_DIR,
+      std::vector{own_reach(folder, R"(policy("mixed", { until_effect = false, seconds = 30 }),)")}, folder / "d.db");
+  core->add_policy("mixed", entry([](const EnvironmentObservation& now, int frame) -> std::optional<AgentAction> {
+                     if (frame == 4) return std::nullopt;
+                     if (frame != 2) return AgentAction{.space = "joint_delta", .values = std::vector<double>(7, 0.01)};
+                     std::vector<double> pose = now["gripper_pose"].reals();
+                     pose[2] += 0.05;
+                     return AgentAction{.space = "tool_path", .values = pose};
+                   }));
+  Environment world = core->environment("reach_target", {.record = true});
+  world.reset({.seed = 4});
+  world.step({.space = "skill", .frames = 5, .skill = "reach", .arguments = {"target", "panda.hand"}});
+  StepResult now;
+  int parts = 0;
+  for (; now.ended.empty() && parts < 100; ++parts) now = world.step({.space = "go_on", .frames = 5});
+  const Episode episode = world.episode();
+  const EpisodeArrays arrays = core->arrays(episode, {{"agent_action", "skill"}});
+  std::vector<AskedAction> own, of_policy;
+  for (const AskedAction& one : arrays.agent_actions) (one.segment < 0 ? own : of_policy).push_back(one);
+  REQUIRE(own.size() == 1 + static_cast<std::size_t>(parts));
+  REQUIRE(of_policy.size() == 4);
+  CHECK(own.front() == arrays.agent_actions.front());
+  CHECK(own.front().end_frame == 5);
+  const std::int64_t from = of_policy[2].first_frame, to = of_policy[2].end_frame;
+  CHECK(of_policy[2].asked.space == "tool_path");
+  CHECK((from < 5 && to > 5));  // it outlasts the call's first part
+  CHECK(of_policy[3].first_frame == to);
+  const auto ids = arrays.column("agent_action").integers();
+  const auto skills = arrays.column("skill").integers();
+  for (std::int64_t frame = from; frame < to; ++frame) {
+    const auto at = static_cast<std::size_t>(frame);
+    const AskedAction& acts = arrays.agent_actions.at(static_cast<std::size_t>(ids[at]));
+    CHECK(acts == of_policy[2]);
+    CHECK(acts.segment == skills[at]);
+  }
+  CHECK(arrays.agent_actions.at(static_cast<std::size_t>(ids[static_cast<std::size_t>(to + 1)])).segment == -1);
+  CHECK(core->query("SELECT DISTINCT s.skill FROM agent_actions a JOIN segments s USING (episode, segment)")
+            .text(0, "skill") == "reach");
 }
 
 TEST_CASE("what comes later in the order of priorities does not disturb what comes before") {
