@@ -71,7 +71,7 @@ TEST_CASE("a full queue holds up all but the next in line") {
   CHECK(stored_keys(folder / "a.db") == keys_of(episodes));
 }
 
-TEST_CASE("nobody waits for the abandoned; at the end gaps are stepped over") {
+TEST_CASE("nobody waits for the abandoned, at the end gaps are stepped over") {
   const Folder folder;
   const std::vector<EpisodeRecord> episodes = eight();
   std::atomic<int> commits = 0;

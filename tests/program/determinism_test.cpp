@@ -16,7 +16,7 @@ std::string hash_of(const std::string& path) { return Catalogue::open(path).cont
 
 }  // namespace
 
-TEST_CASE("two workers write what one writes; a second run adds nothing; replay needs no scripts") {
+TEST_CASE("two workers write what one writes, a second run adds nothing, replay needs no scripts") {
   const Folder folder;
   REQUIRE(say(run_words(folder / "one.db", {"--episodes", "4"})).code == kDone);
   REQUIRE(say(run_words(folder / "two.db", {"--episodes", "4", "--workers", "2"})).code == kDone);

@@ -87,7 +87,7 @@ TEST_CASE("name, version, rate and components of a sensor are part of the key") 
   CHECK(key_with("tip", tip_height("1")) == key_with("tip", tip_height("1")));
 }
 
-TEST_CASE("an agent observes a sensor of the program's; it is not known before the first reading") {
+TEST_CASE("an agent observes a sensor of the program's, it is not known before the first reading") {
   const auto session = sensing();
   session->add_sensor("tip", tip_height());
   Environment world = session->environment(
@@ -130,7 +130,7 @@ TEST_CASE("what a sensor may read: joints, poses, speeds, forces, distances") {
   CHECK(fastest > 0.1);
 }
 
-TEST_CASE("a sensor that fails ends the episode with the reason; one that cannot be is an error") {
+TEST_CASE("a sensor that fails ends the episode with the reason, one that cannot be is an error") {
   const std::vector<std::pair<std::function<std::vector<double>(const SimulatorView&)>, std::string>> bad = {
       {[](const SimulatorView&) -> std::vector<double> { throw std::runtime_error("no cable"); }, "no cable"},
       {[](const SimulatorView&) -> std::vector<double> { throw 7; }, "no std::exception"},

@@ -242,7 +242,7 @@ TEST_CASE("drawn looks are stored: later pictures wear them too") {
   CHECK(say({"replay", folder / "now.db"}).code == kDone);
 }
 
-TEST_CASE("an episode that never started is left out with a line; the others are drawn") {
+TEST_CASE("an episode that never started is left out with a line, the others are drawn") {
   const Folder folder, mine;
   std::filesystem::create_directories(mine / "tasks");
   std::ofstream(mine / "tasks/never.lua")

@@ -127,7 +127,7 @@ TEST_CASE("a run that is stopped keeps what is finished, says so, and goes on la
   CHECK(stored_count(*session) == 12);
 }
 
-TEST_CASE("what a callback throws ends the run and reaches its caller; what is finished is kept") {
+TEST_CASE("what a callback throws ends the run and reaches its caller, what is finished is kept") {
   const Folder folder;
   const auto session = many_session(folder / "d.db");
   RunRequest request{.tasks = {"reach_target"}, .episodes = 12, .workers = 2};

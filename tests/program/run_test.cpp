@@ -149,7 +149,7 @@ TEST_CASE("a file that `new` writes passes `check`, and a misspelt field ends wi
   CHECK(wrong.out.find("did you mean 'objects'?") != std::string::npos);
 }
 
-TEST_CASE("a mistake in a file stops the tasks that use it, and no other; check tells all") {
+TEST_CASE("a mistake in a file stops the tasks that use it, and no other, check tells all") {
   const Folder mine;
   std::filesystem::create_directories(mine / "tasks");
   std::filesystem::create_directories(mine / "worlds/objects");

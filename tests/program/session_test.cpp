@@ -86,7 +86,7 @@ TEST_CASE("an episode of a session without a catalogue holds what happened, and 
   CHECK(says(say({"run", "reach_target", "--root", STAMPEDE_SOURCE_DIR, "--out", ":memory:"}).err, "name a file"));
 }
 
-TEST_CASE("a session keeps one catalogue open; answers are typed, and others may read meanwhile") {
+TEST_CASE("a session keeps one catalogue open, answers are typed, and others may read meanwhile") {
   const Folder folder;
   SessionCore session(STAMPEDE_SOURCE_DIR, {}, folder / "d.db");
   CHECK_THROWS_AS(session.query("SELECT 1"), CatalogueError);  // no file yet, and none is made by asking
@@ -95,13 +95,13 @@ TEST_CASE("a session keeps one catalogue open; answers are typed, and others may
   CHECK(again.id == first.id);
   session.run("reach_target", {.seed = 8});
   CHECK(Catalogue::open(folder / "d.db").episodes().size() == 2);
-  const Rows rows = session.query("SELECT task, seed, duration_s, NULL AS nothing, x'0041' AS bytes FROM episodes");
+  const Rows rows = session.query("SELECT task, seed, duration_s, NULL AS missing, x'0041' AS bytes FROM episodes");
   REQUIRE(rows.size() == 2);
   CHECK(rows.text(0, "task") == "reach_target");
   CHECK(rows.integer(1, "seed") == 8);
   CHECK(rows.real(0, "duration_s") == first.duration_s);
   CHECK(rows.real(0, "seed") == 7);
-  CHECK(rows.is_null(0, "nothing"));
+  CHECK(rows.is_null(0, "missing"));
   CHECK(rows.blob(0, "bytes") == std::string("\0A", 2));
   CHECK_THROWS_WITH(rows.integer(0, "task"), Catch::Contains("text, not an integer"));
   CHECK_THROWS_WITH(rows.text(0, "tsk"), Catch::Contains("did you mean 'task'"));

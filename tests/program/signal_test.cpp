@@ -58,7 +58,7 @@ TEST_CASE("kill -9 during a run leaves whole episodes only") {
   CHECK(replayed.code == kDone);
 }
 
-TEST_CASE("a reader that has seen enough, such as head, is no error; a full disk is") {
+TEST_CASE("a reader that has seen enough, such as head, is no error, a full disk is") {
   const Folder folder;
   const auto code_of = [&](int output) {
     const pid_t child = fork();

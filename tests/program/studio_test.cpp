@@ -38,7 +38,7 @@ PictureRequest all_kinds(const std::string& camera) {
 
 }  // namespace
 
-TEST_CASE("pictures for programs are those of the catalogue; depth is exact there and rounded here") {
+TEST_CASE("pictures for programs are those of the catalogue, depth is exact there and rounded here") {
   const Stored stored;
   Studio studio;
   const std::vector<ImageEntry> images = stored.catalogue.images(1);

@@ -215,7 +215,7 @@ TEST_CASE("variations that contradict --where are left out") {
 }
 
 TEST_CASE(
-    "a task's start is a BDDL problem before anything has run, which imports as a task; or refused with the cure") {
+    "a task's start is a BDDL problem before anything has run, which imports as a task, or refused with the cure") {
   const Folder mine;
   const std::vector<std::string> plan = {"plan", "put_item_in_drawer", "--root", STAMPEDE_SOURCE_DIR, "--bddl"};
   const auto with = [&](std::vector<std::string> more) {

@@ -89,7 +89,7 @@ TEST_CASE("plans know what has been seen, assume the rest and plan again: drawer
   CHECK(looked_in_vain > 0);
 }
 
-TEST_CASE("drawers opened in vain are closed where both are in the way of the third; what lies in that is not") {
+TEST_CASE("drawers opened in vain are closed where both are in the way of the third, what lies in that is not") {
   const EpisodeRecord episode = find_item("bottom", 500000);
   const auto together = [](const AttemptRecord& attempt) {
     return attempt.segment.detail.find("in the way: chest.middle_drawer, chest.top_drawer") != std::string::npos;

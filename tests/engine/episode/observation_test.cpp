@@ -126,7 +126,7 @@ TEST_CASE("the moving block moves in the masks, and in the colours too") {
   CHECK(pixels(0) != pixels(last));
 }
 
-TEST_CASE("pictures made later are the same bytes; one camera alone is the same as among others") {
+TEST_CASE("pictures made later are the same bytes, one camera alone is the same as among others") {
   const EpisodeRecord& episode = seen();
   const auto renderer = make_osmesa_renderer();
   ObservationChoice alone = observation_of(episode);

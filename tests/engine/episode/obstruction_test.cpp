@@ -107,7 +107,7 @@ TEST_CASE("recover: the failed try stays, and the blocker is moved afterwards") 
   CHECK(failed == 1);
 }
 
-TEST_CASE("a problem without obstructions is the plain one; with one the action waits for the move") {
+TEST_CASE("a problem without obstructions is the plain one, with one the action waits for the move") {
   const TaskDraw task = niche_task;
   PlainSymbols symbols;
   RunOptions options;

@@ -42,7 +42,7 @@ TEST_CASE("a planned episode reaches its goal, and what it declares is what happ
   CHECK(episode.frames[episode.frames.size() - 2].done);
 }
 
-TEST_CASE("subgoals and motions tile the frames; skills those before the arm stands still for the verdict") {
+TEST_CASE("subgoals and motions tile the frames, skills those before the arm stands still for the verdict") {
   const EpisodeRecord episode = stack(2);
   REQUIRE(episode.outcome == Outcome::success);
   const SegmentRecord& hold = episode.segments.back();
@@ -95,7 +95,7 @@ TEST_CASE("facts agree with segments: on(cube1, table) ends in pick, on(cube1, c
   }
 }
 
-TEST_CASE("the stop-based keyframe rule misses the approach that pick passes at speed; its via-point is recorded") {
+TEST_CASE("the stop-based keyframe rule misses the approach that pick passes at speed, its via-point is recorded") {
   const EpisodeRecord episode = stack(1);
   REQUIRE(episode.outcome == Outcome::success);
   REQUIRE_FALSE(episode.vias.empty());

@@ -110,7 +110,7 @@ TEST_CASE("while one call is under way, and after the episode has ended, there i
   CHECK(traces(running) == before);
 }
 
-TEST_CASE("a call can be cut off between two ticks; the next one begins from rest") {
+TEST_CASE("a call can be cut off between two ticks, the next one begins from rest") {
   Running running;
   REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
   for (int i = 0; i < 120; ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("a skill that another skill ran leaves it its own controller") {
   CHECK(running.rollout->world().controller().kind == ControllerKind::joint_position);
 }
 
-TEST_CASE("what a caller sets is not drawn, and says who chose it; the run's own words go first") {
+TEST_CASE("what a caller sets is not drawn, and says who chose it, the run's own words go first") {
   Running running;
   SkillRequest request = running.request(kPick);
   request.set.values = {{"height", 0, {0.2}}};

@@ -190,7 +190,7 @@ TEST_CASE("broken meshes and pictures are errors with the file and a cure") {
   CHECK_THROWS_AS(load_drawn(folder.put("g.obj", kCube), {1, 0, 1}), Error);
 }
 
-TEST_CASE("a drawn mesh survives its bytes; damaged bytes are errors") {
+TEST_CASE("a drawn mesh survives its bytes, damaged bytes are errors") {
   const TemporaryFolder folder;
   const DrawnMesh mesh = load_drawn(folder.put("s.obj", kSquare + "f 1/1 2/2 3/3 4/4\n")).at(0).mesh;
   CHECK_FALSE(mesh.coordinates.empty());

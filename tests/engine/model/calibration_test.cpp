@@ -81,7 +81,7 @@ TEST_CASE("a calibrated camera sees a point where OpenCV's formula puts it, half
   CHECK(front.far_m == 3.5);
 }
 
-TEST_CASE("a camera on a link names robot and part; half pixels are taken as they are") {
+TEST_CASE("a camera on a link names robot and part, half pixels are taken as they are") {
   const CalibrationFile file(kGood);
   const Scene scene = table_scene(1);
   const Camera hand_eye = load_calibration(file.path(), scene).at(1);

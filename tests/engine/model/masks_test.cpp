@@ -77,7 +77,7 @@ TEST_CASE("the numbers of everything else depend on the key, and on it alone") {
   CHECK(numbers.size() == 6);  // five cubes and the patch: each number comes up (missing one: 6 (5/6)^60 = 1e-4)
 }
 
-TEST_CASE("the key has each part and region that can be seen once; only links without shapes leave gaps") {
+TEST_CASE("the key has each part and region that can be seen once, only links without shapes leave gaps") {
   const Scene scene = numbered(world_scene(3, true), "key");
   const auto key = mask_key(scene);
   CHECK(static_cast<int>(key.size()) == drawn_links(scene) + 1 + 3 + 2 + 1);
@@ -91,7 +91,7 @@ TEST_CASE("the key has each part and region that can be seen once; only links wi
   CHECK(entry(key, "patch").instance == scene.regions[0].instance);
 }
 
-TEST_CASE("what is seen through or not at all has no number; an older scene keeps those it has") {
+TEST_CASE("what is seen through or not at all has no number, an older scene keeps those it has") {
   Scene scene = world_scene(2, true);
   scene.regions[0].colour.alpha = 0.3;
   Body& chest = scene.bodies.back();
@@ -123,7 +123,7 @@ TEST_CASE("classes are sorted, counted from 1, and tell a drawer from its chest 
   CHECK(entry(key, "cube1").instance != entry(key, "cube2").instance);
 }
 
-TEST_CASE("classes that are given stay; one that is left out is an error, as is a scene without numbers") {
+TEST_CASE("classes that are given stay, one that is left out is an error, as is a scene without numbers") {
   Scene scene = world_scene(1, false);
   CHECK_THROWS_AS(mask_key(scene), Error);
   scene.classes = {"zebra", "cube", "hand", "panda", "region", "table"};

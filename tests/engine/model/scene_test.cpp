@@ -99,7 +99,7 @@ TEST_CASE("a box as a hull weighs like the box, wherever it stands and however i
   CHECK((a.inertia - b.inertia).norm() < 1e-12);
 }
 
-TEST_CASE("two half boxes weigh like the whole; only what collides has mass") {
+TEST_CASE("two half boxes weigh like the whole, only what collides has mass") {
   Shape left = box({0.5, 1, 1}), right = left, decoration = box({9, 9, 9});
   left.part_from_shape = translation(-0.25, 0, 0);
   right.part_from_shape = translation(0.25, 0, 0);

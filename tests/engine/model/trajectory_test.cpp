@@ -28,7 +28,7 @@ TEST_CASE("a quintic through a quintic's own knots is that quintic") {
   }
 }
 
-TEST_CASE("knots are met exactly; before the first and after the last nothing moves on") {
+TEST_CASE("knots are met exactly, before the first and after the last nothing moves on") {
   const Trajectory trajectory{
       {{0, one(0.1), one(0.2), one(0.3)}, {24, one(0.4), one(0.5), one(0.6)}, {60, one(1), one(0.7), one(0)}}};
   CHECK(evaluate(trajectory, 0, 240).position == one(0.1));

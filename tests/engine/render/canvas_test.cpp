@@ -117,7 +117,7 @@ TEST_CASE("the same text gives the same pixels, after other sizes and in other t
   CHECK(other.rgb == first.rgb);
 }
 
-TEST_CASE("lines are broken at blanks and fit; what is too much ends in an ellipsis") {
+TEST_CASE("lines are broken at blanks and fit, what is too much ends in an ellipsis") {
   const std::string text = "stack three blue blocks on the green plate";
   const int width = 120, size = 14;
   const auto all = wrapped(text, size, width, 10);

@@ -65,7 +65,7 @@ TEST_CASE("a point's pixel is where the lens puts it, whatever its distortion") 
   }
 }
 
-TEST_CASE("pixels without depth give no points; kinds that were not drawn stay empty") {
+TEST_CASE("pixels without depth give no points, kinds that were not drawn stay empty") {
   Picture picture;
   picture.width = picture.height = 2;
   picture.depth = {0, 1, 0, 2};

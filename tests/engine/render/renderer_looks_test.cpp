@@ -115,7 +115,7 @@ TEST_CASE("A checker alternates every half size, along the shape's own axes") {
   demand_same_geometry(picture, floor_with([](Scene&) {}).draw(from_above()));
 }
 
-TEST_CASE("Stripes change along one axis only; noise is a function of its seed") {
+TEST_CASE("Stripes change along one axis only, noise is a function of its seed") {
   Studio stripes = floor_wearing(pattern(TextureKind::stripes, 0.4));
   const Picture picture = stripes.draw(from_above());
   for (const double y : {-0.3, 0.0, 0.3}) {

@@ -61,7 +61,7 @@ TEST_CASE("a position is reached without passing it, and a velocity of nothing i
   CHECK(world.arm_velocity().cwiseAbs().maxCoeff() < 1e-3);
 }
 
-TEST_CASE("no torque is weightlessness; any torque keeps joints between their stops, and the arm goes on from there",
+TEST_CASE("no torque is weightlessness, any torque keeps joints between their stops, and the arm goes on from there",
           "[sim]") {
   World world(shared(table_scene(0)));
   world.apply(Servo{Servo::Of::torque, constant(0)});

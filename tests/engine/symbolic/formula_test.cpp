@@ -93,7 +93,7 @@ TEST_CASE("unmet names each literal once, in seconds where there are many") {
   CHECK(texts.back() == "(near o1399 o1399)");
 }
 
-TEST_CASE("effects read the state before; additions win over removals") {
+TEST_CASE("effects read the state before, additions win over removals") {
   const Domain domain = domain_from_pddl(
       "(define (domain lamps) (:types lamp) (:predicates (lit ?l - lamp) (used)) (:action toggle :parameters () "
       ":precondition (and) :effect (and (used) (not (used)) (forall (?l - lamp) (and (when (lit ?l) (not (lit ?l))) "

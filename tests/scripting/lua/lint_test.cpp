@@ -7,7 +7,9 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("nothing in scripting catches everything, and one file wraps Lua functions") {
+// Lua throws through its own functions what only it may catch; other rooms call it protected, and programs' functions
+// too.
+TEST_CASE("nothing beside Lua catches everything, and one file wraps Lua functions") {
   int read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(STAMPEDE_SOURCE_DIR "/scripting")) {
     const std::string extension = entry.path().extension().string();
@@ -16,8 +18,12 @@ TEST_CASE("nothing in scripting catches everything, and one file wraps Lua funct
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     INFO(entry.path());
     ++read;
-    CHECK(text.find("catch (...)") == std::string::npos);
-    CHECK(text.find("catch(...)") == std::string::npos);
+    const std::string room = entry.path().parent_path().filename().string();
+    const bool outside = room == "session" || room == "commands" || room == "program";
+    if (!outside || text.find("lua.hpp") != std::string::npos) {
+      CHECK(text.find("catch (...)") == std::string::npos);
+      CHECK(text.find("catch(...)") == std::string::npos);
+    }
     // A function handed to Lua goes through lua_function, which holds the try block.
     for (std::size_t at = text.find("lua_pushcfunction("); at != std::string::npos;
          at = text.find("lua_pushcfunction(", at + 1)) {

@@ -52,7 +52,7 @@ TEST_CASE("an author's file goes before its dialect's") {
   CHECK(own.stands.at("chest").z_m == 0.7);
 }
 
-TEST_CASE("without what it extends a file is all there is; arguments are counted from 1") {
+TEST_CASE("without what it extends a file is all there is, arguments are counted from 1") {
   const BddlMapping mapping = read_text(
       R"(dialect = "behavior", extend = false, categories = { { "box.n.01", "chest" } },
          predicates = { { theirs = "grasped", ours = "holding", order = { 2, 1 }, meaning = "stronger" } })");

@@ -159,7 +159,7 @@ TEST_CASE("init speaks of every member of a group and of the hand") {
   CHECK(std::count(unplaced.begin(), unplaced.end(), "chest") == 0);
 }
 
-TEST_CASE("goal: any two of three blocks, whichever; none while they lie side by side") {
+TEST_CASE("goal: any two of three blocks, whichever, none while they lie side by side") {
   EpisodeScripts scripts(small_library(), "tower", canonical_variation(), 1);
   const Domain& domain = scripts.symbols().domain();
   std::vector<TypedObject> objects;
@@ -191,7 +191,7 @@ TEST_CASE("fields that are functions of the variation, sentences, and subgoals i
   CHECK(task.stages.empty());
 }
 
-TEST_CASE("steps leave open what they do not name; an ordered goal has stages") {
+TEST_CASE("steps leave open what they do not name, an ordered goal has stages") {
   EpisodeScripts scripts(small_library(), "steps", "", 1);
   REQUIRE(scripts.task()(0).steps.has_value());
   const std::vector<TaskStep> steps = *scripts.task()(0).steps;
