@@ -60,7 +60,8 @@ void add_depth_noise(Picture& picture, const Camera& camera, double deviation, R
 
 void add_noise(Picture& picture, const Camera& camera, const CameraNoise& noise, RandomKey key) {
   if (noise.rgb > 0) add_colour_noise(picture.rgb, noise.rgb, Random(key.with("rgb")));
-  if (noise.depth > 0) add_depth_noise(picture, camera, noise.depth, Random(key.with("depth")));
+  if (noise.depth > 0 && !picture.depth.empty())
+    add_depth_noise(picture, camera, noise.depth, Random(key.with("depth")));
 }
 
 }  // namespace stampede

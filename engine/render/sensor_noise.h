@@ -14,7 +14,8 @@ struct CameraNoise {
   bool any() const { return rgb > 0 || depth > 0; }
 };
 
-// `key` tells episode, camera and frame apart; the kinds are told apart here.
+// Kinds that the picture does not have are left out. `key` tells episode, camera and frame apart; the kinds are told
+// apart here.
 void add_noise(Picture& picture, const Camera& camera, const CameraNoise& noise, RandomKey key);
 
 }  // namespace stampede

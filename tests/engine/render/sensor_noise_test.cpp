@@ -48,6 +48,15 @@ TEST_CASE("no noise changes nothing, and ids never change") {
   CHECK(noised(picture, {0.1, 0.01}).instance == picture.instance);
 }
 
+TEST_CASE("a picture without a kind gets no noise of it") {
+  Picture picture = flat(100, 1);
+  picture.depth.clear();
+  CHECK(noised(picture, {0.05, 0.0015}).depth.empty());
+  picture = flat(100, 1);
+  picture.rgb.clear();
+  CHECK(noised(picture, {0.05, 0.0015}).rgb.empty());
+}
+
 TEST_CASE("colour noise has the deviation asked for, no bias, and tails") {
   const auto [mean, deviation] = moments(noised(flat(128, 1), {0.05, 0}).rgb);
   // 120,000 draws: a mean is good to 0.04 and a deviation to 0.03; rounding adds 1/12 to the variance.
