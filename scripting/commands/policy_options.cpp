@@ -17,6 +17,10 @@ std::vector<std::string> observed(const std::string& text) {
   return names;
 }
 
+RewardKind reward_from(const std::string& name) {
+  return name == "dense" ? RewardKind::dense : name == "task" ? RewardKind::task : RewardKind::sparse;
+}
+
 }  // namespace
 
 std::vector<OptionRow> policy_options() {
@@ -35,12 +39,19 @@ std::vector<OptionRow> policy_options() {
            Takes::text,
            "",
            {},
+           false},
+          {"--reward",
+           "KIND",
+           "what it is told: 1 at success, how far a plan for the goal has come, or the task's own",
+           Takes::text,
+           "sparse",
+           {"sparse", "dense", "task"},
            false}};
 }
 
 std::optional<PolicySettings> policy_settings(const Arguments& arguments, const ObservationChoice& pictures) {
   if (!arguments.has("--policy")) {
-    for (const char* option : {"--policy-timeout", "--observe"})
+    for (const char* option : {"--policy-timeout", "--observe", "--reward"})
       if (arguments.has(option)) throw UsageError(std::string(option) + " is of a policy", "add --policy COMMAND");
     return std::nullopt;
   }
@@ -59,6 +70,7 @@ std::optional<PolicySettings> policy_settings(const Arguments& arguments, const 
   settings.patience = std::chrono::seconds(in_range(arguments, "--policy-timeout", 1, kMostPatience_s));
   EnvironmentSettings& environment = settings.environment;
   if (arguments.has("--observe")) environment.channels = observed(arguments.text("--observe"));
+  environment.reward = reward_from(arguments.text("--reward"));
   if (pictures.size) environment.width = pictures.size->at(0), environment.height = pictures.size->at(1);
   environment.shadows = pictures.shadows.value_or(false);
   environment.rgb_noise = pictures.rgb_noise.value_or(0);

@@ -10,7 +10,7 @@
 
 namespace stampede::program {
 
-std::vector<OptionRow> policy_options();  // --policy, --policy-timeout, --observe
+std::vector<OptionRow> policy_options();  // --policy, --policy-timeout, --observe, --reward
 
 // Nothing: the planner acts. `pictures`: what the command line says of them holds for those that are observed too.
 // Throws UsageError for what makes no sense, options of the planner beside a policy among it.

@@ -1,5 +1,6 @@
 // Environments: steps, resets, going back; `environment_bench soak N [TASK...]`: random actions and what must never
-// happen; `threads`: two against one; `reward [TASK...]`: whether the dense reward rises along a demonstration.
+// happen; `threads`: two against one; `skills`: what acting by
+// skills costs; `reward [TASK...]`: whether the dense reward rises along a demonstration.
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,19 +65,27 @@ double step_s(Environment& world, int steps, std::int64_t seed) {
   return spent / steps;
 }
 
-// The same commands to the same scene, and nothing but the world's own steps: CPU seconds a frame.
-double bare_frame_s(const EpisodeRecord& episode) {
+// The same commands to the same scene, and nothing but the world's own steps: CPU seconds of each frame.
+std::vector<double> bare_frames_s(const EpisodeRecord& episode) {
   World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
   world.keep_log(false);
-  const auto steps = static_cast<std::int64_t>(episode.frames.size() - 1) * (episode.physics_hz / episode.frame_hz);
+  std::vector<double> frames;
   std::size_t next = 0;
-  const std::clock_t begin = std::clock();
-  while (world.step_count() < steps) {
-    for (; next < episode.commands.size() && episode.commands[next].step == world.step_count(); ++next)
-      world.apply(episode.commands[next].operation);
-    world.step();
+  while (frames.size() + 1 < episode.frames.size()) {
+    const std::clock_t begin = std::clock();
+    for (int i = 0; i < episode.physics_hz / episode.frame_hz; ++i) {
+      for (; next < episode.commands.size() && episode.commands[next].step == world.step_count(); ++next)
+        world.apply(episode.commands[next].operation);
+      world.step();
+    }
+    frames.push_back(seconds_since(begin));
   }
-  return seconds_since(begin) / static_cast<double>(episode.frames.size() - 1);
+  return frames;
+}
+
+double bare_frame_s(const EpisodeRecord& episode) {
+  const std::vector<double> frames = bare_frames_s(episode);
+  return std::accumulate(frames.begin(), frames.end(), 0.0) / static_cast<double>(frames.size());
 }
 
 void measure() {
@@ -125,6 +134,38 @@ void measure() {
     blocks.step(random_action(space, random));
   }
   std::printf("stack_blocks: save and restore %.2f ms, the median of 200\n", median(branches));
+}
+
+// What acting by skills costs beside physics: whole skills of the plan, a frame at a time. A few frames plan the motion
+// that follows, so the median of what is left after physics is what acting itself costs.
+void skills() {
+  const auto session = scripts();
+  for (const char* task : {"reach_target", "push_buttons", "stack_blocks"}) {
+    std::vector<double> beside, begins;
+    for (std::int64_t seed = 0; seed < 3; ++seed) {
+      Environment world = session->environment(task, {.record = true});
+      world.reset({.seed = seed});
+      std::vector<double> frames;
+      const auto timed = [&](const AgentAction& action) {
+        const std::clock_t begin = std::clock();
+        const StepResult now = world.step(action);
+        frames.insert(frames.end(), static_cast<std::size_t>(now.frames), 1000 * seconds_since(begin));
+        return now;
+      };
+      for (const TaskPlanStep& call : session->plan(task, {.seed = seed}).steps) {
+        StepResult now = timed({.space = "skill", .frames = 1, .skill = call.action, .arguments = call.arguments});
+        if (!frames.empty()) begins.push_back(frames.back());
+        while (!now.running.empty()) now = timed({.space = "go_on", .frames = 1});
+        if (now.terminated || now.truncated || now.refusal) break;
+      }
+      const std::vector<double> bare = bare_frames_s(*world.episode().record);
+      for (std::size_t i = 0; i < std::min(frames.size(), bare.size()); ++i)
+        beside.push_back(frames[i] - 1000 * bare[i]);
+    }
+    std::printf(
+        "%s: a frame of a skill costs %.3f ms beside its physics; a skill's first frame, planning included, %.1f\n",
+        task, median(beside), median(begins));
+  }
 }
 
 void threads() {
@@ -366,9 +407,10 @@ int main(int argc, char** argv) {
   try {
     if (argc < 2) return measure(), 0;
     if (is("threads")) return threads(), 0;
+    if (is("skills")) return skills(), 0;
     const int named = is("soak") ? 3 : 2;
     if (argc < named || (!is("soak") && !is("reward"))) {
-      std::fputs("environment_bench [soak N [TASK...] | threads | reward [TASK...]]\n", stderr);
+      std::fputs("environment_bench [soak N [TASK...] | threads | skills | reward [TASK...]]\n", stderr);
       return 2;
     }
     const auto session = scripts();

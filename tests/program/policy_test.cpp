@@ -180,6 +180,23 @@ TEST_CASE("pictures are read while the program acts: raw numbers of the size tha
   CHECK(std::stoi(file_text(size)) == 32 * 24 * 4);
 }
 
+TEST_CASE("a policy is told the reward that was asked for") {
+  const Folder folder;
+  const std::string log = folder / "log";
+  const std::string reach = R"({"space":"skill","skill":"reach","arguments":["target","panda.hand"]})";
+  const std::string policy =
+      "tee " + log + " | { read -r line; echo '" + reach + "'; read -r line; echo '{\"space\":\"hold\"}'; cat; }";
+  REQUIRE(acted(policy, folder / "o.db", {"--reward", "dense"}).code == kDone);
+  auto messages = messages_in(log);
+  REQUIRE(messages.size() >= 2);
+  CHECK(messages[1].at("reward").get<double>() > 0.5);  // there, but not held for long enough
+  CHECK(messages.back().at("reward") == 1.0);
+  std::filesystem::remove(log);
+  REQUIRE(acted(policy, folder / "o.db").code == kDone);
+  messages = messages_in(log);
+  CHECK(messages[1].at("reward") == (messages.size() == 2 ? 1.0 : 0.0));
+}
+
 TEST_CASE("a policy ends its episodes when it likes, and a refused action changes nothing") {
   const Folder folder;
   const std::string log = folder / "log";
