@@ -1,6 +1,8 @@
 #include "engine/base/text.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 namespace stampede {
 
@@ -12,6 +14,11 @@ std::vector<std::string> split(std::string_view text, char at) {
     start = end + 1;
   }
   return parts;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 }  // namespace stampede

@@ -10,4 +10,6 @@ namespace stampede {
 // One part more than there are separators: empty ones are kept, so that who reads them can complain.
 std::vector<std::string> split(std::string_view text, char at);
 
+std::string number_text(double value);  // the shortest that reads back as the same number
+
 }  // namespace stampede

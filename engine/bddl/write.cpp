@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <charconv>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/bddl/words.h"
 
 namespace stampede {
@@ -47,12 +47,6 @@ std::string formula_text(const BddlFormula& formula, const char* mark) {
   for (const Parameter& variable : formula.variables) text += " (?" + variable.name + " - " + variable.type + ")";
   for (const BddlFormula& part : formula.parts) text += " " + formula_text(part, mark);
   return text + ")";
-}
-
-std::string number_text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;  // shortest that reads back the same
-  return {buffer, end};
 }
 
 template <typename Numbers>

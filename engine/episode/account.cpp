@@ -21,6 +21,18 @@ void write_problem(const Task& task, const Domain& domain, const Rollout& rollou
   record.documents.push_back({DocumentKind::ordered_problem, to_pddl(planning.problem, ordered)});
 }
 
+ObservationChoice observed(const Task& task, const RunOptions& options) {
+  ObservationChoice choice = before(options.observation, task.observation);
+  const auto add = [](std::optional<double>& noise, double further) {
+    if (further > 0) noise = noise.value_or(0) + further;
+  };
+  const SensorNoise further = further_noise(options.perturb);
+  add(choice.rgb_noise, further.rgb);
+  add(choice.depth_noise, further.depth);
+  add(choice.torque_noise, further.torque);
+  return choice;
+}
+
 }  // namespace
 
 RandomKey draw_key(const char* purpose, const EpisodeRecord& record) {
@@ -35,7 +47,7 @@ EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptio
   record.seed = options.seed;
   record.split = options.split;
   record.options = options.as_text();
-  record.options.merge(before(options.observation, task.observation).as_text());
+  record.options.merge(observed(task, options).as_text());
   record.beside_goal = beside_goal(task);
   for (const std::string& sentence : task.instructions) record.language.push_back({LanguageLevel::task, sentence, -1});
   for (const Predicate& predicate : symbols.domain().predicates)

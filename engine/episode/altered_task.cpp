@@ -49,14 +49,9 @@ void set_rates(Task& task, const RunOptions& options) {
   for (const Sensor& sensor : scene.sensors) check("a sample of " + sensor.name, sensor.rate_hz);
 }
 
-}  // namespace
-
-Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
-  set_rates(task, options);
-  if (options.where) task.where = task.where ? conjunction({*options.where, *task.where}) : *options.where;
-  if (!options.goal) return task;
+void set_goal(Task& task, const Formula& goal, const Symbols& symbols) {
   const Domain& domain = symbols.domain();
-  task.goal = checked_formula(*options.goal, domain, static_facts(task.scene, domain).objects, "--goal");
+  task.goal = checked_formula(goal, domain, static_facts(task.scene, domain).objects, "--goal");
   const std::string text = sentence(task.goal, domain, task.scene);
   task.instructions = {text.empty() ? "make this true: " + to_text(task.goal) : "make sure that " + text};
   task.stages.clear();
@@ -64,6 +59,16 @@ Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
   task.subgoals.clear();
   task.also = task.fails = nullptr;
   task.reward = nullptr;
+}
+
+}  // namespace
+
+Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
+  set_rates(task, options);
+  if (options.where) task.where = task.where ? conjunction({*options.where, *task.where}) : *options.where;
+  if (options.goal) set_goal(task, *options.goal, symbols);
+  const RandomKey key = RandomKey("perturb").with(task.name).with(task.variation).with(options.seed);
+  for (std::string& instruction : task.instructions) instruction = perturbed(instruction, options.perturb, key);
   return task;
 }
 

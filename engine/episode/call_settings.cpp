@@ -12,11 +12,6 @@
 namespace stampede {
 namespace {
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};  // shortest exact
-}
-
 template <typename Number>
 std::optional<Number> whole_number(std::string_view text) {
   Number value{};

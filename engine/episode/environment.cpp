@@ -50,6 +50,7 @@ struct Environment::Impl {
 
   std::shared_ptr<EpisodeSource> source;
   EnvironmentSettings settings;
+  EnvironmentSettings present;  // of the episode that is under way: its perturbation may add noise
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<Acting> now;
 };
@@ -77,12 +78,16 @@ void Environment::Impl::begin(const ResetRequest& request) {
   record.draws = start.draws;
   if (start.reason != Reason::none) throw NoStart(start.task.name, start.reason, start.detail);
   if (settings.record) describe_scene(*start.scene, record);
-  now = std::make_unique<Acting>(std::move(opened), settings, std::move(record), start, renderer);
+  const SensorNoise further = further_noise(options.perturb);
+  present = settings;
+  present.rgb_noise += further.rgb;
+  present.depth_noise += further.depth;
+  now = std::make_unique<Acting>(std::move(opened), present, std::move(record), start, renderer);
   now->rollout.keep_record(settings.record);
   now->identity =
       content_hash(now->record.task + "\n" + now->record.variation + "\n" + std::to_string(now->record.seed) + "\n" +
                    std::to_string(start.scene->physics_hz) + "\n" + std::to_string(start.scene->frame_hz) + "\n" +
-                   to_pddl(start.task.goal) + "\n" + request.where);
+                   to_pddl(start.task.goal) + "\n" + request.where + "\n" + request.perturb);
   if (settings.record) {
     describe_beginning(now->rollout, now->record);
     now->record.documents.push_back({DocumentKind::plan, {}});
@@ -179,6 +184,7 @@ EnvironmentObservation Environment::reset(const ResetRequest& request) {
   same.where = option("where");
   same.goal = option("goal");
   same.randomise = !option("randomise").empty();
+  same.perturb = option("perturb");
   impl_->begin(same);
   impl_->go_to_frame(*record, request.frame);
   return impl_->observe();

@@ -59,6 +59,7 @@ struct Task {
   std::optional<Randomisation> randomisation;  // of the world
   ObservationChoice observation;               // what the run asks for goes before it
   std::vector<std::string> unplaced;           // free objects that a literal of init must place
+  std::vector<std::string> clutter;            // of these, things that have no part in the task and keep out of its way
   std::vector<Literal> init;                   // in the order in which they are made true
   // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
   std::optional<Formula> where;

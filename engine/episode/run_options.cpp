@@ -92,6 +92,7 @@ std::map<std::string, std::string> RunOptions::as_text() const {
   if (planner) text["planner"] = planner_name;
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);
+  if (!perturb.empty()) text["perturb"] = to_text(perturb);
   if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit
     Scene scene;
     scene.cameras = cameras;

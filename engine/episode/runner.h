@@ -8,6 +8,7 @@
 
 #include "engine/episode/interfaces.h"
 #include "engine/episode/observation.h"
+#include "engine/episode/perturbation.h"
 #include "engine/episode/sensors.h"
 #include "engine/model/randomise.h"
 #include "stampede/environment.h"
@@ -46,6 +47,7 @@ struct RunOptions {
   SensorEntries sensors;
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
+  Perturbation perturb;                    // beside that
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
   Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
   std::map<std::string, std::string> as_text() const;

@@ -236,7 +236,7 @@ bool SkillExecution::ask_script() {
 }
 
 bool SkillExecution::start_policy(const robot_call::Policy& call) {
-  PolicyCall told{context_.info->name, {}, call.with};
+  PolicyCall told{.skill = context_.info->name, .parameters = call.with};
   for (std::size_t i = 0; i < context_.arguments.size(); ++i)
     told.arguments[context_.info->parameters[i].name] = context_.arguments[i];
   for (const ContinuousValue& value : call_.continuous)

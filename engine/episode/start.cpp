@@ -15,7 +15,7 @@ namespace stampede {
 namespace {
 
 constexpr double kLeastSettle = 0.25, kMostSettle = 3.0;  // s
-constexpr int kSamples = 8;                               // ways asked of one literal
+constexpr int kSamples = 8, kClutterSamples = 60;         // ways asked of one literal
 
 std::string text_of(const Literal& literal) {
   return literal.negated ? "(not " + to_text(literal.fact) + ")" : to_text(literal.fact);
@@ -82,6 +82,43 @@ class Draft {
   std::unique_ptr<WorldView> view_;
   std::optional<CollisionState> state_;
 };
+
+// Does something of it swing or slide out?
+bool opens(const Scene& scene, const Object& object) {
+  constexpr double kFar = 0.05;  // m; a button's travel is less
+  const int index = scene.body_index(object.body);
+  if (index < 0) return false;
+  const std::vector<Part>& parts = scene.bodies[static_cast<std::size_t>(index)].parts;
+  return std::any_of(parts.begin() + 1, parts.end(), [](const Part& part) {
+    const Joint& joint = part.joint;
+    return joint.kind == JointKind::hinge || (joint.kind == JointKind::slider && joint.upper - joint.lower > kFar);
+  });
+}
+
+// How much more room than it should a thing that has no part in the task leaves there for a hand around what has one,
+// and for what opens to open, m.
+double spare_room(const WorldView& view, const std::vector<std::string>& clutter, const Literal& on,
+                  const Placement& spot) {
+  constexpr double kRoom = 0.07, kRoomToOpen = 0.16;  // m, seen from above
+  constexpr double kHand = 0.15, kFlat = 0.02,
+                   kFlush = 1e-4;  // m: above what is taken; of areas; of the support's parts
+  const auto* pose = std::get_if<Transform>(&spot.value);
+  double least = pose == nullptr ? -1 : 1;
+  if (pose == nullptr) return least;
+  const Vector3 size = view.size(spot.object);
+  const double reach = std::hypot(size.x(), size.y()) / 2, floor = view.top(on.fact.arguments.at(1));
+  for (const Object& other : view.scene().objects) {
+    if (other.kind == ObjectKind::hand || other.name == spot.object) continue;
+    const double low = view.bottom(other.name), high = view.top(other.name);
+    const double height = other.kind == ObjectKind::region ? kFlat : size.z() + kHand;
+    if (high < floor + kFlush || low > floor + height) continue;
+    const bool own = std::find(clutter.begin(), clutter.end(), other.name) == clutter.end();
+    const double room = !own ? 0 : opens(view.scene(), other) ? kRoomToOpen : kRoom;
+    const Vector3 at(pose->translation().x(), pose->translation().y(), (low + high) / 2);
+    least = std::min(least, view.box_distance(other.name, at) - reach - room);
+  }
+  return least;
+}
 
 bool all_at_rest(const WorldView& view) {
   for (const Object& thing : view.scene().objects)
@@ -168,6 +205,7 @@ class StartMaker {
     const RandomKey key = RandomKey("dress").with(task_.name).with(task_.variation).with(options_.seed);
     const std::optional<Randomisation> own = task_.randomisation;
     if (const auto& ranges = own ? own : options_.randomise) randomise(scene, *ranges, key.with("looks").with(draw));
+    perturb(scene, options_.perturb, key.with("perturb").with(draw));
     number_masks(scene, key.with("masks"));
   }
 
@@ -203,6 +241,24 @@ class StartMaker {
     return to_text(*where_);
   }
 
+  // Leaves the first spot with enough room; where there is none, the roomiest that does for slim fingers.
+  void keep_clear(std::vector<Placement>& ways, const WorldView& view, const Literal& on) const {
+    constexpr double kLeast = -0.04;  // m
+    const Placement* best = nullptr;
+    double most = kLeast;
+    for (const Placement& way : ways) {
+      const double room = spare_room(view, task_.clutter, on, way);
+      if (room < most) continue;
+      best = &way;
+      most = room;
+      if (room >= 0) break;
+    }
+    ways = best == nullptr ? std::vector<Placement>{} : std::vector<Placement>{*best};
+  }
+
+  bool is_clutter(const std::string& name) const {
+    return std::find(task_.clutter.begin(), task_.clutter.end(), name) != task_.clutter.end();
+  }
   static const std::string& subject(const Literal& literal) {
     return literal.fact.arguments.empty() ? literal.fact.predicate : literal.fact.arguments[0];
   }
@@ -228,8 +284,10 @@ class StartMaker {
       const Literal literal = *next;
       waiting_literals.erase(next);
       if (literal.negated) continue;
-      const auto ways =
-          symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key.with(number++), kSamples);
+      const bool clutter = is_clutter(subject(literal));
+      auto ways = symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key.with(number++),
+                                  clutter ? kClutterSamples : kSamples);
+      if (clutter) keep_clear(ways, draft.view(), literal);
       const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
       if (ways.empty()) {
         if (waiting != unplaced.end()) return refuse(text_of(literal));

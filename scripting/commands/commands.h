@@ -14,6 +14,7 @@ const std::vector<CommandRow>& all_commands();
 CommandRow list_command();
 CommandRow check_command();
 CommandRow run_command();
+CommandRow evaluate_command();
 CommandRow show_command();
 CommandRow plan_command();
 CommandRow validate_command();

@@ -10,8 +10,12 @@
 namespace stampede {
 
 struct EpisodeScripts::Impl {
-  Impl(std::shared_ptr<const Library> library, std::string_view name, std::string_view variation, std::int64_t seed)
-      : tests(std::move(library)), task(tests, name, variation, seed), symbols(tests), skills(tests) {}
+  Impl(std::shared_ptr<const Library> library, std::string_view name, std::string_view variation, std::int64_t seed,
+       int further_things, std::shared_ptr<Assets> assets)
+      : tests(std::move(library)),
+        task(tests, name, variation, seed, further_things, std::move(assets)),
+        symbols(tests),
+        skills(tests) {}
   TestState tests;
   LuaTask task;
   LuaSymbols symbols;
@@ -20,9 +24,10 @@ struct EpisodeScripts::Impl {
 
 // What a script that is used says wrongly is told by its own complaint, not by what comes of it.
 EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task,
-                               std::string_view variation, std::int64_t seed) {
+                               std::string_view variation, std::int64_t seed, int further_things,
+                               std::shared_ptr<Assets> assets) {
   try {
-    impl_ = std::make_unique<Impl>(library, task, variation, seed);
+    impl_ = std::make_unique<Impl>(library, task, variation, seed, further_things, std::move(assets));
   } catch (const Error&) {
     std::vector<const ScriptFile*> files = {library->file(DefinitionKind::task, task)};
     for (const DefinitionKind kind : {DefinitionKind::object, DefinitionKind::world, DefinitionKind::robot})

@@ -9,12 +9,15 @@
 
 namespace stampede {
 
+class Assets;
+
 // One episode's scripts. Lifetime: outlives the episode's runner; used by one thread. Throws Error for bad scripts.
 class EpisodeScripts {
  public:
-  // `variation`: a canonical text of the task. `goal`, `where`: further formulas (PDDL) or empty, reserved.
+  // `variation`: a canonical text of the task. `further_things`: how many stand about that have no part in it.
+  // `assets`: of the same library, where one thread makes many episodes; null: read anew.
   EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task, std::string_view variation,
-                 std::int64_t seed);
+                 std::int64_t seed, int further_things = 0, std::shared_ptr<Assets> assets = nullptr);
   ~EpisodeScripts();
   TaskDraw task();  // lifetime: until these scripts end
   Symbols& symbols();

@@ -30,13 +30,15 @@ std::map<std::string, std::string> axes_of(const Library::TaskInfo& info, std::s
 
 }  // namespace
 
-LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed)
+LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed,
+                 int further_things, std::shared_ptr<Assets> assets)
     : tests_(tests),
       name_(name),
       variation_(variation),
       seed_(seed),
+      further_things_(further_things),
       axes_(axes_of(info_of(*tests.library(), name), variation)),
-      assets_(FileScope(tests.library()->roots().folders)),
+      assets_(assets ? std::move(assets) : std::make_shared<Assets>(FileScope(tests.library()->roots().folders))),
       first_(make(0)) {
   tests_.set_hand(first_.hand);
 }
@@ -47,7 +49,8 @@ LuaTask::Drawn LuaTask::make(int draw) {
   ScriptState scripts(tests_.library(), "");
   const RandomKey key = RandomKey("draw").with(name_).with(variation_).with(seed_).with(draw);
   Drawn drawn;
-  scripts.protect([&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, assets_).read(state); });
+  scripts.protect(
+      [&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, *assets_, further_things_).read(state); });
   drawn.task.name = name_;
   drawn.task.variation = variation_;
   drawn.task.axes = axes_;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace stampede {
 class LuaTask {
  public:
   // Throws Error for an unknown task or variation and for mistakes in its files. Sets the hand of `tests`.
-  LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed);
+  LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed, int further_things,
+          std::shared_ptr<Assets> assets);
   LuaTask(const LuaTask&) = delete;
   LuaTask& operator=(const LuaTask&) = delete;
 
@@ -45,8 +47,9 @@ class LuaTask {
   TestState& tests_;
   std::string name_, variation_;
   std::int64_t seed_;
+  int further_things_;
   std::map<std::string, std::string> axes_;
-  Assets assets_;
+  std::shared_ptr<Assets> assets_;
   Drawn first_;                           // draw 0: it says which files take part
   std::map<std::string, int> functions_;  // registry references of the tests' state
   int v_ = 0;

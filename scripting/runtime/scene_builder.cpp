@@ -95,7 +95,22 @@ void SceneBuilder::add_object(const ObjectSource& source) {
                 source.name + " = { \"" + source.class_name + "\", at = { x, y, z } }");
   }
   if (!built.placed) unplaced_.push_back(source.name);
+  for (const Object& object : built.objects) types_.insert(object.type);
   add(std::move(built), bodies_);
+}
+
+bool SceneBuilder::add_clutter(const ObjectSource& source) {
+  constexpr double kWidest = 0.11, kHighest = 0.20;  // m
+  BuiltObject built = build_object(source, colours_);
+  if (!built.body || built.placed || built.stands_still || built.objects.size() != 1) return false;
+  const Object& object = built.objects[0];
+  const bool plain = object.traits.size() == 2 && std::ranges::count(object.traits, "movable") == 1 &&
+                     std::ranges::count(object.traits, "graspable") == 1;
+  const bool small = std::max(object.size.x(), object.size.y()) <= kWidest && object.size.z() <= kHighest;
+  if (!plain || !small || types_.contains(object.type)) return false;
+  unplaced_.push_back(source.name);
+  add(std::move(built), bodies_);
+  return true;
 }
 
 void SceneBuilder::add_region(const std::string& name, const Value& fields) {

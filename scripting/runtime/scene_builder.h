@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ class SceneBuilder {
   void set_robot(Robot robot);                   // and its hand's object, `panda.hand` of type hand
   void add_fixture(const ObjectSource& source);  // stands where `at` says, by default at the origin
   void add_object(const ObjectSource& source);
+  // Of a small thing to be taken and put down, of a type that the scene does not have yet but as clutter, so that no
+  // goal and no sentence can mean it. False: it is not such a thing, and was not added.
+  bool add_clutter(const ObjectSource& source);
   void add_region(const std::string& name, const Value& fields);  // of the world
   void add_camera(const std::string& name, const Value& fields);  // after all bodies: it may look at one, or ride on it
   void set_rates(int physics_hz, int frame_hz, const Vector3& gravity);
@@ -42,6 +46,7 @@ class SceneBuilder {
   Scene scene_;
   std::vector<Body> fixtures_, bodies_;
   std::vector<std::string> unplaced_;
+  std::set<std::string> types_;  // of what is no clutter
   DrawnAssets drawn_;
 };
 

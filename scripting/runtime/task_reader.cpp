@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <lua.hpp>
+#include <set>
 
 #include "engine/model/camera.h"
 #include "scripting/runtime/evaluate.h"
@@ -51,8 +52,8 @@ Value overlaid(Value file, const Value& entry) {
 }  // namespace
 
 TaskReader::TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-                       RandomKey key, Assets& assets)
-    : scripts_(scripts), file_(file), axes_(axes), key_(key), assets_(assets) {}
+                       RandomKey key, Assets& assets, int further_things)
+    : scripts_(scripts), file_(file), axes_(axes), key_(key), assets_(assets), further_things_(further_things) {}
 
 LuaTask::Drawn TaskReader::read(lua_State* state) {
   state_ = state;
@@ -69,6 +70,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   const std::filesystem::path folder = used(DefinitionKind::world, name.text, name).path.parent_path();
   read_world(world);
   read_objects();
+  add_clutter();
   read_looks(world, folder);
   drawn_.task.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
   drawn_.task.unplaced = builder_->unplaced();
@@ -76,6 +78,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   if (world["calibration"].present()) read_calibration(world["calibration"], folder);
   forget_absent_classes();
   read_init();
+  place_clutter();
   read_goal();
   read_subgoals();
   read_steps();
@@ -248,6 +251,48 @@ void TaskReader::add_group(const std::string& name, int index) {
     builder_->add_object(source_of(spec, member, "objects." + member));
     group.push_back(member);
   }
+}
+
+// Drawn from all classes of the library that can pass unnoticed.
+void TaskReader::add_clutter() {
+  if (further_things_ <= 0) return;
+  std::set<std::string> classes;
+  for (const ScriptFile* file : scripts_.library().files(DefinitionKind::object)) classes.insert(file->name);
+  std::vector<std::string> order(classes.begin(), classes.end());
+  Random(key_.with("clutter")).shuffle(order);
+  std::vector<std::string>& clutter = drawn_.task.clutter;
+  for (const std::string& name : order) {
+    if (static_cast<int>(clutter.size()) == further_things_) return;
+    Value spec;
+    spec.kind = Value::Kind::text;
+    spec.text = name;
+    spec.place = file_.shown_path;
+    const std::vector<const ScriptFile*> files = drawn_.files;
+    const std::string member = "clutter" + std::to_string(clutter.size() + 1);
+    if (builder_->add_clutter(source_of(spec, member, "objects." + member)))
+      clutter.push_back(member);
+    else
+      drawn_.files = files;
+  }
+}
+
+// On the largest surface that stays where it is.
+void TaskReader::place_clutter() {
+  if (drawn_.task.clutter.empty()) return;
+  const Scene& scene = drawn_.task.scene;
+  const auto area = [](const Object& object) { return object.size.x() * object.size.y(); };
+  const Object* widest = nullptr;
+  for (const Object& object : scene.objects) {
+    const int body = object.kind == ObjectKind::body ? scene.body_index(object.body) : -1;
+    if (body < 0 || scene.bodies[static_cast<std::size_t>(body)].free) continue;
+    if (std::find(object.traits.begin(), object.traits.end(), "surface") == object.traits.end()) continue;
+    if (widest == nullptr || area(object) > area(*widest)) widest = &object;
+  }
+  if (widest == nullptr || scripts_.library().domain().predicate("on") == nullptr)
+    throw Error(file_.shown_path,
+                "a layout with further things needs a fixture with the trait `surface`, and predicate `on`",
+                "leave `layout` out");
+  for (const std::string& name : drawn_.task.clutter) drawn_.task.init.push_back({{"on", {name, widest->name}}, false});
 }
 
 void TaskReader::read_instructions() {

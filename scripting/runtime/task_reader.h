@@ -10,7 +10,7 @@ namespace stampede {
 class TaskReader {
  public:
   TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-             RandomKey key, Assets& assets);
+             RandomKey key, Assets& assets, int further_things);
   LuaTask::Drawn read(lua_State* state);
 
  private:
@@ -24,6 +24,8 @@ class TaskReader {
   void forget_absent_classes();
   void read_objects();
   void add_group(const std::string& name, int index);
+  void add_clutter();
+  void place_clutter();
   void read_init();
   void read_goal();
   void read_subgoals();
@@ -41,6 +43,7 @@ class TaskReader {
   const std::map<std::string, std::string>& axes_;
   RandomKey key_;
   Assets& assets_;
+  int further_things_;
   lua_State* state_ = nullptr;
   int task_ = 0, variation_ = 0;  // stack indices
   Colours colours_;

@@ -184,11 +184,12 @@ std::string acted_key(const EpisodeRecord& record) {
   return hasher.digest();
 }
 
-PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options)
+PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options,
+                                 std::shared_ptr<Assets> assets)
     : library_(std::move(library)),
       job_(std::move(job)),
       options_(std::move(options)),
-      scripts_(library_, job_.task, job_.variation, job_.seed) {
+      scripts_(library_, job_.task, job_.variation, job_.seed, further_things(options_.perturb), std::move(assets)) {
   options_.seed = job_.seed;
   definitions_ = scripts_.definitions();
   key_ = episode_key(definitions_, job_, options_);

@@ -88,7 +88,8 @@ std::string acted_key(const EpisodeRecord& record);
 // One episode's scripts and key. Lifetime: used by one thread.
 class PreparedEpisode {
  public:
-  PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options);
+  PreparedEpisode(std::shared_ptr<const Library> library, EpisodeJob job, RunOptions options,
+                  std::shared_ptr<Assets> assets = nullptr);
   const EpisodeJob& job() const { return job_; }
   const std::string& key() const { return key_; }
   const RunOptions& options() const { return options_; }

@@ -8,9 +8,9 @@
 
 #include "engine/base/error.h"
 #include "engine/episode/altered_task.h"
-#include "engine/episode/episode_source.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/policy_json.h"
+#include "scripting/session/prepared_source.h"
 
 namespace stampede {
 namespace {
@@ -21,42 +21,6 @@ constexpr int kMostRefusals = 100, kMostIdle = 1000;  // in a row, without a fra
 constexpr const char* kMemory = "/dev/shm";           // files that need no disk
 
 constexpr const char* kSomeAction = R"({"space":"joint_delta","values":[…]} or {"end":true})";
-
-// One prepared episode, for an environment that takes it once.
-class PreparedSource final : public EpisodeSource {
- public:
-  PreparedSource(PreparedEpisode& prepared, std::string policy) : prepared_(prepared), policy_(std::move(policy)) {}
-
-  Opened open(const ResetRequest&) override {
-    EpisodeScripts& scripts = prepared_.scripts();
-    return {scripts.task(), &scripts.symbols(), &scripts.skills(), prepared_.options(), nullptr};
-  }
-  Episode close(EpisodeRecord record, const std::shared_ptr<void>&) override {
-    record.options["policy"] = policy_;
-    prepared_.complete(record);
-    record.key = acted_key(record);
-    closed_ = std::move(record);
-    return {};
-  }
-  std::shared_ptr<const EpisodeRecord> record_of(const Episode&) override {
-    throw Error("--policy", "an episode of it starts at its beginning");
-  }
-
-  EpisodeRecord take() { return std::move(closed_); }
-
-  // An episode of which nothing is kept but why it failed.
-  EpisodeRecord failed(Reason reason, const std::string& detail) {
-    EpisodeRecord record = prepared_.failed(reason, detail);
-    record.options["behaviour"] = "agent";
-    close(std::move(record), nullptr);
-    return take();
-  }
-
- private:
-  PreparedEpisode& prepared_;
-  std::string policy_;
-  EpisodeRecord closed_;
-};
 
 std::string bytes_of(const ChannelValue& picture) {
   return std::visit(

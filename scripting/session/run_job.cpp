@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "engine/render/renderer.h"
+#include "scripting/runtime/assets.h"
 
 namespace stampede {
 namespace {
@@ -27,8 +28,14 @@ class LazyRenderer : public Renderer {
   std::unique_ptr<Renderer> renderer_;
 };
 
-// Calls work(i, renderer) for 0 … count-1 from `workers` threads, each with a renderer of its own, until all are done,
-// one throws, or `stop`.
+// What a thread makes all its episodes with.
+struct Workbench {
+  LazyRenderer renderer;
+  std::shared_ptr<Assets> assets;
+};
+
+// Calls work(i, bench) for 0 … count-1 from `workers` threads, each with a bench of its own, until all are done, one
+// throws, or `stop`.
 template <typename Work>
 void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, Work&& work) {
   std::atomic<std::size_t> next = 0;
@@ -36,12 +43,12 @@ void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, 
   std::exception_ptr first;
   std::mutex mutex;
   const auto loop = [&] {
-    LazyRenderer renderer;
+    Workbench bench;
     while (!failed && !(stop && stop->load())) {
       const std::size_t i = next++;
       if (i >= count) return;
       try {
-        work(i, renderer);
+        work(i, bench);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();
@@ -89,11 +96,12 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
     return options;
   };
   std::mutex mutex;
-  in_parallel(static_cast<std::size_t>(jobs.size()), settings.workers, stop, [&](std::size_t i, Renderer& renderer) {
+  in_parallel(static_cast<std::size_t>(jobs.size()), settings.workers, stop, [&](std::size_t i, Workbench& bench) {
     const auto place = static_cast<std::int64_t>(i);
     try {
       const EpisodeJob job = jobs[place];
-      PreparedEpisode prepared(library, job, options_for(job.task, renderer));
+      if (!bench.assets) bench.assets = std::make_shared<Assets>(FileScope(library->roots().folders));
+      PreparedEpisode prepared(library, job, options_for(job.task, bench.renderer), bench.assets);
       const auto is_there = [&](const std::string& key) {
         if (!sink || !sink->has(key)) return false;
         sink->abandon(place);

@@ -26,6 +26,10 @@ void Session::add_policy(const std::string& name, PolicyEntry entry) {
   impl_->core->add_policy(name, std::move(entry));
 }
 
+Evaluation Session::evaluate(const std::vector<std::string>& tasks, const EvaluationRequest& request) {
+  return impl_->core->evaluate(tasks, request);
+}
+
 void Session::add_sensor(const std::string& name, SensorEntry entry) {
   impl_->core->add_sensor(name, std::move(entry));
 }

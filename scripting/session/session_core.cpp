@@ -10,8 +10,10 @@
 #include "engine/episode/episode_source.h"
 #include "engine/symbolic/pddl.h"
 #include "engine/symbolic/task_planner.h"
+#include "scripting/runtime/assets.h"
 #include "scripting/session/constraints_fit.h"
 #include "scripting/session/episode_job.h"
+#include "scripting/session/evaluation.h"
 #include "scripting/session/numerics.h"
 #include "scripting/session/roots.h"
 #include "scripting/session/run_job.h"
@@ -164,11 +166,13 @@ RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
   return options;
 }
 
-PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request) const {
-  const RunOptions options = options_for(request);
+PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request,
+                                     const Perturbation& perturb, std::shared_ptr<Assets> assets) const {
+  RunOptions options = options_for(request);
+  options.perturb = perturb;
   const std::vector<std::string> variations = fitting_variations(
       library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
-  return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options};
+  return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options, std::move(assets)};
 }
 
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
@@ -246,15 +250,20 @@ RunTally SessionCore::run_all(const RunRequest& request) {
 // A task of this session, for an environment.
 class TaskSource final : public EpisodeSource {
  public:
-  TaskSource(std::shared_ptr<SessionCore> core, std::string task) : core_(std::move(core)), task_(std::move(task)) {}
+  TaskSource(std::shared_ptr<SessionCore> core, std::string task)
+      : core_(std::move(core)),
+        task_(std::move(task)),
+        assets_(std::make_shared<Assets>(FileScope(core_->library_->roots().folders))) {}
 
   Opened open(const ResetRequest& request) override {
     const std::lock_guard lock(core_->mutex_);
     EpisodeRequest same;
     same.variation = request.variation, same.seed = request.seed;
     same.where = request.where, same.goal = request.goal, same.randomise = request.randomise;
+    const Perturbation perturb =
+        request.perturb.empty() ? Perturbation{} : perturbation_from(request.perturb, "ResetRequest::perturb");
     const std::shared_ptr<PreparedEpisode> prepared(
-        new PreparedEpisode(core_->prepare(task_, same)));  // it cannot move
+        new PreparedEpisode(core_->prepare(task_, same, perturb, assets_)));  // it cannot move
     return {prepared->scripts().task(), &prepared->scripts().symbols(), &prepared->scripts().skills(),
             prepared->options(), prepared};
   }
@@ -279,6 +288,7 @@ class TaskSource final : public EpisodeSource {
  private:
   std::shared_ptr<SessionCore> core_;
   std::string task_;
+  std::shared_ptr<Assets> assets_;  // of all its episodes
 };
 
 // What runs already keeps those that it began with.
@@ -311,6 +321,37 @@ void SessionCore::add_sensor(const std::string& name, SensorEntry entry) {
 Environment SessionCore::environment(const std::string& task, const EnvironmentSettings& settings) {
   task_info(*library_, task);  // throws for one that is not there
   return make_environment(std::make_shared<TaskSource>(shared_from_this(), task), settings);
+}
+
+Evaluation SessionCore::evaluate(const std::vector<std::string>& tasks, const EvaluationRequest& request) {
+  constexpr const char* kRequest = "EvaluationRequest";
+  if (tasks.empty()) throw Error(kRequest, "no task is named");
+  if (request.episodes < 1 || request.workers < 1) throw Error(kRequest, "episodes and workers are at least 1");
+  const std::lock_guard lock(mutex_);
+  EvaluationSettings settings;
+  settings.perturb = request.perturb;
+  RunOptions& options = settings.run.options;
+  options.split = request.first_seed >= kFirstTestSeed ? Split::test : Split::train;
+  check_split(options.split, request.first_seed, request.first_seed + request.episodes - 1);
+  options.policies = policies_;
+  options.sensors = sensors_;
+  settings.run.workers = request.workers;
+  settings.run.stop = request.stop;
+  if (request.policy) settings.run.act = [&](PreparedEpisode& prepared) { return act_as(prepared, request); };
+  JobRequest asked;
+  asked.tasks = tasks;
+  asked.episodes = request.episodes;
+  asked.first_seed = request.first_seed;
+  asked.variation = request.variation;
+  const JobList jobs(*library_, asked);
+  if (path_.empty()) return stampede::evaluate(library_, jobs, settings, nullptr);
+  catalogue_.reset();  // one writer at a time
+  writable_ = false;
+  return stampede::evaluate(library_, jobs, settings, [this] {
+    CatalogueWriterOptions writing;
+    writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+    return std::make_unique<CatalogueWriter>(path_, std::move(writing));
+  });
 }
 
 TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& request) const {

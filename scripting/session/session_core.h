@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "db/catalogue.h"
+#include "engine/episode/perturbation.h"
 #include "scripting/session/studio.h"
 #include "stampede/arrays.h"
 #include "stampede/environment.h"
 #include "stampede/episode.h"
+#include "stampede/evaluation.h"
 #include "stampede/task_plan.h"
 #include "stampede/world_state.h"
 
@@ -30,6 +32,7 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   Episode run(const std::string& task, const EpisodeRequest& request);
   RunTally run_all(const RunRequest& request);
   void add_policy(const std::string& name, PolicyEntry entry);
+  Evaluation evaluate(const std::vector<std::string>& tasks, const EvaluationRequest& request);
   void add_sensor(const std::string& name, SensorEntry entry);
   Environment environment(const std::string& task, const EnvironmentSettings& settings);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
@@ -41,7 +44,8 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
 
  private:
   struct RunOptions options_for(const EpisodeRequest& request) const;
-  class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request) const;
+  class PreparedEpisode prepare(const std::string& task, const EpisodeRequest& request,
+                                const Perturbation& perturb = {}, std::shared_ptr<class Assets> assets = nullptr) const;
   std::optional<Episode> stored(const std::string& key);
   friend class TaskSource;
   Episode keep(EpisodeRecord record);  // in the catalogue, or in the episode

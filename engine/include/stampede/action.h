@@ -69,8 +69,8 @@ struct AgentAction {
 // EpisodeArrays::agent_actions.
 struct AskedAction {
   AgentAction asked;  // its frame of reference is `world` where the space is not of the tool
-  // From the frame of the observation that it answers to that of the next one; half-open. One and the same: a skill that
-  // failed before anything moved.
+  // From the frame of the observation that it answers to that of the next one; half-open. One and the same: a skill
+  // that failed before anything moved.
   std::int64_t first_frame = 0, end_frame = 0;
   std::int64_t segment = -1;  // of the skill whose body is the policy that asked; -1: who drives the episode asked
   std::optional<double> reward = {};           // that the environment gave whoever drives the episode

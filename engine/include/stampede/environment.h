@@ -86,6 +86,9 @@ struct ResetRequest {
   std::int64_t seed = 0;              // from 1'000'000 up: the test split
   std::string where = {}, goal = {};  // PDDL, as EpisodeRequest
   bool randomise = false;
+  // What is otherwise than usual, each with its strength: `camera=1,layout=0.5`. The axes: layout, camera, start,
+  // sentence, light, texture, noise; see Session::evaluate.
+  std::string perturb = {};
   // Instead of all these: the frame of an episode that this engine recorded with the same scripts.
   std::optional<Episode> episode = {};
   std::int64_t frame = 0;
@@ -121,14 +124,16 @@ struct StepResult {
   std::vector<SkillEnd> ended;
 };
 
-// What a skill was called with, for the policy that is its body.
+// What a skill was called with, for the policy that is its body; or, where a policy acts in a whole episode, its task.
 struct PolicyCall {
-  std::string skill;
-  std::map<std::string, std::string> arguments;           // parameter -> object
-  std::map<std::string, std::vector<double>> parameters;  // continuous ones, and `with` of robot:policy
+  std::string task = {}, instruction = {};                     // of a whole episode; one of the task's sentences
+  std::string skill = {};                                      // empty: a whole episode
+  std::map<std::string, std::string> arguments = {};           // parameter -> object
+  std::map<std::string, std::vector<double>> parameters = {};  // continuous ones, and `with` of robot:policy
 };
 
-// A controller, such as a learned one, as the body of a skill. One is made for each call of the skill.
+// A controller, such as a learned one, as the body of a skill, or as what acts in whole episodes
+// (stampede/evaluation.h). One is made for each call.
 class STAMPEDE_EXPORT Policy {
  public:
   virtual ~Policy();

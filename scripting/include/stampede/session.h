@@ -11,6 +11,7 @@
 #include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
+#include "stampede/evaluation.h"
 #include "stampede/picture.h"
 #include "stampede/rows.h"
 #include "stampede/task_plan.h"
@@ -50,6 +51,11 @@ class STAMPEDE_EXPORT Session {
   // A controller that skills may have as their body: `run = policy("grasp_net")`, or robot:policy("grasp_net") inside
   // of it. Before the first run that needs it; one of the same name takes the place of the first.
   void add_policy(const std::string& name, PolicyEntry entry);
+
+  // How often a policy, or the planner, succeeds in these tasks, undisturbed and along axes of perturbation. Its
+  // episodes go to the catalogue, where there is one. Throws Error for unknown tasks, axes and channels. Repeatable,
+  // for any number of workers, where the policy is.
+  Evaluation evaluate(const std::vector<std::string>& tasks, const EvaluationRequest& request = {});
 
   // Another sensor of every world: read while an episode runs, at its own rate, and part of it as those of the world
   // are: columns `sensor/NAME` and `sensor_time/NAME` of arrays, channels of environments and policies, view `sensors`.

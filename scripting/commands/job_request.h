@@ -1,0 +1,24 @@
+// Which episodes a command line asks for, for the commands that run some: `run` and `evaluate`.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scripting/program/command.h"
+#include "scripting/session/run_job.h"
+
+namespace stampede::program {
+
+// Of TASK, --episodes, --seed, --variation and, where the command has it, --shard. Throws UsageError.
+JobRequest job_request(const Arguments& arguments, Split split);
+
+// What --camera-file and --add-camera add to each task's scene; --camera and --channels are checked against it.
+std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr<const Library>& library,
+                                                           const JobList& jobs, const Arguments& arguments);
+
+// `stack_blocks colour=red seed 3: success, 12.1 s`.
+std::string episode_line(const EpisodeRecord& episode);
+
+}  // namespace stampede::program
