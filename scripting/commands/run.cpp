@@ -3,7 +3,6 @@
 #include <ostream>
 
 #include "db/catalogue_writer.h"
-#include "engine/model/camera.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/picture_options.h"
