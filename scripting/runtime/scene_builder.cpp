@@ -99,7 +99,7 @@ void SceneBuilder::add_object(const ObjectSource& source) {
   add(std::move(built), bodies_);
 }
 
-bool SceneBuilder::add_clutter(const ObjectSource& source) {
+bool SceneBuilder::add_clutter(const ObjectSource& source, const Domain& domain) {
   constexpr double kWidest = 0.11, kHighest = 0.20;  // m
   BuiltObject built = build_object(source, colours_);
   if (!built.body || built.placed || built.stands_still || built.objects.size() != 1) return false;
@@ -107,7 +107,9 @@ bool SceneBuilder::add_clutter(const ObjectSource& source) {
   const bool plain = object.traits.size() == 2 && std::ranges::count(object.traits, "movable") == 1 &&
                      std::ranges::count(object.traits, "graspable") == 1;
   const bool small = std::max(object.size.x(), object.size.y()) <= kWidest && object.size.z() <= kHighest;
-  if (!plain || !small || types_.contains(object.type)) return false;
+  const bool alike = std::ranges::any_of(
+      types_, [&](const std::string& own) { return domain.is_a(object.type, own) || domain.is_a(own, object.type); });
+  if (!plain || !small || alike) return false;
   unplaced_.push_back(source.name);
   add(std::move(built), bodies_);
   return true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/model/scene.h"
+#include "engine/symbolic/symbols.h"
 #include "scripting/runtime/body_builder.h"
 
 namespace stampede {
@@ -19,9 +20,9 @@ class SceneBuilder {
   void set_robot(Robot robot);                   // and its hand's object, `panda.hand` of type hand
   void add_fixture(const ObjectSource& source);  // stands where `at` says, by default at the origin
   void add_object(const ObjectSource& source);
-  // Of a small thing to be taken and put down, of a type that the scene does not have yet but as clutter, so that no
-  // goal and no sentence can mean it. False: it is not such a thing, and was not added.
-  bool add_clutter(const ObjectSource& source);
+  // Of a small thing to be taken and put down, of a type that is no kind of what the scene has, nor the other way (but
+  // of clutter), so that no goal and no sentence can mean it. False: it is not such a thing, and was not added.
+  bool add_clutter(const ObjectSource& source, const Domain& domain);
   void add_region(const std::string& name, const Value& fields);  // of the world
   void add_camera(const std::string& name, const Value& fields);  // after all bodies: it may look at one, or ride on it
   void set_rates(int physics_hz, int frame_hz, const Vector3& gravity);

@@ -269,7 +269,7 @@ void TaskReader::add_clutter() {
     spec.place = file_.shown_path;
     const std::vector<const ScriptFile*> files = drawn_.files;
     const std::string member = "clutter" + std::to_string(clutter.size() + 1);
-    if (builder_->add_clutter(source_of(spec, member, "objects." + member)))
+    if (builder_->add_clutter(source_of(spec, member, "objects." + member), scripts_.library().domain()))
       clutter.push_back(member);
     else
       drawn_.files = files;
