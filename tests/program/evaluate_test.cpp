@@ -167,7 +167,9 @@ TEST_CASE("a program is evaluated like the planner") {
   const Said said =
       evaluated(folder / "e.db", {"reach_target", "--episodes", "3", "--perturb", "noise", "--policy", idle, "--json"});
   REQUIRE(said.code == kDone);
-  for (const nlohmann::json& row : nlohmann::json::parse(said.out)["rows"]) {
+  const nlohmann::json answer = nlohmann::json::parse(said.out);
+  CHECK(answer["rows"].size() == 8);
+  for (const nlohmann::json& row : answer["rows"]) {
     CHECK(row["succeeded"] == 0);
     CHECK(row["reasons"]["goal_false"] == row["episodes"]);
     CHECK(row["mean_return"] == 0.0);
