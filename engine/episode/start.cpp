@@ -100,11 +100,11 @@ bool opens(const Scene& scene, const Object& object) {
 double spare_room(const WorldView& view, const std::vector<std::string>& clutter, const Literal& on,
                   const Placement& spot) {
   constexpr double kRoom = 0.07, kRoomToOpen = 0.16;  // m, seen from above
-  constexpr double kHand = 0.15, kFlat = 0.02,
-                   kFlush = 1e-4;  // m: above what is taken; of areas; of the support's parts
+  constexpr double kHand = 0.15;                      // m: its height above what it takes
+  constexpr double kFlat = 0.02, kFlush = 1e-4;       // m: how far above the support an area ends, and one of its parts
   const auto* pose = std::get_if<Transform>(&spot.value);
-  double least = pose == nullptr ? -1 : 1;
-  if (pose == nullptr) return least;
+  if (pose == nullptr) return -1;
+  double least = 1;
   const Vector3 size = view.size(spot.object);
   const double reach = std::hypot(size.x(), size.y()) / 2, floor = view.top(on.fact.arguments.at(1));
   for (const Object& other : view.scene().objects) {

@@ -104,10 +104,12 @@ std::vector<std::string> keys_in(const Catalogue& catalogue) {
   return keys;
 }
 
-JobList jobs_of(const std::shared_ptr<const Library>& library, const RunRequest& asked, const RunOptions& options) {
-  if (asked.tasks.empty()) throw Error("RunRequest::tasks", "no task is named", "name one of Session::tasks()");
-  if (asked.episodes < 1) throw Error("RunRequest::episodes", "it is at least 1");
-  if (asked.workers < 1) throw Error("RunRequest::workers", "it is at least 1");
+// `where`: the request's own type, for complaints.
+JobList jobs_of(const std::shared_ptr<const Library>& library, const std::string& where, const RunRequest& asked,
+                const RunOptions& options) {
+  if (asked.tasks.empty()) throw Error(where + "::tasks", "no task is named", "name one of Session::tasks()");
+  if (asked.episodes < 1) throw Error(where + "::episodes", "it is at least 1");
+  if (asked.workers < 1) throw Error(where + "::workers", "it is at least 1");
   check_split(options.split, asked.each.seed, asked.each.seed + asked.episodes - 1);
   JobRequest request{asked.tasks, asked.episodes, asked.each.seed, asked.each.variation};
   if (options.where || options.goal) {
@@ -211,7 +213,7 @@ RunTally SessionCore::run_all(const RunRequest& request) {
   settings.options = options_for(request.each);
   settings.workers = request.workers;
   settings.stop = request.stop;
-  const JobList jobs = jobs_of(library_, request, settings.options);
+  const JobList jobs = jobs_of(library_, "RunRequest", request, settings.options);
   EpisodeQueue queue;
   if (!request.sink) {
     if (path_.empty())
@@ -324,26 +326,20 @@ Environment SessionCore::environment(const std::string& task, const EnvironmentS
 }
 
 Evaluation SessionCore::evaluate(const std::vector<std::string>& tasks, const EvaluationRequest& request) {
-  constexpr const char* kRequest = "EvaluationRequest";
-  if (tasks.empty()) throw Error(kRequest, "no task is named");
-  if (request.episodes < 1 || request.workers < 1) throw Error(kRequest, "episodes and workers are at least 1");
   const std::lock_guard lock(mutex_);
+  RunRequest asked;
+  asked.tasks = tasks;
+  asked.episodes = request.episodes;
+  asked.workers = request.workers;
+  asked.each.seed = request.first_seed;
+  asked.each.variation = request.variation;
   EvaluationSettings settings;
   settings.perturb = request.perturb;
-  RunOptions& options = settings.run.options;
-  options.split = request.first_seed >= kFirstTestSeed ? Split::test : Split::train;
-  check_split(options.split, request.first_seed, request.first_seed + request.episodes - 1);
-  options.policies = policies_;
-  options.sensors = sensors_;
+  settings.run.options = options_for(asked.each);
   settings.run.workers = request.workers;
   settings.run.stop = request.stop;
   if (request.policy) settings.run.act = [&](PreparedEpisode& prepared) { return act_as(prepared, request); };
-  JobRequest asked;
-  asked.tasks = tasks;
-  asked.episodes = request.episodes;
-  asked.first_seed = request.first_seed;
-  asked.variation = request.variation;
-  const JobList jobs(*library_, asked);
+  const JobList jobs = jobs_of(library_, "EvaluationRequest", asked, settings.run.options);
   if (path_.empty()) return stampede::evaluate(library_, jobs, settings, nullptr);
   catalogue_.reset();  // one writer at a time
   writable_ = false;
