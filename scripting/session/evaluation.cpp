@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/episode/altered_task.h"
 #include "engine/episode/perturbation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/prepared_source.h"
@@ -23,10 +22,10 @@ double share(std::int64_t part, std::int64_t whole) {
 // The same one in each run of the episode.
 std::string instruction_of(PreparedEpisode& prepared) {
   const EpisodeJob& job = prepared.job();
-  const Task task = altered(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options())(0);
-  if (task.instructions.empty()) return {};
+  const std::vector<std::string> all = instructions_of(prepared);
+  if (all.empty()) return {};
   Random random(RandomKey("instruction").with(job.task).with(job.variation).with(job.seed));
-  return task.instructions[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(task.instructions.size())))];
+  return all[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(all.size())))];
 }
 
 // Acts until the episode is over. What went wrong, or nothing.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/episode/altered_task.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/policy_json.h"
 #include "scripting/session/prepared_source.h"
@@ -82,8 +81,7 @@ bool PolicyRun::converse(PreparedEpisode& prepared, Environment& world) {
   const EpisodeJob& job = prepared.job();
   const PictureStore pictures = [this](const ChannelValue& picture) { return put_picture(picture); };
   const EnvironmentObservation seen = world.reset({.variation = job.variation, .seed = job.seed});
-  const Task task = altered(prepared.scripts().task(), prepared.scripts().symbols(), prepared.options())(0);
-  std::string line = reset_line({job.task, job.variation, job.seed, task.instructions}, world, seen, pictures);
+  std::string line = reset_line({job.task, job.variation, job.seed, instructions_of(prepared)}, world, seen, pictures);
   std::string awaited = "the first action of " + job.task + " seed " + std::to_string(job.seed);
   refusals_ = idle_ = 0;
   told_start_ = true;

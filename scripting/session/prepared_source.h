@@ -4,12 +4,20 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
+#include "engine/episode/altered_task.h"
 #include "engine/episode/episode_source.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede {
+
+// What the episode's task says that is to be done, as its agent hears it.
+inline std::vector<std::string> instructions_of(PreparedEpisode& prepared) {
+  EpisodeScripts& scripts = prepared.scripts();
+  return altered(scripts.task()(0), scripts.symbols(), prepared.options()).instructions;
+}
 
 // Lifetime: refers to the prepared episode.
 class PreparedSource final : public EpisodeSource {
