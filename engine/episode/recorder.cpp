@@ -30,13 +30,18 @@ std::pair<std::string, std::string> name_of(const Scene& scene, PartRef ref) {
 
 }  // namespace
 
-FrameReader::FrameReader(const WorldView& view) {
-  const Scene& scene = view.scene();
+std::vector<JointName> joints_of(const Scene& scene) {
+  std::vector<JointName> joints;
   std::vector<int> driven = scene.robot.arm;
   driven.insert(driven.end(), scene.robot.fingers.begin(), scene.robot.fingers.end());
-  add_joints(joints_, scene.robot.body, -1, driven);
+  add_joints(joints, scene.robot.body, -1, driven);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    add_joints(joints_, scene.bodies[body], static_cast<int>(body), {});
+    add_joints(joints, scene.bodies[body], static_cast<int>(body), {});
+  return joints;
+}
+
+FrameReader::FrameReader(const WorldView& view) : joints_(joints_of(view.scene())) {
+  const Scene& scene = view.scene();
   for (const Object& thing : scene.objects)
     if (thing.kind != ObjectKind::hand) posed_.push_back(thing.name);
 }

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/episode/recorder.h"
 
 namespace stampede {
 namespace {
@@ -34,18 +35,10 @@ ChannelRecord channel_of(const Sensor& sensor, const Robot& robot) {
 // A moving part by the name of its joint: `panda.joint1`, `chest.top_drawer`.
 PartRef joint_named(const Scene& scene, std::string_view name) {
   std::vector<std::string> names;
-  const auto look = [&](const Body& body, int index) -> std::optional<PartRef> {
-    for (std::size_t part = 1; part < body.parts.size(); ++part) {
-      const Joint& joint = body.parts[part].joint;
-      if (joint.kind == JointKind::fixed) continue;
-      names.push_back(body.name + "." + (joint.name.empty() ? body.parts[part].name : joint.name));
-      if (names.back() == name) return PartRef{index, static_cast<int>(part)};
-    }
-    return std::nullopt;
-  };
-  if (const auto found = look(scene.robot.body, -1)) return *found;
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    if (const auto found = look(scene.bodies[body], static_cast<int>(body))) return *found;
+  for (const JointName& joint : joints_of(scene)) {
+    if (joint.name == name) return joint.part;
+    names.push_back(joint.name);
+  }
   throw Error("", "the scene has no joint '" + std::string(name) + "'", did_you_mean(name, names));
 }
 
