@@ -91,6 +91,9 @@ class Catalogue {
   // The bytes of a PNG file; of a PLY file for kind `points`. Throws Error when there is none.
   std::vector<std::uint8_t> read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
                                        std::string_view kind) const;
+  // Of many frames; empty where there is none.
+  std::vector<std::string> read_images(std::int64_t id, const std::vector<std::int64_t>& frames,
+                                       std::string_view camera, std::string_view kind) const;
 
   // Copies episodes of another catalogue of this release: `ids` of that file, whose keys are not here yet, with all
   // that they refer to. A transaction for some dozens of them. `copied` is called after each transaction with how many

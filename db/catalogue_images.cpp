@@ -34,18 +34,25 @@ std::vector<ImageEntry> Catalogue::images(std::int64_t id) const {
   return list;
 }
 
-std::vector<std::uint8_t> Catalogue::read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
-                                                std::string_view kind) const {
+std::vector<std::string> Catalogue::read_images(std::int64_t id, const std::vector<std::int64_t>& frames,
+                                                std::string_view camera, std::string_view kind) const {
   sql::Statement row(impl_->database,
                      "SELECT i.data FROM image i JOIN camera c ON c.episode = i.episode AND c.ordinal = i.camera "
                      "WHERE i.episode = ?1 AND i.frame = ?2 AND c.name = ?3 AND i.kind = ?4");
-  if (!row.start(id, frame, camera, kind).step())
+  std::vector<std::string> files(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (row.start(id, frames[i], camera, kind).step()) row.read(files[i]);
+  return files;
+}
+
+std::vector<std::uint8_t> Catalogue::read_image(std::int64_t id, std::int64_t frame, std::string_view camera,
+                                                std::string_view kind) const {
+  const std::string bytes = read_images(id, {frame}, camera, kind).front();
+  if (bytes.empty())
     throw Error(impl_->database.path(),
                 "episode " + std::to_string(id) + " has no picture of frame " + std::to_string(frame) + ", camera '" +
                     std::string(camera) + "', kind '" + std::string(kind) + "'",
                 "`stampede query images_by_episode` lists what there is; `stampede render --into` adds more");
-  std::string bytes;
-  row.read(bytes);
   return {bytes.begin(), bytes.end()};
 }
 

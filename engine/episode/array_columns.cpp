@@ -4,8 +4,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/episode/arrays.h"
 #include "engine/geometry/transform.h"
-#include "stampede/arrays.h"
 
 namespace stampede {
 namespace {
@@ -39,13 +39,23 @@ std::span<const double> ArrayColumn::reals() const { return values_of<double>(*t
 std::span<const std::int64_t> ArrayColumn::integers() const { return values_of<std::int64_t>(*this, "int64"); }
 std::span<const std::uint8_t> ArrayColumn::booleans() const { return values_of<std::uint8_t>(*this, "bool"); }
 
+std::optional<PictureColumn> picture_column(std::string_view name) {
+  for (const auto& [ending, kind] : {std::pair{std::string_view("_rgb"), PictureKind::rgb},
+                                     {"_depth", PictureKind::depth},
+                                     {"_semantic_mask", PictureKind::semantic},
+                                     {"_mask", PictureKind::instance}})
+    if (name.ends_with(ending)) return PictureColumn{std::string(name.substr(0, name.size() - ending.size())), kind};
+  return std::nullopt;
+}
+
 PictureRequest ArrayPictures::request() const {
   PictureRequest wanted;
   wanted.camera = camera;
-  wanted.rgb = name.ends_with("_rgb");
-  wanted.depth = name.ends_with("_depth");
-  wanted.semantic = name.ends_with("_semantic_mask");
-  wanted.instance = name.ends_with("_mask") && !wanted.semantic;
+  const std::optional<PictureColumn> column = picture_column(name);
+  wanted.rgb = column && column->kind == PictureKind::rgb;
+  wanted.depth = column && column->kind == PictureKind::depth;
+  wanted.semantic = column && column->kind == PictureKind::semantic;
+  wanted.instance = column && column->kind == PictureKind::instance;
   return wanted;
 }
 

@@ -1,8 +1,13 @@
 // An episode as named arrays, from a record in memory or from tables that were read from elsewhere.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "engine/episode/frame_tables.h"
 #include "engine/episode/record.h"
+#include "engine/render/picture.h"
 #include "stampede/arrays.h"
 
 namespace stampede {
@@ -21,6 +26,13 @@ struct ArrayNeeds {
   bool samples = false, facts = false, segments = false, agent = false, documents = false, pictures = false;
 };
 ArrayNeeds needs_of(const ArrayRequest& request);
+
+// What a picture's column says: `front_rgb` is {front, rgb}. Nothing: it is none, by its ending.
+struct PictureColumn {
+  std::string camera;
+  PictureKind kind = PictureKind::rgb;
+};
+std::optional<PictureColumn> picture_column(std::string_view name);
 
 // Sets which frames of a camera have stored pictures of a kind: rgb depth instance semantic.
 void set_stored(EpisodeArrays& arrays, const std::string& camera, const std::string& kind,

@@ -5,7 +5,6 @@
 #include <exception>
 #include <thread>
 
-#include "engine/episode/abstract_state.h"
 #include "engine/episode/arrays.h"
 #include "engine/episode/episode_source.h"
 #include "engine/symbolic/pddl.h"
@@ -47,23 +46,6 @@ ObservationChoice choice_of(const PictureStorage& wanted) {
   choice.rgb_noise = wanted.rgb_noise;
   choice.depth_noise = wanted.depth_noise;
   return choice;
-}
-
-WorldState world_state(const AbstractState& state, double frame_hz) {
-  WorldState result;
-  result.frame = state.frame;
-  result.time_s = static_cast<double>(state.frame) / frame_hz;
-  Facts all = state.facts;
-  all.insert(state.observed.begin(), state.observed.end());
-  for (const Fact& fact : all)
-    result.facts.push_back({fact.predicate, fact.arguments, state.facts.contains(fact), state.observed.contains(fact)});
-  for (const auto& [name, position] : state.joints) {
-    const auto fraction = state.joint_fractions.find(name);
-    result.joints.push_back({name, position, fraction == state.joint_fractions.end() ? 0 : fraction->second});
-  }
-  for (const auto& [name, pose] : state.poses) result.objects.push_back({name, pose.position, pose.quaternion});
-  for (const auto& [name, opening] : state.openings) result.hands.push_back({name, opening});
-  return result;
 }
 
 RunOptions options_of(const EpisodeRequest& request) {
@@ -415,8 +397,7 @@ CameraPoints SessionCore::points(const Episode& episode, std::int64_t frame, con
 }
 
 WorldState SessionCore::state(const Episode& episode, std::int64_t frame) {
-  const std::shared_ptr<const EpisodeRecord> record = record_of(episode);
-  return world_state(abstract_state(*record, frame), record->frame_hz);
+  return world_state(*record_of(episode), frame);
 }
 
 EpisodeArrays SessionCore::arrays(const Episode& episode, const ArrayRequest& request) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/episode/abstract_state.h"
 #include "engine/render/point_cloud.h"
 #include "scripting/session/render_thread.h"
 #include "scripting/session/stored_episode.h"
@@ -89,6 +90,24 @@ CameraPoints Studio::points(const std::shared_ptr<const EpisodeRecord>& episode,
   const View view = impl_->draw(episode, frame, with_depth);
   PointCloud cloud = point_cloud(impl_->pictures.front(), view);
   return {std::move(cloud.positions), std::move(cloud.colours), std::move(cloud.instance), std::move(cloud.semantic)};
+}
+
+WorldState world_state(const EpisodeRecord& episode, std::int64_t frame) {
+  const AbstractState state = abstract_state(episode, frame);
+  WorldState result;
+  result.frame = state.frame;
+  result.time_s = static_cast<double>(state.frame) / episode.frame_hz;
+  Facts all = state.facts;
+  all.insert(state.observed.begin(), state.observed.end());
+  for (const Fact& fact : all)
+    result.facts.push_back({fact.predicate, fact.arguments, state.facts.contains(fact), state.observed.contains(fact)});
+  for (const auto& [name, position] : state.joints) {
+    const auto fraction = state.joint_fractions.find(name);
+    result.joints.push_back({name, position, fraction == state.joint_fractions.end() ? 0 : fraction->second});
+  }
+  for (const auto& [name, pose] : state.poses) result.objects.push_back({name, pose.position, pose.quaternion});
+  for (const auto& [name, opening] : state.openings) result.hands.push_back({name, opening});
+  return result;
 }
 
 }  // namespace stampede

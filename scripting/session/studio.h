@@ -1,4 +1,4 @@
-// Pictures of finished episodes on request, for programs that embed the engine.
+// Pictures and states of finished episodes on request, for programs that embed the engine.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 
 #include "engine/episode/record.h"
 #include "stampede/picture.h"
+#include "stampede/world_state.h"
 
 namespace stampede {
 
@@ -28,5 +29,8 @@ class Studio {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Throws Error for a frame that is not there.
+WorldState world_state(const EpisodeRecord& episode, std::int64_t frame);
 
 }  // namespace stampede

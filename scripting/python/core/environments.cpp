@@ -1,0 +1,387 @@
+// Environments: actions, resets, steps.
+#include "environments.h"
+
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+namespace stampede::python {
+namespace {
+
+using namespace nb::literals;
+
+// Numbers as they come: lists, tuples, numpy arrays of any float type.
+std::vector<double> numbers(nb::handle values, const char* what) {
+  if (values.is_none()) return {};
+  nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu> array;
+  if (nb::try_cast(values, array)) return {array.data(), array.data() + array.size()};
+  std::vector<double> list;
+  if (nb::try_cast(values, list)) return list;
+  double one = 0;
+  if (nb::try_cast(values, one)) return {one};
+  throw nb::type_error((std::string(what) + " is a list of numbers, or an array of one axis").c_str());
+}
+
+AgentAction skill_action(const std::string& skill, std::vector<std::string> arguments, const nb::dict& parameters,
+                         const std::string& controller, int frames) {
+  AgentAction action{.space = "skill", .controller = controller, .frames = frames, .skill = skill};
+  action.arguments = std::move(arguments);
+  for (const auto& [name, values] : parameters)
+    action.parameters.push_back({nb::cast<std::string>(name), numbers(values, "a parameter")});
+  return action;
+}
+
+nb::dict parameters_of(const AgentAction& action) {
+  nb::dict all;
+  for (const SkillParameter& one : action.parameters) all[one.name.c_str()] = one.values;
+  return all;
+}
+
+void bind_actions(nb::module_& module) {
+  nb::class_<ActionComponent>(module, "ActionComponent", "One number of an action.")
+      .def_ro("name", &ActionComponent::name, "`panda.joint1`, `x`")
+      .def_ro("unit", &ActionComponent::unit)
+      .def_ro("lower", &ActionComponent::lower)
+      .def_ro("upper", &ActionComponent::upper, "both bounds are allowed");
+  nb::class_<ActionSpace>(module, "ActionSpace", "A way to act: joint_position, tool_delta, skill …")
+      .def_ro("name", &ActionSpace::name)
+      .def_ro("components", &ActionSpace::components);
+  nb::class_<AgentAction>(module, "Action", R"(What an agent asks of the robot for one step.
+
+space: joint_position (rad), joint_delta (rad), joint_velocity (rad/s), joint_torque (N m), tool_pose (x y z m,
+qx qy qz qw), tool_delta (m, rotation vector rad), tool_velocity (m/s, rad/s), tool_impedance (a pose and a stiffness,
+N/m), tool_path and tool_path_delta (planned around obstacles), gripper (m), hold, go_on, skill (see `skill_call`).
+values: one a component of the space.
+gripper: opening that the fingers go to beside any space of the arm, m; None: what they were told last.
+frame: of tool spaces, `world` or `tool`.
+controller: joint_position, joint_impedance or cartesian_impedance; empty: joint_position.
+frames: of tool_path, hold and go_on: the step ends after so many; 0: at the end.)")
+      .def(
+          "__init__",
+          [](AgentAction* self, const std::string& space, nb::handle values, std::optional<double> gripper,
+             const std::string& frame, const std::string& controller, int frames) {
+            new (self) AgentAction{.space = space,
+                                   .values = numbers(values, "values"),
+                                   .gripper = gripper,
+                                   .frame = frame,
+                                   .controller = controller,
+                                   .frames = frames};
+          },
+          "space"_a, "values"_a = nb::none(), "gripper"_a = nb::none(), "frame"_a = "world", "controller"_a = "",
+          "frames"_a = 0)
+      .def_static("skill_call", &skill_action, "skill"_a, "arguments"_a, "parameters"_a = nb::dict(),
+                  "controller"_a = "", "frames"_a = 0, R"(A whole skill as one action.
+
+skill: an action of the domain, `pick`. arguments: names of objects, the hand among them, as Environment.skills lists
+them. parameters: continuous ones that are not to be drawn, name -> number or list. controller: instead of the skill's
+own. frames: the step ends after so many, and `Action("go_on")` goes on; 0: at the skill's end.)")
+      .def_ro("space", &AgentAction::space)
+      .def_ro("values", &AgentAction::values)
+      .def_ro("gripper", &AgentAction::gripper)
+      .def_ro("frame", &AgentAction::frame)
+      .def_ro("controller", &AgentAction::controller)
+      .def_ro("frames", &AgentAction::frames)
+      .def_ro("skill", &AgentAction::skill)
+      .def_ro("arguments", &AgentAction::arguments)
+      .def_prop_ro("parameters", &parameters_of)
+      .def("__eq__", [](const AgentAction& a, const AgentAction& b) { return a == b; })
+      .def("__repr__", [](const AgentAction& action) {
+        std::string text = "Action('" + action.space + "'";
+        if (action.space == "skill") {
+          text += ": " + action.skill;
+          for (const std::string& argument : action.arguments) text += " " + argument;
+        } else if (!action.values.empty()) {
+          text += ", " + std::to_string(action.values.size()) + " values";
+        }
+        return text + ")";
+      });
+  nb::class_<AskedAction>(module, "AskedAction", "What an episode keeps of an action that was not refused.")
+      .def_ro("asked", &AskedAction::asked)
+      .def_ro("first_frame", &AskedAction::first_frame)
+      .def_ro("end_frame", &AskedAction::end_frame, "half-open; equal to first_frame where nothing moved")
+      .def_ro("segment", &AskedAction::segment, "of the skill whose policy asked; -1: who drives the episode")
+      .def_ro("reward", &AskedAction::reward)
+      .def_ro("terminated", &AskedAction::terminated)
+      .def_ro("truncated", &AskedAction::truncated);
+  nb::class_<SkillChoice>(module, "SkillChoice", "A ground skill, and whether its precondition holds now.")
+      .def_ro("skill", &SkillChoice::skill)
+      .def_ro("arguments", &SkillChoice::arguments)
+      .def_ro("feasible", &SkillChoice::feasible);
+  nb::class_<SkillParameterInfo>(module, "SkillParameterInfo", R"(A continuous parameter that a skill declares.
+
+initial, lower, upper: one entry a component. Grasps and poses have 7 (x y z m, quaternion x y z w), a grasp an opening
+in m as eighth, and no bounds.)")
+      .def_ro("name", &SkillParameterInfo::name)
+      .def_ro("unit", &SkillParameterInfo::unit)
+      .def_ro("frame", &SkillParameterInfo::frame)
+      .def_ro("initial", &SkillParameterInfo::initial)
+      .def_ro("lower", &SkillParameterInfo::lower)
+      .def_ro("upper", &SkillParameterInfo::upper)
+      .def_ro("source", &SkillParameterInfo::source, "value, grasps or sample: where it comes from when it is not set");
+  nb::class_<SkillDescription>(module, "SkillDescription", "A skill with what it takes.")
+      .def_ro("skill", &SkillDescription::skill)
+      .def_ro("parameters", &SkillDescription::parameters)
+      .def_ro("types", &SkillDescription::types)
+      .def_ro("continuous", &SkillDescription::continuous)
+      .def_ro("controller", &SkillDescription::controller);
+}
+
+void bind_results(nb::module_& module) {
+  nb::class_<StateFact>(module, "Fact", "A ground atom: `(on cup shelf)` is Fact.predicate `on`, arguments cup, shelf.")
+      .def_ro("predicate", &StateFact::predicate)
+      .def_ro("arguments", &StateFact::arguments)
+      .def_ro("holds", &StateFact::holds, "in the simulator")
+      .def_ro("known", &StateFact::known, "to who has seen what the robot has seen")
+      .def("__str__",
+           [](const StateFact& fact) {
+             std::string text = "(" + fact.predicate;
+             for (const std::string& argument : fact.arguments) text += " " + argument;
+             return text + ")";
+           })
+      .def("__repr__", [](nb::handle self) { return nb::str(self); });
+  nb::class_<ActionRefusal>(module, "ActionRefusal", "Why an action cannot be done. Nothing has changed then.")
+      .def_ro("what", &ActionRefusal::what)
+      .def_ro("cure", &ActionRefusal::cure)
+      .def("__str__", [](const ActionRefusal& refusal) {
+        return refusal.cure.empty() ? refusal.what : refusal.what + "\n    " + refusal.cure;
+      });
+  nb::class_<SkillEnd>(module, "SkillEnd", "A skill that ended in a step.")
+      .def_ro("skill", &SkillEnd::skill)
+      .def_ro("arguments", &SkillEnd::arguments)
+      .def_ro("success", &SkillEnd::success)
+      .def_ro("reason", &SkillEnd::reason, "`none`, or as in the catalogue")
+      .def_ro("detail", &SkillEnd::detail)
+      .def_ro("precondition_held", &SkillEnd::precondition_held, "None: not reached")
+      .def_ro("effect_held", &SkillEnd::effect_held, "None: not reached")
+      .def_ro("missing_effects", &SkillEnd::missing_effects);
+  nb::class_<Step>(module, "Step", "What a step led to.")
+      .def_ro("observation", &Step::observation, "channel -> numpy array, or list of str")
+      .def_prop_ro("frame", [](const Step& s) { return s.rest.observation.frame; })
+      .def_prop_ro(
+          "time_s", [](const Step& s) { return s.rest.observation.time_s; }, "simulated, since reset")
+      .def_prop_ro("reward", [](const Step& s) { return s.rest.reward; })
+      .def_prop_ro(
+          "terminated", [](const Step& s) { return s.rest.terminated; }, "success, or the task has failed")
+      .def_prop_ro(
+          "truncated", [](const Step& s) { return s.rest.truncated; }, "the horizon")
+      .def_prop_ro("success", [](const Step& s) { return s.rest.success; })
+      .def_prop_ro(
+          "refusal", [](const Step& s) { return s.rest.refusal; }, "the action was not done; None: it was")
+      .def_prop_ro(
+          "reason", [](const Step& s) { return s.rest.reason; }, "why the episode ended, or `none`")
+      .def_prop_ro("detail", [](const Step& s) { return s.rest.detail; })
+      .def_prop_ro(
+          "frames", [](const Step& s) { return s.rest.frames; }, "that went by")
+      .def_prop_ro(
+          "changes", [](const Step& s) { return s.rest.changes; }, "facts that came (`holds`) and went")
+      .def_prop_ro(
+          "running", [](const Step& s) { return s.rest.running; }, "what was cut off and can go_on, or empty")
+      .def_prop_ro(
+          "ended", [](const Step& s) { return s.rest.ended; }, "skills");
+  nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.");
+}
+
+// Holds a Python object, and lets go of it under the GIL, whichever thread does.
+class Kept {
+ public:
+  explicit Kept(nb::object object) : object_(std::move(object)) {}
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  ~Kept() {
+    if (!nb::is_alive()) {
+      object_.release();
+      return;
+    }
+    const nb::gil_scoped_acquire gil;
+    object_.reset();
+  }
+  const nb::object& operator*() const { return object_; }
+
+ private:
+  nb::object object_;
+};
+
+// Calls Python; what it raises becomes an error that any thread may hold.
+template <typename Work>
+auto ask_python(const Work& work) {
+  const nb::gil_scoped_acquire gil;
+  try {
+    return work();
+  } catch (nb::python_error& error) {
+    const std::string text = error.what();
+    error.restore();
+    PyErr_Clear();
+    throw std::runtime_error(text);
+  } catch (const nb::cast_error&) {
+    throw std::runtime_error("act() gives a stampede.Action, or None when it is done");
+  }
+}
+
+class PythonPolicy : public Policy {
+ public:
+  explicit PythonPolicy(nb::object policy) : policy_(std::move(policy)) {}
+  void begin(const PolicyCall& call) override {
+    ask_python([&] {
+      if (nb::hasattr(*policy_, "begin")) (*policy_).attr("begin")(nb::cast(call));
+    });
+  }
+  std::optional<AgentAction> act(const EnvironmentObservation& now) override {
+    return ask_python([&]() -> std::optional<AgentAction> {
+      const nb::object asked = (*policy_).attr("act")(to_python(now));
+      if (asked.is_none()) return std::nullopt;
+      return nb::cast<AgentAction>(asked);
+    });
+  }
+
+ private:
+  Kept policy_;
+};
+
+}  // namespace
+
+Step to_step(StepResult result) {
+  nb::dict observation = to_python(std::move(result.observation));
+  return {std::move(observation), std::move(result)};
+}
+
+std::function<std::unique_ptr<Policy>()> policy_maker(nb::callable factory) {
+  return [kept = std::make_shared<Kept>(std::move(factory))] {
+    return ask_python([&]() -> std::unique_ptr<Policy> { return std::make_unique<PythonPolicy>((**kept)()); });
+  };
+}
+
+PolicyEntry policy_entry(nb::callable factory, std::vector<std::string> channels, bool hidden, int width, int height,
+                         std::string version) {
+  return {policy_maker(std::move(factory)), std::move(channels), hidden, width, height, std::move(version)};
+}
+
+EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
+  EnvironmentSettings settings;
+  for (const auto& [key, value] : words) {
+    const auto name = nb::cast<std::string>(key);
+    if (name == "channels") {
+      settings.channels = nb::cast<std::vector<std::string>>(value);
+    } else if (name == "hidden") {
+      settings.hidden = nb::cast<bool>(value);
+    } else if (name == "reward") {
+      const auto kind = nb::cast<std::string>(value);
+      if (kind != "sparse" && kind != "dense" && kind != "task")
+        throw Error(std::string(where) + "(reward=)", "there is no reward '" + kind + "'",
+                    "one of sparse, dense, task");
+      settings.reward = kind == "dense" ? RewardKind::dense : kind == "task" ? RewardKind::task : RewardKind::sparse;
+    } else if (name == "frame_hz") {
+      settings.frame_hz = nb::cast<double>(value);
+    } else if (name == "physics_hz") {
+      settings.physics_hz = nb::cast<double>(value);
+    } else if (name == "horizon_s") {
+      settings.horizon_s = nb::cast<double>(value);
+    } else if (name == "record") {
+      settings.record = nb::cast<bool>(value);
+    } else if (name == "width") {
+      settings.width = nb::cast<int>(value);
+    } else if (name == "height") {
+      settings.height = nb::cast<int>(value);
+    } else if (name == "shadows") {
+      settings.shadows = nb::cast<bool>(value);
+    } else if (name == "picture_hz") {
+      settings.picture_hz = nb::cast<std::map<std::string, double>>(value);
+    } else if (name == "rgb_noise") {
+      settings.rgb_noise = nb::cast<double>(value);
+    } else if (name == "depth_noise") {
+      settings.depth_noise = nb::cast<double>(value);
+    } else if (name == "torque_noise") {
+      settings.torque_noise = nb::cast<double>(value);
+    } else {
+      throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
+    }
+  }
+  return settings;
+}
+
+void bind_environments(nb::module_& module) {
+  bind_actions(module);
+  bind_results(module);
+  nb::class_<ResetRequest>(module, "Reset", R"(Which start an environment makes.
+
+variation: canonical text, or axes of it; empty: the first. seed: of all draws; from 1'000'000 up: the test split.
+where, goal: PDDL that must hold at the start, and instead of the task's goal. randomise: looks, light, cameras,
+dynamics. perturb: what is otherwise than usual, `camera=1,layout=0.5`. episode, frame: instead of all these, that
+frame of an episode of this engine. channels: observed from now on; None: as before.)")
+      .def(
+          "__init__",
+          [](ResetRequest* self, const std::string& variation, std::int64_t seed, const std::string& where,
+             const std::string& goal, bool randomise, const std::string& perturb, std::optional<Episode> episode,
+             std::int64_t frame, std::optional<std::vector<std::string>> channels) {
+            new (self) ResetRequest{.variation = variation,
+                                    .seed = seed,
+                                    .where = where,
+                                    .goal = goal,
+                                    .randomise = randomise,
+                                    .perturb = perturb,
+                                    .episode = std::move(episode),
+                                    .frame = frame,
+                                    .channels = std::move(channels)};
+          },
+          "variation"_a = "", "seed"_a = 0, "where"_a = "", "goal"_a = "", "randomise"_a = false, "perturb"_a = "",
+          "episode"_a = nb::none(), "frame"_a = 0, "channels"_a = nb::none())
+      .def_ro("variation", &ResetRequest::variation)
+      .def_ro("seed", &ResetRequest::seed);
+  nb::class_<PolicyCall>(module, "PolicyCall",
+                         "What a skill was called with, for the policy that is its body; or the "
+                         "task, for one that acts in a whole episode.")
+      .def_ro("task", &PolicyCall::task)
+      .def_ro("instruction", &PolicyCall::instruction)
+      .def_ro("skill", &PolicyCall::skill, "empty: a whole episode")
+      .def_ro("arguments", &PolicyCall::arguments, "parameter -> object")
+      .def_ro("parameters", &PolicyCall::parameters, "continuous ones");
+  nb::class_<Environment>(module, "Environment", R"(A task that the caller steps; made by Session.environment.
+
+Use it in the thread that resets it. An action that cannot be done gives a Step with a `refusal`, and nothing changed.)")
+      .def(
+          "reset",
+          [](Environment& self, const ResetRequest& request) {
+            EnvironmentObservation now;
+            {
+              const nb::gil_scoped_release free;
+              now = self.reset(request);
+            }
+            return to_python(std::move(now));
+          },
+          "request"_a = ResetRequest{}, "A start. Raises Error for one that cannot be made.")
+      .def(
+          "step",
+          [](Environment& self, const AgentAction& action) {
+            StepResult result;
+            {
+              const nb::gil_scoped_release free;
+              result = self.step(action);
+            }
+            return to_step(std::move(result));
+          },
+          "action"_a)
+      .def("observe", [](const Environment& self) { return to_python(self.observe()); })
+      .def("spaces", &Environment::spaces)
+      .def("skills", &Environment::skills, nb::call_guard<nb::gil_scoped_release>(),
+           "Every ground skill of the scene, in a fixed order, with what can be done now.")
+      .def("skill_descriptions", &Environment::skill_descriptions)
+      .def("atoms", &Environment::atoms, "Ground atoms of the channels `facts` and `known`, in their order.")
+      .def("save", &Environment::save, nb::call_guard<nb::gil_scoped_release>(),
+           "Between two steps. What follows a save and a restore is equal, bit for bit.")
+      .def(
+          "restore",
+          [](Environment& self, const SavedState& state) {
+            EnvironmentObservation now;
+            {
+              const nb::gil_scoped_release free;
+              now = self.restore(state);
+            }
+            return to_python(std::move(now));
+          },
+          "state"_a)
+      .def(
+          "episode", &Environment::episode, nb::call_guard<nb::gil_scoped_release>(),
+          "The episode so far; it ends here. With `record` it is kept, in the session's catalogue where there is one.");
+}
+
+}  // namespace stampede::python

@@ -1,0 +1,11 @@
+// stampede._core: the public C++ classes as Python sees them.
+#include "convert.h"
+
+NB_MODULE(_core, module) {
+  module.doc() = "The engine's classes. Use them by way of the package `stampede`.";
+  stampede::python::bind_errors(module);
+  stampede::python::bind_environments(module);
+  stampede::python::bind_catalogue(module);
+  stampede::python::bind_sessions(module);
+  stampede::python::bind_vectors(module);
+}

@@ -1,0 +1,338 @@
+// Sessions: run, evaluate, plan, and make environments.
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+#include <stampede/session.h>
+
+#include "environments.h"
+
+namespace stampede::python {
+
+nb::object arrays_object(EpisodeArrays arrays);  // catalogue.cpp
+nb::dict picture_object(CameraPicture picture);
+
+namespace {
+
+using namespace nb::literals;
+
+template <typename Value>
+Value one_of(const std::string& text, const char* argument, const std::vector<std::pair<const char*, Value>>& known) {
+  std::string names;
+  for (const auto& [name, value] : known) {
+    if (text == name) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw Error(std::string(argument) + "=", "there is no '" + text + "'", "one of " + names);
+}
+
+PictureStorage pictures_from(const nb::dict& words) {
+  PictureStorage pictures;
+  for (const auto& [key, value] : words) {
+    const auto name = nb::cast<std::string>(key);
+    if (name == "frames")
+      pictures.frames = one_of<PicturesOf>(
+          nb::cast<std::string>(value), "pictures['frames']",
+          {{"none", PicturesOf::none}, {"keyframes", PicturesOf::keyframes}, {"all", PicturesOf::all}});
+    else if (name == "cameras")
+      pictures.cameras = nb::cast<std::vector<std::string>>(value);
+    else if (name == "width")
+      pictures.width = nb::cast<int>(value);
+    else if (name == "height")
+      pictures.height = nb::cast<int>(value);
+    else if (name == "rgb")
+      pictures.rgb = nb::cast<bool>(value);
+    else if (name == "depth")
+      pictures.depth = nb::cast<bool>(value);
+    else if (name == "mask")
+      pictures.instance = nb::cast<bool>(value);
+    else if (name == "semantic_mask")
+      pictures.semantic = nb::cast<bool>(value);
+    else if (name == "points")
+      pictures.points = nb::cast<bool>(value);
+    else if (name == "shadows")
+      pictures.shadows = nb::cast<bool>(value);
+    else if (name == "rgb_noise")
+      pictures.rgb_noise = nb::cast<double>(value);
+    else if (name == "depth_noise")
+      pictures.depth_noise = nb::cast<double>(value);
+    else
+      throw Error("pictures=", "there is no '" + name + "'",
+                  "one of frames, cameras, width, height, rgb, depth, mask, semantic_mask, points, shadows, rgb_noise, "
+                  "depth_noise");
+  }
+  return pictures;
+}
+
+EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
+  EpisodeRequest request;
+  for (const auto& [key, value] : words) {
+    const auto name = nb::cast<std::string>(key);
+    if (name == "variation")
+      request.variation = nb::cast<std::string>(value);
+    else if (name == "seed")
+      request.seed = nb::cast<std::int64_t>(value);
+    else if (name == "on_failure")
+      request.on_failure =
+          one_of<OnFailure>(nb::cast<std::string>(value), "on_failure",
+                            {{"undo", OnFailure::undo}, {"stop", OnFailure::stop}, {"recover", OnFailure::recover}});
+    else if (name == "controller")
+      request.controller = nb::cast<std::string>(value);
+    else if (name == "set")
+      request.set = nb::cast<std::vector<std::string>>(value);
+    else if (name == "pictures")
+      request.pictures = pictures_from(nb::cast<nb::dict>(value));
+    else if (name == "where")
+      request.where = nb::cast<std::string>(value);
+    else if (name == "goal")
+      request.goal = nb::cast<std::string>(value);
+    else if (name == "behaviour")
+      request.behaviour = one_of<Behaviour>(nb::cast<std::string>(value), "behaviour",
+                                            {{"plan", Behaviour::plan},
+                                             {"random_skills", Behaviour::random_skills},
+                                             {"random_applicable", Behaviour::random_applicable}});
+    else if (name == "skills")
+      request.skills = nb::cast<int>(value);
+    else if (name == "randomise")
+      request.randomise = nb::cast<bool>(value);
+    else
+      throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
+  }
+  return request;
+}
+
+// Ctrl-C in Python's own thread ends the run, as an exception that carries it out.
+void look_at_signals() {
+  const nb::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+RunTally run_all(Session& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
+                 std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
+  RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
+  request.each = request_from(words, "run_all");
+  request.progress = [&](const RunProgress& now) {
+    look_at_signals();
+    if (!progress) return;
+    const nb::gil_scoped_acquire gil;
+    (*progress)(now.episode, now.done, now.total);
+  };
+  if (sink)
+    request.sink = [&](const Episode& episode) {
+      const nb::gil_scoped_acquire gil;
+      (*sink)(episode);
+    };
+  const nb::gil_scoped_release free;
+  return self.run_all(request);
+}
+
+Evaluation evaluate(Session& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
+                    std::int64_t episodes, std::int64_t first_seed, const std::string& variation,
+                    std::vector<std::string> perturb, int workers, const std::string& policy_name,
+                    const nb::kwargs& words) {
+  EvaluationRequest request;
+  request.episodes = episodes;
+  request.first_seed = first_seed;
+  request.variation = variation;
+  request.perturb = std::move(perturb);
+  request.workers = workers;
+  request.settings = settings_from(words, "evaluate");
+  request.policy_name = policy_name;
+  if (policy) request.policy = policy_maker(*policy);
+  const nb::gil_scoped_release free;
+  return self.evaluate(tasks, request);
+}
+
+void bind_answers(nb::module_& module) {
+  nb::class_<Episode>(module, "Episode", "An episode that was run.")
+      .def_ro("id", &Episode::id, "in the catalogue; 0: there is none")
+      .def_ro("key", &Episode::key)
+      .def_ro("task", &Episode::task)
+      .def_ro("variation", &Episode::variation)
+      .def_ro("seed", &Episode::seed)
+      .def_prop_ro("success", [](const Episode& episode) { return episode.outcome == Outcome::success; })
+      .def_ro("reason", &Episode::reason, "`none`, or why it failed, as in the catalogue")
+      .def_ro("detail", &Episode::detail)
+      .def_ro("frames", &Episode::frames)
+      .def_ro("duration_s", &Episode::duration_s, "simulated")
+      .def_ro("undone", &Episode::undone, "tries that were taken back")
+      .def("__repr__", [](const Episode& e) {
+        return "Episode(" + e.task + (e.variation.empty() ? "" : " " + e.variation) + ", seed " +
+               std::to_string(e.seed) + ", " + (e.outcome == Outcome::success ? "success" : e.reason) + ", " +
+               std::to_string(e.frames) + " frames)";
+      });
+  nb::class_<TaskTally>(module, "TaskTally")
+      .def_ro("episodes", &TaskTally::episodes)
+      .def_ro("succeeded", &TaskTally::succeeded)
+      .def_ro("existing", &TaskTally::existing)
+      .def_ro("reasons", &TaskTally::reasons)
+      .def_ro("variations", &TaskTally::variations, "variation -> (succeeded, episodes)");
+  nb::class_<RunTally>(module, "RunTally", "What came of a run.")
+      .def_ro("total", &RunTally::total)
+      .def_ro("finished", &RunTally::finished)
+      .def_ro("succeeded", &RunTally::succeeded)
+      .def_ro("existing", &RunTally::existing)
+      .def_ro("interrupted", &RunTally::interrupted)
+      .def_ro("tasks", &RunTally::tasks);
+  nb::class_<EvaluationRow>(module, "EvaluationRow", "Of a task, or of its variations with one value on one axis.")
+      .def_ro("task", &EvaluationRow::task, "empty: all")
+      .def_ro("perturbation", &EvaluationRow::perturbation)
+      .def_ro("axis", &EvaluationRow::axis)
+      .def_ro("value", &EvaluationRow::value)
+      .def_ro("episodes", &EvaluationRow::episodes)
+      .def_ro("succeeded", &EvaluationRow::succeeded)
+      .def_ro("success", &EvaluationRow::success, "share")
+      .def_ro("lower", &EvaluationRow::lower, "of its 95 % interval (Wilson, JASA 1927)")
+      .def_ro("upper", &EvaluationRow::upper)
+      .def_ro("mean_return", &EvaluationRow::mean_return)
+      .def_ro("mean_length_s", &EvaluationRow::mean_length_s)
+      .def_ro("reasons", &EvaluationRow::reasons)
+      .def("__repr__", [](const EvaluationRow& row) {
+        return "EvaluationRow(" + (row.task.empty() ? "all" : row.task) + ", " + row.perturbation +
+               (row.axis.empty() ? "" : ", " + row.axis + "=" + row.value) + ": " + std::to_string(row.succeeded) +
+               " of " + std::to_string(row.episodes) + ")";
+      });
+  nb::class_<Evaluation>(module, "Evaluation")
+      .def_ro("rows", &Evaluation::rows)
+      .def_ro("interrupted", &Evaluation::interrupted);
+  nb::class_<TaskPlanStep>(module, "PlanStep")
+      .def_ro("action", &TaskPlanStep::action)
+      .def_ro("arguments", &TaskPlanStep::arguments)
+      .def("__repr__", [](const TaskPlanStep& step) {
+        std::string text = "(" + step.action;
+        for (const std::string& argument : step.arguments) text += " " + argument;
+        return text + ")";
+      });
+  nb::class_<TaskPlan>(module, "TaskPlan", "What the task planner says.")
+      .def_ro("found", &TaskPlan::found)
+      .def_ro("end", &TaskPlan::end)
+      .def_ro("explanation", &TaskPlan::explanation)
+      .def_ro("steps", &TaskPlan::steps)
+      .def_ro("domain", &TaskPlan::domain, "PDDL")
+      .def_ro("problem", &TaskPlan::problem, "PDDL")
+      .def_ro("assumed", &TaskPlan::assumed);
+}
+
+}  // namespace
+
+void bind_sessions(nb::module_& module) {
+  bind_answers(module);
+  module.def("plan_pddl", &plan_pddl, "domain"_a, "problem"_a, nb::call_guard<nb::gil_scoped_release>(),
+             "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
+  nb::class_<Session>(module, "Session", R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
+
+root: holds tasks/, skills/, worlds/; None: those that came with the package. paths: further folders of the same shape,
+whose files win. catalogue: a file, where episodes go; None: each is kept by the Episode that `run` gives.
+One thread at a time.)")
+      .def(
+          "__init__",
+          [](Session* self, const std::optional<std::filesystem::path>& root, std::vector<std::filesystem::path> paths,
+             const std::optional<std::filesystem::path>& catalogue) {
+            new (self) Session({root.value_or(""), std::move(paths), catalogue.value_or("")});
+          },
+          "root"_a = nb::none(), "paths"_a = std::vector<std::filesystem::path>(), "catalogue"_a = nb::none())
+      .def("tasks", &Session::tasks, "Names.")
+      .def("variations", &Session::variations, "task"_a, "Canonical texts, in the task's order.")
+      .def(
+          "run",
+          [](Session& self, const std::string& task, const nb::kwargs& words) {
+            const EpisodeRequest request = request_from(words, "run");
+            const nb::gil_scoped_release free;
+            return self.run(task, request);
+          },
+          "task"_a, "request"_a,
+          R"(Runs one episode. What the catalogue has already is given without running. Repeatable, bit for bit.
+
+variation, seed (from 1'000'000 up: the test split), on_failure (undo, stop, recover), controller, set (list such as
+`pick.height=0.2`), pictures (dict: frames none|keyframes|all, cameras, width, height, rgb, depth, mask,
+semantic_mask, points, shadows, rgb_noise, depth_noise), where and goal (PDDL), behaviour (plan, random_skills,
+random_applicable), skills, randomise.)")
+      .def("run_all", &run_all, "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(),
+           "sink"_a = nb::none(), "request"_a,
+           R"(Runs many episodes in several threads and keeps each, in a fixed order, whatever the number of workers.
+
+progress(episode, done, total) is called after each; sink(episode) gets each instead of the catalogue. Other arguments
+as of `run`; `seed` is the first one's.)")
+      .def(
+          "environment",
+          [](const Session& self, const std::string& task, const nb::kwargs& words) {
+            return self.environment(task, settings_from(words, "environment"));
+          },
+          "task"_a, "settings"_a, R"(The task as an environment that the caller steps.
+
+channels, hidden, reward (sparse, dense, task), frame_hz, physics_hz, horizon_s, record, width, height, shadows,
+picture_hz (dict by camera), rgb_noise, depth_noise, torque_noise: see EnvironmentSettings of stampede/environment.h.)")
+      .def(
+          "plan",
+          [](const Session& self, const std::string& task, const nb::kwargs& words) {
+            const EpisodeRequest request = request_from(words, "plan");
+            const nb::gil_scoped_release free;
+            return self.plan(task, request);
+          },
+          "task"_a, "request"_a, "The plan for the start that `run` would make. variation, seed, where, goal matter.")
+      .def(
+          "query",
+          [](const Session& self, const std::string& question) {
+            Rows rows;
+            {
+              const nb::gil_scoped_release free;
+              rows = self.query(question);
+            }
+            return nb::make_tuple(rows.columns, rows_of(rows));
+          },
+          "question"_a)
+      .def(
+          "arrays",
+          [](const Session& self, const Episode& episode, std::vector<std::string> columns) {
+            EpisodeArrays arrays;
+            {
+              const nb::gil_scoped_release free;
+              arrays = self.arrays(episode, {std::move(columns)});
+            }
+            return arrays_object(std::move(arrays));
+          },
+          "episode"_a, "columns"_a = std::vector<std::string>())
+      .def(
+          "picture",
+          [](const Session& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
+             int height, bool rgb, bool depth, bool mask, bool semantic_mask, bool shadows) {
+            CameraPicture picture;
+            {
+              const nb::gil_scoped_release free;
+              picture = self.picture(episode, frame, {camera, width, height, rgb, depth, mask, semantic_mask, shadows});
+            }
+            return picture_object(std::move(picture));
+          },
+          "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true,
+          "depth"_a = false, "mask"_a = false, "semantic_mask"_a = false, "shadows"_a = false,
+          "Drawn now: rgb, depth, mask, semantic_mask, intrinsics, extrinsics (world_from_camera).")
+      .def("state", nb::overload_cast<const Episode&, std::int64_t>(&Session::state, nb::const_), "episode"_a,
+           "frame"_a)
+      .def(
+          "add_policy",
+          [](Session& self, const std::string& name, nb::callable make, std::vector<std::string> channels, bool hidden,
+             int width, int height, std::string version) {
+            self.add_policy(
+                name, policy_entry(std::move(make), std::move(channels), hidden, width, height, std::move(version)));
+          },
+          "name"_a, "make"_a,
+          "channels"_a =
+              std::vector<std::string>{"joint_positions", "gripper_pose", "gripper_open", "task_low_dim_state"},
+          "hidden"_a = false, "width"_a = 0, "height"_a = 0, "version"_a = "",
+          R"(A controller that skills may have as their body: `run = policy("name")` in a skill file.
+
+make() gives, for each call, an object with `act(observation) -> Action | None` (None: it is done), asked at each
+frame, and if it likes `begin(call)`. version is part of an episode's key: another text, another policy.)")
+      .def("evaluate", &evaluate, "tasks"_a, "policy"_a = nb::none(), "episodes"_a = 20, "first_seed"_a = 1'000'000,
+           "variation"_a = "", "perturb"_a = std::vector<std::string>(), "workers"_a = 1, "policy_name"_a = "policy",
+           "settings"_a,
+           R"(How often a policy, or without one the planner, succeeds, undisturbed and along axes of perturbation.
+
+policy() gives an object with `act` and `begin`, one an episode, as of `add_policy`. Other arguments are those of
+`environment`: what it observes, rates, horizon.)");
+}
+
+}  // namespace stampede::python
