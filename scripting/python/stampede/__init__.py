@@ -1,1 +1,90 @@
-from stampede._core import *
+"""Stampede: labelled robot demonstrations, and tasks to act in.
+
+    import stampede
+
+    session = stampede.Session(catalogue="demos.db")          # tasks become episodes
+    session.run_all(["pick_and_lift"], episodes=10, workers=2)
+    for episode in stampede.Catalogue("demos.db").demos():     # episodes as numpy arrays, segments, facts, SQL
+        print(episode, episode.arrays("joint_positions")["joint_positions"].shape)
+    env = stampede.Env("pick_and_lift")                        # a Gymnasium environment
+
+`python -m stampede.export` writes datasets for trainers; `stampede.rlbench` has RLBench's interface.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from stampede._core import (
+    Action,
+    ActionSpace,
+    CatalogueError,
+    Environment,
+    Episode,
+    EpisodeArrays,
+    Error,
+    Evaluation,
+    EvaluationRow,
+    Fact,
+    PolicyCall,
+    Reset,
+    SavedState,
+    Segment,
+    Session,
+    Step,
+    TaskPlan,
+    WorldState,
+    plan_pddl,
+)
+from stampede.catalogue import Catalogue, StoredEpisode, Table
+
+if TYPE_CHECKING:
+    from stampede.datasets import FrameDataset, WindowStream
+    from stampede.envs import Env, SkillEnv, VectorEnv
+    from stampede.evaluate import evaluate
+
+__version__ = "0.1.0"
+
+# Imported when they are first asked for: they need packages that take long to import.
+_LATER = {
+    "Env": "stampede.envs",
+    "SkillEnv": "stampede.envs",
+    "VectorEnv": "stampede.envs",
+    "evaluate": "stampede.evaluate",
+    "FrameDataset": "stampede.datasets",
+    "WindowStream": "stampede.datasets",
+}
+
+__all__ = [
+    "Action",
+    "ActionSpace",
+    "Catalogue",
+    "CatalogueError",
+    "Environment",
+    "Episode",
+    "EpisodeArrays",
+    "Error",
+    "Evaluation",
+    "EvaluationRow",
+    "Fact",
+    "PolicyCall",
+    "Reset",
+    "SavedState",
+    "Segment",
+    "Session",
+    "Step",
+    "StoredEpisode",
+    "Table",
+    "TaskPlan",
+    "WorldState",
+    "plan_pddl",
+    *_LATER,
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        import importlib
+
+        return getattr(importlib.import_module(_LATER[name]), name)
+    raise AttributeError(f"module 'stampede' has no attribute {name!r}")

@@ -1,0 +1,192 @@
+"""Datasets in the formats that trainers read: `python -m stampede.export FORMAT demos.db --out FOLDER`.
+
+A format is a module here with a class `Writer`. The rest is shared: which episodes, splits, progress, and that an
+export which was cut off goes on where it stopped, with nothing half done under a final name.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import importlib
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+from stampede._core import Error
+from stampede.catalogue import Catalogue, StoredEpisode
+
+FORMATS = {
+    "robomimic": "HDF5 of robomimic (arXiv:2108.03298), which robosuite and many trainers read",
+    "libero": "HDF5 of LIBERO (arXiv:2306.03310)",
+    "mimicgen": "source demonstrations of MimicGen (arXiv:2310.17596), with subtask signals from our segments",
+    "maniskill": "trajectories of ManiSkill (arXiv:2410.00425): HDF5 and JSON",
+    "lerobot": "LeRobotDataset v3.0, or v2.1: parquet and videos",
+    "rlds": "RLDS (arXiv:2111.02767): TFRecord files as TensorFlow Datasets reads them",
+    "mcap": "MCAP files with Foxglove's schemas, one an episode",
+    "rlbench": "RLBench's folders of pictures and pickled demos",
+}
+
+_MANIFEST = "stampede-export.json"
+
+
+class Writer(Protocol):
+    """What a format does. Made once for an export; episodes come one after the other, in the catalogue's order."""
+
+    def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None: ...
+
+    @staticmethod
+    def add_arguments(parser: argparse.ArgumentParser) -> None:
+        """The format's own flags."""
+
+    def has(self, episode: StoredEpisode) -> bool:
+        """Whether an export that was cut off has written all of it."""
+
+    def write(self, episode: StoredEpisode) -> None:
+        """All of it, or nothing that a later `has` takes for it."""
+
+    def finish(self) -> None:
+        """What needs all episodes; files get their final names here."""
+
+    def close(self) -> None:
+        """Lets go of files, after `finish` or after an error."""
+
+
+def split_of(episode: StoredEpisode, valid: float) -> str:
+    """`train`, `valid` or `test`: the catalogue's split, and of its training episodes a share that depends on each
+    episode's task and seed alone."""
+    if episode.split != "train":
+        return episode.split
+    digest = hashlib.sha256(f"{episode.task} {episode.variation} {episode.seed}".encode()).digest()
+    return "valid" if int.from_bytes(digest[:8], "big") < valid * 2**64 else "train"
+
+
+def cameras_of(episode: StoredEpisode, options: argparse.Namespace) -> list[str]:
+    """Cameras whose colours are wanted and can be had: those named, else those with a picture of every frame."""
+    stored = [
+        name.removesuffix("_rgb")
+        for name, frames in episode.stored_pictures.items()
+        if name.endswith("_rgb") and len(frames) == episode.frames
+    ]
+    if options.cameras is None:
+        return sorted(stored)
+    known = [one.name.removesuffix("_rgb") for one in episode.arrays("front_rgb").pictures if one.name.endswith("_rgb")]
+    for camera in options.cameras:
+        if camera not in known:
+            raise Error(f"episode {episode.id} has no camera '{camera}'\n    it has {', '.join(known)}")
+        if camera not in stored and not options.draw:
+            raise Error(
+                f"episode {episode.id} does not store every picture of camera '{camera}'\n"
+                "    add --draw to draw what is missing, or store it: `stampede render FILE --into`"
+            )
+    return list(options.cameras)
+
+
+def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] | None = None) -> int:
+    """Runs the command line; gives the number of episodes in the dataset. Raises Error for bad input."""
+    options = _parse(arguments)
+    catalogue = Catalogue(options.catalogue)
+    episodes = catalogue.episodes(options.where)[: options.limit]
+    if not episodes:
+        raise Error(
+            f"{options.catalogue}: no episode fulfils `{options.where}`\n"
+            "    `stampede show FILE` lists them; --where takes a condition on view `episodes`"
+        )
+    folder = Path(options.out)
+    _keep_manifest(folder, options)
+    writer: Writer = _module(options.format).Writer(folder, options, episodes)
+    try:
+        progress = _Progress(len(episodes), tell)
+        for episode in episodes:
+            if not writer.has(episode):
+                writer.write(episode)
+            progress.one_more(episode)
+        writer.finish()
+    finally:
+        writer.close()
+    (folder / _MANIFEST).unlink()
+    progress.end(folder)
+    return len(episodes)
+
+
+def _module(name: str) -> Any:
+    return importlib.import_module(f"stampede.export.{name}")
+
+
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m stampede.export", description="Writes episodes of a catalogue as a dataset of another format."
+    )
+    formats = parser.add_subparsers(dest="format", metavar="FORMAT", required=True)
+    named = next((one for one in (sys.argv[1:] if arguments is None else arguments) if one in FORMATS), None)
+    for name, text in FORMATS.items():
+        one = formats.add_parser(name, help=text, description=text)
+        one.add_argument("catalogue", help="file that `stampede run` wrote")
+        one.add_argument("--out", required=True, metavar="FOLDER", help="where the dataset goes")
+        one.add_argument(
+            "--where",
+            default="outcome = 'success'",
+            metavar="SQL",
+            help="which episodes: a condition on view `episodes` (default: %(default)s)",
+        )
+        one.add_argument("--limit", type=int, metavar="N", help="at most so many episodes")
+        one.add_argument(
+            "--cameras",
+            type=lambda text: [camera for camera in text.split(",") if camera],
+            metavar="NAMES",
+            help="comma-separated, or '' for none (default: those with a stored picture of every frame)",
+        )
+        one.add_argument("--draw", action="store_true", help="draw pictures that are not stored")
+        one.add_argument(
+            "--valid", type=float, default=0.1, metavar="SHARE", help="of the training episodes (default: %(default)s)"
+        )
+        if name == named:  # other formats may need libraries that are not there
+            _module(name).Writer.add_arguments(one)
+    options = parser.parse_args(arguments)
+    if not 0 <= options.valid < 1:
+        raise Error(f"--valid {options.valid}: it is a share, from 0 up to but not including 1")
+    return options
+
+
+def _keep_manifest(folder: Path, options: argparse.Namespace) -> None:
+    """Notes what the export is of, so that what is there is gone on with only where it is the same export."""
+    asked = {key: value for key, value in sorted(vars(options).items()) if key != "out"}
+    asked["catalogue"] = str(Path(options.catalogue).resolve())
+    text = json.dumps(asked, indent=2, default=str) + "\n"
+    manifest = folder / _MANIFEST
+    if manifest.exists():
+        if manifest.read_text() != text:
+            raise Error(
+                f"{folder}: another export was cut off here\n"
+                f"    give the options of {manifest} to go on with it, or name another folder"
+            )
+        return
+    if folder.exists() and any(folder.iterdir()):
+        raise Error(f"{folder}: the folder is not empty\n    name a new one")
+    folder.mkdir(parents=True, exist_ok=True)
+    manifest.write_text(text)
+
+
+class _Progress:
+    """One line on the terminal that changes; nothing where standard error is no terminal, but the end."""
+
+    def __init__(self, total: int, tell: Callable[[str], None] | None) -> None:
+        self.total, self.done, self.tell = total, 0, tell
+        self.live = tell is None and sys.stderr.isatty()
+
+    def one_more(self, episode: StoredEpisode) -> None:
+        self.done += 1
+        line = f"[{self.done}/{self.total}] {episode.task} {episode.variation} seed {episode.seed}"
+        if self.tell:
+            self.tell(line)
+        elif self.live:
+            print(f"\r\033[K{line[:100]}", end="", file=sys.stderr, flush=True)
+
+    def end(self, folder: Path) -> None:
+        line = f"{self.total} episodes in {folder}"
+        if self.tell:
+            self.tell(line)
+        else:
+            print(f"\r\033[K{line}" if self.live else line, file=sys.stderr)
