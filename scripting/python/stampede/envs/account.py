@@ -1,0 +1,102 @@
+"""What an environment says of an episode beside its observation: reward, end, info."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from stampede import _core
+
+from .spaces import Observation, ObservationCodec
+from .starts import Start
+
+Result = tuple[Observation, float, bool, bool, dict[str, Any]]
+
+# The engine keeps a task's own horizon to itself; this is the one of most tasks.
+_USUAL_HORIZON_S = 120.0
+
+_AFTER_END = "the episode is over\n    call reset()"
+
+
+class EpisodeAccount:
+    """One episode after the other, in Gymnasium's terms.
+
+    A step in which no frame goes by (its action was refused, or a skill failed before anything moved) counts as one
+    frame of the horizon, so that an episode of such steps ends too. Where the horizon is the task's own (0), episodes
+    end after as many of such steps as 120 s have frames.
+    """
+
+    def __init__(self, task: str, codec: ObservationCodec, frame_hz: float, horizon_s: float) -> None:
+        self._task = task
+        self._codec = codec
+        self._frame_hz = frame_hz
+        self._counts_frames = horizon_s > 0
+        self._limit = round((horizon_s or _USUAL_HORIZON_S) * frame_hz)
+        self._identity: dict[str, Any] | None = None
+        self.motionless = 0  # steps of this episode in which no frame went by
+        self.terminated = self.truncated = False
+        self.raw: dict[str, Any] = {}  # the last observation, as the engine gives it
+
+    @property
+    def begun(self) -> bool:
+        return self._identity is not None
+
+    @property
+    def over(self) -> bool:
+        return self.terminated or self.truncated
+
+    def end(self) -> None:
+        """Nothing has begun any more."""
+        self._identity = None
+
+    def begin(self, start: Start, raw: dict[str, Any]) -> tuple[Observation, dict[str, Any]]:
+        """What `reset` gives."""
+        self._identity = {"task": self._task, "variation": start.variation, "seed": start.seed}
+        return self.go_back(raw, 0)
+
+    def go_back(self, raw: dict[str, Any], motionless: int) -> tuple[Observation, dict[str, Any]]:
+        """What `restore` gives."""
+        self.motionless = motionless
+        self.terminated = self.truncated = False
+        self.raw = raw
+        return self._codec(raw), {**(self._identity or {}), **self._codec.texts(raw)}
+
+    def after_end(self) -> Result:
+        """Of a step after the end: it is refused."""
+        info = {**(self._identity or {}), "success": False, "refusal": _AFTER_END, "duration": 0}
+        return self._codec(self.raw), 0.0, self.terminated, self.truncated, info
+
+    def after(self, *steps: _core.Step) -> Result:
+        """Of what one step of the caller's made of steps of the engine's."""
+        last = steps[-1]
+        self.raw = raw = last.observation
+        duration = last.frames if len(steps) == 1 else sum(step.frames for step in steps)
+        if duration == 0:
+            self.motionless += 1
+        self.terminated = last.terminated
+        self.truncated = last.truncated
+        if not self.over and self.motionless:
+            self.truncated = self.motionless + (last.frame if self._counts_frames else 0) >= self._limit
+        refusal = steps[0].refusal
+        info = {
+            **(self._identity or {}),
+            "time_s": last.time_s,
+            "duration": duration,
+            "success": last.success,
+            "reason": last.reason,
+            "running": last.running,
+            "changes": changes_of(steps),
+        }
+        if refusal is not None:
+            info["refusal"] = str(refusal)
+        if self.over:
+            info["is_success"] = last.success
+            info["detail"] = last.detail
+            if last.reason == "none" and self.truncated:
+                info["reason"] = "timeout"
+        info.update(self._codec.texts(raw))
+        reward = 0.0 if refusal is not None else last.reward
+        return self._codec(raw), reward, self.terminated, self.truncated, info
+
+
+def changes_of(steps: Sequence[_core.Step]) -> list[str]:
+    """Facts that came, `(on cup shelf)`, and went, `(not (on cup shelf))`."""
+    return [str(fact) if fact.holds else f"(not {fact})" for step in steps for fact in step.changes]

@@ -1,0 +1,204 @@
+"""What environments that act by set-points and by skills have in common."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from stampede import _core
+
+from .account import EpisodeAccount
+from .faults import fault
+from .sessions import PathLike, shared_session
+from .spaces import Observation, ObservationCodec
+from .starts import Start, Starts
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How an environment observes, is rewarded and starts. The arguments of Env, which says what they mean."""
+
+    observations: Sequence[str]
+    reward: str = "sparse"
+    variation: str | None = None
+    split: str = "train"
+    render_mode: str | None = None
+    camera: str = "front"
+    frame_hz: float = 0
+    physics_hz: float = 0
+    horizon_s: float = 0
+    image_size: int | tuple[int, int] | None = None
+    hidden: bool = False
+    randomise: bool = False
+    perturb: str = ""
+    record: bool = False
+    catalogue: PathLike | None = None
+    root: PathLike | None = None
+    paths: Sequence[PathLike] = ()
+
+    def engine(self, further_channels: Sequence[str] = ()) -> dict[str, Any]:
+        """Arguments of `_core.Session.environment`."""
+        height, width = (self.image_size,) * 2 if isinstance(self.image_size, int) else self.image_size or (0, 0)
+        return {
+            "channels": list(dict.fromkeys([*self.channels, *further_channels])),
+            "hidden": self.hidden,
+            "reward": self.reward,
+            "frame_hz": self.frame_hz,
+            "physics_hz": self.physics_hz,
+            "horizon_s": self.horizon_s,
+            "record": self.record,
+            "width": width,
+            "height": height,
+        }
+
+    @property
+    def channels(self) -> list[str]:
+        return [self.observations] if isinstance(self.observations, str) else list(self.observations)
+
+
+@dataclass(frozen=True)
+class SavedEpisode:
+    """A moment of an episode to which an environment can go back."""
+
+    state: _core.SavedState
+    start: Start
+    motionless: int
+
+
+def frame_rate(available: Sequence[_core.ActionSpace]) -> float:
+    """Frames a second: how often the largest delta of a joint goes into its speed."""
+    first = {space.name: space.components[0] for space in available if space.components}
+    return round(first["joint_velocity"].upper / first["joint_delta"].upper, 6)
+
+
+class EpisodeEnv(gymnasium.Env[Observation, Any]):
+    """A task whose episodes are begun, drawn, saved and kept; subclasses say how an agent acts.
+
+    Used by one thread at a time, the one that resets it.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+
+    def __init__(self, task: str, settings: Settings, inner_channels: Sequence[str] = ()) -> None:
+        """inner_channels: what the environment itself reads and the agent does not see."""
+        self._closed = True  # until all is made: a constructor that raises leaves nothing open
+        if settings.render_mode not in (None, *self.metadata["render_modes"]):
+            raise fault("render_mode=", f"there is no render mode '{settings.render_mode}'", "rgb_array, or None")
+        self.task = task
+        self.settings = settings
+        self.render_mode = settings.render_mode
+        self._picture = f"{settings.camera}_rgb"
+        further = [*inner_channels, *([self._picture] if self.render_mode else [])]
+        self._shared = shared_session(settings.root, settings.paths, settings.catalogue)
+        self._starts = Starts(
+            self.session, task, settings.variation, settings.split, settings.randomise, settings.perturb
+        )
+        self._environment = self.session.environment(task, **settings.engine(further))
+        example = self._environment.reset(self._starts.first())
+        self._codec = ObservationCodec(example, frozenset(further) - frozenset(settings.channels))
+        self.observation_space = self._codec.space
+        rate = frame_rate(self._environment.spaces())
+        self.metadata = {**self.metadata, "render_fps": rate}
+        self._account = EpisodeAccount(task, self._codec, rate, settings.horizon_s)
+        self._start: Start | None = None
+        self._closed = False
+
+    @property
+    def session(self) -> _core.Session:
+        return self._shared.core
+
+    @property
+    def frame_hz(self) -> float:
+        """Frames a second; a set-point lasts one."""
+        return self.metadata["render_fps"]
+
+    def reset(
+        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """A new start. The same seed gives the same bits.
+
+        seed: the engine's is its remainder by 1'000'000, and that much more in the test split. None: drawn.
+        options: variation, seed (the engine's own), where and goal (PDDL), perturb, randomise, or episode and frame.
+        A start that was drawn and cannot be made gives way to the next draw, up to ten; info says which was taken.
+        """
+        self._check_open("reset")
+        super().reset(seed=seed)
+        self._account.end()
+        self._start, raw = self._starts.begin(self.np_random, seed, options or {}, self._environment.reset)
+        return self._account.begin(self._start, raw)
+
+    def render(self) -> np.ndarray | None:
+        """What `camera` sees at this frame: height x width x 3, uint8. None without a render mode."""
+        self._check_begun("render")
+        return self._account.raw[self._picture] if self.render_mode else None
+
+    def close(self) -> None:
+        """Lets go of engine and session. Any use from now on raises stampede.Error."""
+        if self._closed:
+            return
+        self._closed = True
+        self._account.end()
+        del self._environment, self._shared
+
+    def skills(self) -> list[_core.SkillChoice]:
+        """Every ground skill of the scene, in a fixed order, with what can be done now."""
+        self._check_begun("skills")
+        return self._environment.skills()
+
+    def save(self) -> SavedEpisode:
+        """This moment, between two steps. What follows a save and a restore is equal, bit for bit."""
+        self._check_begun("save")
+        assert self._start is not None
+        return SavedEpisode(self._environment.save(), self._start, self._account.motionless)
+
+    def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
+        """Goes back to a moment of an episode of the same start; gives what reset gives, at that moment."""
+        self._check_begun("restore")
+        return self._account.go_back(self._environment.restore(saved.state), saved.motionless)
+
+    def episode(self) -> _core.Episode:
+        """Ends and keeps the episode that is under way; with `record` alone. One that ends by itself is kept then."""
+        self._check_begun("episode")
+        episode = self._environment.episode()
+        self._account.end()
+        return episode
+
+    @cached_property
+    def observation_labels(self) -> dict[str, list[str]]:
+        """Names of the components of channels that have some, by channel."""
+        self._check_open("observation_labels")
+        # Only an episode that was recorded says what its columns are; it must not go to the caller's catalogue.
+        session = _core.Session(root=self._shared.root, paths=list(self._shared.paths))
+        environment = session.environment(self.task, record=True, channels=[])
+        environment.reset(self._starts.first())
+        environment.step(_core.Action("joint_delta", np.zeros(len(environment.spaces()[0].components))))
+        ground = {
+            "facts": [str(atom) for atom in environment.atoms()],
+            "applicable": [skill_text(choice) for choice in environment.skills()],
+        }
+        ground["known"] = ground["facts"]
+        arrays = session.arrays(environment.episode())
+        labels = {name: arrays.column(name).labels for name in self.observation_space if name in arrays}
+        labels |= {name: texts for name, texts in ground.items() if name in self.observation_space.spaces}
+        return {name: texts for name, texts in labels.items() if texts}
+
+    def _keep_if_over(self, info: dict[str, Any]) -> None:
+        if self.settings.record and self._account.over:
+            info["recorded"] = self._environment.episode()
+
+    def _check_open(self, use: str) -> None:
+        if self._closed:
+            raise fault(f"{type(self).__name__}.{use}", "the environment is closed", "make another one")
+
+    def _check_begun(self, use: str) -> None:
+        self._check_open(use)
+        if not self._account.begun:
+            raise fault(f"{type(self).__name__}.{use}", "no episode is under way", "call reset() first")
+
+
+def skill_text(choice: _core.SkillChoice) -> str:
+    """`pick(cup, table, panda.hand)`."""
+    return f"{choice.skill}({', '.join(choice.arguments)})"
