@@ -2,7 +2,9 @@
 
 from .env import Env
 from .registration import register_tasks
+from .skill_env import SkillEnv
+from .vector import VectorEnv
 
-__all__ = ["Env"]
+__all__ = ["Env", "SkillEnv", "VectorEnv"]
 
 register_tasks()

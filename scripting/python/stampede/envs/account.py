@@ -32,7 +32,8 @@ class EpisodeAccount:
         self._limit = round((horizon_s or _USUAL_HORIZON_S) * frame_hz)
         self._identity: dict[str, Any] | None = None
         self.motionless = 0  # steps of this episode in which no frame went by
-        self.terminated = self.truncated = False
+        self.terminated = self.truncated = self._success = False
+        self.running = ""  # the skill, path or hold that can go on
         self.raw: dict[str, Any] = {}  # the last observation, as the engine gives it
 
     @property
@@ -55,13 +56,14 @@ class EpisodeAccount:
     def go_back(self, raw: dict[str, Any], motionless: int) -> tuple[Observation, dict[str, Any]]:
         """What `restore` gives."""
         self.motionless = motionless
-        self.terminated = self.truncated = False
+        self.terminated = self.truncated = self._success = False
+        self.running = ""
         self.raw = raw
         return self._codec(raw), {**(self._identity or {}), **self._codec.texts(raw)}
 
     def after_end(self) -> Result:
         """Of a step after the end: it is refused."""
-        info = {**(self._identity or {}), "success": False, "refusal": _AFTER_END, "duration": 0}
+        info = {**(self._identity or {}), "success": self._success, "refusal": _AFTER_END, "duration": 0}
         return self._codec(self.raw), 0.0, self.terminated, self.truncated, info
 
     def after(self, *steps: _core.Step) -> Result:
@@ -71,8 +73,10 @@ class EpisodeAccount:
         duration = last.frames if len(steps) == 1 else sum(step.frames for step in steps)
         if duration == 0:
             self.motionless += 1
+        self.running = last.running
         self.terminated = last.terminated
         self.truncated = last.truncated
+        self._success = last.success
         if not self.over and self.motionless:
             self.truncated = self.motionless + (last.frame if self._counts_frames else 0) >= self._limit
         refusal = steps[0].refusal
@@ -80,15 +84,15 @@ class EpisodeAccount:
             **(self._identity or {}),
             "time_s": last.time_s,
             "duration": duration,
-            "success": last.success,
+            "success": self._success,
             "reason": last.reason,
-            "running": last.running,
+            "running": self.running,
             "changes": changes_of(steps),
         }
         if refusal is not None:
             info["refusal"] = str(refusal)
         if self.over:
-            info["is_success"] = last.success
+            info["is_success"] = self._success
             info["detail"] = last.detail
             if last.reason == "none" and self.truncated:
                 info["reason"] = "timeout"

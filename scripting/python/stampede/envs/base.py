@@ -199,6 +199,6 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
             raise fault(f"{type(self).__name__}.{use}", "no episode is under way", "call reset() first")
 
 
-def skill_text(choice: _core.SkillChoice) -> str:
+def skill_text(choice: _core.SkillChoice | _core.SkillEnd) -> str:
     """`pick(cup, table, panda.hand)`."""
     return f"{choice.skill}({', '.join(choice.arguments)})"

@@ -1,7 +1,6 @@
 """A task as a Gymnasium environment whose agent acts by set-points."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from stampede import _core
 
 from .account import Result
 from .base import EpisodeEnv, Settings
+from .sessions import PathLike
 from .spaces import ActionCodec
 
 OBSERVATIONS = ("joint_positions", "joint_velocities", "gripper_open", "gripper_pose", "task_low_dim_state")
@@ -45,11 +45,45 @@ class Env(EpisodeEnv):
         *,
         action: str = "joint_delta",
         observations: Sequence[str] = OBSERVATIONS,
+        reward: str = "sparse",
+        variation: str | None = None,
+        split: str = "train",
         gripper: bool = True,
         normalise_actions: bool = False,
-        **settings: Any,
+        render_mode: str | None = None,
+        camera: str = "front",
+        frame_hz: float = 0,
+        physics_hz: float = 0,
+        horizon_s: float = 0,
+        image_size: int | tuple[int, int] | None = None,
+        hidden: bool = False,
+        randomise: bool = False,
+        perturb: str = "",
+        record: bool = False,
+        catalogue: PathLike | None = None,
+        root: PathLike | None = None,
+        paths: Sequence[PathLike] = (),
     ) -> None:
-        super().__init__(task, Settings(observations, **settings))
+        settings = Settings(
+            observations=observations,
+            reward=reward,
+            variation=variation,
+            split=split,
+            render_mode=render_mode,
+            camera=camera,
+            frame_hz=frame_hz,
+            physics_hz=physics_hz,
+            horizon_s=horizon_s,
+            image_size=image_size,
+            hidden=hidden,
+            randomise=randomise,
+            perturb=perturb,
+            record=record,
+            catalogue=catalogue,
+            root=root,
+            paths=paths,
+        )
+        super().__init__(task, settings)
         self._actions = ActionCodec(self._environment.spaces(), action, gripper, normalise_actions)
         self.action_space = self._actions.space
 
