@@ -1,0 +1,1 @@
+"""How an action's numbers move the robot."""

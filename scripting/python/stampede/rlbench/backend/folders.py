@@ -1,0 +1,108 @@
+"""Demos in RLBench's folders: TASK/variation0/episodes/episode0/front_rgb/0.png … and low_dim_obs.pkl."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stampede.rlbench.backend.const import EPISODES_FOLDER, LOW_DIM_PICKLE, VARIATIONS_FOLDER
+from stampede.rlbench.backend.exceptions import DemoError
+from stampede.rlbench.backend.observation import Observation
+from stampede.rlbench.backend.observing import NUMBERS
+from stampede.rlbench.backend.pickles import read_pickle
+from stampede.rlbench.backend.pictures import encoded_fields
+from stampede.rlbench.backend.utils import image_to_float_array, rgb_handles_to_mask
+from stampede.rlbench.demo import Demo
+from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
+
+
+def pillow() -> Any:
+    """Pillow's module Image."""
+    try:
+        from PIL import Image
+    except ImportError as error:
+        raise ImportError('Pillow is missing\n    pip install "stampede[rlbench]"') from error
+    return Image
+
+
+def demo_folders(root: Path, task: str, variation: int) -> list[Path]:
+    """Folders of the episodes of one variation, by number."""
+    if not (root / task).is_dir():
+        there = ", ".join(sorted(one.name for one in root.iterdir() if one.is_dir()))
+        raise DemoError(f"{root}: there is no task '{task}'\n    there are {there or 'none'}")
+    episodes = root / task / (VARIATIONS_FOLDER % variation) / EPISODES_FOLDER
+    if not episodes.is_dir():
+        there = ", ".join(sorted(one.name for one in (root / task).iterdir() if one.is_dir()))
+        raise DemoError(f"{episodes}: there is no such folder\n    there are {there or 'none'}")
+    numbered = [one for one in episodes.iterdir() if one.name.removeprefix("episode").isdigit()]
+    return sorted(numbered, key=lambda one: int(one.name.removeprefix("episode")))
+
+
+def load_demo(folder: Path, config: ObservationConfig, image_paths: bool) -> Demo:
+    """
+    A demo with the fields that `config` has switched on. image_paths: those of pictures are paths as text, and point
+    clouds are left out. Pictures of another size are resized, and intrinsics with them.
+
+    Raises DemoError where there are not as many pictures as observations.
+    """
+    demo = read_pickle(folder / LOW_DIM_PICKLE)
+    if not isinstance(demo, Demo):
+        raise DemoError(f"{folder / LOW_DIM_PICKLE}: it holds no demo\n    write the dataset again")
+    for name, camera in config.cameras.items():
+        for kind, wanted in (("rgb", camera.rgb), ("depth", camera.needs_depth), ("mask", camera.mask)):
+            pictures = folder / f"{name}_{kind}"
+            there = sum(1 for _ in pictures.glob("*.png")) if wanted else len(demo)
+            if there != len(demo):
+                raise DemoError(
+                    f"{pictures}: {there} pictures of {len(demo)} observations\n"
+                    f"    switch {name}_{kind} off in ObservationConfig, or write the dataset again with it"
+                )
+    for number, seen in enumerate(demo):
+        _take_numbers(seen, config)
+        for name, camera in config.cameras.items():
+            if image_paths:
+                _take_paths(seen, folder, number, name, camera)
+            elif camera.is_on:
+                _take_pictures(seen, folder, number, name, camera)
+    return demo
+
+
+def _take_numbers(seen: Observation, config: ObservationConfig) -> None:
+    for field in NUMBERS:
+        value = seen.__dict__.get(field)
+        noise = getattr(config, f"{field}_noise", None)
+        if value is None or not getattr(config, field):
+            value = None
+        elif noise is not None:
+            value = noise.apply(value)
+        setattr(seen, field, value)
+
+
+def _take_paths(seen: Observation, folder: Path, number: int, name: str, camera: CameraConfig) -> None:
+    for kind in ("rgb", "depth", "mask"):
+        if getattr(camera, kind):
+            setattr(seen, f"{name}_{kind}", str(folder / f"{name}_{kind}" / f"{number}.png"))
+
+
+def _take_pictures(seen: Observation, folder: Path, number: int, name: str, camera: CameraConfig) -> None:
+    image = pillow()
+    height, width = (int(size) for size in camera.image_size)
+    own_size = (width, height)
+
+    def read(kind: str, resampling: Any) -> np.ndarray:
+        nonlocal own_size
+        with image.open(folder / f"{name}_{kind}" / f"{number}.png") as picture:
+            own_size = picture.size
+            if own_size != (width, height):
+                picture = picture.resize((width, height), resampling)
+            return np.asarray(picture)
+
+    # Only colours may be mixed: the bytes of depth and mask are digits.
+    rgb = read("rgb", image.Resampling.BILINEAR) if camera.rgb else None
+    depth = image_to_float_array(read("depth", image.Resampling.NEAREST)) if camera.needs_depth else None
+    mask = rgb_handles_to_mask(read("mask", image.Resampling.NEAREST)) if camera.mask else None
+    key = f"{name}_camera_intrinsics"
+    scale = np.array([width / own_size[0], height / own_size[1], 1.0])
+    seen.misc[key] = np.asarray(seen.misc[key], dtype=np.float64) * scale[:, None]
+    for field, value in encoded_fields(name, camera, rgb, depth, mask, seen.misc).items():
+        setattr(seen, field, value)

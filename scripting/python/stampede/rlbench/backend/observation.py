@@ -1,0 +1,59 @@
+"""What is observed at one frame."""
+
+import numpy as np
+
+_CAMERAS = ("left_shoulder", "right_shoulder", "overhead", "wrist", "front")
+_PICTURES = tuple(f"{camera}_{kind}" for camera in _CAMERAS for kind in ("rgb", "depth", "mask", "point_cloud"))
+_NUMBERS = (
+    "joint_velocities",
+    "joint_positions",
+    "joint_forces",
+    "gripper_open",
+    "gripper_pose",
+    "gripper_matrix",
+    "gripper_joint_positions",
+    "gripper_touch_forces",
+    "task_low_dim_state",
+)
+FIELDS = (*_PICTURES, *_NUMBERS, "misc")
+
+
+class Observation:
+    """
+    One frame, a twentieth of a second. A field that is switched off is None.
+
+    CAMERA is left_shoulder, right_shoulder, overhead, wrist or front; H x W is its image_size; n is 7.
+
+    CAMERA_rgb           (H, W, 3) uint8
+    CAMERA_depth         (H, W) float32: 0 at the near plane, 1 at the far one; or m. Nothing in range is the far plane
+    CAMERA_mask          (H, W) float64: id of what is seen, 0 the background; or (H, W, 3), the id as a colour
+    CAMERA_point_cloud   (H, W, 3) float64: m, world
+    joint_velocities     (n,) float64: rad/s
+    joint_positions      (n,) float64: rad
+    joint_forces         (n,) float64: N m
+    gripper_open         float: 1.0 where the first finger is beyond 0.9 of its range, else 0.0
+    gripper_pose         (7,) float64: x y z in m and quaternion x y z w of the point between the pads; world
+    gripper_matrix       (4, 4) float64: the same, world_from_gripper
+    gripper_joint_positions (2,) float64: m, 0 … 0.04
+    gripper_touch_forces (6,) float64: N, a vector a finger; its second component is the force along the pad's normal
+    task_low_dim_state   (k,) float64: pose of each object, then positions of joints that are not the robot's; world
+    misc                 dict: CAMERA_camera_extrinsics, CAMERA_camera_intrinsics, CAMERA_camera_near, CAMERA_camera_far;
+                         variation_index; in demos joint_position_action and frame
+    """
+
+    def __init__(self, **fields: object) -> None:
+        for name in FIELDS:
+            setattr(self, name, fields.pop(name, None))
+        if fields:
+            raise TypeError(f"an Observation has no field '{next(iter(fields))}'")
+        if self.misc is None:
+            self.misc = {}
+
+    def get_low_dim_data(self) -> np.ndarray:
+        """All numbers that are switched on, one after the other, without the matrix: (m,) float64."""
+        parts = [
+            np.atleast_1d(np.asarray(getattr(self, name), dtype=np.float64))
+            for name in ("gripper_open", *(name for name in _NUMBERS if name not in ("gripper_open", "gripper_matrix")))
+            if getattr(self, name) is not None
+        ]
+        return np.concatenate(parts) if parts else np.array([])

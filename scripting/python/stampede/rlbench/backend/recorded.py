@@ -1,0 +1,85 @@
+"""Demos from recorded episodes: of a session's run, or of a catalogue."""
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import pairwise
+
+import numpy as np
+
+from stampede._core import EpisodeArrays
+from stampede.rlbench.backend.observation import Observation
+from stampede.rlbench.backend.observing import NUMBERS, observation_of
+from stampede.rlbench.backend.pictures import CameraView
+from stampede.rlbench.observation_config import CAMERAS, CameraConfig, ObservationConfig
+
+OPENING_M = 0.08  # of the Panda hand, between the pads
+_OPEN_SHARE = 0.9  # of the range, from which on RLBench calls a hand open
+_CAMERA_COLUMNS = tuple(
+    f"{camera}_camera_{what}" for camera in CAMERAS for what in ("extrinsics", "intrinsics", "near", "far")
+)
+COLUMNS = (*NUMBERS, "action/joint_position", "action/gripper", "motion", *_CAMERA_COLUMNS)
+
+# picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
+Draw = Callable[..., Mapping[str, np.ndarray]]
+
+
+def kept_frames(arrays: EpisodeArrays, gripper_frames: bool) -> list[int]:
+    """Frames that a demo has. gripper_frames: also those while the fingers open or close and the arm waits."""
+    dropped: set[int] = set()
+    if not gripper_frames:
+        for segment in arrays.segments:
+            if segment.kind == "motion" and segment.name in ("open_hand", "close_hand"):
+                dropped.update(range(segment.first_frame + 1, segment.end_frame))
+    return [frame for frame in range(arrays.frames) if frame not in dropped]
+
+
+def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) -> Iterator[dict[str, object]]:
+    """
+    `misc` of each frame of a demo, without the cameras.
+
+    joint_position_action, (8,) float64: what led to the frame: joint positions (rad) and 1.0 where the fingers were told
+    to open beyond 0.9 of their range, else 0.0; the first frame has none. frame: of the episode.
+    """
+    joints, openings = arrays["action/joint_position"], arrays["action/gripper"]
+    yield {"variation_index": variation_index, "frame": frames[0]}
+    for _, frame in pairwise(frames):
+        is_open = float(openings[frame - 1] > _OPEN_SHARE * OPENING_M)
+        action = np.append(joints[frame - 1], is_open)
+        yield {"variation_index": variation_index, "frame": frame, "joint_position_action": action}
+
+
+def numbers_at(arrays: EpisodeArrays, frame: int) -> dict[str, np.ndarray]:
+    return {name: arrays[name][frame] for name in NUMBERS}
+
+
+def demo_observations(
+    config: ObservationConfig, arrays: EpisodeArrays, draw: Draw, variation_index: int
+) -> Iterator[Observation]:
+    """The observations of a demo in their order, each with its pictures drawn as `config` has them."""
+    cameras = {name: camera for name, camera in config.cameras.items() if camera.is_on}
+    frames = kept_frames(arrays, config.record_gripper_closing)
+    for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index)):
+        views = {name: _drawn_view(arrays, draw, frame, name, camera) for name, camera in cameras.items()}
+        yield observation_of(config, numbers_at(arrays, frame), views, misc)
+
+
+def _drawn_view(arrays: EpisodeArrays, draw: Draw, frame: int, name: str, config: CameraConfig) -> CameraView:
+    height, width = config.image_size
+    drawn = draw(
+        frame,
+        name,
+        width=width,
+        height=height,
+        rgb=config.rgb,
+        depth=config.needs_depth,
+        mask=config.mask,
+        shadows=config.shadows,
+    )
+    return CameraView(
+        extrinsics=drawn["extrinsics"],
+        intrinsics=drawn["intrinsics"],
+        near=float(arrays[f"{name}_camera_near"]),
+        far=float(arrays[f"{name}_camera_far"]),
+        rgb=drawn.get("rgb"),
+        depth=drawn.get("depth"),
+        mask=drawn.get("mask"),
+    )

@@ -1,0 +1,48 @@
+"""A demonstration: a list of observations."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from stampede.rlbench.backend.observation import Observation
+
+
+class Demo:
+    """
+    What was observed while a task was shown.
+
+    random_seed: state of numpy's global generator before the start was drawn (`np.random.get_state()`).
+    num_reset_attempts: starts that were drawn until one led to success.
+    variation: the variation's canonical text; seed: what all draws of the episode derive from; randomise: whether looks
+    and dynamics were drawn too. From these three `reset_to_demo` makes the start again, bit for bit; seed is None in a
+    demo that another simulator made.
+    """
+
+    def __init__(
+        self,
+        observations: list[Observation],
+        random_seed: tuple | None = None,
+        num_reset_attempts: int | None = None,
+        variation: str = "",
+        seed: int | None = None,
+        randomise: bool = False,
+    ) -> None:
+        self._observations = observations  # this name is part of the format of low_dim_obs.pkl
+        self.random_seed = random_seed
+        self.num_reset_attempts = num_reset_attempts
+        self.variation = variation
+        self.seed = seed
+        self.randomise = randomise
+
+    def __len__(self) -> int:
+        return len(self._observations)
+
+    def __getitem__(self, index):
+        return self._observations[index]
+
+    def __iter__(self) -> Iterator[Observation]:
+        return iter(self._observations)
+
+    def restore_state(self) -> None:
+        """Sets numpy's global generator to where it was before this demo."""
+        np.random.set_state(self.random_seed)

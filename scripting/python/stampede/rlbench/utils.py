@@ -1,0 +1,109 @@
+"""Demos that are stored: in RLBench's folders, or in a catalogue."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from stampede import _core
+from stampede._core import Error
+from stampede.rlbench.backend.exceptions import DemoError
+from stampede.rlbench.backend.folders import demo_folders, load_demo
+from stampede.rlbench.backend.recorded import COLUMNS, demo_observations
+from stampede.rlbench.demo import Demo
+from stampede.rlbench.observation_config import ObservationConfig
+
+
+def get_stored_demos(
+    amount: int,
+    image_paths: bool,
+    dataset_root: str | os.PathLike[str],
+    variation_number: int,
+    task_name: str,
+    obs_config: ObservationConfig,
+    random_selection: bool = True,
+    from_episode_number: int = 0,
+) -> list[Demo]:
+    """
+    Demos of one variation of a task, from a folder in RLBench's layout or from a catalogue.
+
+    amount: -1 is all. image_paths: pictures are paths of files, and there are no point clouds. random_selection: drawn
+    without repetition from numpy's global generator; else in order, from `from_episode_number` on.
+    Raises DemoError where they are not there, or broken.
+    """
+    root = check_dataset_root(dataset_root)
+    variations = _core.Session().variations(task_name) if root.is_file() else []
+    return stored_demos(
+        root,
+        task_name,
+        variation_number,
+        variations,
+        obs_config,
+        amount,
+        image_paths,
+        random_selection,
+        from_episode_number,
+    )
+
+
+def check_dataset_root(dataset_root: str | os.PathLike[str]) -> Path:
+    """The path of a folder or catalogue that is there."""
+    if not dataset_root:
+        raise DemoError("there is no dataset\n    give Environment a dataset_root, or ask for live_demos=True")
+    root = Path(dataset_root)
+    if not root.exists():
+        raise DemoError(f"{root}: there is no such folder or catalogue\n    dataset_root names one")
+    return root
+
+
+def stored_demos(
+    root: Path,
+    task: str,
+    variation: int,
+    variations: Sequence[str],
+    config: ObservationConfig,
+    amount: int,
+    image_paths: bool,
+    random_selection: bool,
+    from_episode_number: int,
+) -> list[Demo]:
+    """As `get_stored_demos`. variations: canonical texts in the task's order; only a catalogue needs them."""
+    if root.is_dir():
+        folders = demo_folders(root, task, variation)
+        chosen = _choice(len(folders), amount, random_selection, from_episode_number, f"{task}, variation {variation}")
+        return [load_demo(folders[place], config, image_paths) for place in chosen]
+    if image_paths:
+        raise DemoError(f"{root}: a catalogue has no files of pictures\n    image_paths=False, or export it to folders")
+    if not 0 <= variation < len(variations):
+        raise Error(f"{task} has no variation {variation}\n    they go from 0 to {len(variations) - 1}")
+    reader = _core.CatalogueReader(root)
+    question = "SELECT episode FROM demos WHERE task = ?1 AND variation = ?2 ORDER BY episode"
+    _, rows = reader.query(question, (task, variations[variation]))
+    chosen = _choice(len(rows), amount, random_selection, from_episode_number, f"{task} '{variations[variation]}'")
+    return [_catalogue_demo(reader, rows[place][0], variation, config) for place in chosen]
+
+
+def _choice(there: int, amount: int, random_selection: bool, first: int, of_what: str) -> list[int]:
+    """Places of the demos that are wanted."""
+    available = there if random_selection else max(0, there - first)
+    wanted = available if amount == -1 else amount
+    if wanted < 1 or wanted > available:
+        raise DemoError(
+            f"{amount} demos of {of_what} are wanted, {available} are there\n"
+            "    ask for fewer (-1: all), or store more with `stampede run`"
+        )
+    if random_selection:
+        return [int(place) for place in np.random.permutation(there)[:wanted]]
+    return list(range(first, first + wanted))
+
+
+def _catalogue_demo(reader: _core.CatalogueReader, episode: int, variation: int, config: ObservationConfig) -> Demo:
+    arrays = reader.arrays(episode, COLUMNS)
+    _, ((randomise,),) = reader.query("SELECT options ->> 'randomise' FROM episodes WHERE episode = ?1", (episode,))
+    observations = demo_observations(
+        config, arrays, lambda *frame, **how: reader.picture(episode, *frame, **how), variation
+    )
+    return Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise in (1, "1", "true"))
