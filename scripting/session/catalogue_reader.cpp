@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "db/catalogue.h"
-#include "engine/base/nearest.h"
 #include "engine/episode/arrays.h"
 #include "engine/render/png.h"
 #include "scripting/session/studio.h"
@@ -98,11 +97,10 @@ struct CatalogueReader::Impl {
   }
 
   [[noreturn]] void not_stored(std::int64_t episode, const std::string& column, std::int64_t frame) const {
-    std::vector<std::string> names;
-    for (const ArrayPictures& one : catalogue.read_arrays(episode, {{"time"}}).pictures) names.push_back(one.name);
     const std::string where = "episode " + std::to_string(episode);
-    if (std::find(names.begin(), names.end(), column) == names.end())
-      throw Error(where, "it has no pictures '" + column + "'", did_you_mean(column, names));
+    // Throws for a name that there is not, with the nearest one.
+    if (catalogue.read_arrays(episode, {{column}}).pictures.empty())
+      throw Error(where, "'" + column + "' is no picture");
     throw Error(where, "frame " + std::to_string(frame) + " has no stored picture '" + column + "'",
                 "draw it now, or store it: `stampede render FILE --into`");
   }

@@ -17,7 +17,7 @@
 #include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/evaluation.h"
-#include "stampede/task_plan.h"
+#include "stampede/session.h"
 #include "stampede/world_state.h"
 
 namespace stampede {

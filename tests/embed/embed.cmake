@@ -16,7 +16,7 @@ function(shows page program)
   endif()
 endfunction()
 
-set(recipes actions skills threads search demonstrations cancel sink policy sensor evaluation)
+set(recipes actions skills threads search demonstrations cancel sink policy sensor evaluation catalogue)
 shows(README.md embed)
 foreach(program ${recipes})
   shows(tests/embed/RECIPES.md ${program})

@@ -14,11 +14,25 @@
 #include "stampede/evaluation.h"
 #include "stampede/picture.h"
 #include "stampede/rows.h"
-#include "stampede/task_plan.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
 namespace stampede {
+
+// What the task planner says: a plan of skills, or why there is none.
+struct TaskPlanStep {
+  std::string action;                  // of the domain: a skill, or skill_case
+  std::vector<std::string> arguments;  // names of objects, the hand among them
+};
+
+struct TaskPlan {
+  bool found = false;
+  std::string end;          // "solved", "unsolvable (proved)", "gave up at the limit of expansions", "no start" …
+  std::string explanation;  // not found: the goal literal that cannot be made true, and what is missing
+  std::vector<TaskPlanStep> steps;
+  std::string domain, problem;       // as PDDL
+  std::vector<std::string> assumed;  // facts that nobody can see at the start and the plan needs; in the problem too
+};
 
 struct SessionOptions {
   std::filesystem::path root = {};  // holds tasks/, skills/, worlds/; empty: those that came with the library

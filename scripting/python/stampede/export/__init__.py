@@ -72,7 +72,7 @@ def cameras_of(episode: StoredEpisode, options: argparse.Namespace) -> list[str]
     ]
     if options.cameras is None:
         return sorted(stored)
-    known = [one.name.removesuffix("_rgb") for one in episode.arrays("front_rgb").pictures if one.name.endswith("_rgb")]
+    known = episode.table("cameras").values("camera")
     for camera in options.cameras:
         if camera not in known:
             raise Error(f"episode {episode.id} has no camera '{camera}'\n    it has {', '.join(known)}")
