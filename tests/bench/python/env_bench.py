@@ -4,7 +4,7 @@
 
 Steps of reach_target at 20 Hz, space joint_position, default observations, no pictures. Each round steps the engine
 alone and the environment in turn, with the same actions; the figure is the median of the rounds' ratios, so that what
-else the machine does weighs on both.
+else the machine does weighs on both. "In lockstep": the engine alone as well waits at each step for both environments.
 """
 
 import statistics
@@ -50,6 +50,12 @@ def run_threads(environments: list[_core.Environment]) -> None:
         thread.join()
 
 
+def run_group(group: _core.EnvironmentGroup) -> None:
+    group.run([_core.Reset(seed=i) for i in range(len(group))])
+    for row in ACTIONS:
+        group.run([_core.Action("joint_position", row[:7], gripper=0.04)] * len(group))
+
+
 def run_vector(env: VectorEnv) -> None:
     env.reset(seed=0)
     for row in ACTIONS:
@@ -82,3 +88,5 @@ if __name__ == "__main__":
     compare("Env", lambda: run_engine(one, 0), lambda: run_env(env), rounds, STEPS)
     vector = VectorEnv(TASK, 2, action="joint_position", variation=variation)
     compare("VectorEnv of 2", lambda: run_threads(two), lambda: run_vector(vector), rounds, 2 * STEPS)
+    group = _core.environment_group(session, TASK, 2, 2, **channels)
+    compare("VectorEnv of 2, in lockstep", lambda: run_group(group), lambda: run_vector(vector), rounds, 2 * STEPS)

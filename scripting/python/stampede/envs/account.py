@@ -5,10 +5,9 @@ from typing import Any
 
 from stampede import _core
 
-from .spaces import Observation, ObservationCodec
 from .starts import Start
 
-Result = tuple[Observation, float, bool, bool, dict[str, Any]]
+Verdict = tuple[float, bool, bool, dict[str, Any]]  # reward, terminated, truncated, info
 
 # The engine keeps a task's own horizon to itself; this is the one of most tasks.
 _USUAL_HORIZON_S = 120.0
@@ -24,10 +23,8 @@ class EpisodeAccount:
     end after as many of such steps as 120 s have frames.
     """
 
-    def __init__(self, task: str, codec: ObservationCodec, frame_hz: float, horizon_s: float) -> None:
+    def __init__(self, task: str, frame_hz: float, horizon_s: float) -> None:
         self._task = task
-        self._codec = codec
-        self._frame_hz = frame_hz
         self._counts_frames = horizon_s > 0
         self._limit = round((horizon_s or _USUAL_HORIZON_S) * frame_hz)
         self._identity: dict[str, Any] | None = None
@@ -48,25 +45,25 @@ class EpisodeAccount:
         """Nothing has begun any more."""
         self._identity = None
 
-    def begin(self, start: Start, raw: dict[str, Any]) -> tuple[Observation, dict[str, Any]]:
-        """What `reset` gives."""
+    def begin(self, start: Start, raw: dict[str, Any]) -> dict[str, Any]:
+        """The info that `reset` gives."""
         self._identity = {"task": self._task, "variation": start.variation, "seed": start.seed}
         return self.go_back(raw, 0)
 
-    def go_back(self, raw: dict[str, Any], motionless: int) -> tuple[Observation, dict[str, Any]]:
-        """What `restore` gives."""
+    def go_back(self, raw: dict[str, Any], motionless: int) -> dict[str, Any]:
+        """The info that `restore` gives."""
         self.motionless = motionless
         self.terminated = self.truncated = self._success = False
         self.running = ""
         self.raw = raw
-        return self._codec(raw), {**(self._identity or {}), **self._codec.texts(raw)}
+        return {**(self._identity or {}), **texts_of(raw)}
 
-    def after_end(self) -> Result:
+    def after_end(self) -> Verdict:
         """Of a step after the end: it is refused."""
         info = {**(self._identity or {}), "success": self._success, "refusal": _AFTER_END, "duration": 0}
-        return self._codec(self.raw), 0.0, self.terminated, self.truncated, info
+        return 0.0, self.terminated, self.truncated, info
 
-    def after(self, *steps: _core.Step) -> Result:
+    def after(self, *steps: _core.Step) -> Verdict:
         """Of what one step of the caller's made of steps of the engine's."""
         last = steps[-1]
         self.raw = raw = last.observation
@@ -96,9 +93,13 @@ class EpisodeAccount:
             info["detail"] = last.detail
             if last.reason == "none" and self.truncated:
                 info["reason"] = "timeout"
-        info.update(self._codec.texts(raw))
-        reward = 0.0 if refusal is not None else last.reward
-        return self._codec(raw), reward, self.terminated, self.truncated, info
+        info.update(texts_of(raw))
+        return 0.0 if refusal is not None else last.reward, self.terminated, self.truncated, info
+
+
+def texts_of(raw: dict[str, Any]) -> dict[str, list[str]]:
+    """Channels that are texts; they have no place in a space."""
+    return {name: value for name, value in raw.items() if isinstance(value, list)}
 
 
 def changes_of(steps: Sequence[_core.Step]) -> list[str]:

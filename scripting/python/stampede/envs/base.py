@@ -10,11 +10,13 @@ import numpy as np
 
 from stampede import _core
 
-from .account import EpisodeAccount
+from .account import EpisodeAccount, Verdict
 from .faults import fault
 from .sessions import PathLike, shared_session
 from .spaces import Observation, ObservationCodec
 from .starts import Start, Starts
+
+Result = tuple[Observation, float, bool, bool, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -102,8 +104,9 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self.observation_space = self._codec.space
         rate = frame_rate(self._environment.spaces())
         self.metadata = {**self.metadata, "render_fps": rate}
-        self._account = EpisodeAccount(task, self._codec, rate, settings.horizon_s)
+        self._account = EpisodeAccount(task, rate, settings.horizon_s)
         self._start: Start | None = None
+        self._kept = False  # whether the episode has been handed over
         self._closed = False
 
     @property
@@ -127,8 +130,11 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._check_open("reset")
         super().reset(seed=seed)
         self._account.end()
+        self._kept = False
         self._start, raw = self._starts.begin(self.np_random, seed, options or {}, self._environment.reset)
-        return self._account.begin(self._start, raw)
+        self._codec.check(raw)
+        info = self._account.begin(self._start, raw)
+        return self._codec(raw), info
 
     def render(self) -> np.ndarray | None:
         """What `camera` sees at this frame: height x width x 3, uint8. None without a render mode."""
@@ -157,7 +163,8 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
     def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
         """Goes back to a moment of an episode of the same start; gives what reset gives, at that moment."""
         self._check_begun("restore")
-        return self._account.go_back(self._environment.restore(saved.state), saved.motionless)
+        raw = self._environment.restore(saved.state)
+        return self._codec(raw), self._account.go_back(raw, saved.motionless)
 
     def episode(self) -> _core.Episode:
         """Ends and keeps the episode that is under way; with `record` alone. One that ends by itself is kept then."""
@@ -185,9 +192,11 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         labels |= {name: texts for name, texts in ground.items() if name in self.observation_space.spaces}
         return {name: texts for name, texts in labels.items() if texts}
 
-    def _keep_if_over(self, info: dict[str, Any]) -> None:
-        if self.settings.record and self._account.over:
-            info["recorded"] = self._environment.episode()
+    def _result(self, verdict: Verdict) -> Result:
+        if self.settings.record and self._account.over and not self._kept:
+            verdict[-1]["recorded"] = self._environment.episode()
+            self._kept = True
+        return self._codec(self._account.raw), *verdict
 
     def _check_open(self, use: str) -> None:
         if self._closed:

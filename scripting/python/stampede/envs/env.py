@@ -6,8 +6,7 @@ import numpy as np
 
 from stampede import _core
 
-from .account import Result
-from .base import EpisodeEnv, Settings
+from .base import EpisodeEnv, Result, Settings
 from .sessions import PathLike
 from .spaces import ActionCodec
 
@@ -105,7 +104,5 @@ class Env(EpisodeEnv):
         """
         self._check_begun("step")
         if self._account.over:
-            return self._account.after_end()
-        result = self._account.after(self._environment.step(self._actions(action)))
-        self._keep_if_over(result[-1])
-        return result
+            return self._result(self._account.after_end())
+        return self._result(self._account.after(self._environment.step(self._actions(action))))

@@ -8,8 +8,7 @@ from gymnasium import spaces
 
 from stampede import _core
 
-from .account import Result
-from .base import EpisodeEnv, Settings, skill_text
+from .base import EpisodeEnv, Result, Settings, skill_text
 from .faults import fault
 from .sessions import PathLike
 from .spaces import Observation, box_within
@@ -140,22 +139,21 @@ class SkillEnv(EpisodeEnv):
         return mask
 
     def step(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> Result:
-        """Does one skill. A refused one changes nothing: info["refusal"] says why, and it counts as one frame.
+        """Does one skill. One whose precondition does not hold ends at once, and counts as one frame of the horizon.
 
-        A stampede.Action of any space is taken too. Raises stampede.Error for an action that is not of the space.
+        What a skill cannot be asked for changes nothing either: info["refusal"] says why. A stampede.Action of any space is taken too. Raises stampede.Error for an action that is not of the space.
         """
         self._check_begun("step")
         if self._account.over:
-            return self._account.after_end()
+            return self._result(self._account.after_end())
         steps = [self._environment.step(self._asked(action))]
         if self._waits_for_verdict(steps[0]):
             steps.append(self._environment.step(_core.Action(HOLD)))
-        result = self._account.after(*steps)
-        info = result[-1]
+        verdict = self._account.after(*steps)
+        info = verdict[-1]
         info["duration_s"] = info["duration"] / self.frame_hz
         info["ended"] = [_described(end) for step in steps for end in step.ended]
-        self._keep_if_over(info)
-        return result
+        return self._result(verdict)
 
     def _waits_for_verdict(self, step: _core.Step) -> bool:
         over = step.terminated or step.truncated

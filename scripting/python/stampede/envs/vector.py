@@ -12,7 +12,7 @@ from gymnasium.vector.utils import batch_space
 
 from stampede import _core
 
-from .account import EpisodeAccount, Result
+from .account import EpisodeAccount
 from .base import Settings, frame_rate
 from .env import OBSERVATIONS
 from .faults import fault, unknown
@@ -75,18 +75,18 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         count = min(num_envs, threads or len(os.sched_getaffinity(0)))
         self._group = _core.environment_group(session, task, num_envs, count, **self.settings.engine(further))
         example = self._run_one(0, self._starts.first())
-        codec = ObservationCodec(example, frozenset(further) - frozenset(self.settings.channels))
+        self._codec = ObservationCodec(example, frozenset(further) - frozenset(self.settings.channels))
         self._actions = ActionCodec(self._group.spaces(0), action, gripper, normalise_actions)
-        self.single_observation_space = codec.space
+        self.single_observation_space = self._codec.space
         self.single_action_space = self._actions.space
-        self.observation_space = batch_space(codec.space, num_envs)
+        self.observation_space = batch_space(self._codec.space, num_envs)
         self.action_space = batch_space(self._actions.space, num_envs)
         rate = frame_rate(self._group.spaces(0))
         self.metadata = {**self.metadata, "render_fps": rate, "autoreset_mode": self.autoreset_mode}
-        self._accounts = [EpisodeAccount(task, codec, rate, self.settings.horizon_s) for _ in range(num_envs)]
+        self._accounts = [EpisodeAccount(task, rate, self.settings.horizon_s) for _ in range(num_envs)]
+        self._all = np.ones(num_envs, np.bool_)
         self._randoms: list[np.random.Generator | None] = [None] * num_envs
         self._seeds: list[int | None] = [None] * num_envs
-        self._now: list[Observation] = [{} for _ in range(num_envs)]
         self.closed = False
 
     @property
@@ -121,11 +121,10 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         seeds = _seeds(seed, self.num_envs)
         each = dict(options or {})
         chosen = self._chosen(each.pop("reset_mask", None))
-        began = self._begin(chosen, seeds, each)
         infos: dict[str, Any] = {}
-        for i in chosen:
-            infos = self._add_info(infos, began[i], i)
-        return self._batch(), infos
+        for i, info in self._begin(chosen, seeds, each).items():
+            infos = self._add_info(infos, info, i)
+        return self._observation(), infos
 
     def step(self, actions: np.ndarray | Sequence[Any]) -> VectorResult:
         """Each environment acts, as Env.step; those that ended do what the autoreset mode says.
@@ -145,24 +144,21 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         for i, account in enumerate(self._accounts):
             if ended[i] and next_step:
                 continue
-            result: Result = account.after_end() if ended[i] else account.after(steps[i])
-            self._now[i], rewards[i], terminations[i], truncations[i], each[i] = result
+            verdict = account.after_end() if ended[i] else account.after(steps[i])
+            rewards[i], terminations[i], truncations[i], each[i] = verdict
         infos: dict[str, Any] = {}
+        anew: list[int] = []
         if next_step:
             anew = [i for i, over in enumerate(ended) if over]
         elif self.autoreset_mode is AutoresetMode.SAME_STEP:
             anew = [i for i, account in enumerate(self._accounts) if account.over]
             for i in anew:
-                infos = self._add_info(infos, {"final_obs": self._now[i], "final_info": each[i]}, i)
-        else:
-            anew = []
+                final = {"final_obs": self._codec(self._accounts[i].raw), "final_info": each[i]}
+                infos = self._add_info(infos, final, i)
         if anew:
-            began = self._begin(anew, [None] * self.num_envs, {})
-            for i in anew:
-                each[i] = began[i]
-        for i, info in enumerate(each):
-            infos = self._add_info(infos, info, i)
-        return self._batch(), rewards, terminations, truncations, infos
+            for i, info in self._begin(anew, [None] * self.num_envs, {}).items():
+                each[i] = info
+        return self._observation(), rewards, terminations, truncations, self._batched(each, infos)
 
     def render(self) -> tuple[np.ndarray, ...] | None:
         """What each environment's `camera` sees: height x width x 3, uint8. None without a render mode."""
@@ -218,7 +214,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             }
         infos = {}
         for i, (start, raw) in began.items():
-            self._now[i], infos[i] = self._accounts[i].begin(start, raw)
+            self._codec.check(raw)
+            infos[i] = self._accounts[i].begin(start, raw)
         return infos
 
     def _try_at_once(self, starts: Mapping[int, Start]) -> dict[int, tuple[Start, dict[str, Any]]] | None:
@@ -231,8 +228,26 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
     def _run_one(self, i: int, request: _core.Reset) -> dict[str, Any]:
         return self._group.run([request if j == i else None for j in range(self.num_envs)])[i].observation
 
-    def _batch(self) -> Observation:
-        return {name: np.stack([one[name] for one in self._now]) for name in self.single_observation_space}
+    def _observation(self) -> Observation:
+        return self._codec.batch([account.raw for account in self._accounts])
+
+    def _batched(self, each: Sequence[dict[str, Any]], infos: dict[str, Any]) -> dict[str, Any]:
+        """Infos in Gymnasium's form for vectors; `infos` has what is batched already."""
+        first = each[0]
+        if infos or any(one.keys() != first.keys() for one in each):
+            for i, one in enumerate(each):
+                infos = self._add_info(infos, one, i)
+            return infos
+        # Almost every step: all have the same keys, so each array is made at once.
+        for key, value in first.items():
+            if type(value) in (bool, int, float):
+                infos[key] = np.array([one[key] for one in each], type(value))
+            else:
+                infos[key] = np.empty(self.num_envs, object)
+                for i, one in enumerate(each):
+                    infos[key][i] = one[key]
+            infos[f"_{key}"] = self._all.copy()
+        return infos
 
     def _check_open(self, use: str) -> None:
         if self.closed:
