@@ -9,7 +9,9 @@ learners = pytest.importorskip("stable_baselines3")
 
 from stable_baselines3.common.env_checker import check_env  # noqa: E402
 
+from stampede import _core  # noqa: E402
 from stampede.envs import Env, SkillEnv  # noqa: E402
+from stampede.evaluate import evaluate  # noqa: E402
 
 
 def test_stable_baselines_accepts_dict_and_flat_observations():
@@ -43,3 +45,44 @@ def test_maskable_ppo_chooses_only_what_can_be_done():
     contrib.MaskablePPO("MultiInputPolicy", env, n_steps=32, batch_size=16, n_epochs=1, device="cpu").learn(64)
     assert len(refused) == 64
     assert not any(refused)
+
+
+def trained(env):
+    return learners.PPO("MultiInputPolicy", env, n_steps=8, batch_size=8, n_epochs=1, device="cpu")
+
+
+def test_a_model_is_evaluated_as_it_would_act_in_its_environment():
+    settings = {"normalise_actions": True, "horizon_s": 1, "action": "joint_velocity", "variation": "colour=red"}
+    env = Env("reach_target", **settings, split="test")
+    model = trained(env)
+    result = evaluate(model, "reach_target", episodes=2, variation="colour=red", catalogue=None)
+    assert result.rows[0].episodes == 2
+    assert result.rows[0].mean_length_s == pytest.approx(1)
+    same = evaluate(model, ["reach_target"], env=settings, episodes=2, variation="colour=red")
+    assert [row.mean_return for row in same.rows] == [row.mean_return for row in result.rows]
+
+
+def test_the_episode_of_an_evaluation_is_that_of_the_environment(tmp_path):
+    env = Env("reach_target", normalise_actions=True, horizon_s=1, split="test", variation="colour=red")
+    flat = gymnasium.wrappers.FlattenObservation(env)
+    model = learners.PPO("MlpPolicy", flat, n_steps=8, batch_size=8, n_epochs=1, device="cpu")
+    file = tmp_path / "evaluation.db"
+    evaluate(model, "reach_target", env=flat, episodes=1, variation="colour=red", catalogue=file)
+    stored = _core.CatalogueReader(file).arrays(1)["joint_positions"]
+    observation, info = flat.reset(seed=0)
+    assert info["seed"] == 1_000_000
+    over = False
+    while not over:
+        observation, _, terminated, truncated, _ = flat.step(model.predict(observation, deterministic=True)[0])
+        over = terminated or truncated
+    assert (env.observation(env._account.raw)["joint_positions"] == stored[-1]).all()
+
+
+def test_a_model_of_other_spaces_is_named():
+    model = trained(Env("reach_target", normalise_actions=True))
+    with pytest.raises(_core.Error, match="its observation space is not the model's"):
+        evaluate(model, "stack_blocks", episodes=1)
+    with pytest.raises(_core.Error, match="its action space is not the model's"):
+        evaluate(model, "reach_target", env={"action": "tool_delta", "gripper": False}, episodes=1)
+    with pytest.raises(_core.Error, match="a stampede.Env"):
+        evaluate(model, "reach_target", env=SkillEnv("reach_target"), episodes=1)

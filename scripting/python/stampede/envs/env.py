@@ -1,6 +1,7 @@
 """A task as a Gymnasium environment whose agent acts by set-points."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from stampede import _core
 
 from .base import EpisodeEnv, Result, Settings
 from .sessions import PathLike
-from .spaces import ActionCodec
+from .spaces import ActionCodec, Observation
 
 OBSERVATIONS = ("joint_positions", "joint_velocities", "gripper_open", "gripper_pose", "task_low_dim_state")
 
@@ -83,6 +84,7 @@ class Env(EpisodeEnv):
             paths=paths,
         )
         super().__init__(task, settings)
+        self._acting = {"action": action, "gripper": gripper, "normalise_actions": normalise_actions}
         self._actions = ActionCodec(self._environment.spaces(), action, gripper, normalise_actions)
         self.action_space = self._actions.space
 
@@ -95,6 +97,20 @@ class Env(EpisodeEnv):
     def action_units(self) -> list[str]:
         """Of the components of an action, where actions are not normalised."""
         return self._actions.units
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """All that this environment was made with, but the task."""
+        return {**vars(self.settings), **self._acting}
+
+    def action(self, action: np.ndarray | Sequence[float] | _core.Action) -> _core.Action:
+        """The engine's action for one of the action space."""
+        return self._actions(action)
+
+    def observation(self, raw: Mapping[str, Any]) -> Observation:
+        """What the agent sees of channels as the engine gives them."""
+        self._codec.check(raw)
+        return self._codec(raw)
 
     def step(self, action: np.ndarray | Sequence[float] | _core.Action) -> Result:
         """Acts for one frame, or for as long as a path, skill or hold lasts.

@@ -1,0 +1,95 @@
+"""Learners' models as policies of the engine."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from stampede import _core
+
+from .env import Env
+from .faults import fault
+from .sessions import PathLike
+
+
+class ModelPolicy:
+    """A model with `predict` as what acts in one episode."""
+
+    def __init__(self, model: Any, env: Env, deterministic: bool) -> None:
+        self._model = model
+        self._env = env
+        self._deterministic = deterministic
+        self._flat = isinstance(model.observation_space, gymnasium.spaces.Box)
+        self._normaliser = model.get_vec_normalize_env() if hasattr(model, "get_vec_normalize_env") else None
+        self._state: Any = None
+        self._first = True
+
+    def act(self, raw: Mapping[str, Any]) -> _core.Action:
+        """The model's action for channels as the engine gives them."""
+        observation: Any = self._env.observation(raw)
+        if self._flat:
+            observation = gymnasium.spaces.flatten(self._env.observation_space, observation)
+        if self._normaliser is not None:
+            observation = self._normaliser.normalize_obs(observation)
+        action, self._state = self._model.predict(
+            observation,
+            state=self._state,
+            episode_start=np.array([self._first]),
+            deterministic=self._deterministic,
+        )
+        self._first = False
+        return self._env.action(action)
+
+
+def model_policy(
+    model: Any,
+    tasks: Sequence[str],
+    env: gymnasium.Env | Mapping[str, Any] | None,
+    deterministic: bool,
+    root: PathLike | None,
+    paths: Sequence[PathLike],
+) -> tuple[Callable[[], ModelPolicy], dict[str, Any]]:
+    """What makes the model a policy of these tasks, and the settings that Session.evaluate needs for it.
+
+    Raises stampede.Error where the model's spaces are not those of a task.
+    """
+    arguments = {**_arguments_of(model, env), "root": root, "paths": paths, "variation": None}
+    arguments |= {"record": False, "catalogue": None, "render_mode": None}
+    made = None
+    for task in tasks:
+        made = Env(task, **arguments)
+        _check_spaces(model, made)
+    if made is None:
+        raise fault("evaluate(tasks=)", "no task", "name one or more")
+    settings = made.settings.engine()
+    del settings["record"]
+    return lambda: ModelPolicy(model, made, deterministic), settings
+
+
+def _arguments_of(model: Any, env: gymnasium.Env | Mapping[str, Any] | None) -> dict[str, Any]:
+    if isinstance(env, Mapping):
+        return dict(env)
+    if env is None and getattr(model, "get_env", None) is not None and model.get_env() is not None:
+        return dict(model.get_env().get_attr("arguments")[0])
+    if env is None:
+        raise fault("evaluate(env=)", "the model does not say in what it was trained", "give the Env, or its arguments")
+    if not isinstance(env.unwrapped, Env):
+        raise fault("evaluate(env=)", f"a {type(env.unwrapped).__name__}", "a stampede.Env, wrapped or not")
+    return dict(env.unwrapped.arguments)
+
+
+def _check_spaces(model: Any, env: Env) -> None:
+    observations: gymnasium.Space = env.observation_space
+    if isinstance(model.observation_space, gymnasium.spaces.Box):
+        observations = gymnasium.spaces.flatten_space(observations)
+    for what, of_model, of_task in (
+        ("observation", model.observation_space, observations),
+        ("action", model.action_space, env.action_space),
+    ):
+        if of_model != of_task:
+            raise fault(
+                f"task '{env.task}'",
+                f"its {what} space is not the model's",
+                f"{of_task} here, {of_model} there: give env= as the model was trained, or tasks of that shape",
+            )
