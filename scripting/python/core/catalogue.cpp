@@ -179,6 +179,23 @@ nb::object arrays_object(EpisodeArrays arrays) {
 
 nb::dict picture_object(CameraPicture picture) { return picture_of(std::move(picture)); }
 
+nb::dict points_object(CameraPoints points) {
+  const auto flat = [](const auto& rows) {
+    using Value = typename std::remove_cvref_t<decltype(rows)>::value_type::value_type;
+    std::vector<Value> values;
+    values.reserve(3 * rows.size());
+    for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+    return numpy_array(std::move(values), {static_cast<std::int64_t>(rows.size()), 3});
+  };
+  const auto count = static_cast<std::int64_t>(points.positions.size());
+  nb::dict result;
+  result["positions"] = flat(points.positions);
+  if (!points.colours.empty()) result["colours"] = flat(points.colours);
+  if (!points.instance.empty()) result["mask"] = numpy_array(std::move(points.instance), {count});
+  if (!points.semantic.empty()) result["semantic_mask"] = numpy_array(std::move(points.semantic), {count});
+  return result;
+}
+
 void bind_catalogue(nb::module_& module) {
   bind_arrays(module);
   bind_states(module);
@@ -234,6 +251,20 @@ uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not sto
           "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true,
           "depth"_a = false, "mask"_a = false, "semantic_mask"_a = false, "shadows"_a = false,
           "Drawn now, at any size: rgb, depth, mask, semantic_mask, intrinsics, extrinsics (world_from_camera).")
+      .def(
+          "points",
+          [](const CatalogueReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera,
+             int width, int height, bool rgb, bool mask, bool semantic_mask) {
+            CameraPoints points;
+            {
+              const nb::gil_scoped_release free;
+              points = self.points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
+            }
+            return points_object(std::move(points));
+          },
+          "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true, "mask"_a = false,
+          "semantic_mask"_a = false,
+          "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.")
       .def("state", &CatalogueReader::state, "episode"_a, "frame"_a);
 }
 

@@ -76,4 +76,15 @@ nb::list rows_of(const Rows& rows) {
   return result;
 }
 
+std::vector<double> numbers(nb::handle values, const char* what) {
+  if (values.is_none()) return {};
+  nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu> array;
+  if (nb::try_cast(values, array)) return {array.data(), array.data() + array.size()};
+  std::vector<double> list;
+  if (nb::try_cast(values, list)) return list;
+  double one = 0;
+  if (nb::try_cast(values, one)) return {one};
+  throw nb::type_error((std::string(what) + " is a list of numbers, or an array of one axis").c_str());
+}
+
 }  // namespace stampede::python

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,46 @@ nb::dict to_python(EnvironmentObservation observation);
 nb::object to_python(const SqlValue& value);
 SqlValue sql_value(nb::handle value);  // of None, int, float, str, bytes, and of numpy's scalars
 nb::list rows_of(const Rows& rows);    // tuples
+
+// Numbers as they come: a number, lists, tuples, numpy arrays of one axis. `what`: for complaints.
+std::vector<double> numbers(nb::handle values, const char* what);
+
+// Holds a Python object, and lets go of it under the GIL, whichever thread does.
+class Kept {
+ public:
+  explicit Kept(nb::object object) : object_(std::move(object)) {}
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  ~Kept() {
+    if (!nb::is_alive()) {
+      object_.release();
+      return;
+    }
+    const nb::gil_scoped_acquire gil;
+    object_.reset();
+  }
+  const nb::object& operator*() const { return object_; }
+
+ private:
+  nb::object object_;
+};
+
+// Calls Python; what it raises becomes an error that any thread may hold.
+// `promise`: what Python gives, for complaints.
+template <typename Work>
+auto ask_python(const char* promise, const Work& work) {
+  const nb::gil_scoped_acquire gil;
+  try {
+    return work();
+  } catch (nb::python_error& error) {
+    const std::string text = error.what();
+    error.restore();
+    PyErr_Clear();
+    throw std::runtime_error(text);
+  } catch (const std::bad_cast&) {
+    throw std::runtime_error(promise);
+  }
+}
 
 void bind_errors(nb::module_& module);
 void bind_environments(nb::module_& module);

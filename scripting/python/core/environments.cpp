@@ -11,18 +11,6 @@ namespace {
 
 using namespace nb::literals;
 
-// Numbers as they come: lists, tuples, numpy arrays of any float type.
-std::vector<double> numbers(nb::handle values, const char* what) {
-  if (values.is_none()) return {};
-  nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu> array;
-  if (nb::try_cast(values, array)) return {array.data(), array.data() + array.size()};
-  std::vector<double> list;
-  if (nb::try_cast(values, list)) return list;
-  double one = 0;
-  if (nb::try_cast(values, one)) return {one};
-  throw nb::type_error((std::string(what) + " is a list of numbers, or an array of one axis").c_str());
-}
-
 AgentAction skill_action(const std::string& skill, std::vector<std::string> arguments, const nb::dict& parameters,
                          const std::string& controller, int frames) {
   AgentAction action{.space = "skill", .controller = controller, .frames = frames, .skill = skill};
@@ -182,52 +170,16 @@ void bind_results(nb::module_& module) {
   nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.");
 }
 
-// Holds a Python object, and lets go of it under the GIL, whichever thread does.
-class Kept {
- public:
-  explicit Kept(nb::object object) : object_(std::move(object)) {}
-  Kept(const Kept&) = delete;
-  Kept& operator=(const Kept&) = delete;
-  ~Kept() {
-    if (!nb::is_alive()) {
-      object_.release();
-      return;
-    }
-    const nb::gil_scoped_acquire gil;
-    object_.reset();
-  }
-  const nb::object& operator*() const { return object_; }
-
- private:
-  nb::object object_;
-};
-
-// Calls Python; what it raises becomes an error that any thread may hold.
-template <typename Work>
-auto ask_python(const Work& work) {
-  const nb::gil_scoped_acquire gil;
-  try {
-    return work();
-  } catch (nb::python_error& error) {
-    const std::string text = error.what();
-    error.restore();
-    PyErr_Clear();
-    throw std::runtime_error(text);
-  } catch (const nb::cast_error&) {
-    throw std::runtime_error("act() gives a stampede.Action, or None when it is done");
-  }
-}
-
 class PythonPolicy : public Policy {
  public:
   explicit PythonPolicy(nb::object policy) : policy_(std::move(policy)) {}
   void begin(const PolicyCall& call) override {
-    ask_python([&] {
+    ask_python("begin() gives nothing", [&] {
       if (nb::hasattr(*policy_, "begin")) (*policy_).attr("begin")(nb::cast(call));
     });
   }
   std::optional<AgentAction> act(const EnvironmentObservation& now) override {
-    return ask_python([&]() -> std::optional<AgentAction> {
+    return ask_python("act() gives a stampede.Action, or None when it is done", [&]() -> std::optional<AgentAction> {
       const nb::object asked = (*policy_).attr("act")(to_python(now));
       if (asked.is_none()) return std::nullopt;
       return nb::cast<AgentAction>(asked);
@@ -247,7 +199,8 @@ Step to_step(StepResult result) {
 
 std::function<std::unique_ptr<Policy>()> policy_maker(nb::callable factory) {
   return [kept = std::make_shared<Kept>(std::move(factory))] {
-    return ask_python([&]() -> std::unique_ptr<Policy> { return std::make_unique<PythonPolicy>((**kept)()); });
+    return ask_python("a policy is made",
+                      [&]() -> std::unique_ptr<Policy> { return std::make_unique<PythonPolicy>((**kept)()); });
   };
 }
 

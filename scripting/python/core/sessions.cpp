@@ -1,12 +1,18 @@
 // Sessions: run, evaluate, plan, and make environments.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 #include <stampede/session.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
 
 #include "environments.h"
 
@@ -14,6 +20,7 @@ namespace stampede::python {
 
 nb::object arrays_object(EpisodeArrays arrays);  // catalogue.cpp
 nb::dict picture_object(CameraPicture picture);
+nb::dict points_object(CameraPoints points);
 
 namespace {
 
@@ -104,29 +111,49 @@ EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
   return request;
 }
 
-// Ctrl-C in Python's own thread ends the run, as an exception that carries it out.
-void look_at_signals() {
-  const nb::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+// Does long work in another thread, so that Ctrl-C and other signals reach Python meanwhile: `stop` is set then, and
+// what the signal's handler raised is raised when the work has ended.
+template <typename Work>
+auto interruptible(const Work& work) {
+  std::atomic<bool> stop = false;
+  std::future<decltype(work(stop))> answer = std::async(std::launch::async, [&] { return work(stop); });
+  std::exception_ptr raised;
+  {
+    const nb::gil_scoped_release free;
+    while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+      const nb::gil_scoped_acquire gil;
+      if (raised || PyErr_CheckSignals() == 0) continue;
+      try {
+        throw nb::python_error();
+      } catch (nb::python_error&) {
+        raised = std::current_exception();
+      }
+      stop = true;
+    }
+  }
+  auto result = answer.get();
+  if (raised) std::rethrow_exception(raised);
+  return result;
 }
 
 RunTally run_all(Session& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
                  std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
   RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
   request.each = request_from(words, "run_all");
-  request.progress = [&](const RunProgress& now) {
-    look_at_signals();
-    if (!progress) return;
-    const nb::gil_scoped_acquire gil;
-    (*progress)(now.episode, now.done, now.total);
-  };
+  if (progress)
+    request.progress = [&](const RunProgress& now) {
+      const nb::gil_scoped_acquire gil;
+      (*progress)(now.episode, now.done, now.total);
+    };
   if (sink)
     request.sink = [&](const Episode& episode) {
       const nb::gil_scoped_acquire gil;
       (*sink)(episode);
     };
-  const nb::gil_scoped_release free;
-  return self.run_all(request);
+  return interruptible([&](const std::atomic<bool>& stop) {
+    request.stop = &stop;
+    return self.run_all(request);
+  });
 }
 
 Evaluation evaluate(Session& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
@@ -142,8 +169,38 @@ Evaluation evaluate(Session& self, const std::vector<std::string>& tasks, std::o
   request.settings = settings_from(words, "evaluate");
   request.policy_name = policy_name;
   if (policy) request.policy = policy_maker(*policy);
-  const nb::gil_scoped_release free;
-  return self.evaluate(tasks, request);
+  return interruptible([&](const std::atomic<bool>& stop) {
+    request.stop = &stop;
+    return self.evaluate(tasks, request);
+  });
+}
+
+// Asked by any thread that runs an episode.
+SensorEntry sensor_entry(nb::callable read, std::vector<std::string> components, std::string unit, int rate_hz,
+                         std::string version) {
+  SensorEntry entry{std::move(unit), std::move(components), rate_hz, std::move(version), {}};
+  entry.read = [kept = std::make_shared<Kept>(std::move(read))](const SimulatorView& now) {
+    return ask_python("a sensor's read() gives a list of numbers", [&] {
+      return numbers((**kept)(nb::cast(&now, nb::rv_policy::reference)), "what a sensor reads");
+    });
+  };
+  return entry;
+}
+
+void bind_sensors(nb::module_& module) {
+  nb::class_<SimulatorView>(module, "SimulatorView", R"(The simulator after a physics step, to be read.
+
+It lives while the sensor's read() runs. Raises Error for a name that the scene does not have.)")
+      .def("time_s", &SimulatorView::time_s, "Simulated, since the episode's first frame.")
+      .def("joint_position", &SimulatorView::joint_position, "joint"_a, "rad or m")
+      .def("joint_velocity", &SimulatorView::joint_velocity, "joint"_a, "rad/s or m/s")
+      .def("joint_effort", &SimulatorView::joint_effort, "joint"_a, "N m or N, of its motor in this step")
+      .def("pose", &SimulatorView::pose, "object"_a, "Of an object, part or region; of a hand, that between the pads.")
+      .def("velocity", &SimulatorView::velocity, "object"_a, "Of the centre of mass, m/s, world.")
+      .def("opening_m", &SimulatorView::opening_m, "Between the pads.")
+      .def("contact_force", &SimulatorView::contact_force, "one"_a, "other"_a, "Normal, N: mean over the frame before.")
+      .def("distance", &SimulatorView::distance, "from_point"_a, "to_point"_a,
+           "From a point to the first thing that collides on the straight way to another, m; None: it is free.");
 }
 
 void bind_answers(nb::module_& module) {
@@ -220,6 +277,7 @@ void bind_answers(nb::module_& module) {
 
 void bind_sessions(nb::module_& module) {
   bind_answers(module);
+  bind_sensors(module);
   module.def("plan_pddl", &plan_pddl, "domain"_a, "problem"_a, nb::call_guard<nb::gil_scoped_release>(),
              "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
   nb::class_<Session>(module, "Session", R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
@@ -311,6 +369,33 @@ picture_hz (dict by camera), rgb_noise, depth_noise, torque_noise: see Environme
           "Drawn now: rgb, depth, mask, semantic_mask, intrinsics, extrinsics (world_from_camera).")
       .def("state", nb::overload_cast<const Episode&, std::int64_t>(&Session::state, nb::const_), "episode"_a,
            "frame"_a)
+      .def(
+          "points",
+          [](const Session& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
+             int height, bool rgb, bool mask, bool semantic_mask) {
+            CameraPoints points;
+            {
+              const nb::gil_scoped_release free;
+              points = self.points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
+            }
+            return points_object(std::move(points));
+          },
+          "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true, "mask"_a = false,
+          "semantic_mask"_a = false,
+          "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.")
+      .def(
+          "add_sensor",
+          [](Session& self, const std::string& name, nb::callable read, std::vector<std::string> components,
+             std::string unit, int rate_hz, std::string version) {
+            self.add_sensor(name, sensor_entry(std::move(read), std::move(components), std::move(unit), rate_hz,
+                                               std::move(version)));
+          },
+          "name"_a, "read"_a, "components"_a, "unit"_a = "", "rate_hz"_a = 20, "version"_a = "",
+          R"(Another sensor of every world: columns `sensor/NAME` of arrays, channels of environments and policies.
+
+read(now) gives a finite number a component. It reads nothing but `now`, a SimulatorView, and keeps nothing, so that
+episodes repeat. rate_hz divides the world's physics rate. components, unit, rate_hz and version are part of an episode's
+key: another text, another sensor.)")
       .def(
           "add_policy",
           [](Session& self, const std::string& name, nb::callable make, std::vector<std::string> channels, bool hidden,

@@ -1,0 +1,170 @@
+"""Sessions from Python: runs, sinks, policies as skills, sensors, evaluation, interruption."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stampede
+
+
+def test_a_run_is_the_same_bits_in_any_session(tmp_path: Path) -> None:
+    one = stampede.Session().run("reach_target", seed=3)
+    again = stampede.Session().run("reach_target", seed=3)
+    a, b = (stampede.Session().arrays(episode) for episode in (one, again))
+    assert one.success and one.key == again.key
+    assert all(np.array_equal(a[name], b[name], equal_nan=True) for name in a.keys() if a[name].dtype == np.float64)
+    stored = stampede.Session(catalogue=tmp_path / "demos.db").run("reach_target", seed=3)
+    assert stored.id == 1 and stored.key == one.key
+
+
+def test_a_sink_gets_episodes_in_order_whatever_the_workers() -> None:
+    session = stampede.Session()
+    kept: list[tuple[int, float]] = []
+
+    def keep(episode: stampede.Episode) -> None:
+        kept.append((episode.seed, float(session.arrays(episode, ["joint_positions"])["joint_positions"].sum())))
+
+    tally = session.run_all(["reach_target"], episodes=4, seed=5, workers=2, sink=keep)
+    assert tally.finished == 4 and tally.tasks["reach_target"].episodes == 4
+    two, kept = kept, []
+    session.run_all(["reach_target"], episodes=4, seed=5, workers=1, sink=keep)
+    assert kept == two and len(two) == 4
+
+
+def test_what_a_sink_raises_ends_the_run() -> None:
+    def fail(episode: stampede.Episode) -> None:
+        raise KeyError("full")
+
+    with pytest.raises(KeyError, match="full"):
+        stampede.Session().run_all(["reach_target"], episodes=3, sink=fail)
+
+
+def test_ctrl_c_ends_a_run_and_keeps_what_is_finished(tmp_path: Path) -> None:
+    session = stampede.Session(catalogue=tmp_path / "demos.db")
+
+    def press(episode: stampede.Episode, done: int, total: int) -> None:
+        if done == 2:
+            threading.Timer(0.01, os.kill, (os.getpid(), signal.SIGINT)).start()
+
+    with pytest.raises(KeyboardInterrupt):
+        session.run_all(["reach_target"], episodes=40, progress=press)
+    kept = len(stampede.Catalogue(tmp_path / "demos.db"))
+    assert 2 <= kept < 40
+    rest = session.run_all(["reach_target"], episodes=40)
+    assert rest.existing == kept and rest.finished == 40 - kept
+
+
+class TowardsTarget:
+    """Moves the tool straight to the place that it is called with."""
+
+    def begin(self, call: stampede.PolicyCall) -> None:
+        self.place = call.arguments["place"]
+
+    def act(self, observation: dict[str, np.ndarray]) -> stampede.Action | None:
+        tool = observation["gripper_pose"]
+        way = observation[f"object_pose/{self.place}"][:3] - tool[:3]
+        if np.linalg.norm(way) < 0.01:
+            return None
+        step = way * min(1.0, 0.04 / np.linalg.norm(way))
+        return stampede.Action("tool_delta", [*step, 0, 0, 0])
+
+
+def test_a_policy_is_the_body_of_a_labelled_skill(tmp_path: Path) -> None:
+    (tmp_path / "skills").mkdir()
+    shipped = Path(stampede._core.__file__).parent
+    source = next(p for p in (shipped / "engine/share/stampede/skills").rglob("reach.lua")).read_text()
+    body = source[source.index("run =") :]
+    end = body.index("end,") + len("end,")
+    (tmp_path / "skills" / "reach.lua").write_text(source.replace(body[:end], 'run = policy("towards"),'))
+    session = stampede.Session(paths=[tmp_path])
+    session.add_policy("towards", TowardsTarget, channels=["gripper_pose", "object_pose"])
+    episode = session.run("reach_target", seed=4)
+    assert episode.success
+    arrays = session.arrays(episode)
+    skill = next(s for s in arrays.segments if s.kind == "skill")
+    assert skill.name == "reach" and skill.success
+    assert "policy" in {s.name for s in arrays.segments if s.kind == "motion"}
+    assert len(arrays.agent_actions) > 3 and arrays.agent_actions[0].asked.space == "tool_delta"
+
+
+def test_a_policy_that_fails_is_a_failed_episode_with_its_words() -> None:
+    class Broken:
+        def act(self, observation: dict[str, np.ndarray]) -> None:
+            raise RuntimeError("no weights")
+
+    class Wrong:
+        def act(self, observation: dict[str, np.ndarray]) -> int:
+            return 3
+
+    session = stampede.Session()
+    for policy in (Broken, Wrong):
+        rows = session.evaluate(["reach_target"], policy=policy, episodes=2, channels=["gripper_pose"]).rows
+        assert rows[0].succeeded == 0 and rows[0].reasons == {"policy_error": 2}
+
+
+def test_an_evaluation_has_intervals_and_perturbations(tmp_path: Path) -> None:
+    session = stampede.Session(catalogue=tmp_path / "evaluation.db")
+    rows = session.evaluate(["reach_target"], episodes=3, perturb=["camera"]).rows
+    whole = {row.perturbation: row for row in rows if row.task == "reach_target" and not row.axis}
+    assert set(whole) == {"none", "camera=1"}
+    assert whole["none"].episodes == 3 and whole["none"].lower < whole["none"].success <= whole["none"].upper
+    assert len(stampede.Catalogue(tmp_path / "evaluation.db")) == 6
+    with pytest.raises(stampede.Error, match="camera"):
+        session.evaluate(["reach_target"], perturb=["camra"])
+
+
+def test_a_sensor_is_a_column_and_a_channel() -> None:
+    session = stampede.Session()
+
+    def height(now: stampede._core.SimulatorView) -> list[float]:
+        return [now.pose("panda.hand").position[2]]
+
+    session.add_sensor("height", height, ["z"], unit="m", rate_hz=20)
+    episode = session.run("reach_target", seed=2)
+    arrays = session.arrays(episode)
+    assert arrays["sensor/height"].shape[1] == 1 and arrays.column("sensor/height").unit == "m"
+    assert np.allclose(arrays["sensor/height"][-1, 0], arrays["gripper_pose"][-1, 2], atol=0.02)
+    session.add_sensor("height", lambda now: [now.joint_position("panda.joint99")], ["z"])
+    assert session.run("reach_target", seed=2).reason == "sensor_error"
+
+
+def test_plans_states_pictures_and_points() -> None:
+    session = stampede.Session()
+    plan = session.plan("put_item_in_drawer", seed=1)
+    assert plan.found and [step.action for step in plan.steps][0].startswith("open")
+    again = stampede.plan_pddl(plan.domain, plan.problem)
+    assert again.found
+    with pytest.raises(stampede.Error):
+        stampede.plan_pddl("(define", plan.problem)
+
+    episode = session.run("pick_and_lift", seed=1)
+    state = session.state(episode, 0)
+    assert any(str(fact) == "(hand_empty panda.hand)" for fact in state.facts)
+    assert session.picture(episode, 0, width=40, height=30, depth=True)["depth"].shape == (30, 40)
+    points = session.points(episode, 0, width=40, height=30, mask=True)
+    assert points["positions"].shape == points["colours"].shape and len(points["mask"]) == len(points["positions"])
+    with pytest.raises(stampede.Error, match="no frame"):
+        session.picture(episode, 10_000)
+
+
+def test_saved_states_branch_bit_for_bit() -> None:
+    world = stampede.Session().environment("pick_and_lift", channels=["joint_positions", "object_pose"])
+    world.reset(stampede.Reset(seed=1))
+    saved = world.save()
+    ways = []
+    for _ in range(2):
+        world.restore(saved)
+        for _ in range(5):
+            step = world.step(stampede.Action("joint_delta", np.full(7, 0.02), gripper=0.0))
+        ways.append(step.observation)
+    assert all(np.array_equal(ways[0][name], ways[1][name], equal_nan=True) for name in ways[0])
+    refused = world.step(stampede.Action("joint_delta", [0.1]))
+    assert refused.refusal and refused.frames == 0
+    with pytest.raises(TypeError, match="list of numbers"):
+        stampede.Action("joint_delta", "text")
