@@ -8,13 +8,24 @@ this file has a table of what differs in meaning.
 import gymnasium as _gymnasium
 
 from stampede._core import Session as _Session
+from stampede.rlbench.environment import Environment
+from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 from stampede.rlbench.sim2real.domain_randomization import (
     DynamicsRandomizationConfig,
     RandomizeEvery,
     VisualRandomizationConfig,
 )
+from stampede.rlbench.task_environment import TaskEnvironment
 
-__all__ = ["DynamicsRandomizationConfig", "RandomizeEvery", "VisualRandomizationConfig"]
+__all__ = [
+    "CameraConfig",
+    "DynamicsRandomizationConfig",
+    "Environment",
+    "ObservationConfig",
+    "RandomizeEvery",
+    "TaskEnvironment",
+    "VisualRandomizationConfig",
+]
 
 
 def _register() -> None:

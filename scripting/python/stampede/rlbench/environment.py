@@ -12,7 +12,7 @@ from stampede import _core
 from stampede._core import Error
 from stampede.rlbench.action_modes.action_mode import ActionMode
 from stampede.rlbench.backend.descriptions import Descriptions
-from stampede.rlbench.backend.pictures import CameraView, camera_misc
+from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView, camera_misc
 from stampede.rlbench.backend.scene import Scene
 from stampede.rlbench.backend.task import Task
 from stampede.rlbench.demo import Demo
@@ -148,12 +148,11 @@ class Environment:
 
     def get_scene_data(self) -> dict[str, object]:
         """Cameras as `Observation.misc` has them, at their own size; the wrist's where the arm starts."""
-        whats = ("extrinsics", "intrinsics", "near", "far")
         scene = self.session.environment(
-            self.session.tasks()[0], channels=[f"{camera}_camera_{what}" for camera in CAMERAS for what in whats]
+            self.session.tasks()[0], channels=[f"{camera}_camera_{what}" for camera in CAMERAS for what in CAMERA_COLUMNS]
         )
         seen = scene.reset()
         data: dict[str, object] = {}
         for camera in CAMERAS:
-            data |= camera_misc(camera, CameraView(**{what: seen[f"{camera}_camera_{what}"] for what in whats}))
+            data |= camera_misc(camera, CameraView(**{what: seen[f"{camera}_camera_{what}"] for what in CAMERA_COLUMNS}))
         return data

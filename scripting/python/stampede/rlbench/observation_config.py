@@ -130,3 +130,8 @@ class ObservationConfig:
     def cameras(self) -> dict[str, CameraConfig]:
         """By the camera's name."""
         return {name: getattr(self, f"{name}_camera") for name in CAMERAS}
+
+    @property
+    def cameras_on(self) -> dict[str, CameraConfig]:
+        """Those that give any picture."""
+        return {name: camera for name, camera in self.cameras.items() if camera.is_on}

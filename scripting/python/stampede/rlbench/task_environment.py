@@ -11,7 +11,7 @@ from stampede._core import Error
 from stampede.rlbench.action_modes.action_mode import ActionMode
 from stampede.rlbench.backend.exceptions import DemoError, InvalidActionError
 from stampede.rlbench.backend.observation import Observation
-from stampede.rlbench.backend.recorded import COLUMNS, demo_observations
+from stampede.rlbench.backend.recorded import columns, demo_observations
 from stampede.rlbench.backend.scene import Scene, Start
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import ObservationConfig
@@ -170,7 +170,7 @@ class TaskEnvironment:
             if not episode.success:
                 reason = f"{episode.reason} {episode.detail}".strip()
                 continue
-            arrays = session.arrays(episode, COLUMNS)
+            arrays = session.arrays(episode, columns(self._config.cameras_on))
             observations = []
             for seen in demo_observations(
                 self._config, arrays, lambda *frame, **how: session.picture(episode, *frame, **how), self._variation

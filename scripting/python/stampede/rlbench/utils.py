@@ -12,9 +12,16 @@ from stampede import _core
 from stampede._core import Error
 from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.folders import demo_folders, load_demo
-from stampede.rlbench.backend.recorded import COLUMNS, demo_observations
+from stampede.rlbench.backend.recorded import columns, demo_observations
+from stampede.rlbench.backend.task import Task
+from stampede.rlbench.backend.utils import task_file_to_task_class
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import ObservationConfig
+
+
+def name_to_task_class(task_file: str) -> type[Task]:
+    """`reach_target` or `reach_target.py` -> the class `tasks.ReachTarget`. Raises `stampede.Error` for no task."""
+    return task_file_to_task_class(task_file)
 
 
 def get_stored_demos(
@@ -101,9 +108,9 @@ def _choice(there: int, amount: int, random_selection: bool, first: int, of_what
 
 
 def _catalogue_demo(reader: _core.CatalogueReader, episode: int, variation: int, config: ObservationConfig) -> Demo:
-    arrays = reader.arrays(episode, COLUMNS)
+    arrays = reader.arrays(episode, columns(config.cameras_on))
     _, ((randomise,),) = reader.query("SELECT options ->> 'randomise' FROM episodes WHERE episode = ?1", (episode,))
     observations = demo_observations(
         config, arrays, lambda *frame, **how: reader.picture(episode, *frame, **how), variation
     )
-    return Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise in (1, "1", "true"))
+    return Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise is not None)

@@ -105,7 +105,6 @@ class _EndEffectorPose(ArmActionMode):
     ) -> None:
         self._absolute_mode = absolute_mode
         self._frame = _frame_of(frame)
-        self._collision_checking = collision_checking
 
     def action_shape(self, scene: Scene | type[Scene]) -> tuple[int, ...]:
         return (7,)

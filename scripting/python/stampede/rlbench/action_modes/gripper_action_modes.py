@@ -30,12 +30,11 @@ class Discrete(GripperActionMode):
     """
     (1,): above 0.5 opens, else closes, until the fingers stop; nothing where they are so already.
 
-    attach_grasped_objects and detach_before_open have no meaning: what is grasped is held by contact.
+    attach_grasped_objects and detach_before_open change nothing: what is grasped is held by contact.
     """
 
     def __init__(self, attach_grasped_objects: bool = True, detach_before_open: bool = True) -> None:
-        self._attach_grasped_objects = attach_grasped_objects
-        self._detach_before_open = detach_before_open
+        """Arguments as in RLBench."""
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
         action = checked_shape(action, self.action_shape(scene))
@@ -57,13 +56,15 @@ class Discrete(GripperActionMode):
 
 
 class GripperJointPosition(GripperActionMode):
-    """(1,) m, position of each finger, 0 … 0.04: towards it for one frame. Clipped to what the hand can do."""
+    """
+    (1,) m, position of each finger, 0 … 0.04: towards it for one frame. Clipped to what the hand can do.
+
+    attach_grasped_objects and detach_before_open change nothing: what is grasped is held by contact.
+    """
 
     def __init__(
         self, attach_grasped_objects: bool = True, detach_before_open: bool = True, absolute_mode: bool = True
     ) -> None:
-        self._attach_grasped_objects = attach_grasped_objects
-        self._detach_before_open = detach_before_open
         self._absolute_mode = absolute_mode
 
     def action(self, scene: Scene, action: np.ndarray) -> None:

@@ -1,6 +1,8 @@
 """What a task is called in words."""
 
+import shutil
 import tempfile
+import weakref
 from pathlib import Path
 
 from stampede import _core
@@ -13,8 +15,9 @@ class Descriptions:
     """
 
     def __init__(self, paths: list[Path]) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="stampede-rlbench-")
-        self._session = _core.Session(paths=paths, catalogue=Path(self._folder.name) / "descriptions.db")
+        folder = tempfile.mkdtemp(prefix="stampede-rlbench-")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        self._session = _core.Session(paths=paths, catalogue=Path(folder) / "descriptions.db")
         self._known: dict[tuple[str, str], list[str]] = {}
 
     def of(self, task: str, variation: str, seed: int) -> list[str]:

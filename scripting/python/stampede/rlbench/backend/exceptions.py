@@ -7,5 +7,13 @@ class InvalidActionError(Error):
     """An action that cannot be done. Nothing has changed then."""
 
 
+class BoundaryError(Error):
+    """RLBench's, for `except`; a start that cannot be made is a `stampede.Error` here."""
+
+
+class WaypointError(Error):
+    """RLBench's, for `except`; tasks have no waypoints here."""
+
+
 class DemoError(Error):
     """No demo could be made, or a stored one cannot be used."""

@@ -7,8 +7,7 @@ import numpy as np
 
 from stampede.rlbench.backend.const import EPISODES_FOLDER, LOW_DIM_PICKLE, VARIATIONS_FOLDER
 from stampede.rlbench.backend.exceptions import DemoError
-from stampede.rlbench.backend.observation import Observation
-from stampede.rlbench.backend.observing import NUMBERS
+from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.pickles import read_pickle
 from stampede.rlbench.backend.pictures import encoded_fields
 from stampede.rlbench.backend.utils import image_to_float_array, rgb_handles_to_mask

@@ -2,9 +2,11 @@
 
 import numpy as np
 
-_CAMERAS = ("left_shoulder", "right_shoulder", "overhead", "wrist", "front")
-_PICTURES = tuple(f"{camera}_{kind}" for camera in _CAMERAS for kind in ("rgb", "depth", "mask", "point_cloud"))
-_NUMBERS = (
+from stampede.rlbench.observation_config import CAMERAS
+
+_PICTURES = tuple(f"{camera}_{kind}" for camera in CAMERAS for kind in ("rgb", "depth", "mask", "point_cloud"))
+# Names are the engine's and RLBench's alike.
+NUMBERS = (
     "joint_velocities",
     "joint_positions",
     "joint_forces",
@@ -15,7 +17,7 @@ _NUMBERS = (
     "gripper_touch_forces",
     "task_low_dim_state",
 )
-FIELDS = (*_PICTURES, *_NUMBERS, "misc")
+FIELDS = (*_PICTURES, *NUMBERS, "misc")
 
 
 class Observation:
@@ -53,7 +55,7 @@ class Observation:
         """All numbers that are switched on, one after the other, without the matrix: (m,) float64."""
         parts = [
             np.atleast_1d(np.asarray(getattr(self, name), dtype=np.float64))
-            for name in ("gripper_open", *(name for name in _NUMBERS if name not in ("gripper_open", "gripper_matrix")))
+            for name in ("gripper_open", *(name for name in NUMBERS if name not in ("gripper_open", "gripper_matrix")))
             if getattr(self, name) is not None
         ]
         return np.concatenate(parts) if parts else np.array([])

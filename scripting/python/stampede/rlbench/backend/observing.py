@@ -4,22 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from stampede.rlbench.backend.observation import Observation
+from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.pictures import CameraView, camera_misc, picture_fields
 from stampede.rlbench.observation_config import ObservationConfig
-
-# Names are the engine's and RLBench's alike.
-NUMBERS = (
-    "joint_velocities",
-    "joint_positions",
-    "joint_forces",
-    "gripper_open",
-    "gripper_pose",
-    "gripper_matrix",
-    "gripper_joint_positions",
-    "gripper_touch_forces",
-    "task_low_dim_state",
-)
 
 
 def observation_of(

@@ -7,6 +7,9 @@ import numpy as np
 from stampede.rlbench.backend.utils import mask_to_rgb_handles
 from stampede.rlbench.observation_config import CameraConfig
 
+# The engine describes a camera by columns CAMERA_camera_extrinsics …
+CAMERA_COLUMNS = ("extrinsics", "intrinsics", "near", "far")
+
 # RLBench's cameras have x to the left and y up in the picture, and negative focal lengths; the engine's x to the right
 # and y down, and positive ones. Both look along z, and both give the same pixels.
 _HALF_TURN = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -28,6 +31,16 @@ class CameraView:
     rgb: np.ndarray | None = None
     depth: np.ndarray | None = None
     mask: np.ndarray | None = None
+
+
+def intrinsics_of_size(own: np.ndarray, height: int, width: int) -> np.ndarray:
+    """
+    Intrinsics of pictures of another size than the camera's own, `own` with its centre in the middle of the picture.
+
+    The field of view is vertical, and pixels are square.
+    """
+    focal = own[1, 1] * height / (2.0 * own[1, 2])
+    return np.array([[focal, 0.0, width / 2.0], [0.0, focal, height / 2.0], [0.0, 0.0, 1.0]])
 
 
 def camera_misc(camera: str, view: CameraView) -> dict[str, object]:

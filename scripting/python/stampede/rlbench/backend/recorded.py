@@ -1,25 +1,27 @@
 """Demos from recorded episodes: of a session's run, or of a catalogue."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise
 
 import numpy as np
 
 from stampede._core import EpisodeArrays
-from stampede.rlbench.backend.observation import Observation
-from stampede.rlbench.backend.observing import NUMBERS, observation_of
-from stampede.rlbench.backend.pictures import CameraView
-from stampede.rlbench.observation_config import CAMERAS, CameraConfig, ObservationConfig
+from stampede.rlbench.backend.observation import NUMBERS, Observation
+from stampede.rlbench.backend.observing import observation_of
+from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
+from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
 OPENING_M = 0.08  # of the Panda hand, between the pads
 _OPEN_SHARE = 0.9  # of the range, from which on RLBench calls a hand open
-_CAMERA_COLUMNS = tuple(
-    f"{camera}_camera_{what}" for camera in CAMERAS for what in ("extrinsics", "intrinsics", "near", "far")
-)
-COLUMNS = (*NUMBERS, "action/joint_position", "action/gripper", "motion", *_CAMERA_COLUMNS)
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
 Draw = Callable[..., Mapping[str, np.ndarray]]
+
+
+def columns(cameras: Iterable[str]) -> list[str]:
+    """Of `EpisodeArrays`, that a demo with these cameras is made from."""
+    about_cameras = [f"{camera}_camera_{what}" for camera in cameras for what in CAMERA_COLUMNS]
+    return [*NUMBERS, "action/joint_position", "action/gripper", "motion", *about_cameras]
 
 
 def kept_frames(arrays: EpisodeArrays, gripper_frames: bool) -> list[int]:
@@ -55,7 +57,7 @@ def demo_observations(
     config: ObservationConfig, arrays: EpisodeArrays, draw: Draw, variation_index: int
 ) -> Iterator[Observation]:
     """The observations of a demo in their order, each with its pictures drawn as `config` has them."""
-    cameras = {name: camera for name, camera in config.cameras.items() if camera.is_on}
+    cameras = config.cameras_on
     frames = kept_frames(arrays, config.record_gripper_closing)
     for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index)):
         views = {name: _drawn_view(arrays, draw, frame, name, camera) for name, camera in cameras.items()}

@@ -9,9 +9,9 @@ import numpy as np
 from stampede import _core
 from stampede._core import Error
 from stampede.rlbench.backend.exceptions import InvalidActionError
-from stampede.rlbench.backend.observation import Observation
-from stampede.rlbench.backend.observing import NUMBERS, observation_of
-from stampede.rlbench.backend.pictures import CameraView
+from stampede.rlbench.backend.observation import NUMBERS, Observation
+from stampede.rlbench.backend.observing import observation_of
+from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView, intrinsics_of_size
 from stampede.rlbench.observation_config import ObservationConfig
 
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
@@ -44,7 +44,7 @@ class Scene:
         extra_channels: tuple[str, ...] = (),
     ) -> None:
         self._config = config
-        self._cameras = {name: camera for name, camera in config.cameras.items() if camera.is_on}
+        self._cameras = config.cameras_on
         width, height = self._size()
         self._environment = session.environment(
             task,
@@ -73,7 +73,7 @@ class Scene:
     def _pictures(self) -> list[str]:
         channels: list[str] = []
         for name, camera in self._cameras.items():
-            channels += [f"{name}_camera_{what}" for what in ("extrinsics", "intrinsics", "near", "far")]
+            channels += [f"{name}_camera_{what}" for what in CAMERA_COLUMNS]
             channels += [f"{name}_rgb"] * camera.rgb + [f"{name}_depth"] * camera.needs_depth
             channels += [f"{name}_mask"] * camera.mask
         return channels
@@ -131,13 +131,14 @@ class Scene:
         views = {
             name: CameraView(
                 extrinsics=now[f"{name}_camera_extrinsics"],
-                intrinsics=now[f"{name}_camera_intrinsics"],
+                # The channel is of the camera's own size, and not of the pictures'.
+                intrinsics=intrinsics_of_size(now[f"{name}_camera_intrinsics"], *camera.image_size),
                 near=float(now[f"{name}_camera_near"]),
                 far=float(now[f"{name}_camera_far"]),
                 rgb=now.get(f"{name}_rgb"),
                 depth=now.get(f"{name}_depth"),
                 mask=now.get(f"{name}_mask"),
             )
-            for name in self._cameras
+            for name, camera in self._cameras.items()
         }
         return observation_of(self._config, now, views, {"variation_index": self.variation_index})
