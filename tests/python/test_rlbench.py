@@ -1,5 +1,6 @@
 """RLBench's interface: programs in its style run with other import lines, and every field is what it says."""
 
+import functools
 import pickle
 import re
 import sys
@@ -53,9 +54,21 @@ def config_with(*cameras: str) -> ObservationConfig:
     return config
 
 
+@functools.cache
+def shared_environment() -> Environment:
+    return Environment(JointPositionActionMode())
+
+
+def sharing(environment: Environment) -> Environment:
+    """With scripts that have been read already, which takes longer than most tests."""
+    environment.session = shared_environment().session
+    environment.descriptions = shared_environment().descriptions
+    return environment
+
+
 def task_for(arm, config: ObservationConfig | None = None, task=tasks.ReachTarget, gripper=None, **settings):
     mode = MoveArmThenGripper(arm, gripper or Discrete())
-    return Environment(mode, obs_config=config or config_with(), headless=True, **settings).get_task(task)
+    return sharing(Environment(mode, obs_config=config or config_with(), headless=True, **settings)).get_task(task)
 
 
 def target_of(seen: Observation) -> np.ndarray:
@@ -423,7 +436,7 @@ def test_a_grasp_is_felt_and_lifts() -> None:
 
 
 def test_the_preset_mode_has_bounds() -> None:
-    env = Environment(JointPositionActionMode(), obs_config=config_with())
+    env = sharing(Environment(JointPositionActionMode(), obs_config=config_with()))
     low, high = env.action_bounds()
     assert env.action_shape == (8,)
     assert np.allclose(low, [-0.1] * 7 + [0]) and np.allclose(high, [0.1] * 7 + [0.04])
@@ -450,7 +463,7 @@ def test_a_mode_of_ones_own() -> None:
         def action_shape(self, scene) -> tuple[int, ...]:
             return (6,)
 
-    env = Environment(Twist(), obs_config=config_with())
+    env = sharing(Environment(Twist(), obs_config=config_with()))
     task = env.get_task(tasks.ReachTarget)
     _, before = task.reset()
     for _ in range(5):
@@ -483,7 +496,7 @@ def test_variations() -> None:
     assert task.get_name() == "reach_target" and task.variation_count() == 20
     task.set_variation(3)
     sentences, seen = task.reset()
-    colour = Session().variations("reach_target")[3].removeprefix("colour=")
+    colour = shared_environment().session.variations("reach_target")[3].removeprefix("colour=")
     assert seen.misc["variation_index"] == 3 and all(colour in one for one in sentences)
     assert task.sample_variation() in range(20)
     with pytest.raises(Error, match="no variation 20\n    they go from 0 to 19"):
@@ -613,8 +626,9 @@ def dataset(catalogue: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@functools.cache
 def red() -> int:
-    return Session().variations("reach_target").index("colour=red")
+    return shared_environment().session.variations("reach_target").index("colour=red")
 
 
 def test_export_and_catalogue_give_the_same_demos(catalogue: Path, dataset: Path) -> None:
@@ -644,7 +658,7 @@ def test_exported_demos_can_be_gone_back_to(dataset: Path) -> None:
         _, seen = task.reset_to_demo(demo)
         assert np.array_equal(seen.joint_positions, demo[0].joint_positions)
         assert np.array_equal(seen.task_low_dim_state, demo[0].task_low_dim_state)
-    named = Environment(MoveArmThenGripper(JointVelocity(), Discrete()), dataset, config_with())
+    named = sharing(Environment(MoveArmThenGripper(JointVelocity(), Discrete()), dataset, config_with()))
     assert len(named.get_demos("reach_target", -1, red())) == 2
 
 
@@ -777,7 +791,7 @@ def test_an_export_says_what_it_lacks(catalogue: Path, tmp_path: Path) -> None:
 
 
 def test_cameras_of_all_names_are_there() -> None:
-    data = Environment(JointPositionActionMode()).get_scene_data()
+    data = shared_environment().get_scene_data()
     assert set(data) == {f"{c}_camera_{what}" for c in CAMERAS for what in ("extrinsics", "intrinsics", "near", "far")}
     assert data["front_camera_intrinsics"][0, 0] == pytest.approx(-175.84, abs=0.01)
     assert data["wrist_camera_intrinsics"][0, 0] == pytest.approx(-110.85, abs=0.01)
