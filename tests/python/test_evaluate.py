@@ -3,7 +3,7 @@
 import pytest
 
 from stampede import _core
-from stampede.evaluate import evaluate
+from stampede.evaluation import evaluate
 
 
 def test_the_planner_is_evaluated():

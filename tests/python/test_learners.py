@@ -11,7 +11,7 @@ from stable_baselines3.common.env_checker import check_env  # noqa: E402
 
 from stampede import _core  # noqa: E402
 from stampede.envs import Env, SkillEnv  # noqa: E402
-from stampede.evaluate import evaluate  # noqa: E402
+from stampede.evaluation import evaluate  # noqa: E402
 
 
 def test_stable_baselines_accepts_dict_and_flat_observations():
@@ -78,11 +78,17 @@ def test_the_episode_of_an_evaluation_is_that_of_the_environment(tmp_path):
     assert (env.observation(env._account.raw)["joint_positions"] == stored[-1]).all()
 
 
+def test_one_model_acts_in_several_tasks():
+    env = Env("pick_and_lift", normalise_actions=True, horizon_s=0.5, observations=("joint_positions",))
+    rows = evaluate(trained(env), ["pick_and_lift", "pick_up_cup"], episodes=1).rows
+    assert {row.task: row.episodes for row in rows if row.axis == ""}["pick_up_cup"] == 1
+
+
 def test_a_model_of_other_spaces_is_named():
     model = trained(Env("reach_target", normalise_actions=True))
     with pytest.raises(_core.Error, match="its observation space is not the model's"):
         evaluate(model, "stack_blocks", episodes=1)
     with pytest.raises(_core.Error, match="its action space is not the model's"):
         evaluate(model, "reach_target", env={"action": "tool_delta", "gripper": False}, episodes=1)
-    with pytest.raises(_core.Error, match="a stampede.Env"):
+    with pytest.raises(_core.Error, match=r"a stampede\.Env"):
         evaluate(model, "reach_target", env=SkillEnv("reach_target"), episodes=1)

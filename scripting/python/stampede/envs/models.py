@@ -16,14 +16,19 @@ from .sessions import PathLike
 class ModelPolicy:
     """A model with `predict` as what acts in one episode."""
 
-    def __init__(self, model: Any, env: Env, deterministic: bool) -> None:
+    def __init__(self, model: Any, envs: Mapping[str, Env], deterministic: bool) -> None:
+        """envs: by task; they say what the model observes and how it acts."""
         self._model = model
-        self._env = env
+        self._envs = envs
+        self._env = next(iter(envs.values()))
         self._deterministic = deterministic
         self._flat = isinstance(model.observation_space, gymnasium.spaces.Box)
         self._normaliser = model.get_vec_normalize_env() if hasattr(model, "get_vec_normalize_env") else None
         self._state: Any = None
         self._first = True
+
+    def begin(self, call: _core.PolicyCall) -> None:
+        self._env = self._envs[call.task]
 
     def act(self, raw: Mapping[str, Any]) -> _core.Action:
         """The model's action for channels as the engine gives them."""
@@ -56,15 +61,14 @@ def model_policy(
     """
     arguments = {**_arguments_of(model, env), "root": root, "paths": paths, "variation": None}
     arguments |= {"record": False, "catalogue": None, "render_mode": None}
-    made = None
-    for task in tasks:
-        made = Env(task, **arguments)
-        _check_spaces(model, made)
-    if made is None:
+    envs = {task: Env(task, **arguments) for task in tasks}
+    if not envs:
         raise fault("evaluate(tasks=)", "no task", "name one or more")
-    settings = made.settings.engine()
+    for one in envs.values():
+        _check_spaces(model, one)
+    settings = one.settings.engine()
     del settings["record"]
-    return lambda: ModelPolicy(model, made, deterministic), settings
+    return lambda: ModelPolicy(model, envs, deterministic), settings
 
 
 def _arguments_of(model: Any, env: gymnasium.Env | Mapping[str, Any] | None) -> dict[str, Any]:

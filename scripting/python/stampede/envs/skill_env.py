@@ -141,7 +141,8 @@ class SkillEnv(EpisodeEnv):
     def step(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> Result:
         """Does one skill. One whose precondition does not hold ends at once, and counts as one frame of the horizon.
 
-        What a skill cannot be asked for changes nothing either: info["refusal"] says why. A stampede.Action of any space is taken too. Raises stampede.Error for an action that is not of the space.
+        An action that cannot be done changes nothing either: info["refusal"] says why. A stampede.Action of any space
+        is taken too. Raises stampede.Error for an action that is not of the space.
         """
         self._check_begun("step")
         if self._account.over:
@@ -164,10 +165,11 @@ class SkillEnv(EpisodeEnv):
             return action
         values: Mapping[str, Any] = action if isinstance(action, Mapping) else {"skill": action}
         if isinstance(action, Mapping) != isinstance(self.action_space, spaces.Dict):
-            raise fault("step(action)", f"{action!r} is not of this environment's action space", str(self.action_space))
+            raise fault("step(action)", f"{action} is not of this environment's action space", str(self.action_space))
         chosen = int(values["skill"])
         if not 0 <= chosen < len(self.skill_names):
-            raise fault("step(action)", f"there is no skill {chosen}", f"they count from 0 to {len(self.skill_names) - 1}")
+            last = len(self.skill_names) - 1
+            raise fault("step(action)", f"there is no skill {chosen}", f"they count from 0 to {last}")
         if chosen >= len(self._choices):
             return _core.Action(self.skill_names[chosen], frames=self._frames)
         skill, arguments = self._choices[chosen]

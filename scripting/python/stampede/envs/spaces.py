@@ -56,7 +56,8 @@ class ActionCodec:
         by_name = {space.name: space for space in available}
         if name not in SET_POINT_SPACES:
             if name in by_name:
-                raise fault("action=", f"'{name}' has no values", "SkillEnv acts by skills; step takes any stampede.Action")
+                cure = "SkillEnv acts by skills; step takes any stampede.Action"
+                raise fault("action=", f"'{name}' has no values", cure)
             raise unknown("action=", "action space", name, SET_POINT_SPACES)
         self.name = name
         self.gripper = gripper and name != "gripper"

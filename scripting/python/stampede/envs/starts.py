@@ -74,7 +74,8 @@ class Starts:
             request = _core.Reset(episode=episode, frame=int(options.get("frame", 0)))
             return Start(request, episode.variation, episode.seed, drawn=False)
         if "frame" in options:
-            raise fault("reset(options=)", "a frame without an episode", "give 'episode' too, as Session.run returns it")
+            cure = "give 'episode' too, as Session.run returns it"
+            raise fault("reset(options=)", "a frame without an episode", cure)
         candidates = self._matching(options["variation"]) if "variation" in options else self._variations
         variation = candidates[int(random.integers(len(candidates)))]
         if "seed" in options:

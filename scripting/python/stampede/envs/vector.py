@@ -136,7 +136,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             raise fault("step(actions)", f"{len(actions)} actions", f"one for each of the {self.num_envs} environments")
         next_step = self.autoreset_mode is AutoresetMode.NEXT_STEP
         ended = [account.over for account in self._accounts]
-        steps = self._group.run([None if over else self._actions(one) for over, one in zip(ended, actions, strict=True)])
+        asked = zip(ended, actions, strict=True)
+        steps = self._group.run([None if over else self._actions(action) for over, action in asked])
         rewards = np.zeros(self.num_envs, np.float64)
         terminations = np.zeros(self.num_envs, np.bool_)
         truncations = np.zeros(self.num_envs, np.bool_)
