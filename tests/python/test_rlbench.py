@@ -435,6 +435,20 @@ def test_a_grasp_is_felt_and_lifts() -> None:
     assert (reward, terminate) == (1.0, True)
 
 
+def test_paths_around_obstacles_are_not_into_them() -> None:
+    free, checked = EndEffectorPoseViaPlanning(), EndEffectorPoseViaPlanning(collision_checking=True)
+    into_the_table = np.array([0.2, 0.0, 0.70, 1, 0, 0, 0, OPEN])
+    task = task_for(checked)
+    _, before = task.reset()
+    with pytest.raises(InvalidActionError):
+        task.step(into_the_table)
+    assert np.array_equal(task.get_observation().get_low_dim_data(), before.get_low_dim_data())
+    task = task_for(free)
+    task.reset()
+    seen, _, _ = task.step(into_the_table)
+    assert 0.70 < seen.gripper_pose[2] < 0.80, "it goes there, and the table stops it"
+
+
 def test_the_preset_mode_has_bounds() -> None:
     env = sharing(Environment(JointPositionActionMode(), obs_config=config_with()))
     low, high = env.action_bounds()

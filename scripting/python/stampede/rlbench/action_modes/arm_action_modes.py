@@ -9,11 +9,10 @@ import numpy as np
 from stampede import _core
 from stampede._core import Error
 from stampede.rlbench.backend.exceptions import InvalidActionError
-from stampede.rlbench.backend.rotations import composed, product, rotation_vector
+from stampede.rlbench.backend.rotations import composed, interpolated, product, rotation_vector
 from stampede.rlbench.backend.scene import Scene
 
 _UNIT_TOLERANCE = 1e-3  # of a quaternion's length
-_ARRIVED_RAD = 0.01
 _STANDS_RAD = 0.001  # a frame
 _MOST_FRAMES = 200  # ten seconds for one action by inverse kinematics
 
@@ -91,8 +90,8 @@ class _EndEffectorPose(ArmActionMode):
     (7,): x y z in m and a unit quaternion x y z w, of the point between the pads.
 
     absolute_mode: the pose; else a change of the present one: moved, and turned about it, along axes of the world.
-    frame EE: the pose is in the present frame of the hand, absolute_mode or not. collision_checking: paths are planned
-    around obstacles with and without it.
+    frame EE: the pose is in the present frame of the hand, absolute_mode or not. collision_checking: see
+    EndEffectorPoseViaPlanning; inverse kinematics alone never minds obstacles.
     """
 
     whole_motions = True
@@ -105,6 +104,7 @@ class _EndEffectorPose(ArmActionMode):
     ) -> None:
         self._absolute_mode = absolute_mode
         self._frame = _frame_of(frame)
+        self._collision_checking = collision_checking
 
     def action_shape(self, scene: Scene | type[Scene]) -> tuple[int, ...]:
         return (7,)
@@ -135,29 +135,59 @@ def _frame_of(frame: RelativeFrame | str) -> RelativeFrame:
 
 
 class EndEffectorPoseViaPlanning(_EndEffectorPose):
-    """Plans a path to the pose around obstacles and follows it to its end."""
+    """
+    A whole path to the pose. With collision_checking it is planned around obstacles. Without, as RLBench has it, it is a
+    straight line that minds no obstacle, so that the hand can reach into what it grasps; where the arm cannot follow the
+    line, a path is planned after all.
+    """
+
+    _LINE_M = 0.02  # a frame
+    _LINE_RAD = 0.1
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
         target = self._target(scene, checked_shape(action, self.action_shape(scene)))
+        if scene.over or (not self._collision_checking and self._follows_line(scene, target)):
+            return
         scene.act(_core.Action("tool_path", target))
+
+    def _follows_line(self, scene: Scene, target: np.ndarray) -> bool:
+        """False, with everything as it was, where the arm cannot."""
+        begin = scene.numbers["gripper_pose"]
+        turn = float(np.linalg.norm(rotation_vector(begin[3:], target[3:])))
+        parts = max(1, int(np.ceil(max(np.linalg.norm(target[:3] - begin[:3]) / self._LINE_M, turn / self._LINE_RAD))))
+        start = scene.save()
+        try:
+            for part in range(1, parts):
+                scene.act(_core.Action("tool_pose", interpolated(begin, target, part / parts)))
+                if scene.over:
+                    return True
+            _go_straight(scene, target)
+        except InvalidActionError:
+            scene.restore(start)
+            return False
+        return True
 
 
 class EndEffectorPoseViaIK(_EndEffectorPose):
     """Inverse kinematics from the present joints, then straight there, until the arm stands."""
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
-        target = self._target(scene, checked_shape(action, self.action_shape(scene)))
-        for frame in range(_MOST_FRAMES):
-            before = scene.numbers["joint_positions"]
-            try:
-                scene.act(_core.Action("tool_pose", target))
-            except InvalidActionError:
-                if frame == 0:
-                    raise
-                return  # the joints have gone where the solver finds nothing better
-            # The arm starts from rest: its first frame may be slower than one in which it stands.
-            if scene.over or (frame > 1 and _moved(scene, before) < _STANDS_RAD):
-                return
+        _go_straight(scene, self._target(scene, checked_shape(action, self.action_shape(scene))))
+
+
+def _go_straight(scene: Scene, target: np.ndarray) -> None:
+    """To a pose by inverse kinematics, until the arm stands. Raises InvalidActionError where there is no solution."""
+    for frame in range(_MOST_FRAMES):
+        before = scene.numbers["joint_positions"]
+        try:
+            scene.act(_core.Action("tool_pose", target))
+        except InvalidActionError:
+            if frame == 0:
+                raise
+            return  # the joints have gone where the solver finds nothing better
+        # The arm starts from rest: its first frame may be slower than one in which it stands.
+        if scene.over or (frame > 1 and _moved(scene, before) < _STANDS_RAD):
+            return
 
 
 def _moved(scene: Scene, before: np.ndarray) -> float:

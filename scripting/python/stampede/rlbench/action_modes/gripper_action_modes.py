@@ -49,7 +49,8 @@ class Discrete(GripperActionMode):
             if scene.over or (frame > 1 and abs(float(scene.numbers["gripper_opening"]) - before) < _STALLED_M):
                 break
         if wants_open:
-            scene.act(_core.Action("hold", frames=_FRAMES_AFTER_OPENING))
+            scene.act(_core.Action("hold", frames=_FRAMES_AFTER_OPENING - 1))
+            scene.act(_core.Action("gripper", [opening]))  # ends the hold: nothing is left that could go on
 
     def action_shape(self, scene: Scene | type[Scene]) -> tuple[int, ...]:
         return (1,)

@@ -20,6 +20,14 @@ def composed(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.concatenate([a[:3] + rotated(a[3:], b[:3]), product(a[3:], b[3:])])
 
 
+def interpolated(a: np.ndarray, b: np.ndarray, share: float) -> np.ndarray:
+    """The pose that lies at `share` (0 … 1) of the straight line from pose `a` to pose `b`, turned evenly."""
+    turn = rotation_vector(a[3:], b[3:]) * share
+    angle = float(np.linalg.norm(turn))
+    step = np.append(turn * (0.5 * np.sinc(angle / (2.0 * np.pi))), np.cos(angle / 2.0))
+    return np.concatenate([a[:3] + (b[:3] - a[:3]) * share, product(step, a[3:])])
+
+
 def rotation_vector(from_quaternion: np.ndarray, to_quaternion: np.ndarray) -> np.ndarray:
     """The shortest turn from one orientation to another, rad, about axes of the world."""
     turn = product(to_quaternion, from_quaternion * np.array([-1.0, -1.0, -1.0, 1.0]))
