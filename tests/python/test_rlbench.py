@@ -362,7 +362,11 @@ def test_poses_absolute_and_relative(arm) -> None:
             lambda now: np.append(-up, quarter),
             lambda now: np.append(now[:3] - up, product(quarter, now[3:])),
         ),
-        (arm(frame=RelativeFrame.EE), lambda now: np.append(up, quarter), lambda now: composed(now, np.append(up, quarter))),
+        (
+            arm(frame=RelativeFrame.EE),
+            lambda now: np.append(up, quarter),
+            lambda now: composed(now, np.append(up, quarter)),
+        ),
     ):
         task = task_for(mode)
         _, seen = task.reset()
@@ -534,7 +538,7 @@ def test_live_demos() -> None:
     np.random.seed(5)
     steps: list[Observation] = []
     (demo,) = task.get_demos(1, live_demos=True, callable_each_step=steps.append)
-    assert len(steps) == len(demo) and all(one is other for one, other in zip(steps, demo))
+    assert len(steps) == len(demo) and all(one is other for one, other in zip(steps, demo, strict=True))
     assert "joint_position_action" not in demo[0].misc
     assert all(seen.misc["joint_position_action"].shape == (8,) for seen in demo[1:])
     assert all(seen.misc["variation_index"] == 2 for seen in demo)
@@ -583,7 +587,7 @@ def test_tasks_are_classes() -> None:
     with pytest.raises(ImportError):
         exec("from stampede.rlbench.tasks import ReachTargt")
     with pytest.raises(AttributeError, match="did you mean 'ReachTarget'"):
-        tasks.ReachTargt
+        _ = tasks.ReachTargt
     with pytest.raises(Error, match="did you mean 'reach_target'"):
         task_file_to_task_class("reach_targt")
 
@@ -650,9 +654,9 @@ def test_export_and_catalogue_give_the_same_demos(catalogue: Path, dataset: Path
     stored = get_stored_demos(-1, False, dataset, red(), "reach_target", config, random_selection=False)
     direct = get_stored_demos(-1, False, catalogue, red(), "reach_target", config, random_selection=False)
     assert [demo.seed for demo in stored] == [demo.seed for demo in direct] == [1, 2]
-    for one, other in zip(stored, direct):
+    for one, other in zip(stored, direct, strict=True):
         assert len(one) == len(other) > 10
-        for seen, expected in zip(one, other):
+        for seen, expected in zip(one, other, strict=True):
             for name in NUMBERS:
                 assert np.array_equal(getattr(seen, name), getattr(expected, name)), name
             assert np.array_equal(seen.front_rgb, expected.front_rgb)
@@ -684,7 +688,12 @@ def test_files_of_a_dataset(catalogue: Path, dataset: Path) -> None:
     assert sentences and all("red" in one for one in sentences)
     episode = variation / "episodes" / "episode0"
     frames = len(pickle.loads((episode / "low_dim_obs.pkl").read_bytes()))
-    assert sorted(one.name for one in episode.iterdir()) == ["front_depth", "front_mask", "front_rgb", "low_dim_obs.pkl"]
+    assert sorted(one.name for one in episode.iterdir()) == [
+        "front_depth",
+        "front_mask",
+        "front_rgb",
+        "low_dim_obs.pkl",
+    ]
     for kind in ("rgb", "depth", "mask"):
         names = {one.name for one in (episode / f"front_{kind}").iterdir()}
         assert names == {f"{frame}.png" for frame in range(frames)}
@@ -767,7 +776,9 @@ def test_broken_datasets_are_told(catalogue: Path, dataset: Path, tmp_path: Path
     import shutil
 
     def load(root: Path, config: ObservationConfig, **more):
-        return get_stored_demos(more.get("amount", 1), False, root, more.get("variation", red()), "reach_target", config, False)
+        return get_stored_demos(
+            more.get("amount", 1), False, root, more.get("variation", red()), "reach_target", config, False
+        )
 
     with pytest.raises(DemoError, match="wrist_rgb: 0 pictures of"):
         load(dataset, config_with("wrist"))

@@ -1,5 +1,6 @@
 """
-RLBench's folders: TASK/variation0/episodes/episode0/ with a folder of PNG files a camera and kind, and the pickled demo.
+RLBench's folders: TASK/variation0/episodes/episode0/, with a folder of PNG files a camera and kind and the pickled
+demo.
 
 `stampede.rlbench.utils.get_stored_demos` reads them, and so does RLBench itself with `--classes rlbench`.
 """
@@ -107,7 +108,7 @@ class Writer:
                 self._orders[episode.task] = self._session.variations(episode.task)
             except Error as error:
                 raise Error(
-                    f"episode {episode.id}: {error}\n    its variations are counted as its script does: --scripts FOLDER"
+                    f"episode {episode.id}: {error}\n    its variations are numbered by its script: --scripts FOLDER"
                 ) from error
         order = self._orders[episode.task]
         if episode.variation not in order:
@@ -162,7 +163,7 @@ class Writer:
         config.set_all_high_dim(False)
         config.set_all_low_dim(True)
         observations = []
-        for frame, misc in zip(frames, demo_misc(arrays, frames, variation)):
+        for frame, misc in zip(frames, demo_misc(arrays, frames, variation), strict=True):
             for camera, matrix in intrinsics.items():
                 near, far = float(arrays[f"{camera}_camera_near"]), float(arrays[f"{camera}_camera_far"])
                 extrinsics = arrays[f"{camera}_camera_extrinsics"][frame]
@@ -174,26 +175,22 @@ class Writer:
         self, folder: Path, episode: StoredEpisode, arrays: EpisodeArrays, camera: str, frames: list[int]
     ) -> np.ndarray:
         """The PNG files of a camera; gives its intrinsics for their size, the engine's convention."""
-        image = pillow()
         near, far = float(arrays[f"{camera}_camera_near"]), float(arrays[f"{camera}_camera_far"])
+        encode = {
+            "rgb": lambda picture: picture,
+            "depth": lambda picture: float_array_to_rgb_image(depth_to_unit(picture, near, far)),
+            "mask": mask_to_rgb_handles,
+        }
         size = (0, 0)
         with ThreadPoolExecutor(2) as pool:
             for kind in _KINDS:
-                (folder / f"{camera}_{kind}").mkdir()
+                pngs = folder / f"{camera}_{kind}"
+                pngs.mkdir()
                 for first in range(0, len(frames), _FRAMES_AT_ONCE):
-                    some = frames[first : first + _FRAMES_AT_ONCE]
-                    pictures = self._read(episode, f"{camera}_{kind}", some)
+                    pictures = self._read(episode, pngs.name, frames[first : first + _FRAMES_AT_ONCE])
                     size = pictures.shape[1:3]
-
-                    def save(place: int) -> None:
-                        picture = pictures[place]
-                        if kind == "depth":
-                            picture = float_array_to_rgb_image(depth_to_unit(picture, near, far))
-                        elif kind == "mask":
-                            picture = mask_to_rgb_handles(picture)
-                        image.fromarray(picture).save(folder / f"{camera}_{kind}" / f"{first + place}.png")
-
-                    list(pool.map(save, range(len(some))))
+                    files = [pngs / f"{first + place}.png" for place in range(len(pictures))]
+                    list(pool.map(_save, files, map(encode[kind], pictures)))
         return _intrinsics(episode, camera, *size)
 
     def _read(self, episode: StoredEpisode, column: str, frames: list[int]) -> np.ndarray:
@@ -208,8 +205,12 @@ class Writer:
             ) from error
 
 
+def _save(file: Path, colours: np.ndarray) -> None:
+    pillow().fromarray(colours).save(file)
+
+
 def _intrinsics(episode: StoredEpisode, camera: str, height: int, width: int) -> np.ndarray:
-    """(3, 3), pixels, positive focal lengths: of the camera's stored pictures, or of those drawn at its own size."""
+    """(3, 3), pixels, focal lengths positive: of the camera's stored pictures, or of those drawn at its own size."""
     sizes = "width, height, focal_x, focal_y, centre_x, centre_y"
     known = episode.catalogue.query(
         f"SELECT {sizes} FROM images WHERE episode = ?1 AND camera = ?2 AND width = ?3 AND height = ?4 "
@@ -220,4 +221,6 @@ def _intrinsics(episode: StoredEpisode, camera: str, height: int, width: int) ->
         height,
     )
     (row,) = known
-    return np.array([[row["focal_x"], 0, row["centre_x"]], [0, row["focal_y"], row["centre_y"]], [0, 0, 1]], dtype=float)
+    return np.array(
+        [[row["focal_x"], 0, row["centre_x"]], [0, row["focal_y"], row["centre_y"]], [0, 0, 1]], dtype=float
+    )

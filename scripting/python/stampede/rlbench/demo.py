@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from stampede._core import Error
 from stampede.rlbench.backend.observation import Observation
 
 
@@ -44,5 +45,7 @@ class Demo:
         return iter(self._observations)
 
     def restore_state(self) -> None:
-        """Sets numpy's global generator to where it was before this demo."""
+        """Sets numpy's global generator to where it was before this demo. Raises Error where that was not kept."""
+        if self.random_seed is None:
+            raise Error("the demo does not say where numpy's generator was\n    `reset_to_demo` needs its seed alone")
         np.random.set_state(self.random_seed)

@@ -82,7 +82,7 @@ class Environment:
 
     def launch(self) -> None:
         """Reads the scripts now, and not with the first task."""
-        self.session
+        _ = self.session
 
     def shutdown(self) -> None:
         """Lets go of everything; tasks that were got stay usable."""
@@ -102,7 +102,7 @@ class Environment:
         if not (isinstance(task_class, type) and issubclass(task_class, Task) and name):
             raise Error(
                 f"{task_class!r} is no class of a task\n"
-                "    such as stampede.rlbench.tasks.ReachTarget; a task of your own is a Lua file: tasks.task_of('name')"
+                "    such as stampede.rlbench.tasks.ReachTarget; a task of your own is a Lua file: tasks.task_of(…)"
             )
         return TaskEnvironment(
             self,
@@ -149,10 +149,13 @@ class Environment:
     def get_scene_data(self) -> dict[str, object]:
         """Cameras as `Observation.misc` has them, at their own size; the wrist's where the arm starts."""
         scene = self.session.environment(
-            self.session.tasks()[0], channels=[f"{camera}_camera_{what}" for camera in CAMERAS for what in CAMERA_COLUMNS]
+            self.session.tasks()[0],
+            channels=[f"{camera}_camera_{what}" for camera in CAMERAS for what in CAMERA_COLUMNS],
         )
         seen = scene.reset()
         data: dict[str, object] = {}
         for camera in CAMERAS:
-            data |= camera_misc(camera, CameraView(**{what: seen[f"{camera}_camera_{what}"] for what in CAMERA_COLUMNS}))
+            data |= camera_misc(
+                camera, CameraView(**{what: seen[f"{camera}_camera_{what}"] for what in CAMERA_COLUMNS})
+            )
         return data

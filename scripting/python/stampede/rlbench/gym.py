@@ -30,8 +30,8 @@ _VISION = ("left_shoulder_rgb", "right_shoulder_rgb", "wrist_rgb", "front_rgb")
 
 class RLBenchEnv(gymnasium.Env):
     """
-    One task. Observations are dicts: eight fields of numbers as float32, with `vision` four pictures (128, 128, 3) uint8.
-    Actions are (8,) float32: changes of the joints, rad, and the position of each finger, m.
+    One task. Observations are dicts: eight fields of numbers as float32, with `vision` also four pictures, (128, 128,
+    3) uint8. Actions are (8,) float32: changes of the joints, rad, and the position of each finger, m.
 
     render_mode: None or `rgb_array`, which gives what the camera `front` sees.
     """

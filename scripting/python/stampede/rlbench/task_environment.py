@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -161,9 +162,7 @@ class TaskEnvironment:
         for attempt in range(max_attempts):
             start = self._draw_start(attempt)
             try:
-                episode = session.run(
-                    self._task, variation=start.variation, seed=start.seed, randomise=start.randomise
-                )
+                episode = session.run(self._task, variation=start.variation, seed=start.seed, randomise=start.randomise)
             except Error as error:
                 reason = str(error)
                 continue
@@ -172,9 +171,8 @@ class TaskEnvironment:
                 continue
             arrays = session.arrays(episode, columns(self._config.cameras_on))
             observations = []
-            for seen in demo_observations(
-                self._config, arrays, lambda *frame, **how: session.picture(episode, *frame, **how), self._variation
-            ):
+            draw = partial(session.picture, episode)
+            for seen in demo_observations(self._config, arrays, draw, self._variation):
                 observations.append(seen)
                 if callable_each_step is not None:
                     callable_each_step(seen)

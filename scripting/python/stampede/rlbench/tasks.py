@@ -24,7 +24,7 @@ _TRAIN = (
     "take_lid_off_saucepan",
 )
 _TEST = ("meat_on_grill", "pick_and_lift_small", "put_money_in_safe", "slide_block_to_target", "unplug_charger")
-_SETS = {
+_SETS: dict[str, dict[str, tuple[str, ...]]] = {
     "FS10_V1": {"train": _TRAIN, "test": _TEST},
     "MT15_V1": {"train": _TRAIN + _TEST},
 }

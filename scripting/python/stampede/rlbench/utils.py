@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -110,7 +111,5 @@ def _choice(there: int, amount: int, random_selection: bool, first: int, of_what
 def _catalogue_demo(reader: _core.CatalogueReader, episode: int, variation: int, config: ObservationConfig) -> Demo:
     arrays = reader.arrays(episode, columns(config.cameras_on))
     _, ((randomise,),) = reader.query("SELECT options ->> 'randomise' FROM episodes WHERE episode = ?1", (episode,))
-    observations = demo_observations(
-        config, arrays, lambda *frame, **how: reader.picture(episode, *frame, **how), variation
-    )
+    observations = demo_observations(config, arrays, partial(reader.picture, episode), variation)
     return Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise is not None)

@@ -136,9 +136,9 @@ def _frame_of(frame: RelativeFrame | str) -> RelativeFrame:
 
 class EndEffectorPoseViaPlanning(_EndEffectorPose):
     """
-    A whole path to the pose. With collision_checking it is planned around obstacles. Without, as RLBench has it, it is a
-    straight line that minds no obstacle, so that the hand can reach into what it grasps; where the arm cannot follow the
-    line, a path is planned after all.
+    A whole path to the pose. With collision_checking it is planned around obstacles. Without, it is a straight line
+    that minds no obstacle, so that the hand can reach what it grasps; where the arm cannot follow the line, a path is
+    planned after all.
     """
 
     _LINE_M = 0.02  # a frame
@@ -247,8 +247,8 @@ class ERJointViaIK(_EndEffectorPose):
             raise
         scene.restore(start)
         raise InvalidActionError(
-            f"{self._MOST_FRAMES} frames of inverse kinematics do not lead to that pose with joints {self._commanded} at "
-            f"{np.round(angles, 3).tolist()}\n    a nearer pose, or other angles"
+            f"{self._MOST_FRAMES} frames of inverse kinematics do not lead to that pose with joints {self._commanded} "
+            f"at {np.round(angles, 3).tolist()}\n    a nearer pose, or other angles"
         )
 
     def _errors(self, scene: Scene, target: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,5 +1,7 @@
 """What is observed at one frame."""
 
+from typing import Any
+
 import numpy as np
 
 from stampede.rlbench.observation_config import CAMERAS
@@ -39,17 +41,17 @@ class Observation:
     gripper_joint_positions (2,) float64: m, 0 … 0.04
     gripper_touch_forces (6,) float64: N, a vector a finger; its second component is the force along the pad's normal
     task_low_dim_state   (k,) float64: pose of each object, then positions of joints that are not the robot's; world
-    misc                 dict: CAMERA_camera_extrinsics, CAMERA_camera_intrinsics, CAMERA_camera_near, CAMERA_camera_far;
-                         variation_index; in demos joint_position_action and frame
+    misc                 dict: CAMERA_camera_extrinsics, CAMERA_camera_intrinsics, CAMERA_camera_near,
+                         CAMERA_camera_far; variation_index; in demos joint_position_action and frame
     """
 
-    def __init__(self, **fields: object) -> None:
+    misc: dict[str, Any]
+
+    def __init__(self, **fields: Any) -> None:
         for name in FIELDS:
-            setattr(self, name, fields.pop(name, None))
+            setattr(self, name, fields.pop(name, {} if name == "misc" else None))
         if fields:
             raise TypeError(f"an Observation has no field '{next(iter(fields))}'")
-        if self.misc is None:
-            self.misc = {}
 
     def get_low_dim_data(self) -> np.ndarray:
         """All numbers that are switched on, one after the other, without the matrix: (m,) float64."""

@@ -19,8 +19,8 @@ def demo_bytes(demo: Demo, classes: str) -> bytes:
     A pickle of a demo. classes: `stampede`, or `rlbench`, so that it is of RLBench's own classes where it is read.
 
     Protocol 2 names each class once, in a line of text of its own, whose length is written nowhere: so the names can be
-    changed in the bytes, and RLBench need not be installed. With `rlbench`, numpy's functions get the names that numpy 1
-    and 2 both know.
+    changed in the bytes, and RLBench need not be installed. With `rlbench`, numpy's functions get the names that
+    numpy 1 and 2 both know.
     """
     data = pickle.dumps(demo, protocol=2)
     if classes == "stampede":

@@ -38,8 +38,8 @@ def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) ->
     """
     `misc` of each frame of a demo, without the cameras.
 
-    joint_position_action, (8,) float64: what led to the frame: joint positions (rad) and 1.0 where the fingers were told
-    to open beyond 0.9 of their range, else 0.0; the first frame has none. frame: of the episode.
+    joint_position_action, (8,) float64: what led to the frame: joint positions (rad), and 1.0 where the fingers were
+    told to open beyond 0.9 of their range, else 0.0; the first frame has none. frame: of the episode.
     """
     joints, openings = arrays["action/joint_position"], arrays["action/gripper"]
     yield {"variation_index": variation_index, "frame": frames[0]}
@@ -59,7 +59,7 @@ def demo_observations(
     """The observations of a demo in their order, each with its pictures drawn as `config` has them."""
     cameras = config.cameras_on
     frames = kept_frames(arrays, config.record_gripper_closing)
-    for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index)):
+    for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index), strict=True):
         views = {name: _drawn_view(arrays, draw, frame, name, camera) for name, camera in cameras.items()}
         yield observation_of(config, numbers_at(arrays, frame), views, misc)
 

@@ -87,7 +87,7 @@ class Scene:
 
     def act(self, action: _core.Action) -> None:
         """
-        One action of the engine, such as `stampede.Action("joint_delta", [0.01] * 7)`; nothing once the episode is over.
+        One action of the engine, `stampede.Action("joint_delta", [0.01] * 7)`; nothing once the episode is over.
 
         Raises InvalidActionError for what cannot be done; nothing has changed then.
         """

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def float_array_to_rgb_image(float_array: np.ndarray, scale_factor: int = DEPTH_SCALE) -> np.ndarray:
-    """(H, W) of 0 … 1 to (H, W, 3) uint8: value times `scale_factor`, rounded, high byte first (R), low byte last (B)."""
+    """(H, W) of 0 … 1 to (H, W, 3) uint8: times `scale_factor`, rounded, high byte first (R), low byte last (B)."""
     whole = np.rint(np.clip(float_array, 0.0, 1.0).astype(np.float64) * scale_factor).astype(np.uint32)
     return np.stack([whole >> 16 & 255, whole >> 8 & 255, whole & 255], axis=-1).astype(np.uint8)
 
