@@ -194,6 +194,20 @@ EnvironmentObservation Environment::reset(const SavedState& state) { return rest
 
 StepResult Environment::step(const AgentAction& action) { return impl_->step(action); }
 
+double Environment::frame_hz() const { return impl_->acting().rollout.view().scene().frame_hz; }
+
+double Environment::horizon_s() const {
+  const Rollout& rollout = impl_->acting().rollout;
+  return static_cast<double>(rollout.horizon_steps()) / rollout.view().scene().physics_hz;
+}
+
+std::vector<std::string> Environment::instructions() const {
+  std::vector<std::string> sentences;
+  for (const LanguageRecord& one : impl_->acting().record.language)
+    if (one.level == LanguageLevel::task) sentences.push_back(one.text);
+  return sentences;
+}
+
 std::vector<ActionSpace> Environment::spaces() const { return impl_->acting().spaces; }
 
 std::vector<SkillChoice> Environment::skills() const {

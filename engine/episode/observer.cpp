@@ -41,6 +41,7 @@ ChannelValue value_of(ArrayColumn column) {
   value.unit = std::move(column.unit);
   value.frame = std::move(column.frame);
   value.shape = std::move(column.shape);
+  value.labels = std::move(column.labels);
   if (column.rate_hz > 0 && !value.shape.empty()) value.shape.erase(value.shape.begin());
   std::visit([&](auto& data) { value.data = std::move(data); }, column.data);
   auto* reals = std::get_if<std::vector<double>>(&value.data);
@@ -78,6 +79,8 @@ Observer::Observer(Rollout& rollout, std::shared_ptr<const Scene> shared, const 
   now_->frame_hz = scene.frame_hz;
   now_->objects = scene.objects;
   now_->cameras = scene.cameras;
+  if (settings.width > 0 && settings.height > 0)
+    for (stampede::Camera& camera : now_->cameras) camera = resized(camera, settings.width, settings.height);
   now_->joints = reader.joints();
   now_->posed = reader.posed();
   now_->hands = {scene.robot.name + "." + scene.robot.hand};

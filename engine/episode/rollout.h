@@ -29,6 +29,7 @@ class Rollout {
   const Domain& domain() const { return symbols_.domain(); }
   std::int64_t step() const { return world_.step_count(); }
   int steps_per_frame() const { return steps_per_frame_; }
+  std::int64_t horizon_steps() const { return horizon_steps_; }
   double physics_wall_s() const { return physics_wall_s_; }
 
   // One physics step and what follows from it. A reason other than none ends the episode.

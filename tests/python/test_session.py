@@ -168,3 +168,15 @@ def test_saved_states_branch_bit_for_bit() -> None:
     assert refused.refusal and refused.frames == 0
     with pytest.raises(TypeError, match="list of numbers"):
         stampede.Action("joint_delta", "text")
+
+
+def test_what_an_environment_says_of_itself() -> None:
+    channels = ["joint_positions", "front_rgb", "front_camera_intrinsics"]
+    world = stampede.Session().environment("pick_and_lift", channels=channels, width=40, height=30, horizon_s=7)
+    now = world.reset(stampede.Reset(seed=1))
+    assert world.frame_hz == 20 and world.horizon_s == 7
+    assert world.labels()["joint_positions"][0] == "panda.joint1"
+    assert any("cube" in text or "block" in text for text in world.instructions())
+    assert now["front_rgb"].shape == (30, 40, 3)
+    assert now["front_camera_intrinsics"][:2, 2].tolist() == [20, 15]  # of the pictures, not of the camera's own size
+    assert stampede.Action("hold") == stampede.Action("hold") and stampede.Action("hold") != 3

@@ -33,6 +33,7 @@ struct STAMPEDE_EXPORT ChannelValue {
   std::string name;
   std::vector<std::int64_t> shape;
   std::string unit, frame;
+  std::vector<std::string> labels = {};  // of the last axis: joints, components; facts and applicable: see Environment
   std::variant<std::vector<double>, std::vector<std::uint8_t>, std::vector<float>, std::vector<std::uint16_t>,
                std::vector<std::int64_t>, std::vector<std::string>>
       data;
@@ -167,6 +168,10 @@ class STAMPEDE_EXPORT Environment {
 
   // After the end, and for what cannot be done, the result holds a refusal and nothing has changed.
   StepResult step(const AgentAction& action);
+
+  double frame_hz() const;                        // steps of set-points a second
+  double horizon_s() const;                       // simulated; the episode is truncated then
+  std::vector<std::string> instructions() const;  // what the task is called in words, for this start
 
   std::vector<ActionSpace> spaces() const;
   // Every ground skill of the scene, in a fixed order, with what can be done now: an action mask.

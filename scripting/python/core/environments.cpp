@@ -73,7 +73,10 @@ own. frames: the step ends after so many, and `Action("go_on")` goes on; 0: at t
       .def_ro("skill", &AgentAction::skill)
       .def_ro("arguments", &AgentAction::arguments)
       .def_prop_ro("parameters", &parameters_of)
-      .def("__eq__", [](const AgentAction& a, const AgentAction& b) { return a == b; })
+      .def("__eq__",
+           [](const AgentAction& a, nb::handle b) {
+             return nb::isinstance<AgentAction>(b) && a == nb::cast<const AgentAction&>(b);
+           })
       .def("__repr__", [](const AgentAction& action) {
         std::string text = "Action('" + action.space + "'";
         if (action.space == "skill") {
@@ -314,6 +317,18 @@ Use it in the thread that resets it. An action that cannot be done gives a Step 
           },
           "action"_a)
       .def("observe", [](const Environment& self) { return to_python(self.observe()); })
+      .def_prop_ro("frame_hz", &Environment::frame_hz, "Steps of set-points a second.")
+      .def_prop_ro("horizon_s", &Environment::horizon_s, "Simulated; the episode is truncated then.")
+      .def("instructions", &Environment::instructions, "What the task is called in words, for this start.")
+      .def(
+          "labels",
+          [](const Environment& self) {
+            std::map<std::string, std::vector<std::string>> labels;
+            for (ChannelValue& channel : self.observe().channels)
+              if (!channel.labels.empty()) labels[channel.name] = std::move(channel.labels);
+            return labels;
+          },
+          "What the last axis of each channel counts, where it has names; see also atoms() and skills().")
       .def("spaces", &Environment::spaces)
       .def("skills", &Environment::skills, nb::call_guard<nb::gil_scoped_release>(),
            "Every ground skill of the scene, in a fixed order, with what can be done now.")

@@ -20,7 +20,9 @@ void raise(PyObject* type, const Error& error) {
 
 PyObject* new_type(nb::module_& module, const char* name, PyObject* base, const char* text) {
   const std::string full = "stampede." + std::string(name);
-  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), text, base, nullptr);
+  nb::dict defaults;  // of an Error that Python raises itself
+  for (const char* part : {"where", "message", "hint"}) defaults[part] = "";
+  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), text, base, defaults.ptr());
   module.attr(name) = nb::borrow(type);
   return type;
 }

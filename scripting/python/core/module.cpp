@@ -3,6 +3,7 @@
 
 NB_MODULE(_core, module) {
   module.doc() = "The engine's classes. Use them by way of the package `stampede`.";
+  module.attr("__version__") = STAMPEDE_VERSION;
   stampede::python::bind_errors(module);
   stampede::python::bind_environments(module);
   stampede::python::bind_catalogue(module);

@@ -138,6 +138,12 @@ Gives a Step for each that was told something; of a reset, only `observation` co
           "atoms", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).atoms(); }, "index"_a)
       .def(
           "spaces", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).spaces(); }, "index"_a)
+      .def(
+          "instructions", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).instructions(); }, "index"_a)
+      .def(
+          "frame_hz", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).frame_hz(); }, "index"_a)
+      .def(
+          "horizon_s", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).horizon_s(); }, "index"_a)
       .def("__len__", &EnvironmentGroup::size);
   module.def(
       "environment_group",

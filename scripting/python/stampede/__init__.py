@@ -34,6 +34,7 @@ from stampede._core import (
     Step,
     TaskPlan,
     WorldState,
+    __version__,
     plan_pddl,
 )
 from stampede.catalogue import Catalogue, StoredEpisode, Table
@@ -41,16 +42,14 @@ from stampede.catalogue import Catalogue, StoredEpisode, Table
 if TYPE_CHECKING:
     from stampede.datasets import FrameDataset, WindowStream
     from stampede.envs import Env, SkillEnv, VectorEnv
-    from stampede.evaluate import evaluate
-
-__version__ = "0.1.0"
+    from stampede.evaluation import evaluate
 
 # Imported when they are first asked for: they need packages that take long to import.
 _LATER = {
     "Env": "stampede.envs",
     "SkillEnv": "stampede.envs",
     "VectorEnv": "stampede.envs",
-    "evaluate": "stampede.evaluate",
+    "evaluate": "stampede.evaluation",
     "FrameDataset": "stampede.datasets",
     "WindowStream": "stampede.datasets",
 }

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stampede import _core
-from stampede._core import EpisodeArrays, Error, Segment
+from stampede._core import EpisodeArrays, Segment
+from stampede.faults import fault, unknown
 
 SqlValue = None | int | float | str | bytes
 
@@ -41,7 +42,7 @@ class Table:
     def values(self, column: str) -> list[SqlValue]:
         """A column as Python's own values. Raises Error for one that is not there."""
         if column not in self.columns:
-            raise Error(f"there is no column '{column}'\n    there are {', '.join(self.columns)}")
+            raise unknown("Table", "column", column, self.columns)
         place = self.columns.index(column)
         return [row[place] for row in self._rows]
 
@@ -135,7 +136,7 @@ class StoredEpisode:
     def table(self, view: str) -> Table:
         """Its rows of a view: `facts`, `segments`, `verdicts` … (db/README.md)."""
         if not view.isidentifier():
-            raise Error(f"'{view}' is not the name of a view\n    db/README.md lists them")
+            raise fault("StoredEpisode.table", f"'{view}' is not the name of a view", "db/README.md lists them")
         return self.catalogue.query(f"SELECT * FROM {view} WHERE episode = ?1", self.id)
 
     def state(self, frame: int) -> _core.WorldState:
@@ -199,7 +200,7 @@ class Catalogue:
     def __getitem__(self, episode: int) -> StoredEpisode:
         found = self.episodes("episode = ?1", episode)
         if not found:
-            raise Error(f"{self.path}: there is no episode {episode}\n    `Catalogue.episodes()` lists them")
+            raise fault(str(self.path), f"there is no episode {episode}", "Catalogue.episodes() lists them")
         return found[0]
 
     def __len__(self) -> int:

@@ -12,8 +12,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from stampede._core import EpisodeArrays, Error
+from stampede._core import EpisodeArrays
 from stampede.catalogue import Catalogue, StoredEpisode
+from stampede.faults import fault, unknown
 
 Sample = dict[str, Any]
 
@@ -51,16 +52,18 @@ class FrameDataset:
         threads: int = 2,
     ) -> None:
         if window < 1 or stride < 1:
-            raise Error("window and stride are at least 1")
+            raise fault("FrameDataset", "window and stride are at least 1")
         if over not in ("episode", "skill"):
-            raise Error(f"over='{over}' is unknown\n    one of episode, skill")
+            raise unknown("over=", "stretch", over, ("episode", "skill"))
         self.catalogue = catalogue if isinstance(catalogue, Catalogue) else Catalogue(catalogue)
         self.window, self.over, self.threads = window, over, threads
         self.pictures = [name for name in columns if name.endswith(_PICTURES)]
         self.columns = [name for name in columns if name not in self.pictures]
         self.episodes = self.catalogue.episodes(where)
         if not self.episodes:
-            raise Error(f"{self.catalogue.path}: no episode fulfils `{where}`\n    `Catalogue.query` shows what there is")
+            raise fault(
+                str(self.catalogue.path), f"no episode fulfils `{where}`", "Catalogue.query shows what there is"
+            )
         self._cache_size = max(1, cache)
         self._cache: dict[int, EpisodeArrays] = {}
         self._spans = self._skill_spans()

@@ -9,9 +9,6 @@ from .starts import Start
 
 Verdict = tuple[float, bool, bool, dict[str, Any]]  # reward, terminated, truncated, info
 
-# The engine keeps a task's own horizon to itself; this is the one of most tasks.
-_USUAL_HORIZON_S = 120.0
-
 _AFTER_END = "the episode is over\n    call reset()"
 
 
@@ -19,14 +16,12 @@ class EpisodeAccount:
     """One episode after the other, in Gymnasium's terms.
 
     A step in which no frame goes by (its action was refused, or a skill failed before anything moved) counts as one
-    frame of the horizon, so that an episode of such steps ends too. Where the horizon is the task's own (0), episodes
-    end after as many of such steps as 120 s have frames.
+    frame of the horizon, so that an episode of such steps ends too.
     """
 
-    def __init__(self, task: str, frame_hz: float, horizon_s: float) -> None:
+    def __init__(self, task: str) -> None:
         self._task = task
-        self._counts_frames = horizon_s > 0
-        self._limit = round((horizon_s or _USUAL_HORIZON_S) * frame_hz)
+        self._limit = 0  # frames, and steps without any
         self._identity: dict[str, Any] | None = None
         self.motionless = 0  # steps of this episode in which no frame went by
         self.terminated = self.truncated = self._success = False
@@ -45,9 +40,11 @@ class EpisodeAccount:
         """Nothing has begun any more."""
         self._identity = None
 
-    def begin(self, start: Start, raw: dict[str, Any]) -> dict[str, Any]:
-        """The info that `reset` gives."""
+    def begin(self, start: Start, raw: dict[str, Any], horizon_frames: int, instructions: list[str]) -> dict[str, Any]:
+        """The info that `reset` gives. instructions: what the task is called in words, for this start."""
+        self._limit = horizon_frames
         self._identity = {"task": self._task, "variation": start.variation, "seed": start.seed}
+        self._identity["instruction"] = instructions[start.seed % len(instructions)] if instructions else ""
         return self.go_back(raw, 0)
 
     def go_back(self, raw: dict[str, Any], motionless: int) -> dict[str, Any]:
@@ -75,7 +72,7 @@ class EpisodeAccount:
         self.truncated = last.truncated
         self._success = last.success
         if not self.over and self.motionless:
-            self.truncated = self.motionless + (last.frame if self._counts_frames else 0) >= self._limit
+            self.truncated = self.motionless + last.frame >= self._limit
         refusal = steps[0].refusal
         info = {
             **(self._identity or {}),

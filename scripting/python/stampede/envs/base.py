@@ -11,7 +11,7 @@ import numpy as np
 from stampede import _core
 
 from .account import EpisodeAccount, Verdict
-from .faults import fault
+from stampede.faults import fault
 from .sessions import PathLike, shared_session
 from .spaces import Observation, ObservationCodec
 from .starts import Start, Starts
@@ -70,12 +70,6 @@ class SavedEpisode:
     motionless: int
 
 
-def frame_rate(available: Sequence[_core.ActionSpace]) -> float:
-    """Frames a second: how often the largest delta of a joint goes into its speed."""
-    first = {space.name: space.components[0] for space in available if space.components}
-    return round(first["joint_velocity"].upper / first["joint_delta"].upper, 6)
-
-
 class EpisodeEnv(gymnasium.Env[Observation, Any]):
     """A task whose episodes are begun, drawn, saved and kept; subclasses say how an agent acts.
 
@@ -102,9 +96,8 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         example = self._environment.reset(self._starts.first())
         self._codec = ObservationCodec(example, frozenset(further) - frozenset(settings.channels))
         self.observation_space = self._codec.space
-        rate = frame_rate(self._environment.spaces())
-        self.metadata = {**self.metadata, "render_fps": rate}
-        self._account = EpisodeAccount(task, rate, settings.horizon_s)
+        self.metadata = {**self.metadata, "render_fps": self._environment.frame_hz}
+        self._account = EpisodeAccount(task)
         self._start: Start | None = None
         self._kept = False  # whether the episode has been handed over
         self._closed = False
@@ -133,7 +126,8 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._kept = False
         self._start, raw = self._starts.begin(self.np_random, seed, options or {}, self._environment.reset)
         self._codec.check(raw)
-        info = self._account.begin(self._start, raw)
+        horizon = round(self._environment.horizon_s * self.frame_hz)
+        info = self._account.begin(self._start, raw, horizon, self._environment.instructions())
         return self._codec(raw), info
 
     def render(self) -> np.ndarray | None:
@@ -177,20 +171,13 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
     def observation_labels(self) -> dict[str, list[str]]:
         """Names of the components of channels that have some, by channel."""
         self._check_open("observation_labels")
-        # Only an episode that was recorded says what its columns are; it must not go to the caller's catalogue.
-        session = _core.Session(root=self._shared.root, paths=list(self._shared.paths))
-        environment = session.environment(self.task, record=True, channels=[])
-        environment.reset(self._starts.first())
-        environment.step(_core.Action("joint_delta", np.zeros(len(environment.spaces()[0].components))))
         ground = {
-            "facts": [str(atom) for atom in environment.atoms()],
-            "applicable": [skill_text(choice) for choice in environment.skills()],
+            "facts": [str(atom) for atom in self._environment.atoms()],
+            "applicable": [skill_text(choice) for choice in self._environment.skills()],
         }
         ground["known"] = ground["facts"]
-        arrays = session.arrays(environment.episode())
-        labels = {name: arrays.column(name).labels for name in self.observation_space if name in arrays}
-        labels |= {name: texts for name, texts in ground.items() if name in self.observation_space.spaces}
-        return {name: texts for name, texts in labels.items() if texts}
+        labels = {**self._environment.labels(), **ground}
+        return {name: labels[name] for name in self.observation_space if name in labels}
 
     def _result(self, verdict: Verdict) -> Result:
         if self.settings.record and self._account.over and not self._kept:

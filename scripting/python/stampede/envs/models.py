@@ -9,7 +9,7 @@ import numpy as np
 from stampede import _core
 
 from .env import Env
-from .faults import fault
+from stampede.faults import fault
 from .sessions import PathLike
 
 

@@ -9,7 +9,7 @@ from gymnasium import spaces
 from stampede import _core
 
 from .base import EpisodeEnv, Result, Settings, skill_text
-from .faults import fault
+from stampede.faults import fault
 from .sessions import PathLike
 from .spaces import Observation, box_within
 

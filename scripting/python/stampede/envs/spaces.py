@@ -8,7 +8,7 @@ from gymnasium import spaces
 
 from stampede import _core
 
-from .faults import fault, unknown
+from stampede.faults import fault, unknown
 
 SET_POINT_SPACES = (
     "joint_position",

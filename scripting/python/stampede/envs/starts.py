@@ -8,7 +8,7 @@ import numpy as np
 
 from stampede import _core
 
-from .faults import fault, unknown
+from stampede.faults import fault, unknown
 
 SPLIT_SEEDS = 1_000_000  # seeds from here up are of the test split
 OPTIONS = ("variation", "seed", "where", "goal", "perturb", "randomise", "episode", "frame")

@@ -13,9 +13,9 @@ from gymnasium.vector.utils import batch_space
 from stampede import _core
 
 from .account import EpisodeAccount
-from .base import Settings, frame_rate
+from .base import Settings
 from .env import OBSERVATIONS
-from .faults import fault, unknown
+from stampede.faults import fault, unknown
 from .sessions import shared_session
 from .spaces import ActionCodec, Observation, ObservationCodec
 from .starts import Start, Starts
@@ -81,9 +81,9 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         self.single_action_space = self._actions.space
         self.observation_space = batch_space(self._codec.space, num_envs)
         self.action_space = batch_space(self._actions.space, num_envs)
-        rate = frame_rate(self._group.spaces(0))
+        rate = self._group.frame_hz(0)
         self.metadata = {**self.metadata, "render_fps": rate, "autoreset_mode": self.autoreset_mode}
-        self._accounts = [EpisodeAccount(task, rate, self.settings.horizon_s) for _ in range(num_envs)]
+        self._accounts = [EpisodeAccount(task) for _ in range(num_envs)]
         self._all = np.ones(num_envs, np.bool_)
         self._randoms: list[np.random.Generator | None] = [None] * num_envs
         self._seeds: list[int | None] = [None] * num_envs
@@ -216,7 +216,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         infos = {}
         for i, (start, raw) in began.items():
             self._codec.check(raw)
-            infos[i] = self._accounts[i].begin(start, raw)
+            horizon = round(self._group.horizon_s(i) * self._group.frame_hz(i))
+            infos[i] = self._accounts[i].begin(start, raw, horizon, self._group.instructions(i))
         return infos
 
     def _try_at_once(self, starts: Mapping[int, Start]) -> dict[int, tuple[Start, dict[str, Any]]] | None:

@@ -15,8 +15,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
-from stampede._core import Error
 from stampede.catalogue import Catalogue, StoredEpisode
+from stampede.faults import fault, unknown
 
 FORMATS = {
     "robomimic": "HDF5 of robomimic (arXiv:2108.03298), which robosuite and many trainers read",
@@ -75,11 +75,12 @@ def cameras_of(episode: StoredEpisode, options: argparse.Namespace) -> list[str]
     known = episode.table("cameras").values("camera")
     for camera in options.cameras:
         if camera not in known:
-            raise Error(f"episode {episode.id} has no camera '{camera}'\n    it has {', '.join(known)}")
+            raise unknown(f"episode {episode.id}", "camera", camera, map(str, known))
         if camera not in stored and not options.draw:
-            raise Error(
-                f"episode {episode.id} does not store every picture of camera '{camera}'\n"
-                "    add --draw to draw what is missing, or store it: `stampede render FILE --into`"
+            raise fault(
+                f"episode {episode.id}",
+                f"not every picture of camera '{camera}' is stored",
+                "add --draw to draw what is missing, or store it: `stampede render FILE --into`",
             )
     return list(options.cameras)
 
@@ -90,9 +91,10 @@ def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] |
     catalogue = Catalogue(options.catalogue)
     episodes = catalogue.episodes(options.where)[: options.limit]
     if not episodes:
-        raise Error(
-            f"{options.catalogue}: no episode fulfils `{options.where}`\n"
-            "    `stampede show FILE` lists them; --where takes a condition on view `episodes`"
+        raise fault(
+            options.catalogue,
+            f"no episode fulfils `{options.where}`",
+            "`stampede show FILE` lists them; --where takes a condition on view `episodes`",
         )
     folder = Path(options.out)
     _keep_manifest(folder, options)
@@ -146,7 +148,7 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
             _module(name).Writer.add_arguments(one)
     options = parser.parse_args(arguments)
     if not 0 <= options.valid < 1:
-        raise Error(f"--valid {options.valid}: it is a share, from 0 up to but not including 1")
+        raise fault("--valid", f"{options.valid} is no share", "from 0 up to but not including 1")
     return options
 
 
@@ -158,13 +160,14 @@ def _keep_manifest(folder: Path, options: argparse.Namespace) -> None:
     manifest = folder / _MANIFEST
     if manifest.exists():
         if manifest.read_text() != text:
-            raise Error(
-                f"{folder}: another export was cut off here\n"
-                f"    give the options of {manifest} to go on with it, or name another folder"
+            raise fault(
+                str(folder),
+                "another export was cut off here",
+                f"give the options of {manifest} to go on with it, or name another folder",
             )
         return
     if folder.exists() and any(folder.iterdir()):
-        raise Error(f"{folder}: the folder is not empty\n    name a new one")
+        raise fault(str(folder), "the folder is not empty", "name a new one")
     folder.mkdir(parents=True, exist_ok=True)
     manifest.write_text(text)
 

@@ -78,7 +78,7 @@ class Environment:
 
     @cached_property
     def descriptions(self) -> Descriptions:
-        return Descriptions(self._paths)
+        return Descriptions(self.session)
 
     def launch(self) -> None:
         """Reads the scripts now, and not with the first task."""

@@ -33,16 +33,6 @@ class CameraView:
     mask: np.ndarray | None = None
 
 
-def intrinsics_of_size(own: np.ndarray, height: int, width: int) -> np.ndarray:
-    """
-    Intrinsics of pictures of another size than the camera's own, `own` with its centre in the middle of the picture.
-
-    The field of view is vertical, and pixels are square.
-    """
-    focal = own[1, 1] * height / (2.0 * own[1, 2])
-    return np.array([[focal, 0.0, width / 2.0], [0.0, focal, height / 2.0], [0.0, 0.0, 1.0]])
-
-
 def camera_misc(camera: str, view: CameraView) -> dict[str, object]:
     """The camera's entries of `Observation.misc`, in RLBench's frame of the camera."""
     intrinsics = np.array(view.intrinsics, dtype=np.float64)

@@ -11,7 +11,7 @@ from stampede._core import Error
 from stampede.rlbench.backend.exceptions import InvalidActionError
 from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.observing import observation_of
-from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView, intrinsics_of_size
+from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import ObservationConfig
 
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
@@ -131,14 +131,13 @@ class Scene:
         views = {
             name: CameraView(
                 extrinsics=now[f"{name}_camera_extrinsics"],
-                # The channel is of the camera's own size, and not of the pictures'.
-                intrinsics=intrinsics_of_size(now[f"{name}_camera_intrinsics"], *camera.image_size),
+                intrinsics=now[f"{name}_camera_intrinsics"],
                 near=float(now[f"{name}_camera_near"]),
                 far=float(now[f"{name}_camera_far"]),
                 rgb=now.get(f"{name}_rgb"),
                 depth=now.get(f"{name}_depth"),
                 mask=now.get(f"{name}_mask"),
             )
-            for name, camera in self._cameras.items()
+            for name in self._cameras
         }
         return observation_of(self._config, now, views, {"variation_index": self.variation_index})

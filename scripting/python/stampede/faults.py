@@ -1,4 +1,4 @@
-"""Errors of the environments, in the form of the engine's own."""
+"""Errors of the package, in the form of the engine's own."""
 
 import difflib
 from collections.abc import Iterable
