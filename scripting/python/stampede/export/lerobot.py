@@ -1,0 +1,400 @@
+"""LeRobotDataset v3.0, or v2.1: numbers in parquet files, cameras as films, statistics.
+
+Splits are ranges of episodes, in the order train, valid, test. Skills are there as `subtask_index` (-1: none) and
+`meta/subtasks.parquet`; columns of `meta/episodes` say each episode's seed, variation, success and number of skills.
+Actions are in natural units: rad or m and rotation vectors, and the opening of the gripper in m. Poses of things,
+`observation.environment_state`, are there where all episodes have the same things.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stampede.catalogue import StoredEpisode
+from stampede.export import cameras_of, split_of
+from stampede.export.pieces import Pieces, place
+from stampede.export.steps import ACTIONS, Array, Steps
+from stampede.export.video import ENCODERS, NAMES, library, write_film
+from stampede.faults import fault
+
+_THINGS = "observation.environment_state"
+_SPLITS = ("train", "valid", "test")
+_QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
+_CHUNK = 1000  # files a folder
+_DATA_MB, _VIDEO_MB = 100, 200  # as LeRobot's own; films are one an episode
+
+_NUMBERS = {  # what LeRobot adds to every frame
+    "timestamp": "float32",
+    "frame_index": "int64",
+    "episode_index": "int64",
+    "index": "int64",
+    "task_index": "int64",
+}
+
+
+def tables() -> tuple[Any, Any, Any]:
+    """pyarrow, pyarrow.parquet and pandas. Raises ImportError that says how to install them."""
+    try:
+        import pandas
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError as error:
+        raise ImportError(f'{error.name} is missing\n    pip install "stampede[lerobot]"') from error
+    return pyarrow, pyarrow.parquet, pandas
+
+
+class Writer:
+    """Writes data/, videos/ and meta/."""
+
+    def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
+        tables()
+        library()
+        self._folder, self._options = folder, options
+        self._pieces = Pieces(folder)
+        of_split = {episode.id: split_of(episode, options.valid) for episode in episodes}
+        self._episodes = sorted(episodes, key=lambda episode: _SPLITS.index(of_split[episode.id]))
+        self._number = {episode.id: number for number, episode in enumerate(self._episodes)}
+        self._split_sizes = {split: sum(1 for one in of_split.values() if one == split) for split in _SPLITS}
+        self._tasks = _numbered([_task(episode) for episode in self._episodes])
+        self._subtasks = _numbered(self._labels())
+        rates = {episode.frame_hz for episode in episodes}
+        if len(rates) > 1 or not float(next(iter(rates))).is_integer():
+            raise fault("frame_hz", f"LeRobot knows one whole rate; there are {sorted(rates)}", "--where 'frame_hz = 20'")
+        self._fps = int(rates.pop())
+        self._cameras = cameras_of(self._episodes[0], options)
+        self._features: dict[str, Any] = {}
+
+    @staticmethod
+    def add_arguments(parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("--version", choices=("3.0", "2.1"), default="3.0", help="(default: %(default)s)")
+        parser.add_argument("--action", choices=ACTIONS, default="joint_position", help="(default: %(default)s)")
+        parser.add_argument(
+            "--encoder", choices=tuple(ENCODERS), default="libx264", help="of the films (default: %(default)s)"
+        )
+
+    def has(self, episode: StoredEpisode) -> bool:
+        return self._pieces.has(self._number[episode.id])
+
+    def write(self, episode: StoredEpisode) -> None:
+        number = self._number[episode.id]
+        if cameras_of(episode, self._options) != self._cameras:
+            raise fault(f"episode {episode.id}", "it has pictures of other cameras than the first", "--cameras NAMES")
+        steps = Steps(episode)
+        columns, names = self._columns(steps, number)
+        with self._pieces.making(number) as piece:
+            with ThreadPoolExecutor(max(1, len(self._cameras))) as threads:
+                films = [threads.submit(self._film, piece, episode, camera, steps.count) for camera in self._cameras]
+                histograms = {f"observation.images.{c}": film.result() for c, film in zip(self._cameras, films)}
+            np.savez(piece / "columns.npz", **columns)
+            np.savez(piece / "pictures.npz", **histograms)
+            sizes = {key: list(value) for key, value in self._sizes(episode).items()}
+            (piece / "names.json").write_text(json.dumps({"names": names, "sizes": sizes}))
+
+    def finish(self) -> None:
+        pieces = [self._pieces.of(number) for number in range(len(self._episodes))]
+        columns = [dict(np.load(piece / "columns.npz")) for piece in pieces]
+        described = [json.loads((piece / "names.json").read_text()) for piece in pieces]
+        names = dict(described[0]["names"])
+        if any(one["names"][_THINGS] != names[_THINGS] for one in described):
+            for one in (names, *columns):  # of several tasks: a feature is the same in all episodes
+                del one[_THINGS]
+        self._features = self._describe(names, described[0]["sizes"])
+        histograms = [dict(np.load(piece / "pictures.npz")) for piece in pieces]
+        first = 0
+        for one in columns:
+            one["index"] = np.arange(first, first + len(one["index"]), dtype=np.int64)
+            first += len(one["index"])
+        stats = [_stats(one, pictures) for one, pictures in zip(columns, histograms)]
+        whole = {name: np.concatenate([one[name] for one in columns]) for name in columns[0]}
+        pictures = {name: sum(one[name] for one in histograms) for name in histograms[0]}
+        (self._folder / "meta").mkdir(exist_ok=True)
+        if self._options.version == "3.0":
+            self._finish_3(columns, stats, _stats(whole, pictures))
+        else:
+            self._finish_2(columns, stats)
+        self._write_index("subtasks", "subtask", self._subtasks)
+        self._pieces.remove()
+
+    def close(self) -> None:
+        """No file is open between two episodes."""
+
+    # Episodes
+
+    def _labels(self) -> list[str]:
+        rows = self._episodes[0].catalogue.query(
+            "SELECT DISTINCT label FROM segments WHERE kind = 'skill' AND label != '' ORDER BY label"
+        )
+        return [str(label) for label in rows.values("label")]
+
+    def _columns(self, steps: Steps, number: int) -> tuple[dict[str, Array], dict[str, list[str]]]:
+        """Rows of all steps, and names of the components of vectors."""
+        arrays = steps.arrays
+        state = np.hstack([steps.observed("joint_positions"), steps.observed("gripper_opening")[:, None]])
+        things = steps.observed("task_low_dim_state")
+        subtask = np.full(steps.count, -1, dtype=np.int64)
+        for skill in steps.skills:
+            subtask[skill.first_frame : skill.end_frame] = self._subtasks.get(skill.label, -1)
+        done = np.zeros(steps.count, dtype=bool)
+        done[-1] = True
+        frames = np.arange(steps.count, dtype=np.int64)
+        columns = {
+            "observation.state": state.astype(np.float32),
+            _THINGS: things.astype(np.float32),
+            "action": steps.natural_actions(self._options.action).astype(np.float32),
+            "next.reward": steps.rewards.astype(np.float32),
+            "next.done": done,
+            "next.success": steps.success,
+            "subtask_index": subtask,
+            "timestamp": (frames / self._fps).astype(np.float32),
+            "frame_index": frames,
+            "episode_index": np.full(steps.count, number, dtype=np.int64),
+            "index": frames,  # counts on over episodes in the end
+            "task_index": np.full(steps.count, self._tasks[_task(steps.episode)], dtype=np.int64),
+        }
+        names = {
+            "observation.state": [*arrays.column("joint_positions").labels, "gripper"],
+            _THINGS: list(arrays.column("task_low_dim_state").labels),
+            "action": steps.action_names(self._options.action),
+        }
+        return columns, names
+
+    def _film(self, piece: Path, episode: StoredEpisode, camera: str, count: int) -> Array:
+        """Writes it; gives how often each value is in each channel: 3 x 256."""
+        pictures = episode.pictures(f"{camera}_rgb", range(count), draw=self._options.draw, threads=1)
+        if pictures.shape[1] % 2 or pictures.shape[2] % 2:
+            raise fault(f"camera {camera}", "pictures of films have an even height and width", "--cameras NAMES")
+        write_film(piece / f"{camera}.mp4", pictures, self._fps, self._options.encoder)
+        return np.stack([np.bincount(pictures[..., k].ravel(), minlength=256) for k in range(3)])
+
+    def _sizes(self, episode: StoredEpisode) -> dict[str, tuple[int, int, int]]:
+        return {
+            camera: tuple(episode.pictures(f"{camera}_rgb", [0], draw=self._options.draw).shape[1:])
+            for camera in self._cameras
+        }
+
+    # The whole
+
+    def _describe(self, names: dict[str, list[str]], sizes: dict[str, list[int]]) -> dict[str, Any]:
+        features: dict[str, Any] = {
+            name: {"dtype": "float32", "shape": [len(labels)], "names": labels} for name, labels in names.items()
+        }
+        codec = NAMES[self._options.encoder]
+        for camera, shape in sizes.items():
+            features[f"observation.images.{camera}"] = {
+                "dtype": "video",
+                "shape": shape,
+                "names": ["height", "width", "channels"],
+                "info": {
+                    "video.height": shape[0],
+                    "video.width": shape[1],
+                    "video.codec": codec,
+                    "video.pix_fmt": "yuv420p",
+                    "video.is_depth_map": False,
+                    "video.fps": self._fps,
+                    "video.channels": 3,
+                    "has_audio": False,
+                },
+            }
+        singles = {"next.reward": "float32", "next.done": "bool", "next.success": "bool", "subtask_index": "int64"}
+        for name, kind in {**singles, **_NUMBERS}.items():
+            features[name] = {"dtype": kind, "shape": [1], "names": None}
+        return features
+
+    def _info(self, frames: int) -> dict[str, Any]:
+        first, splits = 0, {}
+        for split, size in self._split_sizes.items():
+            if size:
+                splits[split] = f"{first}:{first + size}"
+            first += size
+        return {
+            "codebase_version": f"v{self._options.version}",
+            "robot_type": "panda",
+            "total_episodes": len(self._episodes),
+            "total_frames": frames,
+            "total_tasks": len(self._tasks),
+            "chunks_size": _CHUNK,
+            "fps": self._fps,
+            "splits": splits,
+            "features": self._features,
+        }
+
+    def _finish_3(self, columns: list[dict[str, Array]], stats: list[Any], whole: Any) -> None:
+        arrow, parquet, _ = tables()
+        data, rows, file, first = None, [], -1, 0
+        for number, episode in enumerate(self._episodes):
+            path = self._folder / f"data/chunk-{max(file, 0) // _CHUNK:03d}/file-{max(file, 0) % _CHUNK:03d}.parquet"
+            if data is None or path.stat().st_size > _DATA_MB * 1e6:
+                if data is not None:
+                    data.close()
+                file += 1
+                path = self._folder / f"data/chunk-{file // _CHUNK:03d}/file-{file % _CHUNK:03d}.parquet"
+                path.parent.mkdir(parents=True, exist_ok=True)
+                data = parquet.ParquetWriter(path, self._schema(), compression="snappy", use_dictionary=True)
+            data.write_table(self._table(columns[number]))  # a row group an episode
+            length = len(columns[number]["index"])
+            row: dict[str, Any] = {
+                "episode_index": number,
+                "tasks": [_task(episode)],
+                "length": length,
+                "data/chunk_index": file // _CHUNK,
+                "data/file_index": file % _CHUNK,
+                "dataset_from_index": first,
+                "dataset_to_index": first + length,
+                "meta/episodes/chunk_index": 0,
+                "meta/episodes/file_index": 0,
+                **_about(episode),
+            }
+            for camera in self._cameras:
+                key = f"observation.images.{camera}"
+                chunk, place_in_chunk = number // _CHUNK, number % _CHUNK
+                film = self._pieces.of(number) / f"{camera}.mp4"
+                place(film, self._folder / f"videos/{key}/chunk-{chunk:03d}/file-{place_in_chunk:03d}.mp4")
+                row[f"videos/{key}/chunk_index"] = chunk
+                row[f"videos/{key}/file_index"] = place_in_chunk
+                row[f"videos/{key}/from_timestamp"] = 0.0
+                row[f"videos/{key}/to_timestamp"] = length / self._fps
+            for feature, values in stats[number].items():
+                row |= {f"stats/{feature}/{name}": value for name, value in values.items()}
+            rows.append(row)
+            first += length
+        assert data is not None
+        data.close()
+        meta = self._folder / "meta"
+        episodes = meta / "episodes/chunk-000/file-000.parquet"
+        episodes.parent.mkdir(parents=True, exist_ok=True)
+        parquet.write_table(arrow.Table.from_pylist(rows), episodes)
+        self._write_index("tasks", "task", self._tasks)
+        info = self._info(first) | {
+            "data_files_size_in_mb": _DATA_MB,
+            "video_files_size_in_mb": _VIDEO_MB,
+            "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+            "video_path": "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
+            if self._cameras
+            else None,
+        }
+        (meta / "stats.json").write_text(json.dumps(whole, indent=4))
+        (meta / "info.json").write_text(json.dumps(info, indent=4))
+
+    def _finish_2(self, columns: list[dict[str, Array]], stats: list[Any]) -> None:
+        _, parquet, _ = tables()
+        meta, episodes, frames = self._folder / "meta", [], 0
+        for number, episode in enumerate(self._episodes):
+            chunk = f"chunk-{number // _CHUNK:03d}"
+            path = self._folder / f"data/{chunk}/episode_{number:06d}.parquet"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            parquet.write_table(self._table(columns[number]), path, compression="snappy")
+            for camera in self._cameras:
+                film = self._pieces.of(number) / f"{camera}.mp4"
+                place(film, self._folder / f"videos/{chunk}/observation.images.{camera}/episode_{number:06d}.mp4")
+            length = len(columns[number]["index"])
+            frames += length
+            about = {"episode_index": number, "tasks": [_task(episode)], "length": length, **_about(episode)}
+            episodes.append(about)
+        exact = {"q01", "q10", "q50", "q90", "q99"}  # v2.1 has no quantiles
+        lean = [{f: {n: v for n, v in s.items() if n not in exact} for f, s in one.items()} for one in stats]
+        _write_lines(meta / "episodes.jsonl", episodes)
+        _write_lines(meta / "tasks.jsonl", [{"task_index": k, "task": text} for text, k in self._tasks.items()])
+        _write_lines(
+            meta / "episodes_stats.jsonl", [{"episode_index": k, "stats": one} for k, one in enumerate(lean)]
+        )
+        info = self._info(frames) | {
+            "total_videos": len(self._cameras) * len(self._episodes),
+            "total_chunks": (len(self._episodes) + _CHUNK - 1) // _CHUNK,
+            "data_path": "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet",
+            "video_path": "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4"
+            if self._cameras
+            else None,
+        }
+        (meta / "info.json").write_text(json.dumps(info, indent=4))
+
+    def _schema(self) -> Any:
+        arrow, _, _ = tables()
+        kinds = {"float32": arrow.float32(), "int64": arrow.int64(), "bool": arrow.bool_()}
+        fields = []
+        for name, feature in self._features.items():
+            if feature["dtype"] != "video":
+                kind = kinds[feature["dtype"]]
+                vector = feature["names"] is not None
+                fields.append(arrow.field(name, arrow.list_(kind, feature["shape"][0]) if vector else kind))
+        return arrow.schema(fields)
+
+    def _table(self, columns: dict[str, Array]) -> Any:
+        arrow, _, _ = tables()
+        schema = self._schema()
+        values = []
+        for field in schema:
+            column = columns[field.name]
+            if column.ndim > 1:
+                flat = arrow.array(np.ascontiguousarray(column).ravel())
+                values.append(arrow.FixedSizeListArray.from_arrays(flat, column.shape[1]))
+            else:
+                values.append(arrow.array(column))
+        return arrow.Table.from_arrays(values, schema=schema)
+
+    def _write_index(self, name: str, column: str, numbers: dict[str, int]) -> None:
+        """A table whose index is the text, as LeRobot reads it."""
+        _, _, pandas = tables()
+        frame = pandas.DataFrame({f"{column}_index": list(numbers.values())}, index=list(numbers))
+        frame.index.name = column
+        frame.to_parquet(self._folder / f"meta/{name}.parquet")
+
+
+def _task(episode: StoredEpisode) -> str:
+    sentences = episode.instructions()
+    return sentences[0] if sentences else f"{episode.task} {episode.variation}".strip()
+
+
+def _about(episode: StoredEpisode) -> dict[str, Any]:
+    """Columns of ours, to filter by."""
+    return {
+        "stampede/task": episode.task,
+        "stampede/variation": episode.variation,
+        "stampede/seed": episode.seed,
+        "stampede/success": episode.success,
+        "stampede/skills": sum(1 for segment in episode.segments if segment.kind == "skill"),
+    }
+
+
+def _numbered(texts: Sequence[str]) -> dict[str, int]:
+    return {text: number for number, text in enumerate(dict.fromkeys(texts))}
+
+
+def _stats(columns: dict[str, Array], histograms: dict[str, Array]) -> dict[str, dict[str, Any]]:
+    """Of each feature; of pictures by channel, 3 x 1 x 1, values of 0 … 1."""
+    stats = {}
+    for name, values in columns.items():
+        rows = values.reshape(len(values), -1).astype(np.float64)
+        stats[name] = {
+            "min": rows.min(axis=0).tolist(),
+            "max": rows.max(axis=0).tolist(),
+            "mean": rows.mean(axis=0).tolist(),
+            "std": rows.std(axis=0).tolist(),
+            "count": [len(rows)],
+            **{key: np.quantile(rows, share, axis=0).tolist() for key, share in _QUANTILES.items()},
+        }
+    levels = np.arange(256) / 255
+    for name, counts in histograms.items():
+        share = counts / counts.sum(axis=1, keepdims=True)
+        mean = share @ levels
+        below = np.cumsum(share, axis=1)
+        one = {
+            "min": [levels[row > 0].min() for row in counts],
+            "max": [levels[row > 0].max() for row in counts],
+            "mean": mean,
+            "std": np.sqrt(np.maximum(share @ levels**2 - mean**2, 0)),
+            **{key: [levels[np.searchsorted(row, q)] for row in below] for key, q in _QUANTILES.items()},
+        }
+        stats[name] = {key: np.asarray(value, dtype=np.float64).reshape(3, 1, 1).tolist() for key, value in one.items()}
+        stats[name]["count"] = [len(next(iter(columns.values())))]
+    return stats
+
+
+def _write_lines(path: Path, rows: Sequence[dict[str, Any]]) -> None:
+    path.write_text("".join(json.dumps(row) + "\n" for row in rows))
