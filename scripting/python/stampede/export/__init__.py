@@ -24,7 +24,6 @@ FORMATS = {
     "mimicgen": "source demonstrations of MimicGen (arXiv:2310.17596), with subtask signals from our segments",
     "maniskill": "trajectories of ManiSkill (arXiv:2410.00425): HDF5 and JSON",
     "lerobot": "LeRobotDataset v3.0, or v2.1: parquet and videos",
-    "rlds": "RLDS (arXiv:2111.02767): TFRecord files as TensorFlow Datasets reads them",
     "mcap": "MCAP files with Foxglove's schemas, one an episode",
     "rlbench": "RLBench's folders of pictures and pickled demos",
 }

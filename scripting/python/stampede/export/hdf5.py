@@ -23,11 +23,11 @@ def library() -> Any:
     return h5py
 
 
-def add_action_argument(parser: argparse.ArgumentParser, default: str) -> None:
+def add_action_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--action",
         choices=ACTIONS,
-        default=default,
+        default="joint_position",
         help="space of the actions, -1 to 1 as stampede.Env(normalise_actions=True) has it (default: %(default)s)",
     )
 

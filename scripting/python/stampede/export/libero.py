@@ -33,7 +33,7 @@ class Writer:
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:
-        add_action_argument(parser, "tool_delta")
+        add_action_argument(parser)
 
     def has(self, episode: StoredEpisode) -> bool:
         return self._demos.has(episode)

@@ -39,7 +39,7 @@ class Writer:
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:
-        add_action_argument(parser, "joint_position")
+        add_action_argument(parser)
 
     def has(self, episode: StoredEpisode) -> bool:
         return self._growing.has(f"traj_{self._number[episode.id]}")

@@ -38,7 +38,7 @@ class Writer:
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:
-        add_action_argument(parser, "tool_delta")
+        add_action_argument(parser)
         parser.add_argument("--next-obs", action="store_true", help="also the observation after each action")
 
     def has(self, episode: StoredEpisode) -> bool:

@@ -1,0 +1,327 @@
+"""Exported datasets, read back by the libraries that their readers use; exports that are cut off, and bad input."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import stampede
+from stampede.export import export
+from stampede.export.steps import JOINT_SPEED, TOOL_SPEED, Steps, matrices, rotation_vectors
+
+FORMATS = ["robomimic", "libero", "mimicgen", "maniskill", "lerobot", "mcap"]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("export") / "demos.db"
+    session = stampede.Session(catalogue=path)
+    pictures = {"cameras": ["front", "wrist"], "width": 32, "height": 24, "depth": False, "mask": False}
+    pictures["semantic_mask"] = False
+    tally = session.run_all(["pick_and_lift"], episodes=3, seed=7, pictures=pictures)
+    tally = session.run_all(["reach_target"], episodes=1, seed=1_000_000, pictures=pictures)
+    assert tally.succeeded == 1 and len(stampede.Catalogue(path)) == 4
+    return path
+
+
+def run(made: Path, folder: Path, name: str, *options: str) -> Path:
+    export([name, str(made), "--out", str(folder), *options], tell=lambda line: None)
+    assert not list(folder.rglob("*.part")) and not list(folder.rglob(".pieces"))
+    return folder
+
+
+def test_turns_and_matrices() -> None:
+    half = np.sqrt(0.5)
+    start, end = np.array([[0, 0, 0, 1.0]]), np.array([[0, 0, half, half]])
+    assert np.allclose(rotation_vectors(start, end), [[0, 0, np.pi / 2]])
+    assert np.allclose(rotation_vectors(end, start), [[0, 0, -np.pi / 2]])
+    assert np.allclose(rotation_vectors(start, -end), [[0, 0, np.pi / 2]])  # the same turn
+    assert np.allclose(rotation_vectors(end, end), 0)
+    matrix = matrices(np.array([[1.0, 2, 3, 0, 0, half, half]]))[0]
+    assert np.allclose(matrix @ [1, 0, 0, 1], [1, 3, 3, 1])
+
+
+def test_exported_joint_positions_do_the_task_in_the_environment(made: Path) -> None:
+    """They are what Env takes, so the task succeeds when they are played back."""
+    episode = stampede.Catalogue(made)[1]
+    actions = Steps(episode).actions("joint_position")
+    assert actions.dtype == np.float32 and np.abs(actions).max() <= 1 and len(actions) == episode.frames - 1
+    env = stampede.Env("pick_and_lift", action="joint_position", normalise_actions=True)
+    env.reset(options={"variation": episode.variation, "seed": episode.seed})
+    for action in [*actions, *[actions[-1]] * 20]:
+        *_, terminated, truncated, info = env.step(action)
+        if terminated or truncated:
+            break
+    assert info["success"]
+
+
+@pytest.mark.parametrize("kind", ["joint_delta", "tool_delta"])
+def test_deltas_add_up_to_the_path_of_the_reference(made: Path, kind: str) -> None:
+    steps = Steps(stampede.Catalogue(made)[1])
+    path = steps.commanded_joints if kind == "joint_delta" else steps.commanded_tool[:, :3]
+    width = path.shape[1]
+    natural = steps.natural_actions(kind)
+    assert np.allclose(path[0] + natural[:, :width].cumsum(axis=0), path[1:])
+    actions = steps.actions(kind)
+    assert np.abs(actions).max() <= 1 and actions.shape == natural.shape
+    assert np.allclose(actions[:, :width] * steps.bounds(kind)[1][:width], natural[:, :width], atol=1e-6)
+
+
+def test_scales_are_those_of_the_action_spaces() -> None:
+    world = stampede.Session().environment("reach_target", channels=["time"])
+    world.reset(stampede.Reset(seed=1))
+    upper = {space.name: [one.upper for one in space.components] for space in world.spaces()}
+    assert np.allclose(upper["joint_delta"], JOINT_SPEED / world.frame_hz)
+    assert np.allclose(upper["tool_delta"], TOOL_SPEED / world.frame_hz)
+
+
+def test_robomimic(made: Path, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    folder = run(made, tmp_path / "out", "robomimic", "--valid", "0.5", "--next-obs")
+    assert sorted(p.name for p in folder.iterdir()) == ["pick_and_lift.hdf5", "reach_target.hdf5"]
+    episode = stampede.Catalogue(made)[1]
+    with h5py.File(folder / "pick_and_lift.hdf5") as file:
+        data = file["data"]
+        assert sorted(data) == ["demo_0", "demo_1", "demo_2"]
+        assert data.attrs["total"] == sum(demo.attrs["num_samples"] for demo in data.values())
+        environment = json.loads(data.attrs["env_args"])
+        assert environment["env_name"] == "stampede/pick_and_lift" and environment["type"] == environment["env_type"] == 2
+        demo = data["demo_0"]
+        n = demo.attrs["num_samples"]
+        assert n == episode.frames - 1 and set(demo.attrs) == {"num_samples", "ep_meta"}
+        assert demo["actions"].shape == (n, 8) and demo["actions"].dtype == np.float32
+        assert demo["states"].shape == (n, len(data.attrs["state_names"]))
+        assert demo["obs/front_image"].shape == (n, 24, 32, 3)
+        assert np.array_equal(demo["obs/front_image"][5], episode.pictures("front_rgb", [5])[0])
+        assert np.array_equal(demo["next_obs/front_image"][5], episode.pictures("front_rgb", [6])[0])
+        assert np.array_equal(demo["obs/robot0_eef_pos"][:], episode.arrays("gripper_pose")["gripper_pose"][:-1, :3])
+        assert demo["rewards"][-1] == demo["dones"][-1] == 1 and demo["dones"][:-1].sum() == 0
+        meta = json.loads(demo.attrs["ep_meta"])
+        assert meta["seed"] == episode.seed and [s["skill"] for s in meta["segments"]] == ["pick", "lift"]
+        masks = {name: {text.decode() for text in rows[:]} for name, rows in file["mask"].items()}
+        assert "test" not in masks and set().union(*masks.values()) == set(data)
+        assert sum(len(names) for names in masks.values()) == 3
+    with h5py.File(folder / "reach_target.hdf5") as file:
+        assert list(file["mask"]) == ["test"]
+
+
+def test_mimicgen_has_a_signal_at_the_end_of_each_skill(made: Path, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    folder = run(made, tmp_path / "out", "mimicgen", "--where", "task = 'pick_and_lift'", "--cameras", "")
+    steps = Steps(stampede.Catalogue(made)[1])
+    with h5py.File(folder / "pick_and_lift.hdf5") as file:
+        info = file["data/demo_0/datagen_info"]
+        assert list(info["subtask_term_signals"]) == ["pick_1"]  # the last skill has none
+        signal = info["subtask_term_signals/pick_1"][:]
+        assert np.flatnonzero(np.diff(signal) == 1).tolist() == [steps.skills[0].end_frame - 2]
+        assert info["eef_pose"].shape == info["target_pose"].shape == (steps.count, 4, 4)
+        assert info["gripper_action"].shape == (steps.count, 1)
+        spec = json.loads(file["data"].attrs["task_spec"])[steps.episode.variation]
+        thing = steps.skills[0].arguments[0]
+        assert spec == [{"signal": "pick_1", "object_ref": thing}, {"signal": None, "object_ref": thing}]
+        pose = info[f"object_poses/{thing}"][0]
+        place = steps.episode.arrays(f"object_pose/{thing}")[f"object_pose/{thing}"][0, :3]
+        assert np.allclose(pose[:3, 3], place)
+
+
+def test_libero(made: Path, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    folder = run(made, tmp_path / "out", "libero", "--where", "task = 'pick_and_lift'")
+    files = sorted(folder.iterdir())
+    assert len(files) == 3 and all(path.name.endswith("_demo.hdf5") for path in files)
+    with h5py.File(files[0]) as file:
+        data = file["data"]
+        problem = json.loads(data.attrs["problem_info"])
+        assert problem["language_instruction"] and data.attrs["num_demos"] == 1
+        demo = data["demo_0"]
+        n = demo.attrs["num_samples"]
+        shapes = {"agentview_rgb": (24, 32, 3), "eye_in_hand_rgb": (24, 32, 3), "gripper_states": (2,), "ee_pos": (3,)}
+        shapes |= {"joint_states": (7,), "ee_states": (6,), "ee_ori": (3,)}
+        assert {name: one.shape for name, one in demo["obs"].items()} == {k: (n, *s) for k, s in shapes.items()}
+        assert demo["robot_states"].shape == (n, 9) and demo["dones"].dtype == np.uint8
+        assert demo["dones"][:].sum() == demo["dones"][-1] == 1
+
+
+def test_maniskill(made: Path, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    folder = run(made, tmp_path / "out", "maniskill", "--where", "task = 'pick_and_lift'")
+    path = folder / "trajectory.rgb.pd_joint_pos.bullet_cpu.h5"
+    described = json.loads(path.with_suffix(".json").read_text())
+    assert [one["episode_id"] for one in described["episodes"]] == [0, 1, 2]
+    episode = stampede.Catalogue(made)[1]
+    with h5py.File(path) as file:
+        assert sorted(file) == ["traj_0", "traj_1", "traj_2"]
+        one = file["traj_0"]
+        frames = episode.frames
+        assert one["actions"].shape == (frames - 1, 8) and one["success"][-1] and not one["truncated"][:].any()
+        assert one["obs/agent/qpos"].shape == (frames, 9) and one["obs/extra/tcp_pose"].shape == (frames, 7)
+        assert one["env_states/articulations/panda"].shape == (frames, 31)
+        assert all(actor.shape == (frames, 13) for actor in one["env_states/actors"].values())
+        assert np.allclose(one["obs/extra/tcp_pose"][:, 3], episode.arrays("gripper_pose")["gripper_pose"][:, 6])
+        assert one["obs/sensor_data/front/rgb"].shape == (frames, 24, 32, 3)
+        assert described["episodes"][0]["elapsed_steps"] == frames - 1
+
+
+def _film(path: Path) -> tuple[list[float], np.ndarray]:
+    av = pytest.importorskip("av")
+    with av.open(str(path)) as film:
+        frames = [(float(frame.time), frame.to_ndarray(format="rgb24")) for frame in film.decode(video=0)]
+    return [time for time, _ in frames], np.stack([picture for _, picture in frames])
+
+
+def test_lerobot_3(made: Path, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("av")
+    folder = run(made, tmp_path / "out", "lerobot", "--where", "task = 'pick_and_lift'", "--valid", "0")
+    info = json.loads((folder / "meta/info.json").read_text())
+    demos = stampede.Catalogue(made).demos("task = 'pick_and_lift'")
+    lengths = [episode.frames - 1 for episode in demos]
+    assert info["codebase_version"] == "v3.0" and info["total_frames"] == sum(lengths) and info["fps"] == 20
+    assert info["splits"] == {"train": "0:3"}
+    data = parquet.ParquetFile(folder / "data/chunk-000/file-000.parquet")
+    assert data.num_row_groups == 3  # one an episode
+    table = data.read().to_pydict()
+    videos = {name for name, feature in info["features"].items() if feature["dtype"] == "video"}
+    assert set(table) == set(info["features"]) - videos and len(videos) == 2
+    assert table["index"] == list(range(sum(lengths))) and table["frame_index"][: lengths[0]] == list(range(lengths[0]))
+    assert np.allclose(np.array(table["timestamp"]) * 20, table["frame_index"])
+    assert len(table["observation.state"][0]) == len(info["features"]["observation.state"]["names"]) == 8
+    tasks = pandas.read_parquet(folder / "meta/tasks.parquet")
+    assert tasks.index[table["task_index"][0]] == demos[0].instructions()[0]
+    subtasks = pandas.read_parquet(folder / "meta/subtasks.parquet")
+    label = subtasks.index[table["subtask_index"][0]]
+    assert label.startswith("pick up") and label == Steps(demos[0]).skills[0].label
+    episodes = pandas.read_parquet(folder / "meta/episodes/chunk-000/file-000.parquet")
+    assert episodes["length"].tolist() == lengths and episodes["stampede/seed"].tolist() == [e.seed for e in demos]
+    stats = json.loads((folder / "meta/stats.json").read_text())
+    assert np.allclose(stats["action"]["mean"], np.mean(table["action"], axis=0), atol=1e-5)
+    assert np.shape(stats["observation.images.front"]["mean"]) == (3, 1, 1)
+
+    times, pictures = _film(folder / "videos/observation.images.front/chunk-000/file-001.mp4")
+    assert np.abs(np.array(times) * 20 - np.arange(lengths[1])).max() < 1e-3
+    original = demos[1].pictures("front_rgb", range(lengths[1])).astype(float)
+    assert np.abs(pictures - original).mean() < 6
+    mean = original.reshape(-1, 3).mean(axis=0) / 255
+    assert np.allclose(np.ravel(episodes["stats/observation.images.front/mean"][1].tolist()), mean, atol=1e-6)
+
+
+def test_lerobot_21(made: Path, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    pytest.importorskip("av")
+    folder = run(made, tmp_path / "out", "lerobot", "--version", "2.1", "--valid", "0")
+    info = json.loads((folder / "meta/info.json").read_text())
+    assert info["codebase_version"] == "v2.1" and info["total_videos"] == 8
+    assert info["splits"] == {"train": "0:3", "test": "3:4"}
+    assert "observation.environment_state" not in info["features"]  # two tasks have other things
+    lines = [json.loads(line) for line in (folder / "meta/episodes.jsonl").read_text().splitlines()]
+    for number, line in enumerate(lines):
+        table = parquet.read_table(folder / f"data/chunk-000/episode_{number:06d}.parquet")
+        assert table.num_rows == line["length"] and set(table["episode_index"].to_pylist()) == {number}
+        times, _ = _film(folder / f"videos/chunk-000/observation.images.wrist/episode_{number:06d}.mp4")
+        assert len(times) == line["length"]
+    stats = [json.loads(line) for line in (folder / "meta/episodes_stats.jsonl").read_text().splitlines()]
+    assert set(stats[0]["stats"]["action"]) == {"min", "max", "mean", "std", "count"}
+
+
+def test_mcap(made: Path, tmp_path: Path) -> None:
+    reader = pytest.importorskip("mcap.reader")
+    folder = run(made, tmp_path / "out", "mcap", "--where", "task = 'pick_and_lift'", "--limit", "1")
+    episode = stampede.Catalogue(made)[1]
+    messages: dict[str, list[tuple[float, Any]]] = {}
+    with next(folder.iterdir()).open("rb") as stream:
+        file = reader.make_reader(stream)
+        for schema, channel, message in file.iter_messages():
+            assert json.loads(schema.data)["type"] == "object"
+            messages.setdefault(channel.topic, []).append((message.log_time / 1e9, json.loads(message.data)))
+        about = next(iter(file.iter_metadata())).metadata
+    assert about["task"] == "pick_and_lift" and about["seed"] == str(episode.seed)
+    assert len(messages["/tf"]) == len(messages["/camera/front/image"]) == episode.frames
+    assert messages["/tf"][20][0] == pytest.approx(1.0)
+    tool = messages["/tf"][20][1]["transforms"][0]
+    place = episode.arrays("gripper_pose")["gripper_pose"][20]
+    assert [tool["translation"][axis] for axis in "xyz"] == pytest.approx(place[:3].tolist())
+    skills = Steps(episode).skills
+    assert [text["message"] for _, text in messages["/skills"]][0] == skills[0].label
+    assert {cube["id"] for cube in messages["/scene"][0][1]["entities"]} >= {skills[0].arguments[0]}
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_an_export_that_was_cut_off_goes_on(
+    made: Path, tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip({"lerobot": "av", "mcap": "mcap"}.get(name, "h5py"))
+    module = __import__(f"stampede.export.{name}", fromlist=["Writer"])
+    written: list[int] = []
+    write = module.Writer.write
+
+    def cut_off(self: Any, episode: stampede.StoredEpisode) -> None:
+        if len(written) == 1:
+            raise KeyboardInterrupt
+        written.append(episode.id)
+        write(self, episode)
+
+    folder = tmp_path / "out"
+    arguments = [name, str(made), "--out", str(folder), "--where", "task = 'pick_and_lift'", "--cameras", "front"]
+    monkeypatch.setattr(module.Writer, "write", cut_off)
+    with pytest.raises(KeyboardInterrupt):
+        export(arguments, tell=lambda line: None)
+    finals = [p for p in folder.rglob("*") if p.suffix in (".hdf5", ".h5", ".parquet", ".mcap") and ".pieces" not in p.parts]
+    assert len(finals) == (1 if name == "mcap" else 0)  # mcap has a file an episode
+
+    monkeypatch.setattr(module.Writer, "write", lambda self, episode: (written.append(episode.id), write(self, episode)))
+    with pytest.raises(stampede.Error, match="another export was cut off here"):
+        export([*arguments, "--limit", "2"], tell=lambda line: None)
+    assert export(arguments, tell=lambda line: None) == 3
+    assert sorted(written) == [1, 2, 3]  # the first was not written twice
+    whole = run(made, tmp_path / "whole", *arguments[:1], *arguments[4:])
+    assert {p.relative_to(folder) for p in folder.rglob("*")} == {p.relative_to(whole) for p in whole.rglob("*")}
+
+
+def test_a_file_that_was_killed_in_the_middle_is_begun_anew(made: Path, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    from stampede.export.hdf5 import GrowingFile
+
+    part = tmp_path / "demos.hdf5.part"
+    part.write_bytes(b"\x89HDF\r\n\x1a\n" + b"cut" * 100)
+    growing = GrowingFile(tmp_path / "demos.hdf5")
+    growing.begin("data/demo_0")  # and this one never ends
+    growing.close()
+    growing = GrowingFile(tmp_path / "demos.hdf5")
+    assert not growing.has("data/demo_0")
+    growing.end(growing.begin("data/demo_0"))
+    growing.finish()
+    assert not part.exists() and isinstance(h5py.File(tmp_path / "demos.hdf5")["data/demo_0"], h5py.Group)
+
+
+def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
+    def of(*options: str) -> list[str]:
+        return [*options, "--out", str(tmp_path / "out")]
+
+    with pytest.raises(stampede.Error, match="no episode fulfils"):
+        export(of("robomimic", str(made), "--where", "split = 'test' AND task = 'pick_and_lift'"))
+    with pytest.raises(stampede.Error, match="no such column"):
+        export(of("robomimic", str(made), "--where", "colour = 'red'"))
+    with pytest.raises(stampede.CatalogueError, match="none.db"):
+        export(of("robomimic", str(tmp_path / "none.db")))
+    with pytest.raises(stampede.Error, match="no share"):
+        export(of("robomimic", str(made), "--valid", "1.5"))
+    with pytest.raises(stampede.Error, match="did you mean 'front'"):
+        export(["robomimic", str(made), "--out", str(tmp_path / "cameras"), "--cameras", "fornt"])
+    with pytest.raises(stampede.Error, match="--draw"):
+        export(["robomimic", str(made), "--out", str(tmp_path / "draw"), "--cameras", "overhead"])
+    with pytest.raises(SystemExit):
+        export(of("robomimick", str(made)))
+    assert "robomimick" in capsys.readouterr().err
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "thesis.txt").write_text("mine")
+    with pytest.raises(stampede.Error, match="not empty"):
+        export(["robomimic", str(made), "--out", str(tmp_path / "full")])
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    with pytest.raises(ImportError, match=r"stampede\[hdf5\]"):
+        export(["robomimic", str(made), "--out", str(tmp_path / "missing")])
