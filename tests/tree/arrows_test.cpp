@@ -102,7 +102,20 @@ TEST_CASE("every folder with sources is a room, and in main.cpp all meet") {
       const std::string shown = fs::relative(file, kRoot).string();
       INFO(shown);
       CHECK((!room_of(shown, arrows).empty() || shown.find("/include/stampede/") != std::string::npos ||
-             shown.starts_with("engine/cmake/") || shown == "scripting/main.cpp"));
+             shown.starts_with("engine/cmake/") || shown.starts_with("scripting/python/core/") ||
+             shown == "scripting/main.cpp"));
+    }
+}
+
+TEST_CASE("the Python module is an embedder: it sees public headers and its own alone") {
+  const std::vector<fs::path> files = sources("scripting/python/core");
+  CHECK(files.size() > 4);
+  for (const fs::path& file : files)
+    for (const std::string& include : includes(file)) {
+      INFO(file << " includes " << include);
+      const bool own = fs::exists(file.parent_path() / include);
+      CHECK((own || include.starts_with("stampede/") || include.starts_with("nanobind/") ||
+             include.find('/') == std::string::npos));
     }
 }
 
@@ -125,9 +138,9 @@ TEST_CASE("each library is known to one folder") {
 }
 
 TEST_CASE("the root holds the nine names and what tools insist on") {
-  const std::set<std::string> allowed = {"CMakeLists.txt",   "engine", "scripting", "tasks",     "skills",
-                                         "worlds",           "db",     "tests",     "README.md", "LICENSE",
-                                         "CMakePresets.json"};
+  const std::set<std::string> allowed = {
+      "CMakeLists.txt", "engine",  "scripting",         "tasks",         "skills", "worlds", "db", "tests",
+      "README.md",      "LICENSE", "CMakePresets.json", "pyproject.toml"};
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();
     INFO(name);
