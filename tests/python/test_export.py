@@ -90,7 +90,8 @@ def test_robomimic(made: Path, tmp_path: Path) -> None:
         assert sorted(data) == ["demo_0", "demo_1", "demo_2"]
         assert data.attrs["total"] == sum(demo.attrs["num_samples"] for demo in data.values())
         environment = json.loads(data.attrs["env_args"])
-        assert environment["env_name"] == "stampede/pick_and_lift" and environment["type"] == environment["env_type"] == 2
+        assert environment["env_name"] == "stampede/pick_and_lift"
+        assert environment["type"] == environment["env_type"] == 2
         demo = data["demo_0"]
         n = demo.attrs["num_samples"]
         assert n == episode.frames - 1 and set(demo.attrs) == {"num_samples", "ep_meta"}
@@ -271,10 +272,15 @@ def test_an_export_that_was_cut_off_goes_on(
     monkeypatch.setattr(module.Writer, "write", cut_off)
     with pytest.raises(KeyboardInterrupt):
         export(arguments, tell=lambda line: None)
-    finals = [p for p in folder.rglob("*") if p.suffix in (".hdf5", ".h5", ".parquet", ".mcap") and ".pieces" not in p.parts]
+    endings = (".hdf5", ".h5", ".parquet", ".mcap")
+    finals = [p for p in folder.rglob("*") if p.suffix in endings and ".pieces" not in p.parts]
     assert len(finals) == (1 if name == "mcap" else 0)  # mcap has a file an episode
 
-    monkeypatch.setattr(module.Writer, "write", lambda self, episode: (written.append(episode.id), write(self, episode)))
+    def counted(self: Any, episode: stampede.StoredEpisode) -> None:
+        written.append(episode.id)
+        write(self, episode)
+
+    monkeypatch.setattr(module.Writer, "write", counted)
     with pytest.raises(stampede.Error, match="another export was cut off here"):
         export([*arguments, "--limit", "2"], tell=lambda line: None)
     assert export(arguments, tell=lambda line: None) == 3

@@ -15,18 +15,15 @@ namespace {
 
 using namespace nb::literals;
 
-// Several Python objects look at the memory of one.
-using SharedArrays = std::shared_ptr<const EpisodeArrays>;
-
 // Keeps the arrays alive while numpy looks at them.
-nb::capsule owner_of(const SharedArrays& arrays) {
-  return nb::capsule(new SharedArrays(arrays), [](void* held) noexcept { delete static_cast<SharedArrays*>(held); });
+nb::capsule owner_of(const SharedArrays& shared) {
+  return nb::capsule(new SharedArrays(shared), [](void* held) noexcept { delete static_cast<SharedArrays*>(held); });
 }
 
-nb::object view_of(const SharedArrays& arrays, const ArrayColumn& column) {
-  const nb::capsule owner = owner_of(arrays);
+NumpyArray view_of(const SharedArrays& shared, const ArrayColumn& column) {
+  const nb::capsule owner = owner_of(shared);
   return std::visit(
-      [&](const auto& values) -> nb::object {
+      [&](const auto& values) -> NumpyArray {
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
         if constexpr (std::is_same_v<Value, std::uint8_t>) {
           return numpy_view<Value, bool>(values.data(), column.shape, owner);
@@ -37,19 +34,15 @@ nb::object view_of(const SharedArrays& arrays, const ArrayColumn& column) {
       column.data);
 }
 
-struct PyArrays {
-  SharedArrays arrays;
-};
-
 struct PyColumn {
-  SharedArrays arrays;
+  SharedArrays shared;
   const ArrayColumn* column;
 };
 
-PyColumn column_of(const PyArrays& self, const std::string& name) { return {self.arrays, &self.arrays->column(name)}; }
+PyColumn column_of(const SharedArrays& self, const std::string& name) { return {self, &self.arrays->column(name)}; }
 
-nb::dict picture_of(CameraPicture picture) {
-  nb::dict result;
+NamedArrays picture_of(CameraPicture picture) {
+  NamedArrays result;
   const std::vector<std::int64_t> shape = {picture.height, picture.width};
   if (!picture.rgb.empty()) result["rgb"] = numpy_array(std::move(picture.rgb), {shape[0], shape[1], 3});
   if (!picture.depth.empty()) result["depth"] = numpy_array(std::move(picture.depth), shape);
@@ -63,9 +56,11 @@ nb::dict picture_of(CameraPicture picture) {
   return result;
 }
 
-nb::tuple answer_of(const Rows& rows) { return nb::make_tuple(rows.columns, rows_of(rows)); }
+nb::typed<nb::tuple, std::vector<std::string>, nb::typed<nb::list, nb::tuple>> answer_of(const Rows& rows) {
+  return nb::make_tuple(rows.columns, rows_of(rows));
+}
 
-nb::object pictures_of(const CatalogueReader& self, std::int64_t episode, const std::string& column,
+NumpyArray pictures_of(const CatalogueReader& self, std::int64_t episode, const std::string& column,
                        std::vector<std::int64_t> frames, bool draw, int threads) {
   PictureFrames all;
   {
@@ -87,7 +82,7 @@ void bind_arrays(nb::module_& module) {
       .def_prop_ro(
           "labels", [](const PyColumn& c) { return c.column->labels; }, "of the last axis")
       .def_prop_ro(
-          "values", [](const PyColumn& c) { return view_of(c.arrays, *c.column); },
+          "values", [](const PyColumn& c) { return view_of(c.shared, *c.column); },
           "numpy array without a copy, read-only; a row a frame");
   nb::class_<ArraySegment>(module, "Segment", "A labelled stretch of an episode.")
       .def_ro("id", &ArraySegment::id)
@@ -112,38 +107,38 @@ void bind_arrays(nb::module_& module) {
       .def_ro("shape", &ArrayPictures::shape)
       .def_ro("unit", &ArrayPictures::unit)
       .def_ro("stored", &ArrayPictures::stored, "frames whose picture the catalogue keeps");
-  nb::class_<PyArrays>(module, "EpisodeArrays", R"(One episode as named numpy arrays: `arrays["joint_positions"]`.
+  nb::class_<SharedArrays>(module, "EpisodeArrays", R"(One episode as named numpy arrays: `arrays["joint_positions"]`.
 
 Names, shapes, units and frames of reference: engine/episode/README.md. Memory is shared, read-only.)")
-      .def_prop_ro("task", [](const PyArrays& a) { return a.arrays->task; })
-      .def_prop_ro("variation", [](const PyArrays& a) { return a.arrays->variation; })
-      .def_prop_ro("seed", [](const PyArrays& a) { return a.arrays->seed; })
-      .def_prop_ro("frames", [](const PyArrays& a) { return a.arrays->frames; })
-      .def_prop_ro("frame_hz", [](const PyArrays& a) { return a.arrays->frame_hz; })
+      .def_prop_ro("task", [](const SharedArrays& a) { return a.arrays->task; })
+      .def_prop_ro("variation", [](const SharedArrays& a) { return a.arrays->variation; })
+      .def_prop_ro("seed", [](const SharedArrays& a) { return a.arrays->seed; })
+      .def_prop_ro("frames", [](const SharedArrays& a) { return a.arrays->frames; })
+      .def_prop_ro("frame_hz", [](const SharedArrays& a) { return a.arrays->frame_hz; })
       .def_prop_ro(
-          "atoms", [](const PyArrays& a) { return a.arrays->atoms; }, "of `facts` and `known`")
+          "atoms", [](const SharedArrays& a) { return a.arrays->atoms; }, "of `facts` and `known`")
       .def_prop_ro(
-          "segments", [](const PyArrays& a) { return a.arrays->segments; }, "by id")
+          "segments", [](const SharedArrays& a) { return a.arrays->segments; }, "by id")
       .def_prop_ro(
-          "skills", [](const PyArrays& a) { return a.arrays->skills; }, "of `applicable`")
-      .def_prop_ro("agent_actions", [](const PyArrays& a) { return a.arrays->agent_actions; })
+          "skills", [](const SharedArrays& a) { return a.arrays->skills; }, "of `applicable`")
+      .def_prop_ro("agent_actions", [](const SharedArrays& a) { return a.arrays->agent_actions; })
       .def_prop_ro(
-          "pictures", [](const PyArrays& a) { return a.arrays->pictures; }, "those that can be drawn")
+          "pictures", [](const SharedArrays& a) { return a.arrays->pictures; }, "those that can be drawn")
       .def("column", &column_of, "name"_a, "The array with unit, frame of reference and labels.")
-      .def("__getitem__", [](const PyArrays& self,
-                             const std::string& name) { return view_of(self.arrays, self.arrays->column(name)); })
+      .def("__getitem__",
+           [](const SharedArrays& self, const std::string& name) { return view_of(self, self.arrays->column(name)); })
       .def("__contains__",
-           [](const PyArrays& self, const std::string& name) { return self.arrays->find(name) != nullptr; })
+           [](const SharedArrays& self, const std::string& name) { return self.arrays->find(name) != nullptr; })
       .def("keys",
-           [](const PyArrays& self) {
+           [](const SharedArrays& self) {
              std::vector<std::string> names;
              for (const ArrayColumn& column : self.arrays->columns) names.push_back(column.name);
              return names;
            })
-      .def("__len__", [](const PyArrays& self) { return self.arrays->columns.size(); })
+      .def("__len__", [](const SharedArrays& self) { return self.arrays->columns.size(); })
       .def(
           "pose_in",
-          [](const PyArrays& self, const std::string& object, const std::string& reference) {
+          [](const SharedArrays& self, const std::string& object, const std::string& reference) {
             ArrayColumn column = self.arrays->pose_in(object, reference);
             return numpy_array(std::get<std::vector<double>>(std::move(column.data)), column.shape);
           },
@@ -173,13 +168,11 @@ void bind_states(nb::module_& module) {
 
 }  // namespace
 
-nb::object arrays_object(EpisodeArrays arrays) {
-  return nb::cast(PyArrays{std::make_shared<const EpisodeArrays>(std::move(arrays))});
-}
+SharedArrays shared_arrays(EpisodeArrays arrays) { return {std::make_shared<const EpisodeArrays>(std::move(arrays))}; }
 
-nb::dict picture_object(CameraPicture picture) { return picture_of(std::move(picture)); }
+NamedArrays picture_object(CameraPicture picture) { return picture_of(std::move(picture)); }
 
-nb::dict points_object(CameraPoints points) {
+NamedArrays points_object(CameraPoints points) {
   const auto flat = [](const auto& rows) {
     using Value = typename std::remove_cvref_t<decltype(rows)>::value_type::value_type;
     std::vector<Value> values;
@@ -188,7 +181,7 @@ nb::dict points_object(CameraPoints points) {
     return numpy_array(std::move(values), {static_cast<std::int64_t>(rows.size()), 3});
   };
   const auto count = static_cast<std::int64_t>(points.positions.size());
-  nb::dict result;
+  NamedArrays result;
   result["positions"] = flat(points.positions);
   if (!points.colours.empty()) result["colours"] = flat(points.colours);
   if (!points.instance.empty()) result["mask"] = numpy_array(std::move(points.instance), {count});
@@ -229,7 +222,7 @@ void bind_catalogue(nb::module_& module) {
               const nb::gil_scoped_release free;
               arrays = self.arrays(episode, {std::move(columns)});
             }
-            return arrays_object(std::move(arrays));
+            return shared_arrays(std::move(arrays));
           },
           "episode"_a, "columns"_a = std::vector<std::string>(),
           "Columns or groups by name; none: all but `applicable`.")

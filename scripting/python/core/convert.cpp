@@ -29,8 +29,8 @@ nb::object to_python(ChannelValue channel) {
       std::move(channel.data));
 }
 
-nb::dict to_python(EnvironmentObservation observation) {
-  nb::dict result;
+NamedValues to_python(EnvironmentObservation observation) {
+  NamedValues result;
   for (ChannelValue& channel : observation.channels) {
     const nb::str name(channel.name.c_str(), channel.name.size());
     result[name] = to_python(std::move(channel));

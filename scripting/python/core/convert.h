@@ -3,6 +3,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <stampede/arrays.h>
 #include <stampede/environment.h>
 #include <stampede/rows.h>
 
@@ -17,29 +18,44 @@ namespace stampede::python {
 
 namespace nb = nanobind;
 
+inline bool is_any(PyObject*) { return true; }
+
+// What the reference calls numpy.ndarray.
+class NumpyArray : public nb::object {
+  NB_OBJECT_DEFAULT(NumpyArray, nb::object, "numpy.ndarray", is_any)
+};
+using NamedArrays = nb::typed<nb::dict, nb::str, NumpyArray>;
+using NamedValues = nb::typed<nb::dict, nb::str, nb::any>;
+
+// Several Python objects look at the memory of one episode.
+struct SharedArrays {
+  std::shared_ptr<const EpisodeArrays> arrays;
+};
+
 // A numpy array that owns the values, without a copy. Bytes that are truth values become numpy's bool.
 template <typename Value, typename Shown = Value>
-nb::object numpy_array(std::vector<Value> values, const std::vector<std::int64_t>& shape) {
+NumpyArray numpy_array(std::vector<Value> values, const std::vector<std::int64_t>& shape) {
   auto owned = std::make_unique<std::vector<Value>>(std::move(values));
   Value* data = owned->data();
   nb::capsule owner(owned.release(), [](void* held) noexcept { delete static_cast<std::vector<Value>*>(held); });
   const std::vector<std::size_t> sizes(shape.begin(), shape.end());
   static_assert(sizeof(Shown) == sizeof(Value));
-  return nb::cast(nb::ndarray<nb::numpy, Shown>(reinterpret_cast<Shown*>(data), sizes.size(), sizes.data(), owner));
+  return nb::borrow<NumpyArray>(
+      nb::cast(nb::ndarray<nb::numpy, Shown>(reinterpret_cast<Shown*>(data), sizes.size(), sizes.data(), owner)));
 }
 
 // The same over memory that `owner` keeps, read-only.
 template <typename Value, typename Shown = Value>
-nb::object numpy_view(const Value* data, const std::vector<std::int64_t>& shape, nb::handle owner) {
+NumpyArray numpy_view(const Value* data, const std::vector<std::int64_t>& shape, nb::handle owner) {
   const std::vector<std::size_t> sizes(shape.begin(), shape.end());
-  return nb::cast(
-      nb::ndarray<nb::numpy, const Shown>(reinterpret_cast<const Shown*>(data), sizes.size(), sizes.data(), owner));
+  return nb::borrow<NumpyArray>(nb::cast(
+      nb::ndarray<nb::numpy, const Shown>(reinterpret_cast<const Shown*>(data), sizes.size(), sizes.data(), owner)));
 }
 
 // A numpy array, or a list of str.
 nb::object to_python(ChannelValue channel);
 // Names -> values of all channels.
-nb::dict to_python(EnvironmentObservation observation);
+NamedValues to_python(EnvironmentObservation observation);
 nb::object to_python(const SqlValue& value);
 SqlValue sql_value(nb::handle value);  // of None, int, float, str, bytes, and of numpy's scalars
 nb::list rows_of(const Rows& rows);    // tuples

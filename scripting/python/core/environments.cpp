@@ -147,7 +147,8 @@ void bind_results(nb::module_& module) {
       .def_ro("effect_held", &SkillEnd::effect_held, "None: not reached")
       .def_ro("missing_effects", &SkillEnd::missing_effects);
   nb::class_<Step>(module, "Step", "What a step led to.")
-      .def_ro("observation", &Step::observation, "channel -> numpy array, or list of str")
+      .def_prop_ro(
+          "observation", [](const Step& s) { return s.observation; }, "channel -> numpy array, or list of str")
       .def_prop_ro("frame", [](const Step& s) { return s.rest.observation.frame; })
       .def_prop_ro(
           "time_s", [](const Step& s) { return s.rest.observation.time_s; }, "simulated, since reset")
@@ -196,7 +197,7 @@ class PythonPolicy : public Policy {
 }  // namespace
 
 Step to_step(StepResult result) {
-  nb::dict observation = to_python(std::move(result.observation));
+  NamedValues observation = to_python(std::move(result.observation));
   return {std::move(observation), std::move(result)};
 }
 

@@ -9,7 +9,7 @@ namespace stampede::python {
 
 // A StepResult with its observation as numpy arrays.
 struct Step {
-  nb::dict observation;
+  NamedValues observation;
   StepResult rest;
 };
 Step to_step(StepResult result);

@@ -18,9 +18,9 @@
 
 namespace stampede::python {
 
-nb::object arrays_object(EpisodeArrays arrays);  // catalogue.cpp
-nb::dict picture_object(CameraPicture picture);
-nb::dict points_object(CameraPoints points);
+SharedArrays shared_arrays(EpisodeArrays arrays);  // catalogue.cpp
+NamedArrays picture_object(CameraPicture picture);
+NamedArrays points_object(CameraPoints points);
 
 namespace {
 
@@ -350,7 +350,7 @@ picture_hz (dict by camera), rgb_noise, depth_noise, torque_noise: see Environme
               const nb::gil_scoped_release free;
               arrays = self.arrays(episode, {std::move(columns)});
             }
-            return arrays_object(std::move(arrays));
+            return shared_arrays(std::move(arrays));
           },
           "episode"_a, "columns"_a = std::vector<std::string>())
       .def(

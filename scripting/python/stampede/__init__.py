@@ -55,6 +55,7 @@ _LATER = {
 }
 
 __all__ = [
+    "__version__",
     "Action",
     "ActionSpace",
     "Catalogue",
@@ -77,7 +78,12 @@ __all__ = [
     "TaskPlan",
     "WorldState",
     "plan_pddl",
-    *_LATER,
+    "Env",
+    "SkillEnv",
+    "VectorEnv",
+    "evaluate",
+    "FrameDataset",
+    "WindowStream",
 ]
 
 

@@ -35,9 +35,9 @@ class Table:
     def __len__(self) -> int:
         return len(self._rows)
 
-    def __iter__(self) -> Iterator[dict[str, SqlValue]]:
+    def __iter__(self) -> Iterator[dict[str, Any]]:
         for row in self._rows:
-            yield dict(zip(self.columns, row))
+            yield dict(zip(self.columns, row, strict=True))
 
     def values(self, column: str) -> list[SqlValue]:
         """A column as Python's own values. Raises Error for one that is not there."""
@@ -166,7 +166,7 @@ class Catalogue:
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
         self._local = threading.local()
-        self._reader  # opens: a file that cannot serve is told of here
+        _ = self._reader  # opens: a file that cannot serve is told of here
 
     @property
     def _reader(self) -> _core.CatalogueReader:

@@ -7,6 +7,7 @@ with any number of forked or spawned workers, and need no PyTorch themselves.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -117,7 +118,7 @@ class FrameDataset:
             "skill": np.full(self.window, -1, dtype=np.int64),
             "segment": np.full(self.window, -1, dtype=np.int64),
             "labels": [""] * self.window,
-            "instruction": self._instruction(episode),
+            "instruction": self._instructions.get(episode.id, ""),
         }
         for place, (name, label, begin, stop) in enumerate(self._spans[episode.id]):
             for k in np.flatnonzero((rows >= begin) & (rows < stop)):
@@ -132,11 +133,11 @@ class FrameDataset:
             sample[name] = episode.pictures(name, shown.tolist(), threads=self.threads)[back]
         return sample
 
-    def _instruction(self, episode: StoredEpisode) -> str:
-        if not hasattr(self, "_instructions"):
-            rows = self.catalogue.query("SELECT episode, text FROM instructions WHERE level = 'task' ORDER BY ordinal DESC")
-            self._instructions = {row["episode"]: str(row["text"]) for row in rows}  # the first of each is left
-        return self._instructions.get(episode.id, "")
+    @cached_property
+    def _instructions(self) -> dict[int, str]:
+        """The first sentence of each task, by episode."""
+        rows = self.catalogue.query("SELECT episode, text FROM instructions WHERE level = 'task' ORDER BY ordinal DESC")
+        return {row["episode"]: str(row["text"]) for row in rows}
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_cache": {}}

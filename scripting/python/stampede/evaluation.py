@@ -48,7 +48,7 @@ def evaluate(
     Raises stampede.Error for unknown names, and for a model whose spaces are not those of the tasks.
     """
     session = _core.Session(root=root, paths=list(paths), catalogue=catalogue)
-    asked = {
+    asked: dict[str, Any] = {
         "episodes": episodes,
         "first_seed": first_seed,
         "variation": variation,

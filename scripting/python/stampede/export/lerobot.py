@@ -66,7 +66,7 @@ class Writer:
         self._subtasks = _numbered(self._labels())
         rates = {episode.frame_hz for episode in episodes}
         if len(rates) > 1 or not float(next(iter(rates))).is_integer():
-            raise fault("frame_hz", f"LeRobot knows one whole rate; there are {sorted(rates)}", "--where 'frame_hz = 20'")
+            raise fault("frame_hz", f"LeRobot knows one whole rate, not {sorted(rates)}", "--where 'frame_hz = 20'")
         self._fps = int(rates.pop())
         self._cameras = cameras_of(self._episodes[0], options)
         self._features: dict[str, Any] = {}
@@ -91,7 +91,8 @@ class Writer:
         with self._pieces.making(number) as piece:
             with ThreadPoolExecutor(max(1, len(self._cameras))) as threads:
                 films = [threads.submit(self._film, piece, episode, camera, steps.count) for camera in self._cameras]
-                histograms = {f"observation.images.{c}": film.result() for c, film in zip(self._cameras, films)}
+                names_of_films = [f"observation.images.{camera}" for camera in self._cameras]
+                histograms = {name: film.result() for name, film in zip(names_of_films, films, strict=True)}
             np.savez(piece / "columns.npz", **columns)
             np.savez(piece / "pictures.npz", **histograms)
             sizes = {key: list(value) for key, value in self._sizes(episode).items()}
@@ -111,7 +112,7 @@ class Writer:
         for one in columns:
             one["index"] = np.arange(first, first + len(one["index"]), dtype=np.int64)
             first += len(one["index"])
-        stats = [_stats(one, pictures) for one, pictures in zip(columns, histograms)]
+        stats = [_stats(one, pictures) for one, pictures in zip(columns, histograms, strict=True)]
         whole = {name: np.concatenate([one[name] for one in columns]) for name in columns[0]}
         pictures = {name: sum(one[name] for one in histograms) for name in histograms[0]}
         (self._folder / "meta").mkdir(exist_ok=True)

@@ -1,7 +1,7 @@
 """LIBERO's HDF5: a file a task and variation, with its keys, its order of steps and its attributes.
 
-Differences that matter: pictures are upright (attribute `macros_image_convention` is `opencv`; LIBERO's own are rotated by
-180 degrees); nothing is cut from the beginning; `states` are ours, with their names in `state_names`.
+Differences that matter: pictures are upright (attribute `macros_image_convention` is `opencv`; LIBERO's own are
+rotated by 180 degrees); nothing is cut from the beginning; `states` are ours, with their names in `state_names`.
 """
 
 from __future__ import annotations
@@ -79,15 +79,18 @@ class Writer:
     def _describe(self, data: Any, steps: Steps) -> None:
         episode = steps.episode
         lower, upper = steps.bounds(self._options.action)
-        names = [f"joint_positions/{label}" for label in steps.arrays.column("joint_positions").labels]
-        names += [f"gripper_joint_positions/{label}" for label in steps.arrays.column("gripper_joint_positions").labels]
-        names += [f"task_low_dim_state/{label}" for label in steps.arrays.column("task_low_dim_state").labels]
+        names = [
+            f"{column}/{label}"
+            for column in ("joint_positions", "gripper_joint_positions", "task_low_dim_state")
+            for label in steps.arrays.column(column).labels
+        ]
         bddl = episode.catalogue.query(
             "SELECT text FROM problems WHERE episode = ?1 AND kind = 'bddl_libero'", episode.id
         ).values("text")
+        environment = {"type": 2, "env_type": 2, "env_name": f"stampede/{episode.task}", "env_kwargs": {}}
         attributes = {
             "env_name": f"stampede/{episode.task}",
-            "env_args": json.dumps({"type": 2, "env_type": 2, "env_name": f"stampede/{episode.task}", "env_kwargs": {}}),
+            "env_args": json.dumps(environment),
             "problem_info": json.dumps(
                 {
                     "problem_name": episode.task,

@@ -1,8 +1,8 @@
 """ManiSkill's trajectories: an HDF5 file and a JSON file of the same name, with an entry an episode.
 
-Differences that matter: `env_states` are poses as ManiSkill has them (x y z, quaternion w x y z, then linear and angular
-velocities, which are not stored and 0), for the things of the scene; the robot's are its joints. `source_type` is
-`motionplanning`.
+Differences that matter: `env_states` are poses as ManiSkill has them (x y z, quaternion w x y z, then linear and
+angular velocities, which are not stored and 0), for the things of the scene; the robot's are its joints. `source_type`
+is `motionplanning`.
 """
 
 from __future__ import annotations

@@ -91,6 +91,8 @@ SCHEMAS: dict[str, Message] = {
     "stampede.Facts": _object(facts=_list(_TEXT)),
 }
 
+_JOINTS = ("joint_positions", "joint_velocities", "joint_forces")
+
 _INFO, _ERROR = 2, 4  # levels of foxglove.Log
 
 
@@ -163,7 +165,7 @@ class _EpisodeFile:
             self._put("/tf", "foxglove.FrameTransforms", time_ns, {"transforms": transforms})
             entities = [_box(name, poses[name][frame], sizes[name], time_ns) for name in bodies if name in sizes]
             self._put("/scene", "foxglove.SceneUpdate", time_ns, {"deletions": [], "entities": entities})
-            self._put_numbers("/joints", time_ns, arrays, ("joint_positions", "joint_velocities", "joint_forces"), frame)
+            self._put_numbers("/joints", time_ns, arrays, _JOINTS, frame)
             if frame + 1 < self._episode.frames:
                 actions = ("action/joint_position", "action/gripper")
                 self._put_numbers("/action", time_ns, arrays, actions, frame)
@@ -254,7 +256,7 @@ class _EpisodeFile:
             column = arrays.column(name)
             value = column.values[frame]
             if column.labels:
-                message[name.replace("/", "_")] = dict(zip(column.labels, map(float, value)))
+                message[name.replace("/", "_")] = dict(zip(column.labels, map(float, value), strict=True))
             else:
                 message[name.replace("/", "_")] = float(value)
         self._put(topic, "stampede.Numbers", time_ns, message)
@@ -277,11 +279,11 @@ def _stamp(time_ns: int) -> Message:
 
 
 def _vector(values: Array) -> Message:
-    return dict(zip("xyz", map(float, values)))
+    return dict(zip("xyz", map(float, values), strict=True))
 
 
 def _quaternion(values: Array) -> Message:
-    return dict(zip("xyzw", map(float, values)))
+    return dict(zip("xyzw", map(float, values), strict=True))
 
 
 def _transform(name: str, pose: Array) -> Message:

@@ -1,8 +1,8 @@
 """MimicGen's source demonstrations: robomimic's files, and for each demo what data generation needs.
 
-`datagen_info` has the poses of tool and objects, the target of the controller, and a subtask signal for each skill: 1 from
-its end on. The last skill has none. `data.attrs["task_spec"]` names, for each variation, the skills in order and the object
-that each refers to, as MimicGen's task specifications do.
+`datagen_info` has the poses of tool and objects, the target of the controller, and a subtask signal for each skill: 1
+from its end on. The last skill has none. `data.attrs["task_spec"]` names, for each variation, the skills in order and
+the object that each refers to, as MimicGen's task specifications do.
 """
 
 from __future__ import annotations

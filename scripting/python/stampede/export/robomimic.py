@@ -1,7 +1,8 @@
 """robomimic's HDF5: a file a task, a group a demo, and filter keys for the splits.
 
-Attributes say what is in it: `data.attrs["env_args"]` the environment, each demo's `ep_meta` our labels (task, variation,
-seed, sentences, skill segments), `action_names`, `action_lower` and `action_upper` what -1 and 1 stand for, `state_names`.
+Attributes say what is in it: `data.attrs["env_args"]` the environment, each demo's `ep_meta` our labels (task,
+variation, seed, sentences, skill segments), `action_names`, `action_lower` and `action_upper` what -1 and 1 stand for,
+`state_names`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """An episode as the pairs of observation and action that learners expect.
 
 Step t is what was observed at frame t and what was commanded until frame t + 1; the last frame has no action. So an
-episode of F frames has F - 1 steps. Actions are in the scale of `stampede.Env(task, action=…, normalise_actions=True)`: what
-learns from them acts in it without another one. Joint positions do the task when they are played back. Deltas are those of
-the planner's reference, which does not stop between frames; an environment's arm does, lags behind, and adds that up.
+episode of F frames has F - 1 steps. Actions are in the scale of `stampede.Env(task, action=…, normalise_actions=True)`:
+what learns from them acts in it without another one. Joint positions do the task when they are played back. Deltas are
+those of the planner's reference, which does not stop between frames; an environment's arm does, lags behind, and adds
+that up.
 """
 
 from __future__ import annotations
