@@ -80,94 +80,6 @@ def test_scales_are_those_of_the_action_spaces() -> None:
     assert np.allclose(upper["tool_delta"], TOOL_SPEED / world.frame_hz)
 
 
-def test_robomimic(made: Path, tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    folder = run(made, tmp_path / "out", "robomimic", "--valid", "0.5", "--next-obs")
-    assert sorted(p.name for p in folder.iterdir()) == ["pick_and_lift.hdf5", "reach_target.hdf5"]
-    episode = stampede.Catalogue(made)[1]
-    with h5py.File(folder / "pick_and_lift.hdf5") as file:
-        data = file["data"]
-        assert sorted(data) == ["demo_0", "demo_1", "demo_2"]
-        assert data.attrs["total"] == sum(demo.attrs["num_samples"] for demo in data.values())
-        environment = json.loads(data.attrs["env_args"])
-        assert environment["env_name"] == "stampede/pick_and_lift"
-        assert environment["type"] == environment["env_type"] == 2
-        demo = data["demo_0"]
-        n = demo.attrs["num_samples"]
-        assert n == episode.frames - 1 and set(demo.attrs) == {"num_samples", "ep_meta"}
-        assert demo["actions"].shape == (n, 8) and demo["actions"].dtype == np.float32
-        assert demo["states"].shape == (n, len(data.attrs["state_names"]))
-        assert demo["obs/front_image"].shape == (n, 24, 32, 3)
-        assert np.array_equal(demo["obs/front_image"][5], episode.pictures("front_rgb", [5])[0])
-        assert np.array_equal(demo["next_obs/front_image"][5], episode.pictures("front_rgb", [6])[0])
-        assert np.array_equal(demo["obs/robot0_eef_pos"][:], episode.arrays("gripper_pose")["gripper_pose"][:-1, :3])
-        assert demo["rewards"][-1] == demo["dones"][-1] == 1 and demo["dones"][:-1].sum() == 0
-        meta = json.loads(demo.attrs["ep_meta"])
-        assert meta["seed"] == episode.seed and [s["skill"] for s in meta["segments"]] == ["pick", "lift"]
-        masks = {name: {text.decode() for text in rows[:]} for name, rows in file["mask"].items()}
-        assert "test" not in masks and set().union(*masks.values()) == set(data)
-        assert sum(len(names) for names in masks.values()) == 3
-    with h5py.File(folder / "reach_target.hdf5") as file:
-        assert list(file["mask"]) == ["test"]
-
-
-def test_mimicgen_has_a_signal_at_the_end_of_each_skill(made: Path, tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    folder = run(made, tmp_path / "out", "mimicgen", "--where", "task = 'pick_and_lift'", "--cameras", "")
-    steps = Steps(stampede.Catalogue(made)[1])
-    with h5py.File(folder / "pick_and_lift.hdf5") as file:
-        info = file["data/demo_0/datagen_info"]
-        assert list(info["subtask_term_signals"]) == ["pick_1"]  # the last skill has none
-        signal = info["subtask_term_signals/pick_1"][:]
-        assert np.flatnonzero(np.diff(signal) == 1).tolist() == [steps.skills[0].end_frame - 2]
-        assert info["eef_pose"].shape == info["target_pose"].shape == (steps.count, 4, 4)
-        assert info["gripper_action"].shape == (steps.count, 1)
-        spec = json.loads(file["data"].attrs["task_spec"])[steps.episode.variation]
-        thing = steps.skills[0].arguments[0]
-        assert spec == [{"signal": "pick_1", "object_ref": thing}, {"signal": None, "object_ref": thing}]
-        pose = info[f"object_poses/{thing}"][0]
-        place = steps.episode.arrays(f"object_pose/{thing}")[f"object_pose/{thing}"][0, :3]
-        assert np.allclose(pose[:3, 3], place)
-
-
-def test_libero(made: Path, tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    folder = run(made, tmp_path / "out", "libero", "--where", "task = 'pick_and_lift'")
-    files = sorted(folder.iterdir())
-    assert len(files) == 3 and all(path.name.endswith("_demo.hdf5") for path in files)
-    with h5py.File(files[0]) as file:
-        data = file["data"]
-        problem = json.loads(data.attrs["problem_info"])
-        assert problem["language_instruction"] and data.attrs["num_demos"] == 1
-        demo = data["demo_0"]
-        n = demo.attrs["num_samples"]
-        shapes = {"agentview_rgb": (24, 32, 3), "eye_in_hand_rgb": (24, 32, 3), "gripper_states": (2,), "ee_pos": (3,)}
-        shapes |= {"joint_states": (7,), "ee_states": (6,), "ee_ori": (3,)}
-        assert {name: one.shape for name, one in demo["obs"].items()} == {k: (n, *s) for k, s in shapes.items()}
-        assert demo["robot_states"].shape == (n, 9) and demo["dones"].dtype == np.uint8
-        assert demo["dones"][:].sum() == demo["dones"][-1] == 1
-
-
-def test_maniskill(made: Path, tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    folder = run(made, tmp_path / "out", "maniskill", "--where", "task = 'pick_and_lift'")
-    path = folder / "trajectory.rgb.pd_joint_pos.bullet_cpu.h5"
-    described = json.loads(path.with_suffix(".json").read_text())
-    assert [one["episode_id"] for one in described["episodes"]] == [0, 1, 2]
-    episode = stampede.Catalogue(made)[1]
-    with h5py.File(path) as file:
-        assert sorted(file) == ["traj_0", "traj_1", "traj_2"]
-        one = file["traj_0"]
-        frames = episode.frames
-        assert one["actions"].shape == (frames - 1, 8) and one["success"][-1] and not one["truncated"][:].any()
-        assert one["obs/agent/qpos"].shape == (frames, 9) and one["obs/extra/tcp_pose"].shape == (frames, 7)
-        assert one["env_states/articulations/panda"].shape == (frames, 31)
-        assert all(actor.shape == (frames, 13) for actor in one["env_states/actors"].values())
-        assert np.allclose(one["obs/extra/tcp_pose"][:, 3], episode.arrays("gripper_pose")["gripper_pose"][:, 6])
-        assert one["obs/sensor_data/front/rgb"].shape == (frames, 24, 32, 3)
-        assert described["episodes"][0]["elapsed_steps"] == frames - 1
-
-
 def _film(path: Path) -> tuple[list[float], np.ndarray]:
     av = pytest.importorskip("av")
     with av.open(str(path)) as film:
@@ -287,22 +199,6 @@ def test_an_export_that_was_cut_off_goes_on(
     assert sorted(written) == [1, 2, 3]  # the first was not written twice
     whole = run(made, tmp_path / "whole", *arguments[:1], *arguments[4:])
     assert {p.relative_to(folder) for p in folder.rglob("*")} == {p.relative_to(whole) for p in whole.rglob("*")}
-
-
-def test_a_file_that_was_killed_in_the_middle_is_begun_anew(made: Path, tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    from stampede.export.hdf5 import GrowingFile
-
-    part = tmp_path / "demos.hdf5.part"
-    part.write_bytes(b"\x89HDF\r\n\x1a\n" + b"cut" * 100)
-    growing = GrowingFile(tmp_path / "demos.hdf5")
-    growing.begin("data/demo_0")  # and this one never ends
-    growing.close()
-    growing = GrowingFile(tmp_path / "demos.hdf5")
-    assert not growing.has("data/demo_0")
-    growing.end(growing.begin("data/demo_0"))
-    growing.finish()
-    assert not part.exists() and isinstance(h5py.File(tmp_path / "demos.hdf5")["data/demo_0"], h5py.Group)
 
 
 def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:

@@ -1,17 +1,26 @@
-"""HDF5 files that are written demo by demo, and go on where they were cut off."""
+"""HDF5 files with a group a demo. Each demo is a file of its own until all are there.
+
+So an export that is cut off, killed in the middle of a write included, keeps every demo that was finished, and no file
+is ever gone on with that may be damaged.
+"""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from stampede.catalogue import StoredEpisode
-from stampede.export.steps import ACTIONS, Array
+from stampede.export import cameras_of
+from stampede.export.pieces import Pieces
+from stampede.export.steps import ACTIONS, OPENING, Array, Steps
 from stampede.faults import fault
 
-_WHOLE = "stampede_whole"  # attribute of a demo of which nothing is missing
+Facts = dict[str, Any]  # as JSON has them
 
 
 def library() -> Any:
@@ -32,102 +41,124 @@ def add_action_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
-class GrowingFile:
-    """An HDF5 file under a temporary name until `finish`; `NAME.part` beside it meanwhile.
-
-    What an export that was cut off left is gone on with where HDF5 can open it, and thrown away where it cannot.
-    """
-
-    def __init__(self, path: Path) -> None:
-        h5py = library()
-        self.path = path
-        self._part = path.with_name(path.name + ".part")
-        if path.exists():
-            raise fault(str(path), "the file is there already", "name another folder")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            self.file = h5py.File(self._part, "a")
-            for group in (self.file, *(g for g in self.file.values() if isinstance(g, h5py.Group))):
-                for name in [n for n, one in group.items() if n.rpartition("_")[2].isdigit()]:
-                    if not group[name].attrs.get(_WHOLE):
-                        del group[name]
-        except (OSError, KeyError, RuntimeError):
-            self._part.unlink()
-            self.file = h5py.File(self._part, "w")
-
-    def has(self, name: str) -> bool:
-        """Whether this demo, a path inside the file, is there with all that belongs to it."""
-        return name in self.file
-
-    def begin(self, name: str) -> Any:
-        """A group for a demo. It counts after `end` only."""
-        return self.file.create_group(name)
-
-    def end(self, group: Any) -> None:
-        group.attrs[_WHOLE] = True
-        self.file.flush()
-
-    def finish(self) -> None:
-        """The file gets its name."""
-        for group in self.file.values():
-            for one in group.values():
-                one.attrs.pop(_WHOLE, None)
-        for one in self.file.values():
-            one.attrs.pop(_WHOLE, None)
-        self.file.close()
-        self._part.rename(self.path)
-
-    def close(self) -> None:
-        self.file.close()
+def common_cameras(episodes: Sequence[StoredEpisode], options: argparse.Namespace) -> list[str]:
+    """The cameras of all episodes of a file. Raises Error where they differ: readers expect the same keys of all."""
+    first = episodes[0]
+    cameras = cameras_of(first, options)
+    for episode in episodes[1:]:
+        others = cameras_of(episode, options)
+        if others != cameras:
+            raise fault(
+                f"episode {episode.id}",
+                f"its stored pictures are those of {_listed(others)}, but of {_listed(cameras)} in episode {first.id}",
+                "--cameras NAMES says which are wanted, '' none; with --draw what is missing is drawn",
+            )
+    return cameras
 
 
-class DemoFiles:
-    """Files with a group `data/demo_0`, `data/demo_1` … each, as robomimic and those after it have them.
+def scale_of(steps: Steps, action: str) -> Facts:
+    """What actions are: their space, a name for each value, and what -1 and 1 stand for, in rad and m."""
+    lower, upper = steps.bounds(action)
+    return {
+        "action_space": action,
+        "action_names": steps.action_names(action),
+        "action_lower": [*map(float, lower), 0.0],
+        "action_upper": [*map(float, upper), OPENING],
+    }
 
-    names: the file of each episode.
-    """
 
-    def __init__(self, folder: Path, episodes: Sequence[StoredEpisode], names: Sequence[str]) -> None:
-        self.episodes: dict[str, list[StoredEpisode]] = {}
-        self._places: dict[int, tuple[str, int]] = {}
-        for episode, name in zip(episodes, names, strict=True):
-            others = self.episodes.setdefault(name, [])
-            self._places[episode.id] = name, len(others)
-            others.append(episode)
-        # Those that are there were finished before the export was cut off.
-        self._files = {name: GrowingFile(folder / name) for name in self.episodes if not (folder / name).exists()}
-
-    def has(self, episode: StoredEpisode) -> bool:
-        file = self._files.get(self._places[episode.id][0])
-        return file is None or f"data/{self.demo_name(episode)}" in file.file
-
-    def demo_name(self, episode: StoredEpisode) -> str:
-        return f"demo_{self._places[episode.id][1]}"
-
-    def data(self, episode: StoredEpisode) -> Any:
-        """The group of the demos of its file."""
-        return self._files[self._places[episode.id][0]].file.require_group("data")
-
-    def begin(self, episode: StoredEpisode) -> Any:
-        """A group for the episode. It counts after `end` only."""
-        return self.data(episode).create_group(self.demo_name(episode))
-
-    def end(self, episode: StoredEpisode) -> None:
-        file = self._files[self._places[episode.id][0]]
-        file.end(file.file[f"data/{self.demo_name(episode)}"])
-
-    def finish(self, complete: Callable[[Any, list[StoredEpisode]], None]) -> None:
-        """complete(file, its episodes) adds what needs all of them; then each file gets its name."""
-        for name, file in self._files.items():
-            file.file["data"].attrs["total"] = int(sum(d.attrs["num_samples"] for d in file.file["data"].values()))
-            complete(file.file, self.episodes[name])
-            file.finish()
-
-    def close(self) -> None:
-        for file in self._files.values():
-            file.close()
+def environment_of(task: str, action: str) -> Facts:
+    """robomimic's description of the environment that takes the actions."""
+    # Readers look for one key or the other; 2 is their number for environments of Gym.
+    arguments = {"action": action, "normalise_actions": True}
+    return {"env_name": f"stampede/{task}", "type": 2, "env_type": 2, "env_kwargs": arguments}
 
 
 def put_pictures(group: Any, name: str, pictures: Array) -> None:
     """Pictures of all steps, compressed one by one so that a window is read alone."""
     group.create_dataset(name, data=pictures, chunks=(1, *pictures.shape[1:]), compression="gzip", compression_opts=1)
+
+
+@dataclass(frozen=True)
+class Demo:
+    """An episode as it is in a file."""
+
+    name: str  # of its group
+    episode: StoredEpisode
+    facts: Facts  # of it alone
+
+
+class DemoFiles:
+    """Files with a group for each of their episodes.
+
+    names: the file of each episode, a path in `folder`. group: path of a demo in its file, with {} for its number there.
+    """
+
+    def __init__(
+        self, folder: Path, episodes: Sequence[StoredEpisode], names: Sequence[str], group: str = "data/demo_{}"
+    ) -> None:
+        self._h5py = library()
+        self._folder = folder
+        self._group = group
+        self._pieces = Pieces(folder)
+        self._file_of = {episode.id: name for episode, name in zip(episodes, names, strict=True)}
+        self.episodes: dict[str, list[StoredEpisode]] = {}
+        for episode, name in zip(episodes, names, strict=True):
+            self.episodes.setdefault(name, []).append(episode)
+        self._shared: dict[str, tuple[StoredEpisode, Facts]] = {}
+
+    def file_of(self, episode: StoredEpisode) -> str:
+        return self._file_of[episode.id]
+
+    def has(self, episode: StoredEpisode) -> bool:
+        return (self._folder / self.file_of(episode)).exists() or self._pieces.has(episode.id)
+
+    @contextmanager
+    def making(self, episode: StoredEpisode, shared: Facts, own: Facts) -> Iterator[Any]:
+        """A group to be filled with the episode. It counts once the block has ended well.
+
+        shared: facts that must be the same for all demos of a file; raises Error where they are not. own: its own.
+        `finish` gives both back.
+        """
+        self._check_shared(episode, shared)
+        with self._pieces.making(episode.id) as piece:
+            (piece / "facts.json").write_text(json.dumps({"shared": shared, "own": own}))
+            with self._h5py.File(piece / "demo.hdf5", "w") as file:
+                yield file.create_group("demo")
+
+    def finish(self, complete: Callable[[Any, str, list[Demo], Facts], None]) -> None:
+        """Puts the files together. complete(open file, its name, its demos, shared facts) adds what needs all demos."""
+        for name, episodes in self.episodes.items():
+            final = self._folder / name
+            if final.exists():  # made before the export was cut off
+                continue
+            final.parent.mkdir(parents=True, exist_ok=True)
+            part = final.with_name(final.name + ".part")
+            with self._h5py.File(part, "w") as file:
+                demos = [self._add(file, number, episode) for number, episode in enumerate(episodes)]
+                complete(file, name, demos, self._shared[name][1])
+            part.replace(final)
+        self._pieces.remove()
+
+    def _add(self, file: Any, number: int, episode: StoredEpisode) -> Demo:
+        piece = self._pieces.of(episode.id)
+        facts = json.loads((piece / "facts.json").read_text())
+        self._check_shared(episode, facts["shared"])
+        path = self._group.format(number)
+        with self._h5py.File(piece / "demo.hdf5", "r") as source:
+            source.copy("demo", file, path)
+        return Demo(path.rpartition("/")[2], episode, facts["own"])
+
+    def _check_shared(self, episode: StoredEpisode, shared: Facts) -> None:
+        first, expected = self._shared.setdefault(self.file_of(episode), (episode, shared))
+        different = [key for key in expected if expected[key] != shared[key]]
+        if different:
+            raise fault(
+                f"episode {episode.id}",
+                f"its {different[0]} differ from those of episode {first.id}, and both belong into one file",
+                "--where exports them apart, for instance by variation or frame_hz",
+            )
+
+
+def _listed(cameras: list[str]) -> str:
+    return ", ".join(cameras) or "no camera"

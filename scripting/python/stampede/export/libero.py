@@ -2,6 +2,8 @@
 
 Differences that matter: pictures are upright (attribute `macros_image_convention` is `opencv`; LIBERO's own are
 rotated by 180 degrees); nothing is cut from the beginning; `states` are ours, with their names in `state_names`.
+`bddl_file_content` is what `stampede export bddl --dialect libero --leave-out hand_empty` writes of the first demo's
+start; where LIBERO has no words for the goal it is empty, and `bddl_refusal` says why.
 """
 
 from __future__ import annotations
@@ -9,19 +11,32 @@ from __future__ import annotations
 import argparse
 import json
 import re
+import subprocess
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import stampede
 from stampede.catalogue import StoredEpisode
-from stampede.export import cameras_of
-from stampede.export.hdf5 import DemoFiles, add_action_argument, put_pictures
+from stampede.export.hdf5 import (
+    Demo,
+    DemoFiles,
+    Facts,
+    add_action_argument,
+    common_cameras,
+    environment_of,
+    put_pictures,
+    scale_of,
+)
 from stampede.export.steps import Steps, rotation_vectors
 
 # LIBERO's names of the two cameras that its policies look through.
 _CAMERAS = {"front": "agentview_rgb", "wrist": "eye_in_hand_rgb"}
+
+_STATES = ("joint_positions", "gripper_joint_positions", "task_low_dim_state")
 
 
 class Writer:
@@ -29,7 +44,8 @@ class Writer:
 
     def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
         self._options = options
-        self._demos = DemoFiles(folder, episodes, [_file_name(episode) for episode in episodes])
+        self._demos = DemoFiles(folder, episodes, _file_names(episodes))
+        self._cameras = {name: common_cameras(some, options) for name, some in self._demos.episodes.items()}
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,79 +56,95 @@ class Writer:
 
     def write(self, episode: StoredEpisode) -> None:
         steps = Steps(episode)
-        data = self._demos.data(episode)
-        if "env_name" not in data.attrs:
-            self._describe(data, steps)
-        demo = self._demos.begin(episode)
-        demo.attrs["num_samples"] = steps.count
-        demo.attrs["ep_meta"] = json.dumps(steps.meta())
         pose = steps.observed("gripper_pose")
         fingers = steps.observed("gripper_joint_positions")
-        states = np.hstack([steps.observed("joint_positions"), fingers, steps.observed("task_low_dim_state")])
-        demo.attrs["init_state"] = states[0]
-        demo.create_dataset("actions", data=steps.actions(self._options.action).astype(np.float64))
-        demo.create_dataset("states", data=states)
-        # Fingers, then the tool's position and quaternion x y z w.
-        demo.create_dataset("robot_states", data=np.hstack([fingers, pose]))
+        states = np.hstack([steps.observed(column) for column in _STATES])
+        names = [f"{column}/{label}" for column in _STATES for label in steps.arrays.column(column).labels]
+        shared = {**scale_of(steps, self._options.action), "state_names": names}
+        unturned = np.broadcast_to([0.0, 0.0, 0.0, 1.0], (steps.count, 4))
+        turned = rotation_vectors(unturned, pose[:, 3:])
         last = np.zeros(steps.count, dtype=np.uint8)
         last[-1] = 1
-        demo.create_dataset("rewards", data=steps.success.astype(np.uint8))
-        demo.create_dataset("dones", data=last)
-        turned = rotation_vectors(np.tile([0.0, 0.0, 0.0, 1.0], (steps.count, 1)), pose[:, 3:])
-        observed = demo.create_group("obs")
-        observed.create_dataset("gripper_states", data=fingers)
-        observed.create_dataset("joint_states", data=steps.observed("joint_positions"))
-        observed.create_dataset("ee_states", data=np.hstack([pose[:, :3], turned]))
-        observed.create_dataset("ee_pos", data=pose[:, :3])
-        observed.create_dataset("ee_ori", data=turned)
-        for camera in cameras_of(episode, self._options):
-            pictures = episode.pictures(f"{camera}_rgb", range(steps.count), draw=self._options.draw)
-            put_pictures(observed, _CAMERAS.get(camera, f"{camera}_rgb"), pictures)
-        self._demos.end(episode)
+        with self._demos.making(episode, shared, {"instruction": steps.instruction}) as demo:
+            demo.attrs["num_samples"] = steps.count
+            demo.attrs["ep_meta"] = json.dumps(steps.meta())
+            demo.attrs["init_state"] = states[0]
+            demo.create_dataset("actions", data=steps.actions(self._options.action).astype(np.float64))
+            demo.create_dataset("states", data=states)
+            # Fingers, then the tool's position and quaternion x y z w.
+            demo.create_dataset("robot_states", data=np.hstack([fingers, pose]))
+            demo.create_dataset("rewards", data=steps.success.astype(np.uint8))
+            demo.create_dataset("dones", data=last)
+            observed = demo.create_group("obs")
+            observed.create_dataset("gripper_states", data=fingers)
+            observed.create_dataset("joint_states", data=steps.observed("joint_positions"))
+            observed.create_dataset("ee_states", data=np.hstack([pose[:, :3], turned]))
+            observed.create_dataset("ee_pos", data=pose[:, :3])
+            observed.create_dataset("ee_ori", data=turned)
+            for camera in self._cameras[self._demos.file_of(episode)]:
+                pictures = episode.pictures(f"{camera}_rgb", range(steps.count), draw=self._options.draw)
+                put_pictures(observed, _CAMERAS.get(camera, f"{camera}_rgb"), pictures)
 
     def finish(self) -> None:
-        self._demos.finish(lambda file, episodes: file["data"].attrs.__setitem__("num_demos", len(episodes)))
+        self._problems = _problems([episodes[0] for episodes in self._demos.episodes.values()])
+        self._demos.finish(self._complete)
 
     def close(self) -> None:
-        self._demos.close()
+        """Nothing is open between two episodes."""
 
-    def _describe(self, data: Any, steps: Steps) -> None:
-        episode = steps.episode
-        lower, upper = steps.bounds(self._options.action)
-        names = [
-            f"{column}/{label}"
-            for column in ("joint_positions", "gripper_joint_positions", "task_low_dim_state")
-            for label in steps.arrays.column(column).labels
-        ]
-        bddl = episode.catalogue.query(
-            "SELECT text FROM problems WHERE episode = ?1 AND kind = 'bddl_libero'", episode.id
-        ).values("text")
-        environment = {"type": 2, "env_type": 2, "env_name": f"stampede/{episode.task}", "env_kwargs": {}}
-        attributes = {
-            "env_name": f"stampede/{episode.task}",
-            "env_args": json.dumps(environment),
-            "problem_info": json.dumps(
-                {
-                    "problem_name": episode.task,
-                    "domain_name": episode.task,
-                    "language_instruction": steps.instruction,
-                    "variation": episode.variation,
-                }
-            ),
-            "bddl_file_name": f"{episode.task}.bddl",
-            "bddl_file_content": str(bddl[0]) if bddl else "",
-            "macros_image_convention": "opencv",
-            "tag": "stampede",
-            "action_space": self._options.action,
-            "action_names": steps.action_names(self._options.action),
-            "action_lower": [*lower, 0.0],
-            "action_upper": [*upper, 0.08],
-            "state_names": names,
+    def _complete(self, file: Any, name: str, demos: list[Demo], shared: Facts) -> None:
+        episode = demos[0].episode
+        problem = {
+            "problem_name": episode.task,
+            "domain_name": episode.task,
+            "language_instruction": demos[0].facts["instruction"],
+            "variation": episode.variation,
         }
-        for name, value in attributes.items():
-            data.attrs[name] = value
+        attributes = {
+            **shared,
+            **self._problems[episode.id],
+            "env_name": f"stampede/{episode.task}",
+            "env_args": json.dumps(environment_of(episode.task, self._options.action)),
+            "problem_info": json.dumps(problem),
+            "macros_image_convention": "opencv",
+            "num_demos": len(demos),
+            "tag": "stampede",
+            "total": sum(demo.episode.frames - 1 for demo in demos),
+        }
+        for key, value in attributes.items():
+            file["data"].attrs[key] = value
 
 
-def _file_name(episode: StoredEpisode) -> str:
-    words = re.sub(r"[^a-z0-9]+", "_", f"{episode.task} {episode.variation}".lower()).strip("_")
-    return f"{words}_demo.hdf5"
+def _problems(episodes: Sequence[StoredEpisode]) -> dict[int, dict[str, str]]:
+    """Attributes that say each episode's problem in LIBERO's dialect of BDDL, by episode."""
+    program = Path(stampede.__file__).parent / "engine" / "bin" / "stampede"
+    with tempfile.TemporaryDirectory() as folder:
+        command = [str(program), "export", "bddl", str(episodes[0].catalogue.path), "--out", folder]
+        command += ["--dialect", "libero", "--leave-out", "hand_empty"]
+        for episode in episodes:
+            command += ["--episode", str(episode.id)]
+        ran = subprocess.run(command, capture_output=True, text=True, check=False)
+        index = Path(folder) / "index.json"
+        rows = {row["episode"]: row for row in json.loads(index.read_text())} if index.exists() else {}
+        problems = {}
+        for episode in episodes:
+            row = rows.get(episode.id, {"file": "", "refusal": ran.stderr.strip()})
+            name = Path(row["file"]).name or f"{episode.task}.bddl"
+            text = (Path(folder) / row["file"]).read_text() if row["file"] else ""
+            problems[episode.id] = {"bddl_file_name": name, "bddl_file_content": text}
+            if not text:
+                problems[episode.id]["bddl_refusal"] = row["refusal"]
+    return problems
+
+
+def _file_names(episodes: Sequence[StoredEpisode]) -> list[str]:
+    """A name for each task and variation; a number tells apart those whose letters and digits are the same."""
+    names: dict[tuple[str, str], str] = {}
+    for episode in episodes:
+        words = re.sub(r"[^a-z0-9]+", "_", f"{episode.task} {episode.variation}".lower()).strip("_")
+        kind = (episode.task, episode.variation)
+        if kind not in names:
+            taken = set(names.values())
+            candidates = [words, *(f"{words}_{number}" for number in range(2, len(taken) + 3))]
+            names[kind] = next(name for name in candidates if name not in taken)
+    return [f"{names[episode.task, episode.variation]}_demo.hdf5" for episode in episodes]

@@ -2,7 +2,7 @@
 
 Attributes say what is in it: `data.attrs["env_args"]` the environment, each demo's `ep_meta` our labels (task,
 variation, seed, sentences, skill segments), `action_names`, `action_lower` and `action_upper` what -1 and 1 stand for,
-`state_names`.
+`state_names`. `action_dict` has the actions once more in rad and m, by robomimic's names for parts of them.
 """
 
 from __future__ import annotations
@@ -16,9 +16,18 @@ from typing import Any
 import numpy as np
 
 from stampede.catalogue import StoredEpisode
-from stampede.export import cameras_of, split_of
-from stampede.export.hdf5 import DemoFiles, add_action_argument, put_pictures
-from stampede.export.steps import OPENING, Array, Steps, known
+from stampede.export import split_of
+from stampede.export.hdf5 import (
+    Demo,
+    DemoFiles,
+    Facts,
+    add_action_argument,
+    common_cameras,
+    environment_of,
+    put_pictures,
+    scale_of,
+)
+from stampede.export.steps import Array, Steps, known, matrices, rotation_vectors
 
 # robomimic's and robosuite's name for a column of ours.
 _OBSERVED = {
@@ -36,6 +45,7 @@ class Writer:
     def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
         self._options = options
         self._demos = DemoFiles(folder, episodes, [f"{episode.task}.hdf5" for episode in episodes])
+        self._cameras = {name: common_cameras(some, options) for name, some in self._demos.episodes.items()}
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,61 +57,68 @@ class Writer:
 
     def write(self, episode: StoredEpisode) -> None:
         steps = Steps(episode, self.columns(episode))
-        demo = self._demos.begin(episode)
-        demo.attrs["num_samples"] = steps.count
-        demo.attrs["ep_meta"] = json.dumps(steps.meta())
-        demo.create_dataset("actions", data=steps.actions(self._options.action))
-        demo.create_dataset("actions_abs", data=steps.natural_actions("joint_position"))
         states, names = _states(steps)
-        demo.create_dataset("states", data=states)
-        demo.create_dataset("rewards", data=steps.rewards)
-        demo.create_dataset("dones", data=steps.success.astype(np.int64))
-        observed = _observed(steps)
-        cameras = cameras_of(episode, self._options)
-        for which, part in (("obs", slice(0, -1)), ("next_obs", slice(1, None)))[: 1 + self._options.next_obs]:
-            group = demo.create_group(which)
-            for name, values in observed.items():
-                group.create_dataset(name, data=values[part])
-        for camera in cameras:
-            pictures = episode.pictures(f"{camera}_rgb", draw=self._options.draw)
-            put_pictures(demo["obs"], f"{camera}_image", pictures[:-1])
-            if self._options.next_obs:
-                put_pictures(demo["next_obs"], f"{camera}_image", pictures[1:])
-        data = self._demos.data(episode)
-        self.write_more(demo, data, steps)
-        if "action_names" not in data.attrs:
-            lower, upper = steps.bounds(self._options.action)
-            data.attrs["action_space"] = self._options.action
-            data.attrs["action_names"] = steps.action_names(self._options.action)
-            data.attrs["action_lower"] = [*lower, 0.0]
-            data.attrs["action_upper"] = [*upper, OPENING]
-            data.attrs["state_names"] = names
-        self._demos.end(episode)
+        shared = {**scale_of(steps, self._options.action), "state_names": names}
+        with self._demos.making(episode, shared, self.facts(steps)) as demo:
+            demo.attrs["num_samples"] = steps.count
+            demo.attrs["ep_meta"] = json.dumps(steps.meta())
+            demo.create_dataset("actions", data=steps.actions(self._options.action))
+            demo.create_dataset("actions_abs", data=steps.natural_actions("joint_position"))
+            for name, values in _action_parts(steps).items():
+                demo.create_dataset(f"action_dict/{name}", data=values)
+            demo.create_dataset("states", data=states)
+            demo.create_dataset("rewards", data=steps.rewards)
+            demo.create_dataset("dones", data=steps.success.astype(np.int64))
+            self._put_observations(demo, steps)
+            self.write_more(demo, steps)
 
     def finish(self) -> None:
-        self._demos.finish(self._complete)
+        self._demos.finish(self.complete)
 
     def close(self) -> None:
-        self._demos.close()
+        """Nothing is open between two episodes."""
 
     def columns(self, episode: StoredEpisode) -> list[str]:
         """What `write_more` needs to be read."""
         return []
 
-    def write_more(self, demo: Any, data: Any, steps: Steps) -> None:
-        """What a format that extends this one adds to a demo, and to the group of all."""
+    def facts(self, steps: Steps) -> Facts:
+        """What `complete` is told of the episode."""
+        return {}
 
-    def _complete(self, file: Any, episodes: list[StoredEpisode]) -> None:
-        name = f"stampede/{episodes[0].task}"
-        arguments = {"action": self._options.action, "normalise_actions": True}
-        # Readers look for one key or the other; 2 is their number for environments of Gym.
-        environment = {"env_name": name, "type": 2, "env_type": 2, "env_kwargs": arguments}
-        file["data"].attrs["env_args"] = json.dumps(environment)
-        mask = file.require_group("mask")
+    def write_more(self, demo: Any, steps: Steps) -> None:
+        """What a format that extends this one adds to a demo."""
+
+    def complete(self, file: Any, name: str, demos: list[Demo], shared: Facts) -> None:
+        """What is said of all demos of a file."""
+        data = file["data"]
+        for key, value in shared.items():
+            data.attrs[key] = value
+        data.attrs["total"] = sum(demo.episode.frames - 1 for demo in demos)
+        data.attrs["env_args"] = json.dumps(environment_of(demos[0].episode.task, self._options.action))
         for split in ("train", "valid", "test"):
-            names = [self._demos.demo_name(e) for e in episodes if split_of(e, self._options.valid) == split]
-            if names and split not in mask:
-                mask.create_dataset(split, data=np.array(names, dtype="S"))
+            names = [demo.name for demo in demos if split_of(demo.episode, self._options.valid) == split]
+            if names:
+                put_filter(file, split, names)
+
+    def _put_observations(self, demo: Any, steps: Steps) -> None:
+        episode = steps.episode
+        parts = {"obs": slice(0, -1)}
+        if self._options.next_obs:
+            parts["next_obs"] = slice(1, None)
+        observed = _observed(steps)
+        for which, part in parts.items():
+            for name, values in observed.items():
+                demo.create_dataset(f"{which}/{name}", data=values[part])
+        for camera in self._cameras[self._demos.file_of(episode)]:
+            pictures = episode.pictures(f"{camera}_rgb", draw=self._options.draw)
+            for which, part in parts.items():
+                put_pictures(demo[which], f"{camera}_image", pictures[part])
+
+
+def put_filter(file: Any, name: str, demos: Sequence[str]) -> None:
+    """A filter key: names of demos that belong together."""
+    file.create_dataset(f"mask/{name}", data=np.array(demos, dtype="S"))
 
 
 def _observed(steps: Steps) -> dict[str, Array]:
@@ -109,6 +126,24 @@ def _observed(steps: Steps) -> dict[str, Array]:
     pose = steps.arrays["gripper_pose"]
     observed = {name: known(steps.arrays[column]) for name, column in _OBSERVED.items()}
     return {**observed, "robot0_eef_pos": pose[:, :3], "robot0_eef_quat": pose[:, 3:]}
+
+
+def _action_parts(steps: Steps) -> dict[str, Array]:
+    """Parts of the actions in rad and m; poses and their changes in the world. Six values a rotation: the matrix's
+    first two rows, as robomimic converts them."""
+    target = steps.commanded_tool[1:]
+    moved = steps.natural_actions("tool_delta")[:, :6]
+    unturned = np.broadcast_to([0.0, 0.0, 0.0, 1.0], (steps.count, 4))
+    return {
+        "joint_position": steps.commanded_joints[1:],
+        "joint_delta": np.diff(steps.commanded_joints, axis=0),
+        "abs_pos": target[:, :3],
+        "abs_rot_axis_angle": rotation_vectors(unturned, target[:, 3:]),
+        "abs_rot_6d": matrices(target)[:, :2, :3].reshape(-1, 6),
+        "rel_pos": moved[:, :3],
+        "rel_rot_axis_angle": moved[:, 3:],
+        "gripper": steps.gripper[:, None],
+    }
 
 
 def _states(steps: Steps) -> tuple[Array, list[str]]:
