@@ -64,8 +64,9 @@ class Writer:
             demo.attrs["ep_meta"] = json.dumps(steps.meta())
             demo.create_dataset("actions", data=steps.actions(self._options.action))
             demo.create_dataset("actions_abs", data=steps.natural_actions("joint_position"))
+            parts = demo.create_group("action_dict")
             for name, values in _action_parts(steps).items():
-                demo.create_dataset(f"action_dict/{name}", data=values)
+                parts.create_dataset(name, data=values)
             demo.create_dataset("states", data=states)
             demo.create_dataset("rewards", data=steps.rewards)
             demo.create_dataset("dones", data=steps.success.astype(np.int64))
@@ -108,8 +109,9 @@ class Writer:
             parts["next_obs"] = slice(1, None)
         observed = _observed(steps)
         for which, part in parts.items():
+            group = demo.create_group(which)
             for name, values in observed.items():
-                demo.create_dataset(f"{which}/{name}", data=values[part])
+                group.create_dataset(name, data=values[part])
         for camera in self._cameras[self._demos.file_of(episode)]:
             pictures = episode.pictures(f"{camera}_rgb", draw=self._options.draw)
             for which, part in parts.items():

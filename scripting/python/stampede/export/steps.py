@@ -38,12 +38,7 @@ _COLUMNS = (
     "gripper_opening",
     "task_low_dim_state",
     "action",
-    "reward",
-    "done",
     "skill",
-    "subgoal",
-    "progress",
-    "time",
 )
 
 
