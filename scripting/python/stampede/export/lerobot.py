@@ -1,7 +1,8 @@
 """LeRobotDataset v3.0, or v2.1: numbers in parquet files, cameras as films, statistics.
 
 Splits are ranges of episodes, in the order train, valid, test. Skills are there as `subtask_index` (-1: none) and
-`meta/subtasks.parquet`; columns of `meta/episodes` say each episode's seed, variation, success and number of skills.
+`meta/subtasks.parquet`; with --language also as `language_persistent`, for LeRobot 0.6: subtasks, the plan, motions and
+other wordings of the task. Columns of `meta/episodes` say each episode's seed, variation, success and number of skills.
 Actions are in natural units: rad or m and rotation vectors, and the opening of the gripper in m. Poses of things,
 `observation.environment_state`, are there where all episodes have the same things.
 """
@@ -30,6 +31,7 @@ _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 _CHUNK = 1000  # files a folder
 _DATA_MB, _VIDEO_MB = 100, 200  # as LeRobot's own; films are one an episode
 
+_LANGUAGE = ("language_persistent", "language_events")
 _NUMBERS = {  # what LeRobot adds to every frame
     "timestamp": "float32",
     "frame_index": "int64",
@@ -56,14 +58,15 @@ class Writer:
     def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
         tables()
         library()
+        if options.language and options.version != "3.0":
+            raise fault("--language", "LeRobot v2.1 has no such columns", "--version 3.0")
         self._folder, self._options = folder, options
         self._pieces = Pieces(folder)
         of_split = {episode.id: split_of(episode, options.valid) for episode in episodes}
         self._episodes = sorted(episodes, key=lambda episode: _SPLITS.index(of_split[episode.id]))
-        self._number = {episode.id: number for number, episode in enumerate(self._episodes)}
         self._split_sizes = {split: sum(1 for one in of_split.values() if one == split) for split in _SPLITS}
         self._tasks = _numbered([_task(episode) for episode in self._episodes])
-        self._subtasks = _numbered(self._labels())
+        self._subtasks: dict[str, int] = {}
         rates = {episode.frame_hz for episode in episodes}
         if len(rates) > 1 or not float(next(iter(rates))).is_integer():
             raise fault("frame_hz", f"LeRobot knows one whole rate, not {sorted(rates)}", "--where 'frame_hz = 20'")
@@ -78,48 +81,63 @@ class Writer:
         parser.add_argument(
             "--encoder", choices=tuple(ENCODERS), default="libx264", help="of the films (default: %(default)s)"
         )
+        parser.add_argument(
+            "--language", action="store_true", help="columns of language as well; LeRobot before 0.5 cannot read them"
+        )
 
     def has(self, episode: StoredEpisode) -> bool:
-        return self._pieces.has(self._number[episode.id])
+        return self._pieces.has(episode.id)
 
     def write(self, episode: StoredEpisode) -> None:
-        number = self._number[episode.id]
         if cameras_of(episode, self._options) != self._cameras:
             raise fault(f"episode {episode.id}", "it has pictures of other cameras than the first", "--cameras NAMES")
         steps = Steps(episode)
-        columns, names = self._columns(steps, number)
-        with self._pieces.making(number) as piece:
+        columns, names, labels = self._columns(steps)
+        with self._pieces.making(episode.id) as piece:
             with ThreadPoolExecutor(max(1, len(self._cameras))) as threads:
                 films = [threads.submit(self._film, piece, episode, camera, steps.count) for camera in self._cameras]
                 names_of_films = [f"observation.images.{camera}" for camera in self._cameras]
                 histograms = {name: film.result() for name, film in zip(names_of_films, films, strict=True)}
             np.savez(piece / "columns.npz", **columns)
             np.savez(piece / "pictures.npz", **histograms)
-            sizes = {key: list(value) for key, value in self._sizes(episode).items()}
-            (piece / "names.json").write_text(json.dumps({"names": names, "sizes": sizes}))
+            described = {
+                "names": names,
+                "labels": labels,
+                "sizes": self._sizes(episode),
+                "about": _about(steps),
+                "language": _language(steps) if self._options.language else [],
+            }
+            (piece / "described.json").write_text(json.dumps(described))
 
     def finish(self) -> None:
-        pieces = [self._pieces.of(number) for number in range(len(self._episodes))]
+        pieces = [self._pieces.of(episode.id) for episode in self._episodes]
         columns = [dict(np.load(piece / "columns.npz")) for piece in pieces]
-        described = [json.loads((piece / "names.json").read_text()) for piece in pieces]
+        described = [json.loads((piece / "described.json").read_text()) for piece in pieces]
         names = dict(described[0]["names"])
         if any(one["names"][_THINGS] != names[_THINGS] for one in described):
             for one in (names, *columns):  # of several tasks: a feature is the same in all episodes
                 del one[_THINGS]
+        for episode, one in zip(self._episodes, described, strict=True):
+            if one["sizes"] != described[0]["sizes"]:
+                raise fault(f"episode {episode.id}", "its pictures have another size than the first's", "--where SQL")
         self._features = self._describe(names, described[0]["sizes"])
-        histograms = [dict(np.load(piece / "pictures.npz")) for piece in pieces]
+        self._subtasks = _numbered(sorted({label for one in described for label in one["labels"]}))
         first = 0
-        for one in columns:
-            one["index"] = np.arange(first, first + len(one["index"]), dtype=np.int64)
+        for number, (one, about) in enumerate(zip(columns, described, strict=True)):
+            self._number(one, number, first, about["labels"])
             first += len(one["index"])
+        histograms = [dict(np.load(piece / "pictures.npz")) for piece in pieces]
         stats = [_stats(one, pictures) for one, pictures in zip(columns, histograms, strict=True)]
-        whole = {name: np.concatenate([one[name] for one in columns]) for name in columns[0]}
-        pictures = {name: sum(one[name] for one in histograms) for name in histograms[0]}
         (self._folder / "meta").mkdir(exist_ok=True)
         if self._options.version == "3.0":
-            self._finish_3(columns, stats, _stats(whole, pictures))
+            whole: dict[str, Any] = {}
+            for name in columns[0]:  # one after the other, so that little is there twice
+                whole |= _stats({name: np.concatenate([one[name] for one in columns])}, {})
+            pictures = {name: sum(one[name] for one in histograms) for name in histograms[0]}
+            whole |= _picture_stats(pictures, first)
+            self._finish_3(columns, described, stats, whole)
         else:
-            self._finish_2(columns, stats)
+            self._finish_2(columns, described, stats)
         self._write_index("subtasks", "subtask", self._subtasks)
         self._pieces.remove()
 
@@ -128,20 +146,16 @@ class Writer:
 
     # Episodes
 
-    def _labels(self) -> list[str]:
-        rows = self._episodes[0].catalogue.query(
-            "SELECT DISTINCT label FROM segments WHERE kind = 'skill' AND label != '' ORDER BY label"
-        )
-        return [str(label) for label in rows.values("label")]
-
-    def _columns(self, steps: Steps, number: int) -> tuple[dict[str, Array], dict[str, list[str]]]:
-        """Rows of all steps, and names of the components of vectors."""
+    def _columns(self, steps: Steps) -> tuple[dict[str, Array], dict[str, list[str]], list[str]]:
+        """Rows of all steps, names of the components of vectors, and what `subtask_index` counts in this episode."""
         arrays = steps.arrays
         state = np.hstack([steps.observed("joint_positions"), steps.observed("gripper_opening")[:, None]])
         things = steps.observed("task_low_dim_state")
+        labels = list(_numbered([skill.label for skill in steps.skills if skill.label]))
         subtask = np.full(steps.count, -1, dtype=np.int64)
         for skill in steps.skills:
-            subtask[skill.first_frame : skill.end_frame] = self._subtasks.get(skill.label, -1)
+            if skill.label:
+                subtask[skill.first_frame : skill.end_frame] = labels.index(skill.label)
         done = np.zeros(steps.count, dtype=bool)
         done[-1] = True
         frames = np.arange(steps.count, dtype=np.int64)
@@ -155,16 +169,25 @@ class Writer:
             "subtask_index": subtask,
             "timestamp": (frames / self._fps).astype(np.float32),
             "frame_index": frames,
-            "episode_index": np.full(steps.count, number, dtype=np.int64),
-            "index": frames,  # counts on over episodes in the end
-            "task_index": np.full(steps.count, self._tasks[_task(steps.episode)], dtype=np.int64),
+            # What counts over all episodes is known in the end.
+            "episode_index": np.zeros_like(frames),
+            "index": frames,
+            "task_index": np.zeros_like(frames),
         }
         names = {
             "observation.state": [*arrays.column("joint_positions").labels, "gripper"],
             _THINGS: list(arrays.column("task_low_dim_state").labels),
             "action": steps.action_names(self._options.action),
         }
-        return columns, names
+        return columns, names, labels
+
+    def _number(self, columns: dict[str, Array], number: int, first: int, labels: Sequence[str]) -> None:
+        """Numbers that count over all episodes. first: the index of its first row."""
+        columns["index"] = columns["frame_index"] + first
+        columns["episode_index"] = np.full_like(columns["index"], number)
+        columns["task_index"] = np.full_like(columns["index"], self._tasks[_task(self._episodes[number])])
+        everywhere = np.array([*(self._subtasks[label] for label in labels), -1], dtype=np.int64)
+        columns["subtask_index"] = everywhere[columns["subtask_index"]]  # -1 stays: it is the last
 
     def _film(self, piece: Path, episode: StoredEpisode, camera: str, count: int) -> Array:
         """Writes it; gives how often each value is in each channel: 3 x 256."""
@@ -174,9 +197,9 @@ class Writer:
         write_film(piece / f"{camera}.mp4", pictures, self._fps, self._options.encoder)
         return np.stack([np.bincount(pictures[..., k].ravel(), minlength=256) for k in range(3)])
 
-    def _sizes(self, episode: StoredEpisode) -> dict[str, tuple[int, int, int]]:
+    def _sizes(self, episode: StoredEpisode) -> dict[str, list[int]]:
         return {
-            camera: tuple(episode.pictures(f"{camera}_rgb", [0], draw=self._options.draw).shape[1:])
+            camera: list(episode.pictures(f"{camera}_rgb", [0], draw=self._options.draw).shape[1:])
             for camera in self._cameras
         }
 
@@ -206,6 +229,9 @@ class Writer:
         singles = {"next.reward": "float32", "next.done": "bool", "next.success": "bool", "subtask_index": "int64"}
         for name, kind in {**singles, **_NUMBERS}.items():
             features[name] = {"dtype": kind, "shape": [1], "names": None}
+        if self._options.language:
+            for name in _LANGUAGE:
+                features[name] = {"dtype": "language", "shape": [1], "names": None}
         return features
 
     def _info(self, frames: int) -> dict[str, Any]:
@@ -226,19 +252,23 @@ class Writer:
             "features": self._features,
         }
 
-    def _finish_3(self, columns: list[dict[str, Array]], stats: list[Any], whole: Any) -> None:
+    def _finish_3(
+        self, columns: list[dict[str, Array]], described: list[dict[str, Any]], stats: list[Any], whole: Any
+    ) -> None:
         arrow, parquet, _ = tables()
         data, rows, file, first = None, [], -1, 0
+        path = partial = self._folder
         for number, episode in enumerate(self._episodes):
-            path = self._folder / f"data/chunk-{max(file, 0) // _CHUNK:03d}/file-{max(file, 0) % _CHUNK:03d}.parquet"
-            if data is None or path.stat().st_size > _DATA_MB * 1e6:
+            if data is None or partial.stat().st_size > _DATA_MB * 1e6:
                 if data is not None:
                     data.close()
+                    partial.replace(path)
                 file += 1
                 path = self._folder / f"data/chunk-{file // _CHUNK:03d}/file-{file % _CHUNK:03d}.parquet"
+                partial = path.with_name(path.name + ".part")
                 path.parent.mkdir(parents=True, exist_ok=True)
-                data = parquet.ParquetWriter(path, self._schema(), compression="snappy", use_dictionary=True)
-            data.write_table(self._table(columns[number]))  # a row group an episode
+                data = parquet.ParquetWriter(partial, self._schema(), compression="snappy", use_dictionary=True)
+            data.write_table(self._table(columns[number], described[number]["language"]))  # a row group an episode
             length = len(columns[number]["index"])
             row: dict[str, Any] = {
                 "episode_index": number,
@@ -250,12 +280,12 @@ class Writer:
                 "dataset_to_index": first + length,
                 "meta/episodes/chunk_index": 0,
                 "meta/episodes/file_index": 0,
-                **_about(episode),
+                **described[number]["about"],
             }
             for camera in self._cameras:
                 key = f"observation.images.{camera}"
                 chunk, place_in_chunk = number // _CHUNK, number % _CHUNK
-                film = self._pieces.of(number) / f"{camera}.mp4"
+                film = self._pieces.of(episode.id) / f"{camera}.mp4"
                 place(film, self._folder / f"videos/{key}/chunk-{chunk:03d}/file-{place_in_chunk:03d}.mp4")
                 row[f"videos/{key}/chunk_index"] = chunk
                 row[f"videos/{key}/file_index"] = place_in_chunk
@@ -267,6 +297,7 @@ class Writer:
             first += length
         assert data is not None
         data.close()
+        partial.replace(path)
         meta = self._folder / "meta"
         episodes = meta / "episodes/chunk-000/file-000.parquet"
         episodes.parent.mkdir(parents=True, exist_ok=True)
@@ -283,21 +314,25 @@ class Writer:
         (meta / "stats.json").write_text(json.dumps(whole, indent=4))
         (meta / "info.json").write_text(json.dumps(info, indent=4))
 
-    def _finish_2(self, columns: list[dict[str, Array]], stats: list[Any]) -> None:
+    def _finish_2(
+        self, columns: list[dict[str, Array]], described: list[dict[str, Any]], stats: list[Any]
+    ) -> None:
         _, parquet, _ = tables()
         meta, episodes, frames = self._folder / "meta", [], 0
         for number, episode in enumerate(self._episodes):
             chunk = f"chunk-{number // _CHUNK:03d}"
             path = self._folder / f"data/{chunk}/episode_{number:06d}.parquet"
             path.parent.mkdir(parents=True, exist_ok=True)
-            parquet.write_table(self._table(columns[number]), path, compression="snappy")
+            partial = path.with_name(path.name + ".part")
+            parquet.write_table(self._table(columns[number], []), partial, compression="snappy")
+            partial.replace(path)
             for camera in self._cameras:
-                film = self._pieces.of(number) / f"{camera}.mp4"
+                film = self._pieces.of(episode.id) / f"{camera}.mp4"
                 place(film, self._folder / f"videos/{chunk}/observation.images.{camera}/episode_{number:06d}.mp4")
             length = len(columns[number]["index"])
             frames += length
-            about = {"episode_index": number, "tasks": [_task(episode)], "length": length, **_about(episode)}
-            episodes.append(about)
+            about = {"episode_index": number, "tasks": [_task(episode)], "length": length}
+            episodes.append(about | described[number]["about"])
         exact = {"q01", "q10", "q50", "q90", "q99"}  # v2.1 has no quantiles
         lean = [{f: {n: v for n, v in s.items() if n not in exact} for f, s in one.items()} for one in stats]
         _write_lines(meta / "episodes.jsonl", episodes)
@@ -320,17 +355,23 @@ class Writer:
         kinds = {"float32": arrow.float32(), "int64": arrow.int64(), "bool": arrow.bool_()}
         fields = []
         for name, feature in self._features.items():
-            if feature["dtype"] != "video":
+            if feature["dtype"] == "language":
+                fields.append(arrow.field(name, arrow.list_(_language_row(name))))
+            elif feature["dtype"] != "video":
                 kind = kinds[feature["dtype"]]
                 vector = feature["names"] is not None
                 fields.append(arrow.field(name, arrow.list_(kind, feature["shape"][0]) if vector else kind))
         return arrow.schema(fields)
 
-    def _table(self, columns: dict[str, Array]) -> Any:
+    def _table(self, columns: dict[str, Array], language: list[dict[str, Any]]) -> Any:
         arrow, _, _ = tables()
         schema = self._schema()
         values = []
         for field in schema:
+            if field.name in _LANGUAGE:  # of an episode: the same rows at every frame, and no events
+                rows = language if field.name == "language_persistent" else []
+                values.append(arrow.array([rows] * len(columns["index"]), type=field.type))
+                continue
             column = columns[field.name]
             if column.ndim > 1:
                 flat = arrow.array(np.ascontiguousarray(column).ravel())
@@ -352,15 +393,44 @@ def _task(episode: StoredEpisode) -> str:
     return sentences[0] if sentences else f"{episode.task} {episode.variation}".strip()
 
 
-def _about(episode: StoredEpisode) -> dict[str, Any]:
+def _about(steps: Steps) -> dict[str, Any]:
     """Columns of ours, to filter by."""
+    episode = steps.episode
     return {
         "stampede/task": episode.task,
         "stampede/variation": episode.variation,
         "stampede/seed": episode.seed,
         "stampede/success": episode.success,
-        "stampede/skills": sum(1 for segment in episode.segments if segment.kind == "skill"),
+        "stampede/skills": len(steps.skills),
     }
+
+
+def _language(steps: Steps) -> list[dict[str, Any]]:
+    """Rows of `language_persistent`, in time: what holds from a frame on until a row of the same style."""
+
+    def row(frame: int, style: str, content: str, role: str = "assistant") -> dict[str, Any]:
+        return {"role": role, "content": content, "style": style, "timestamp": frame / steps.episode.frame_hz}
+
+    skills = [skill for skill in steps.skills if skill.label and skill.first_frame < steps.count]
+    plan = "\n".join(f"{number}. {skill.label}" for number, skill in enumerate(skills, 1))
+    rows = [row(0, "plan", plan)] if plan else []
+    rows += [row(skill.first_frame, "subtask", skill.label) for skill in skills]
+    rows += [
+        row(motion.first_frame, "motion", " ".join([motion.name, *motion.arguments]))
+        for motion in steps.arrays.segments
+        if motion.kind == "motion" and motion.first_frame < min(motion.end_frame, steps.count)
+    ]
+    rows += [row(0, "task_aug", sentence, "user") for sentence in steps.episode.instructions()[1:]]
+    return sorted(rows, key=lambda one: (one["timestamp"], one["style"]))
+
+
+def _language_row(column: str) -> Any:
+    """The type of a row of one of LeRobot's columns of language."""
+    arrow, _, _ = tables()
+    fields = [("role", arrow.string()), ("content", arrow.string()), ("style", arrow.string())]
+    if column == "language_persistent":
+        fields.append(("timestamp", arrow.float32()))
+    return arrow.struct([*fields, ("camera", arrow.string()), ("tool_calls", arrow.list_(arrow.string()))])
 
 
 def _numbered(texts: Sequence[str]) -> dict[str, int]:
@@ -368,7 +438,7 @@ def _numbered(texts: Sequence[str]) -> dict[str, int]:
 
 
 def _stats(columns: dict[str, Array], histograms: dict[str, Array]) -> dict[str, dict[str, Any]]:
-    """Of each feature; of pictures by channel, 3 x 1 x 1, values of 0 … 1."""
+    """Of each feature of one episode or all."""
     stats = {}
     for name, values in columns.items():
         rows = values.reshape(len(values), -1).astype(np.float64)
@@ -380,6 +450,12 @@ def _stats(columns: dict[str, Array], histograms: dict[str, Array]) -> dict[str,
             "count": [len(rows)],
             **{key: np.quantile(rows, share, axis=0).tolist() for key, share in _QUANTILES.items()},
         }
+    return stats | _picture_stats(histograms, len(next(iter(columns.values()))))
+
+
+def _picture_stats(histograms: dict[str, Array], frames: int) -> dict[str, dict[str, Any]]:
+    """By channel, 3 x 1 x 1, values of 0 … 1."""
+    stats: dict[str, dict[str, Any]] = {}
     levels = np.arange(256) / 255
     for name, counts in histograms.items():
         share = counts / counts.sum(axis=1, keepdims=True)
@@ -393,7 +469,7 @@ def _stats(columns: dict[str, Array], histograms: dict[str, Array]) -> dict[str,
             **{key: [levels[np.searchsorted(row, q)] for row in below] for key, q in _QUANTILES.items()},
         }
         stats[name] = {key: np.asarray(value, dtype=np.float64).reshape(3, 1, 1).tolist() for key, value in one.items()}
-        stats[name]["count"] = [len(next(iter(columns.values())))]
+        stats[name]["count"] = [frames]
     return stats
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -36,7 +37,12 @@ class Pieces:
 
 
 def place(piece: Path, final: Path) -> None:
-    """Moves a file to its name in the dataset. Once moved it stays, so that `finish` may be repeated."""
-    if piece.exists():
-        final.parent.mkdir(parents=True, exist_ok=True)
-        piece.replace(final)
+    """Gives a file its name in the dataset too. It stays in its piece, so that `finish` may be repeated."""
+    final.parent.mkdir(parents=True, exist_ok=True)
+    final.unlink(missing_ok=True)
+    try:
+        os.link(piece, final)
+    except OSError:  # not every file system has links
+        partial = final.with_name(final.name + ".part")
+        shutil.copyfile(piece, partial)
+        partial.replace(final)
