@@ -98,8 +98,8 @@ class Writer:
                 films = [threads.submit(self._film, piece, episode, camera, steps.count) for camera in self._cameras]
                 names_of_films = [f"observation.images.{camera}" for camera in self._cameras]
                 histograms = {name: film.result() for name, film in zip(names_of_films, films, strict=True)}
-            np.savez(piece / "columns.npz", **columns)
-            np.savez(piece / "pictures.npz", **histograms)
+            np.savez(piece / "columns.npz", **columns)  # type: ignore[arg-type]
+            np.savez(piece / "pictures.npz", **histograms)  # type: ignore[arg-type]
             described = {
                 "names": names,
                 "labels": labels,
@@ -314,9 +314,7 @@ class Writer:
         (meta / "stats.json").write_text(json.dumps(whole, indent=4))
         (meta / "info.json").write_text(json.dumps(info, indent=4))
 
-    def _finish_2(
-        self, columns: list[dict[str, Array]], described: list[dict[str, Any]], stats: list[Any]
-    ) -> None:
+    def _finish_2(self, columns: list[dict[str, Array]], described: list[dict[str, Any]], stats: list[Any]) -> None:
         _, parquet, _ = tables()
         meta, episodes, frames = self._folder / "meta", [], 0
         for number, episode in enumerate(self._episodes):
@@ -337,9 +335,7 @@ class Writer:
         lean = [{f: {n: v for n, v in s.items() if n not in exact} for f, s in one.items()} for one in stats]
         _write_lines(meta / "episodes.jsonl", episodes)
         _write_lines(meta / "tasks.jsonl", [{"task_index": k, "task": text} for text, k in self._tasks.items()])
-        _write_lines(
-            meta / "episodes_stats.jsonl", [{"episode_index": k, "stats": one} for k, one in enumerate(lean)]
-        )
+        _write_lines(meta / "episodes_stats.jsonl", [{"episode_index": k, "stats": one} for k, one in enumerate(lean)])
         info = self._info(frames) | {
             "total_videos": len(self._cameras) * len(self._episodes),
             "total_chunks": (len(self._episodes) + _CHUNK - 1) // _CHUNK,
