@@ -141,6 +141,12 @@ double AtomFormula::share(const Node& node, const std::uint8_t* row) {
   return holds(node, row) ? 1 : 0;
 }
 
+void AtomFormula::mark(const Node& node, std::vector<double>& places) {
+  if (node.kind == Kind::atom) places[node.place] = 1;
+  if (node.kind == Kind::negated_atom) places[node.place] = -1;
+  for (const Node& part : node.parts) mark(part, places);
+}
+
 ApplicableActions applicable_actions(const AtomWorld& world, const std::vector<std::uint8_t>& rows, std::size_t width) {
   const std::size_t count = width == 0 ? 0 : rows.size() / width;
   std::map<Fact, std::vector<std::uint8_t>> found;

@@ -27,6 +27,8 @@ class AtomFormula {
   // How much of it holds, 0 … 1: of a conjunction the mean of its parts, of a disjunction the best of them. It is 1
   // exactly when the formula holds.
   double share(const std::uint8_t* row) const { return share(root_, row); }
+  // 1 at the places of the atoms that it asks for, -1 at those that it rules out, in any of its parts.
+  void mark(std::vector<double>& places) const { mark(root_, places); }
 
  private:
   enum class Kind { always, never, atom, negated_atom, all, any };
@@ -38,6 +40,7 @@ class AtomFormula {
   static Node compile(const Formula& formula, const AtomWorld& world, Binding& binding);
   static bool holds(const Node& node, const std::uint8_t* row);
   static double share(const Node& node, const std::uint8_t* row);
+  static void mark(const Node& node, std::vector<double>& places);
   Node root_;
 };
 

@@ -242,6 +242,10 @@ std::vector<SkillDescription> Environment::skill_descriptions() const {
 
 EnvironmentObservation Environment::observe() const { return impl_->observe(); }
 
+ChannelValue Environment::picture(const std::string& camera, PictureSize size) const {
+  return impl_->acting().observer.picture(camera, size);
+}
+
 std::vector<StateFact> Environment::atoms() const {
   std::vector<StateFact> atoms;
   for (const Fact& fact : impl_->acting().observer.atoms()) atoms.push_back({fact.predicate, fact.arguments});

@@ -19,8 +19,8 @@
 namespace stampede {
 namespace {
 
-constexpr const char* kAbstract[] = {"facts", "known",     "applicable", "fact_names", "feasible_skills",
-                                     "pddl",  "sentences", "plan",       "progress",   "tool_jacobian"};
+constexpr const char* kAbstract[] = {"facts",     "known", "applicable", "fact_names", "feasible_skills", "pddl",
+                                     "sentences", "plan",  "progress",   "goal",       "tool_jacobian"};
 constexpr std::string_view kPoseIn = "object_pose_in/";
 // Columns of a whole episode that say nothing of one moment, or are made here from the running world.
 constexpr const char* kNotNow[] = {"reward",     "done",  "facts",   "known", "progress",
@@ -59,6 +59,30 @@ std::vector<std::string> names_of(const std::vector<PlanStep>& steps) {
   return names;
 }
 
+std::vector<std::string> names_of(const std::vector<stampede::Camera>& cameras) {
+  std::vector<std::string> names;
+  for (const stampede::Camera& camera : cameras) names.push_back(camera.name);
+  return names;
+}
+
+const stampede::Camera& named_camera(const std::vector<stampede::Camera>& cameras, const std::string& name) {
+  const auto camera =
+      std::find_if(cameras.begin(), cameras.end(), [&](const stampede::Camera& one) { return one.name == name; });
+  if (camera != cameras.end()) return *camera;
+  throw Error("camera '" + name + "'", "there is no such camera", did_you_mean(name, names_of(cameras)));
+}
+
+// Throws Error for sizes of cameras that there are not.
+void size_cameras(std::vector<stampede::Camera>& cameras, const EnvironmentSettings& settings) {
+  for (const auto& [name, size] : settings.picture_sizes) named_camera(cameras, name);
+  for (stampede::Camera& camera : cameras) {
+    const auto own = settings.picture_sizes.find(camera.name);
+    const PictureSize size =
+        own == settings.picture_sizes.end() ? PictureSize{settings.width, settings.height} : own->second;
+    if (size.width > 0 && size.height > 0) camera = resized(camera, size.width, size.height);
+  }
+}
+
 }  // namespace
 
 Observer::Observer(Rollout& rollout, std::shared_ptr<const Scene> shared, const RunOptions& options,
@@ -79,8 +103,7 @@ Observer::Observer(Rollout& rollout, std::shared_ptr<const Scene> shared, const 
   now_->frame_hz = scene.frame_hz;
   now_->objects = scene.objects;
   now_->cameras = scene.cameras;
-  if (settings.width > 0 && settings.height > 0)
-    for (stampede::Camera& camera : now_->cameras) camera = resized(camera, settings.width, settings.height);
+  size_cameras(now_->cameras, settings);
   now_->joints = reader.joints();
   now_->posed = reader.posed();
   now_->hands = {scene.robot.name + "." + scene.robot.hand};
@@ -271,26 +294,50 @@ void Observer::hide(ChannelValue& value) const {
   }
 }
 
-void Observer::draw(const std::vector<std::string>& cameras) {
+View Observer::view_from(const std::string& camera, const ScenePoses& poses) const {
+  return {named_camera(now_->cameras, camera),
+          world_from_camera(*scene_, poses, named_camera(scene_->cameras, camera))};
+}
+
+std::vector<Picture> Observer::draw(const std::vector<View>& views, const ScenePoses& poses,
+                                    const PictureKinds& kinds) {
   if (!renderer_) renderer_ = make_osmesa_renderer();
   if (!loaded_) renderer_->load(scene_);
   loaded_ = true;
-  const ScenePoses poses = scene_poses(*scene_, state_at(*scene_, *now_, 0));
-  std::vector<View> views;
   DrawOptions options;
-  options.kinds = PictureKinds::none();
+  options.kinds = kinds;
   options.shadows = settings_.shadows;
-  for (const std::string& name : cameras) {
-    const auto camera = std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
-                                     [&](const stampede::Camera& one) { return one.name == name; });
-    const bool own = settings_.width == 0 || settings_.height == 0;
-    views.push_back({own ? *camera : resized(*camera, settings_.width, settings_.height),
-                     world_from_camera(*scene_, poses, *camera)});
-    for (const PictureKind kind : kPictureKinds)
-      if (kinds_.at(name).has(kind)) options.kinds.add(kind);
-  }
   std::vector<Picture> pictures;
   renderer_->draw(poses, views, options, pictures);
+  return pictures;
+}
+
+ChannelValue Observer::picture(const std::string& camera, PictureSize size) {
+  if (const auto& frames = rollout_.recorder().frames; !frames.empty()) now_->frames.assign(1, frames.back());
+  const ScenePoses poses = scene_poses(*scene_, state_at(*scene_, *now_, 0));
+  View view = view_from(camera, poses);
+  if (size.width > 0 && size.height > 0) view.camera = resized(view.camera, size.width, size.height);
+  PictureKinds colours = PictureKinds::none();
+  colours.rgb = true;
+  Picture picture = std::move(draw({view}, poses, colours).front());
+  ChannelValue value;
+  value.name = camera + "_rgb";
+  value.frame = camera;
+  value.shape = {picture.height, picture.width, 3};
+  value.data = std::move(picture.rgb);
+  return value;
+}
+
+void Observer::look(const std::vector<std::string>& cameras) {
+  const ScenePoses poses = scene_poses(*scene_, state_at(*scene_, *now_, 0));
+  std::vector<View> views;
+  PictureKinds kinds = PictureKinds::none();
+  for (const std::string& name : cameras) {
+    views.push_back(view_from(name, poses));
+    for (const PictureKind kind : kPictureKinds)
+      if (kinds_.at(name).has(kind)) kinds.add(kind);
+  }
+  std::vector<Picture> pictures = draw(views, poses, kinds);
   const std::int64_t frame = rollout_.step() / rollout_.steps_per_frame();
   const CameraNoise noise{settings_.rgb_noise, settings_.depth_noise};
   const RandomKey key = RandomKey("camera noise").with(now_->task).with(now_->variation).with(now_->seed);
@@ -311,7 +358,7 @@ void Observer::add_pictures(EnvironmentObservation& observation) {
                                  static_cast<double>(observation.frame - last->second.frame) < period - 1e-9);
     if (!fresh) due.push_back(camera);
   }
-  if (!due.empty()) draw(due);
+  if (!due.empty()) look(due);
   using Kind = PictureChannel::Kind;
   for (const PictureChannel& one : pictures_) {
     const Drawn& drawn = drawn_.at(one.camera);
@@ -345,13 +392,25 @@ void Observer::add_pictures(EnvironmentObservation& observation) {
   }
 }
 
+AtomFormula Observer::compiled(const Formula& formula) const {
+  Facts ever = rollout_.facts().facts();  // what is no atom here never changes
+  ever.insert(atoms_.begin(), atoms_.end());
+  return {formula, AtomWorld{places_, rollout_.domain(), rollout_.facts().objects(), ever}};
+}
+
 double Observer::progress() {
-  if (!goal_) {
-    Facts ever = rollout_.facts().facts();
-    ever.insert(atoms_.begin(), atoms_.end());
-    goal_.emplace(rollout_.task().goal, AtomWorld{places_, rollout_.domain(), rollout_.facts().objects(), ever});
-  }
+  if (!goal_) goal_ = compiled(rollout_.task().goal);
   return goal_->share(row().data());
+}
+
+const std::vector<double>& Observer::goal() {
+  if (wanted_at_ == rollout_.stage()) return wanted_;
+  wanted_at_ = rollout_.stage();
+  const Task& task = rollout_.task();
+  const auto stage = static_cast<std::size_t>(wanted_at_);
+  wanted_.assign(atoms_.size(), 0);
+  compiled(stage < task.stages.size() ? task.stages[stage] : task.goal).mark(wanted_);
+  return wanted_;
 }
 
 // What the planner would do from here, on what is known.
@@ -419,6 +478,9 @@ ChannelValue Observer::abstract(const std::string& name) {
     value.data = std::move(data);
   } else if (name == "progress") {
     value.data = std::vector<double>{progress()};
+  } else if (name == "goal") {
+    value.shape = {count_of(atoms_.size())};
+    value.data = goal();
   } else {  // object_pose_in/NAME/OTHER
     const std::string pair = name.substr(kPoseIn.size());
     const std::size_t slash = pair.find('/');

@@ -26,6 +26,8 @@ class Observer {
   // Throws Error for a channel that there is not, with the nearest name as cure.
   void choose(const std::vector<std::string>& channels);
   EnvironmentObservation observe();  // at a frame
+  // Colours alone, without noise; `size` 0: as the camera's channels.
+  ChannelValue picture(const std::string& camera, PictureSize size);
 
   const std::vector<Fact>& atoms() const { return atoms_; }  // basic ones, then derived ones
   const std::vector<PlanStep>& skills() const { return skills_; }
@@ -43,10 +45,14 @@ class Observer {
   const std::vector<std::uint8_t>& row();  // of atoms that hold, as far as the agent may know
   void add_raw(EnvironmentObservation& observation);
   void add_pictures(EnvironmentObservation& observation);
-  void draw(const std::vector<std::string>& cameras);
+  void look(const std::vector<std::string>& cameras);  // for the channels
+  std::vector<Picture> draw(const std::vector<View>& views, const ScenePoses& poses, const PictureKinds& kinds);
+  View view_from(const std::string& camera, const ScenePoses& poses) const;
   ChannelValue abstract(const std::string& name);
   void hide(ChannelValue& value) const;
+  AtomFormula compiled(const Formula& formula) const;
   double progress();
+  const std::vector<double>& goal();
   std::vector<std::string> plan();
 
   Rollout& rollout_;
@@ -74,9 +80,10 @@ class Observer {
   std::vector<PlanStep> skills_;
   std::vector<AtomFormula> preconditions_;  // of skills_, once asked for
   std::optional<AtomFormula> goal_;
+  std::vector<double> wanted_;  // of the stage wanted_at_
   std::vector<std::uint8_t> row_, feasible_;
   Facts facts_;
-  std::int64_t facts_at_ = -1, row_at_ = -1, feasible_at_ = -1, plan_at_ = -1;
+  std::int64_t facts_at_ = -1, row_at_ = -1, feasible_at_ = -1, plan_at_ = -1, wanted_at_ = -1;
   std::vector<std::string> plan_;
   std::set<std::string> hidden_;
 };

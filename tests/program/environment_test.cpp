@@ -393,6 +393,39 @@ TEST_CASE("a saved state branches: the same future, bit for bit, here and in ano
   CHECK_THROWS_WITH(one.restore({}), Catch::Contains("empty state"));
 }
 
+TEST_CASE("cameras have sizes of their own, and are drawn when asked") {
+  Environment world = environment(
+      "reach_target",
+      {.channels = {"front_rgb", "wrist_rgb"}, .width = 32, .height = 24, .picture_sizes = {{"wrist", {20, 10}}}});
+  const EnvironmentObservation seen = world.reset({.seed = 3});
+  CHECK(seen["front_rgb"].shape == std::vector<std::int64_t>{24, 32, 3});
+  CHECK(seen["wrist_rgb"].shape == std::vector<std::int64_t>{10, 20, 3});
+  CHECK(world.picture("wrist").bytes() == seen["wrist_rgb"].bytes());
+  CHECK(world.picture("overhead", {16, 8}).shape == std::vector<std::int64_t>{8, 16, 3});
+  world.step({.space = "joint_position", .values = {0.5, 0.1, 0, -1, 0, 1.2, 0.8}});
+  CHECK(world.picture("wrist").bytes() != seen["wrist_rgb"].bytes());
+  CHECK_THROWS_WITH(world.picture("wrst"), Catch::Contains("did you mean 'wrist'"));
+  CHECK_THROWS_WITH(environment("reach_target", {.picture_sizes = {{"frnt", {8, 8}}}}).reset(),
+                    Catch::Contains("did you mean 'front'"));
+}
+
+TEST_CASE("the goal is one number an atom") {
+  Environment stack = environment("stack_blocks", {.channels = {"goal"}});
+  const EnvironmentObservation seen = stack.reset({.variation = "height=2", .seed = 1});
+  const std::vector<StateFact> atoms = stack.atoms();
+  const std::vector<double>& goal = seen["goal"].reals();
+  REQUIRE(goal.size() == atoms.size());
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    const auto& arguments = atoms[i].arguments;
+    const bool block_on_block = atoms[i].predicate == "on" && arguments[0].starts_with("block") &&
+                                arguments[1].starts_with("block") && arguments[0] != arguments[1];
+    CHECK(goal[i] == (block_on_block || atoms[i].predicate == "hand_empty" ? 1 : 0));
+  }
+  Environment usb = environment("take_usb_out_of_computer", {.channels = {"goal"}});
+  const std::vector<double> signs = usb.reset()["goal"].reals();
+  CHECK(std::count(signs.begin(), signs.end(), -1) == 2);  // in neither port
+}
+
 TEST_CASE("channels say what the arrays of the recorded episode say") {
   Environment world = environment("close_drawer", {.channels = {"time",
                                                                 "joint_positions",

@@ -243,7 +243,30 @@ def test_render_is_what_the_camera_sees():
     assert picture.shape == (48, 64, 3)
     assert picture.dtype == np.uint8
     assert picture.std() > 1
+    with pytest.raises(_core.Error, match="did you mean 'wrist'"):
+        Env("reach_target", render_mode="rgb_array", camera="wrst")
     assert Env("reach_target").metadata["render_fps"] == 20
+
+
+def test_an_episode_that_was_kept_can_be_drawn():
+    env = Env("reach_target", render_mode="rgb_array", image_size=32, record=True, horizon_s=0.1)
+    env.reset(seed=1)
+    over = False
+    while not over:
+        _, _, _, over, _ = env.step(env.action_space.high)
+    assert env.render().std() > 1
+
+
+def test_goal_says_what_is_wanted_next():
+    env = SkillEnv("push_buttons", variation="count=3", observations=("facts", "goal"))
+    observation, _ = env.reset(seed=1)
+    atoms = env.observation_labels["goal"]
+    assert atoms == env.observation_labels["facts"]
+    assert observation["goal"].shape == observation["facts"].shape
+    for button in ("button1", "button2", "button3"):
+        wanted = [atom for atom, sign in zip(atoms, observation["goal"], strict=True) if sign]
+        assert wanted == [f"(pressed {button}.cap)"]
+        observation, *_ = env.step(env.skill_names.index(f"press({button}.cap, panda.hand)"))
 
 
 def test_save_and_restore_branch():

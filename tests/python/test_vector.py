@@ -129,9 +129,27 @@ def test_pictures():
     assert not np.array_equal(*pictures)
 
 
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_recorded_episodes_reach_the_catalogue(tmp_path, mode):
+    file = tmp_path / "agents.db"
+    vector = VectorEnv(TASK, 2, record=True, catalogue=file, horizon_s=0.2, autoreset_mode=mode)
+    vector.reset(seed=1)
+    recorded = []
+    for _ in range(6):
+        _, _, _, over, infos = vector.step(np.zeros_like(vector.action_space.low))
+        ended = infos.get("final_info", infos) if mode == "SameStep" else infos
+        recorded += [episode for episode in ended.get("recorded", ()) if episode]
+    assert len(recorded) == 2
+    assert not any(episode.success for episode in recorded)
+    vector.close()
+    _, rows = _core.CatalogueReader(file).query("SELECT seed, frames FROM episodes ORDER BY seed")
+    assert [row[0] for row in rows] == [1, 2]
+    assert all(row[1] >= 4 for row in rows)
+
+
 def test_bad_arguments():
-    with pytest.raises(_core.Error, match="record with Env"):
-        VectorEnv(TASK, 2, record=True)
+    with pytest.raises(_core.Error, match="there is no such camera"):
+        VectorEnv(TASK, 2, render_mode="rgb_array", camera="frnt")
     with pytest.raises(_core.Error, match="one or more"):
         VectorEnv(TASK, 0)
     with pytest.raises(_core.Error, match="NextStep"):

@@ -50,6 +50,11 @@ struct STAMPEDE_EXPORT EnvironmentObservation {
   const ChannelValue& operator[](std::string_view name) const;  // throws Error with the nearest name as cure
 };
 
+// Pixels. 0: the camera's own.
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
 // sparse: 1 when the episode ends in success, else 0. dense: how far the plan for the goal has come, 1 where the goal
 // holds (see engine/episode/README.md). task: the task's own `reward`, and 1 at success.
 enum class RewardKind { sparse, dense, task };
@@ -57,8 +62,9 @@ enum class RewardKind { sparse, dense, task };
 struct EnvironmentSettings {
   // Any mix of raw and abstract channels: the columns of `EpisodeArrays` by name or group (`object_pose` is all
   // object_pose/NAME), and facts, known, applicable, fact_names, feasible_skills, pddl, sentences, plan, progress,
-  // object_pose_in/NAME/OTHER. Pictures: CAMERA_rgb, CAMERA_depth, CAMERA_mask, CAMERA_semantic_mask,
-  // CAMERA_point_cloud.
+  // object_pose_in/NAME/OTHER, goal (1 for each of `facts` that the goal asks for, -1 for those that it rules out, 0
+  // for the others; of an ordered goal, of the part that comes next). Pictures: CAMERA_rgb, CAMERA_depth, CAMERA_mask,
+  // CAMERA_semantic_mask, CAMERA_point_cloud.
   std::vector<std::string> channels = {"joint_positions", "joint_velocities", "gripper_open", "gripper_pose",
                                        "task_low_dim_state"};
   bool hidden = false;  // also what nobody can see: facts that are not known, poses of things in closed drawers
@@ -68,6 +74,7 @@ struct EnvironmentSettings {
   double horizon_s = 0;       // simulated; 0: the task's
   bool record = false;        // keep the episode, for `episode()`; else memory does not grow
   int width = 0, height = 0;  // of pictures, pixels; 0: each camera's own
+  std::map<std::string, PictureSize> picture_sizes = {};  // by camera, where it is another one
   bool shadows = false;
   std::map<std::string, double> picture_hz = {};  // by camera, where a picture need not be new at every frame
   double rgb_noise = 0, depth_noise = 0;          // as PictureStorage
@@ -179,6 +186,8 @@ class STAMPEDE_EXPORT Environment {
   std::vector<SkillDescription> skill_descriptions() const;
 
   EnvironmentObservation observe() const;
+  // What a camera sees now, without noise: colours, height x width x 3. Only this is drawn, whatever the channels are.
+  ChannelValue picture(const std::string& camera, PictureSize size = {}) const;
   // Ground atoms of the channels `facts` and `known`, in their order.
   std::vector<StateFact> atoms() const;
 

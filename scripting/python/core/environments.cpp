@@ -3,6 +3,7 @@
 
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -239,6 +240,9 @@ EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
       settings.width = nb::cast<int>(value);
     } else if (name == "height") {
       settings.height = nb::cast<int>(value);
+    } else if (name == "picture_sizes") {
+      for (const auto& [camera, size] : nb::cast<std::map<std::string, std::pair<int, int>>>(value))
+        settings.picture_sizes[camera] = {size.first, size.second};
     } else if (name == "shadows") {
       settings.shadows = nb::cast<bool>(value);
     } else if (name == "picture_hz") {
@@ -318,6 +322,18 @@ Use it in the thread that resets it. An action that cannot be done gives a Step 
           },
           "action"_a)
       .def("observe", [](const Environment& self) { return to_python(self.observe()); })
+      .def(
+          "picture",
+          [](const Environment& self, const std::string& camera, int width, int height) {
+            ChannelValue seen;
+            {
+              const nb::gil_scoped_release free;
+              seen = self.picture(camera, {width, height});
+            }
+            return to_python(std::move(seen));
+          },
+          "camera"_a, "width"_a = 0, "height"_a = 0,
+          "What a camera sees now, without noise: height x width x 3, uint8. 0: the size that its channels have.")
       .def_prop_ro("frame_hz", &Environment::frame_hz, "Steps of set-points a second.")
       .def_prop_ro("horizon_s", &Environment::horizon_s, "Simulated; the episode is truncated then.")
       .def("instructions", &Environment::instructions, "What the task is called in words, for this start.")

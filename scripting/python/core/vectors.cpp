@@ -6,6 +6,7 @@
 #include <stampede/session.h>
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -16,19 +17,11 @@ namespace {
 
 using namespace nb::literals;
 
-// What one environment does next: nothing, an action, or a new start.
-using Command = std::variant<std::monostate, AgentAction, ResetRequest>;
-
-struct Answer {
-  StepResult result;  // of a reset only the observation
-  std::exception_ptr failure;
-};
-
 // Lifetime: one caller at a time.
 class EnvironmentGroup {
  public:
   EnvironmentGroup(std::vector<Environment> environments, int threads)
-      : environments_(std::move(environments)), answers_(environments_.size()) {
+      : environments_(std::move(environments)), failures_(environments_.size()) {
     const std::size_t count = std::min(environments_.size(), static_cast<std::size_t>(std::max(1, threads)));
     for (std::size_t i = 0; i < count; ++i) workers_.emplace_back([this, i, count] { work(i, count); });
   }
@@ -40,19 +33,18 @@ class EnvironmentGroup {
     begin_.notify_all();
   }
 
-  // Throws what the first environment threw; the others have done what they were told all the same.
-  std::vector<Answer>& run(std::vector<Command> commands) {
+  // Does a job with each environment, in its thread. Throws what the first one threw; the others have done theirs.
+  void each(const std::function<void(std::size_t, Environment&)>& job) {
     {
       std::unique_lock lock(mutex_);
-      commands_ = std::move(commands);
+      job_ = &job;
       running_ = workers_.size();
       ++round_;
       begin_.notify_all();
       end_.wait(lock, [&] { return running_ == 0; });
     }
-    for (const Answer& answer : answers_)
-      if (answer.failure) std::rethrow_exception(answer.failure);
-    return answers_;
+    for (const std::exception_ptr& failure : failures_)
+      if (failure) std::rethrow_exception(failure);
   }
 
   Environment& at(std::size_t i) { return environments_.at(i); }
@@ -67,27 +59,24 @@ class EnvironmentGroup {
         if (over_) return;
         done = round_;
       }
-      for (std::size_t i = first; i < environments_.size(); i += stride) obey(i);
+      for (std::size_t i = first; i < environments_.size(); i += stride) attempt(i);
       const std::lock_guard lock(mutex_);
       if (--running_ == 0) end_.notify_one();
     }
   }
 
-  void obey(std::size_t i) {
-    Answer& answer = answers_[i];
-    answer = {};
+  void attempt(std::size_t i) {
+    failures_[i] = nullptr;
     try {
-      if (const auto* action = std::get_if<AgentAction>(&commands_[i])) answer.result = environments_[i].step(*action);
-      if (const auto* request = std::get_if<ResetRequest>(&commands_[i]))
-        answer.result.observation = environments_[i].reset(*request);
+      (*job_)(i, environments_[i]);
     } catch (const std::exception&) {
-      answer.failure = std::current_exception();
+      failures_[i] = std::current_exception();
     }
   }
 
   std::vector<Environment> environments_;
-  std::vector<Command> commands_;
-  std::vector<Answer> answers_;
+  const std::function<void(std::size_t, Environment&)>* job_ = nullptr;
+  std::vector<std::exception_ptr> failures_;
   std::mutex mutex_;
   std::condition_variable begin_, end_;
   std::uint64_t round_ = 0;
@@ -95,6 +84,9 @@ class EnvironmentGroup {
   bool over_ = false;
   std::vector<std::jthread> workers_;
 };
+
+// What one environment does next: nothing, an action, or a new start.
+using Command = std::variant<std::monostate, AgentAction, ResetRequest>;
 
 Command command_from(nb::handle asked) {
   if (asked.is_none()) return std::monostate{};
@@ -111,17 +103,44 @@ nb::list run_group(EnvironmentGroup& group, const nb::sequence& asked) {
                 "there are " + std::to_string(group.size()) + " environments and " + std::to_string(commands.size()) +
                     " commands",
                 "give each one, None to leave it as it is");
-  std::vector<bool> told;
-  for (const Command& command : commands) told.push_back(!std::holds_alternative<std::monostate>(command));
-  std::vector<Answer>* answers = nullptr;
+  std::vector<StepResult> answers(group.size());
   {
     const nb::gil_scoped_release free;
-    answers = &group.run(std::move(commands));
+    group.each([&](std::size_t i, Environment& environment) {
+      if (const auto* action = std::get_if<AgentAction>(&commands[i])) answers[i] = environment.step(*action);
+      if (const auto* request = std::get_if<ResetRequest>(&commands[i]))
+        answers[i].observation = environment.reset(*request);
+    });
   }
   nb::list results;
-  for (std::size_t i = 0; i < told.size(); ++i)
-    results.append(told[i] ? nb::cast(to_step(std::move((*answers)[i].result))) : nb::none());
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    results.append(std::holds_alternative<std::monostate>(commands[i]) ? nb::none()
+                                                                       : nb::cast(to_step(std::move(answers[i]))));
   return results;
+}
+
+nb::list pictures_of(EnvironmentGroup& group, const std::string& camera, std::size_t count) {
+  if (count > group.size()) throw nb::index_error();
+  std::vector<ChannelValue> seen(count);
+  {
+    const nb::gil_scoped_release free;
+    group.each([&](std::size_t i, const Environment& environment) {
+      if (i < count) seen[i] = environment.picture(camera);
+    });
+  }
+  nb::list pictures;
+  for (ChannelValue& one : seen) pictures.append(to_python(std::move(one)));
+  return pictures;
+}
+
+std::optional<Episode> episode_of(EnvironmentGroup& group, std::size_t index) {
+  if (index >= group.size()) throw nb::index_error();
+  const nb::gil_scoped_release free;
+  std::optional<Episode> episode;
+  group.each([&](std::size_t i, Environment& environment) {
+    if (i == index) episode = environment.episode();
+  });
+  return episode;
 }
 
 }  // namespace
@@ -132,6 +151,9 @@ void bind_vectors(nb::module_& module) {
       .def("run", &run_group, "commands"_a, R"(Tells each environment an Action, a Reset or None (nothing), all at once.
 
 Gives a Step for each that was told something; of a reset, only `observation` counts. The GIL is released.)")
+      .def("pictures", &pictures_of, "camera"_a, "count"_a,
+           "What the camera of each of the first `count` sees now, drawn at once: height x width x 3, uint8.")
+      .def("episode", &episode_of, "index"_a, "Ends that environment's episode and keeps it; needs `record`.")
       .def(
           "skills", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).skills(); }, "index"_a)
       .def(

@@ -86,15 +86,15 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self.task = task
         self.settings = settings
         self.render_mode = settings.render_mode
-        self._picture = f"{settings.camera}_rgb"
-        further = [*inner_channels, *([self._picture] if self.render_mode else [])]
         self._shared = shared_session(settings.root, settings.paths, settings.catalogue)
         self._starts = Starts(
             self.session, task, settings.variation, settings.split, settings.randomise, settings.perturb
         )
-        self._environment = self.session.environment(task, **settings.engine(further))
+        self._environment = self.session.environment(task, **settings.engine(inner_channels))
         example = self._environment.reset(self._starts.first())
-        self._codec = ObservationCodec(example, frozenset(further) - frozenset(settings.channels))
+        if self.render_mode:
+            self._environment.picture(settings.camera)  # raises where there is no such camera
+        self._codec = ObservationCodec(example, frozenset(inner_channels) - frozenset(settings.channels))
         self.observation_space = self._codec.space
         self.metadata = {**self.metadata, "render_fps": self._environment.frame_hz}
         self._account = EpisodeAccount(task)
@@ -133,7 +133,7 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
     def render(self) -> np.ndarray | None:
         """What `camera` sees at this frame: height x width x 3, uint8. None without a render mode."""
         self._check_begun("render")
-        return self._account.raw[self._picture] if self.render_mode else None
+        return self._environment.picture(self.settings.camera) if self.render_mode else None
 
     def close(self) -> None:
         """Lets go of engine and session. Any use from now on raises stampede.Error."""
@@ -175,7 +175,7 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
             "facts": [str(atom) for atom in self._environment.atoms()],
             "applicable": [skill_text(choice) for choice in self._environment.skills()],
         }
-        ground["known"] = ground["facts"]
+        ground["known"] = ground["goal"] = ground["facts"]
         labels = {**self._environment.labels(), **ground}
         return {name: labels[name] for name in self.observation_space if name in labels}
 

@@ -28,7 +28,7 @@ class Env(EpisodeEnv):
         split: `train` (seeds below 1'000'000) or `test` (from there up).
         gripper: actions end with the opening of the fingers, m. Without, the fingers stay as they were told last.
         normalise_actions: actions are -1 … 1, from bound to bound.
-        render_mode: `rgb_array`: `render` gives what `camera` sees; a picture is then drawn at every step.
+        render_mode: `rgb_array`: `render` draws what `camera` sees.
         frame_hz, physics_hz: rates; 0: the world's. horizon_s: simulated; 0: the task's.
         image_size: (height, width) of all pictures, or one number for both; None: each camera's own.
         hidden: observe also what no eye can see.

@@ -28,7 +28,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
 
     Each gives what an Env of the same settings and seed gives, bit for bit.
 
-    Arguments (the others are Env's, but `record`, which Env alone has):
+    Arguments (the others are Env's):
         num_envs: how many. threads: None: as many as there are cores for this process, and environments.
         autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of gymnasium.vector.AutoresetMode, or its value as text. With
             DISABLED, an environment that has ended refuses further actions until `reset(options={"reset_mask": …})`.
@@ -54,14 +54,10 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         if num_envs < 1:
             raise fault("num_envs=", f"{num_envs} environments", "one or more")
         self.settings = Settings(observations, **settings)
-        if self.settings.record:
-            raise fault("record=", "environments of a vector keep no episodes", "record with Env")
         self.task = task
         self.num_envs = num_envs
         self.render_mode = self.settings.render_mode
         self.autoreset_mode = _mode(autoreset_mode)
-        self._picture = f"{self.settings.camera}_rgb"
-        further = [self._picture] if self.render_mode else []
         self._shared = shared_session(self.settings.root, self.settings.paths, self.settings.catalogue)
         session = self._shared.core
         self._starts = Starts(
@@ -73,9 +69,11 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             self.settings.perturb,
         )
         count = min(num_envs, threads or len(os.sched_getaffinity(0)))
-        self._group = _core.environment_group(session, task, num_envs, count, **self.settings.engine(further))
+        self._group = _core.environment_group(session, task, num_envs, count, **self.settings.engine())
         example = self._run_one(0, self._starts.first())
-        self._codec = ObservationCodec(example, frozenset(further) - frozenset(self.settings.channels))
+        if self.render_mode:
+            self._group.pictures(self.settings.camera, 1)  # raises where there is no such camera
+        self._codec = ObservationCodec(example)
         self._actions = ActionCodec(self._group.spaces(0), action, gripper, normalise_actions)
         self.single_observation_space = self._codec.space
         self.single_action_space = self._actions.space
@@ -147,6 +145,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
                 continue
             verdict = account.after_end() if ended[i] else account.after(steps[i])
             rewards[i], terminations[i], truncations[i], each[i] = verdict
+            if self.settings.record and account.over and not ended[i]:
+                each[i]["recorded"] = self._group.episode(i)
         infos: dict[str, Any] = {}
         anew: list[int] = []
         if next_step:
@@ -164,7 +164,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
     def render(self) -> tuple[np.ndarray, ...] | None:
         """What each environment's `camera` sees: height x width x 3, uint8. None without a render mode."""
         self._check_begun("render")
-        return tuple(account.raw[self._picture] for account in self._accounts) if self.render_mode else None
+        return tuple(self._group.pictures(self.settings.camera, self.num_envs)) if self.render_mode else None
 
     def skills(self) -> tuple[list[_core.SkillChoice], ...]:
         """Of each environment: every ground skill of the scene, with what can be done now."""

@@ -45,30 +45,21 @@ class Scene:
     ) -> None:
         self._config = config
         self._cameras = config.cameras_on
-        width, height = self._size()
         self._environment = session.environment(
             task,
             channels=[*dict.fromkeys((*NUMBERS, "gripper_opening", "progress", *extra_channels)), *self._pictures()],
             hidden=True,
             reward="dense" if dense_reward else "sparse",
             horizon_s=_NO_HORIZON_S,
-            width=width,
-            height=height,
+            picture_sizes={
+                name: (int(camera.image_size[1]), int(camera.image_size[0])) for name, camera in self._cameras.items()
+            },
             shadows=any(camera.shadows for camera in self._cameras.values()),
         )
         self.numbers: dict[str, Any] = {}
         self.over = True
         self.reward = 0.0
         self.variation_index = 0
-
-    def _size(self) -> tuple[int, int]:
-        sizes = {(int(camera.image_size[1]), int(camera.image_size[0])) for camera in self._cameras.values()}
-        if len(sizes) > 1:
-            raise Error(
-                "the cameras of ObservationConfig have different image sizes\n"
-                "    give all cameras that are on the same image_size; `get_demos` takes any"
-            )
-        return sizes.pop() if sizes else (0, 0)
 
     def _pictures(self) -> list[str]:
         channels: list[str] = []
