@@ -24,6 +24,7 @@ FORMATS = {
     "mimicgen": "source demonstrations of MimicGen (arXiv:2310.17596), with subtask signals from our segments",
     "maniskill": "trajectories of ManiSkill (arXiv:2410.00425): HDF5 and JSON",
     "lerobot": "LeRobotDataset v3.0, or v2.1: parquet and videos",
+    "rlds": "RLDS as in Open X-Embodiment (arXiv:2310.08864): TFRecord files for tfds",
     "mcap": "MCAP files with Foxglove's schemas, one an episode",
     "rlbench": "RLBench's folders of pictures and pickled demos",
 }
@@ -82,6 +83,22 @@ def cameras_of(episode: StoredEpisode, options: argparse.Namespace) -> list[str]
                 "add --draw to draw what is missing, or store it: `stampede render FILE --into`",
             )
     return list(options.cameras)
+
+
+def common_cameras(episodes: Sequence[StoredEpisode], options: argparse.Namespace) -> list[str]:
+    """The cameras of all of these. Raises Error where they differ: readers expect the same keys of all episodes."""
+    first = episodes[0]
+    cameras = cameras_of(first, options)
+    for episode in episodes[1:]:
+        others = cameras_of(episode, options)
+        if others != cameras:
+            theirs, expected = (", ".join(names) or "no camera" for names in (others, cameras))
+            raise fault(
+                f"episode {episode.id}",
+                f"its stored pictures are those of {theirs}, but of {expected} in episode {first.id}",
+                "--cameras NAMES says which are wanted, '' none; with --draw what is missing is drawn",
+            )
+    return cameras
 
 
 def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] | None = None) -> int:

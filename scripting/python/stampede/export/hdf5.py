@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 from stampede.catalogue import StoredEpisode
-from stampede.export import cameras_of
 from stampede.export.pieces import Pieces
 from stampede.export.steps import ACTIONS, OPENING, Array, Steps
 from stampede.faults import fault
@@ -39,21 +38,6 @@ def add_action_argument(parser: argparse.ArgumentParser) -> None:
         default="joint_position",
         help="space of the actions, -1 to 1 as stampede.Env(normalise_actions=True) has it (default: %(default)s)",
     )
-
-
-def common_cameras(episodes: Sequence[StoredEpisode], options: argparse.Namespace) -> list[str]:
-    """The cameras of all episodes of a file. Raises Error where they differ: readers expect the same keys of all."""
-    first = episodes[0]
-    cameras = cameras_of(first, options)
-    for episode in episodes[1:]:
-        others = cameras_of(episode, options)
-        if others != cameras:
-            raise fault(
-                f"episode {episode.id}",
-                f"its stored pictures are those of {_listed(others)}, but of {_listed(cameras)} in episode {first.id}",
-                "--cameras NAMES says which are wanted, '' none; with --draw what is missing is drawn",
-            )
-    return cameras
 
 
 def scale_of(steps: Steps, action: str) -> Facts:
@@ -91,7 +75,7 @@ class Demo:
 class DemoFiles:
     """Files with a group for each of their episodes.
 
-    names: the file of each episode, a path in `folder`. group: path of a demo in its file, with {} for its number there.
+    names: the file of each episode, a path in `folder`. group: path of a demo in its file, {} for its number there.
     """
 
     def __init__(
@@ -158,7 +142,3 @@ class DemoFiles:
                 f"its {different[0]} differ from those of episode {first.id}, and both belong into one file",
                 "--where exports them apart, for instance by variation or frame_hz",
             )
-
-
-def _listed(cameras: list[str]) -> str:
-    return ", ".join(cameras) or "no camera"

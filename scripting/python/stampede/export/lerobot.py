@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from stampede.catalogue import StoredEpisode
-from stampede.export import cameras_of, split_of
+from stampede.export import common_cameras, split_of
 from stampede.export.pieces import Pieces, place
 from stampede.export.steps import ACTIONS, Array, Steps
 from stampede.export.video import ENCODERS, NAMES, library, write_film
@@ -71,7 +71,7 @@ class Writer:
         if len(rates) > 1 or not float(next(iter(rates))).is_integer():
             raise fault("frame_hz", f"LeRobot knows one whole rate, not {sorted(rates)}", "--where 'frame_hz = 20'")
         self._fps = int(rates.pop())
-        self._cameras = cameras_of(self._episodes[0], options)
+        self._cameras = common_cameras(self._episodes, options)
         self._features: dict[str, Any] = {}
 
     @staticmethod
@@ -89,8 +89,6 @@ class Writer:
         return self._pieces.has(episode.id)
 
     def write(self, episode: StoredEpisode) -> None:
-        if cameras_of(episode, self._options) != self._cameras:
-            raise fault(f"episode {episode.id}", "it has pictures of other cameras than the first", "--cameras NAMES")
         steps = Steps(episode)
         columns, names, labels = self._columns(steps)
         with self._pieces.making(episode.id) as piece:

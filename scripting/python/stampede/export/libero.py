@@ -21,12 +21,12 @@ import numpy as np
 
 import stampede
 from stampede.catalogue import StoredEpisode
+from stampede.export import common_cameras
 from stampede.export.hdf5 import (
     Demo,
     DemoFiles,
     Facts,
     add_action_argument,
-    common_cameras,
     environment_of,
     put_pictures,
     scale_of,

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from stampede.catalogue import StoredEpisode
-from stampede.export.hdf5 import Demo, DemoFiles, Facts, add_action_argument, common_cameras, put_pictures, scale_of
+from stampede.export import common_cameras
+from stampede.export.hdf5 import Demo, DemoFiles, Facts, add_action_argument, put_pictures, scale_of
 from stampede.export.steps import Array, Steps, bodies_of, known
 
 # ManiSkill's names of our action spaces.

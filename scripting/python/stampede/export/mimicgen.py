@@ -68,8 +68,8 @@ class Writer(robomimic.Writer):
 
 
 def _subtasks(steps: Steps) -> list[Facts]:
-    """Skills in time that have steps of their own: signal (a name of its own in the demo; the last has None), object_ref
-    (None: it has no thing) and end, the first step after it."""
+    """Skills in time that have steps of their own: signal (a name of its own in the demo; the last has None),
+    object_ref (None: it has no thing) and end, the first step after it."""
     counts: dict[str, int] = {}
     subtasks: list[Facts] = []
     previous = 1  # an edge needs a step before it

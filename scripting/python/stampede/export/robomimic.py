@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 
 from stampede.catalogue import StoredEpisode
-from stampede.export import split_of
+from stampede.export import common_cameras, split_of
 from stampede.export.hdf5 import (
     Demo,
     DemoFiles,
     Facts,
     add_action_argument,
-    common_cameras,
     environment_of,
     put_pictures,
     scale_of,

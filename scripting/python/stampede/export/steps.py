@@ -195,10 +195,10 @@ class Steps:
 
     def meta(self) -> dict[str, Any]:
         """What identifies the episode and what is known of it, for formats that keep JSON."""
-        key = self.episode.catalogue.query("SELECT key FROM episodes WHERE episode = ?1", self.episode.id)
+        heads = self.episode.catalogue.query("SELECT key, source FROM episodes WHERE episode = ?1", self.episode.id)
         return {
             "episode": self.episode.id,
-            "key": key.values("key")[0],
+            **next(iter(heads)),  # key, source
             "task": self.episode.task,
             "variation": self.episode.variation,
             "seed": self.episode.seed,
