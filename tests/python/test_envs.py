@@ -341,20 +341,20 @@ def test_a_skill_that_is_masked_moves_nothing_and_counts():
         env.step(99)
 
 
-def test_hold_is_left_where_no_skill_can_be_done(monkeypatch):
+def test_masks_are_of_skills_whose_precondition_holds():
+    env = SkillEnv("pick_up_cup")
+    env.reset(seed=1)
+    for _ in range(3):
+        mask = env.action_masks()
+        assert mask.tolist() == [choice.feasible for choice in env.skills()] + [False]
+        env.step(np.flatnonzero(mask)[0])
+
+
+def test_hold_is_left_where_no_skill_can_be_done():
     env = SkillEnv("reach_target")
     env.reset(seed=1)
     assert not env.action_masks()[-1]
-
-    class Stuck:
-        def skills(self):
-            return [_Infeasible() for _ in env.skill_names[:-1]]
-
-    class _Infeasible:
-        feasible = False
-
-    monkeypatch.setattr(env, "_environment", Stuck())
-    assert env.action_masks().tolist() == [False] * 3 + [True]
+    assert env.masks({"applicable": np.zeros(3, bool)}).tolist() == [False] * 3 + [True]
 
 
 def test_a_skill_can_go_on():
@@ -385,10 +385,10 @@ def test_parameters_are_the_agents_where_set():
         "parameters": {"pick.height": box.high},
         "set": np.array([1], np.int8),
     }
-    asked = env._asked(action)
+    asked = env.action(action)
     assert asked.parameters == {"height": [pytest.approx(0.3)]}
     assert asked.controller == "joint_impedance"
-    assert env._asked({**action, "set": np.array([0], np.int8), "controller": 0}).parameters == {}
+    assert env.action({**action, "set": np.array([0], np.int8), "controller": 0}).parameters == {}
     env.reset(seed=3)
     high = env.step(action)[4]
     assert "refusal" not in high

@@ -1,8 +1,10 @@
 """evaluate: the planner, and policies of one's own."""
 
+import numpy as np
 import pytest
 
 from stampede import _core
+from stampede.envs import SkillEnv
 from stampede.evaluation import evaluate
 
 
@@ -31,6 +33,34 @@ def test_a_policy_of_ones_own_is_evaluated():
     rows = evaluate(Still, ["reach_target", "pick_up_cup"], episodes=1, channels=["joint_positions"]).rows
     assert sorted(Still.begun) == ["pick_up_cup", "reach_target"]
     assert {row.task: row.succeeded for row in rows if row.task} == {"reach_target": 0, "pick_up_cup": 0}
+
+
+class First:
+    """A model that takes the first skill that can be done."""
+
+    def __init__(self, env):
+        self.observation_space, self.action_space = env.observation_space, env.action_space
+
+    def predict(self, observation, state=None, episode_start=None, deterministic=False, action_masks=None):
+        assert self.observation_space.contains(observation)
+        return np.flatnonzero(action_masks)[0], state
+
+
+def test_a_model_of_skills_is_evaluated_as_it_would_act_in_its_environment():
+    env = SkillEnv("push_buttons", observations=("facts", "goal"), split="test", horizon_s=12)
+    for variation, succeeds in {"count=1,first=violet,second=black,third=olive": True, "count=2": False}.items():
+        row = evaluate(First(env), "push_buttons", env=env, episodes=1, variation=variation).rows[0]
+        _, info = env.reset(seed=0, options={"variation": variation})
+        while "is_success" not in info:
+            _, _, _, _, info = env.step(np.flatnonzero(env.action_masks())[0])
+        assert row.succeeded == info["is_success"] == succeeds
+        assert row.mean_length_s == pytest.approx(info["time_s"])
+
+
+def test_a_model_of_parts_of_skills_is_not_evaluated():
+    env = SkillEnv("reach_target", frames=5)
+    with pytest.raises(_core.Error, match="parts of skills"):
+        evaluate(First(env), "reach_target", env=env)
 
 
 def test_unknown_tasks_have_a_cure():

@@ -78,6 +78,22 @@ def test_the_episode_of_an_evaluation_is_that_of_the_environment(tmp_path):
     assert (env.observation(env._account.raw)["joint_positions"] == stored[-1]).all()
 
 
+def test_a_model_of_skills_is_evaluated_with_its_masks(tmp_path):
+    contrib = pytest.importorskip("sb3_contrib")
+    env = SkillEnv("stack_blocks", variation="colour=red,height=2", horizon_s=8, split="test")
+    model = contrib.MaskablePPO("MultiInputPolicy", env, n_steps=8, batch_size=8, device="cpu")
+    file = tmp_path / "evaluation.db"
+    evaluate(model, "stack_blocks", episodes=1, variation="colour=red,height=2", catalogue=file)
+    observation, info = env.reset(seed=0)
+    skills = []
+    while "is_success" not in info:
+        action = model.predict(observation, deterministic=True, action_masks=env.action_masks())[0]
+        skills.append(env.skill_names[action])
+        observation, _, _, _, info = env.step(action)
+    asked = [one.asked for one in _core.CatalogueReader(file).arrays(1).agent_actions]
+    assert [f"{action.skill}({', '.join(action.arguments)})" for action in asked] == skills
+
+
 def test_one_model_acts_in_several_tasks():
     env = Env("pick_and_lift", normalise_actions=True, horizon_s=0.5, observations=("joint_positions",))
     rows = evaluate(trained(env), ["pick_and_lift", "pick_up_cup"], episodes=1).rows

@@ -36,9 +36,10 @@ def evaluate(
         policy: None: the planner. A callable: gives, once an episode, an object with
             `act(observation) -> Action | None` and, if it likes, `begin(call)`. Or a model with
             `predict(observation, state=, episode_start=, deterministic=)`, as of Stable-Baselines3: it observes and
-            acts as in `env`.
+            acts as in `env`. One that chooses skills is given `action_masks=` where its `predict` takes it.
         tasks: one name or several.
-        env: for a model: an Env, as it was trained in (wrapped or not), or arguments of one. None: the model's own.
+        env: for a model: an Env or SkillEnv, as it was trained in (wrapped or not), or arguments of one. None: the
+            model's own.
         episodes, first_seed: how many of each task, and from which seed; from 1'000'000 up is the test split.
         variation: canonical text or axes of it; empty: all. perturb: axes, `camera=1` with strength.
         workers: threads. name: of the policy, in the catalogue. deterministic: of a model.

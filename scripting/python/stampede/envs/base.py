@@ -90,7 +90,8 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._starts = Starts(
             self.session, task, settings.variation, settings.split, settings.randomise, settings.perturb
         )
-        self._environment = self.session.environment(task, **settings.engine(inner_channels))
+        self._inner_channels = inner_channels
+        self._environment = self.session.environment(task, **self.engine_settings())
         example = self._environment.reset(self._starts.first())
         if self.render_mode:
             self._environment.picture(settings.camera)  # raises where there is no such camera
@@ -105,6 +106,10 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
     @property
     def session(self) -> _core.Session:
         return self._shared.core
+
+    def engine_settings(self) -> dict[str, Any]:
+        """Arguments of `_core.Session.environment`, for all that this environment reads."""
+        return self.settings.engine(self._inner_channels)
 
     @property
     def frame_hz(self) -> float:
@@ -178,6 +183,11 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         ground["known"] = ground["goal"] = ground["facts"]
         labels = {**self._environment.labels(), **ground}
         return {name: labels[name] for name in self.observation_space if name in labels}
+
+    def observation(self, raw: Mapping[str, Any]) -> Observation:
+        """What the agent sees of channels as the engine gives them."""
+        self._codec.check(raw)
+        return self._codec(raw)
 
     def _result(self, verdict: Verdict) -> Result:
         if self.settings.record and self._account.over and not self._kept:

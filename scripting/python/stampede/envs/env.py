@@ -1,6 +1,6 @@
 """A task as a Gymnasium environment whose agent acts by set-points."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from stampede import _core
 
 from .base import EpisodeEnv, Result, Settings
 from .sessions import PathLike
-from .spaces import ActionCodec, Observation
+from .spaces import ActionCodec
 
 OBSERVATIONS = ("joint_positions", "joint_velocities", "gripper_open", "gripper_pose", "task_low_dim_state")
 
@@ -106,11 +106,6 @@ class Env(EpisodeEnv):
     def action(self, action: np.ndarray | Sequence[float] | _core.Action) -> _core.Action:
         """The engine's action for one of the action space."""
         return self._actions(action)
-
-    def observation(self, raw: Mapping[str, Any]) -> Observation:
-        """What the agent sees of channels as the engine gives them."""
-        self._codec.check(raw)
-        return self._codec(raw)
 
     def step(self, action: np.ndarray | Sequence[float] | _core.Action) -> Result:
         """Acts for one frame, or for as long as a path, skill or hold lasts.

@@ -17,6 +17,8 @@ CONTROLLERS = ("own", "joint_position", "joint_impedance", "cartesian_impedance"
 
 HOLD, GO_ON = "hold", "go_on"
 
+INNER_CHANNELS = ("progress", "applicable")  # whether the goal holds, and what can be done
+
 
 class SkillEnv(EpisodeEnv):
     """A task whose agent chooses among ground skills; a step is a whole one, an option in the sense of an SMDP.
@@ -83,7 +85,7 @@ class SkillEnv(EpisodeEnv):
             root=root,
             paths=paths,
         )
-        super().__init__(task, settings, inner_channels=("progress",))
+        super().__init__(task, settings, inner_channels=INNER_CHANNELS)
         self._frames = frames
         self._choices = [(choice.skill, list(choice.arguments)) for choice in self._environment.skills()]
         self.skill_names = [skill_text(choice) for choice in self._environment.skills()]
@@ -92,6 +94,12 @@ class SkillEnv(EpisodeEnv):
         self.parameter_names = list(self._boxes)
         skill = spaces.Discrete(len(self.skill_names))
         self.action_space = self._parameter_space(skill) if parameters else skill
+        self._acting = {"parameters": parameters, "frames": frames}
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """All that this environment was made with, but the task."""
+        return {**vars(self.settings), **self._acting}
 
     def _parameter_boxes(self) -> dict[str, spaces.Box]:
         present = {skill for skill, _ in self._choices}
@@ -129,13 +137,16 @@ class SkillEnv(EpisodeEnv):
         A skill can be done when its precondition holds; `hold` counts where nothing else can.
         """
         self._check_begun("action_masks")
+        return self.masks(self._account.raw, self._account.running)
+
+    def masks(self, raw: Mapping[str, Any], running: str = "") -> np.ndarray:
+        """What action_masks says, of channels as the engine gives them. running: the skill that can go on."""
         mask = np.zeros(len(self.skill_names), bool)
-        feasible = [choice.feasible for choice in self._environment.skills()]
-        mask[: len(feasible)] = feasible
+        mask[: len(self._choices)] = raw["applicable"]
         if self._frames:
-            mask[-1] = bool(self._account.running)
+            mask[-1] = bool(running)
         if not mask.any():
-            mask[len(feasible)] = True
+            mask[len(self._choices)] = True
         return mask
 
     def step(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> Result:
@@ -147,7 +158,7 @@ class SkillEnv(EpisodeEnv):
         self._check_begun("step")
         if self._account.over:
             return self._result(self._account.after_end())
-        steps = [self._environment.step(self._asked(action))]
+        steps = [self._environment.step(self.action(action))]
         if self._waits_for_verdict(steps[0]):
             steps.append(self._environment.step(_core.Action(HOLD)))
         verdict = self._account.after(*steps)
@@ -160,7 +171,8 @@ class SkillEnv(EpisodeEnv):
         over = step.terminated or step.truncated
         return not (over or step.refusal or step.running) and step.observation["progress"] == 1
 
-    def _asked(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> _core.Action:
+    def action(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> _core.Action:
+        """The engine's action for one of the action space."""
         if isinstance(action, _core.Action):
             return action
         values: Mapping[str, Any] = action if isinstance(action, Mapping) else {"skill": action}

@@ -31,6 +31,7 @@ Observation = dict[str, np.ndarray]
 _BOUNDS = {
     "gripper_open": (0.0, 1.0),
     "progress": (0.0, 1.0),
+    "goal": (-1.0, 1.0),
     "time": (0.0, np.inf),
     "step": (0, np.iinfo(np.int64).max),
     "_depth": (0.0, np.inf),
