@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -11,20 +12,21 @@ import numpy as np
 import pytest
 
 import stampede
-from stampede.export import export
+from stampede.export import export, rlds
 from stampede.export.steps import JOINT_SPEED, TOOL_SPEED, Steps, matrices, rotation_vectors
 
-FORMATS = ["robomimic", "libero", "mimicgen", "maniskill", "lerobot", "rlds", "mcap"]
+FORMATS = ["robomimic", "libero", "mimicgen", "maniskill", "lerobot", "rlds", "mcap", "rlbench"]
+
+PICTURES = {"cameras": ["front", "wrist"], "width": 32, "height": 24, "depth": False, "mask": False}
+PICTURES["semantic_mask"] = False
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("export") / "demos.db"
     session = stampede.Session(catalogue=path)
-    pictures = {"cameras": ["front", "wrist"], "width": 32, "height": 24, "depth": False, "mask": False}
-    pictures["semantic_mask"] = False
-    tally = session.run_all(["pick_and_lift"], episodes=3, seed=7, pictures=pictures)
-    tally = session.run_all(["reach_target"], episodes=1, seed=1_000_000, pictures=pictures)
+    tally = session.run_all(["pick_and_lift"], episodes=3, seed=7, pictures=PICTURES)
+    tally = session.run_all(["reach_target"], episodes=1, seed=1_000_000, pictures=PICTURES)
     assert tally.succeeded == 1 and len(stampede.Catalogue(path)) == 4
     return path
 
@@ -168,7 +170,8 @@ def test_mcap(made: Path, tmp_path: Path) -> None:
 def test_an_export_that_was_cut_off_goes_on(
     made: Path, tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pytest.importorskip({"lerobot": "av", "rlds": "numpy", "mcap": "mcap"}.get(name, "h5py"))
+    """With the episodes that it began with, though the catalogue has more of them by then."""
+    pytest.importorskip({"lerobot": "av", "rlds": "numpy", "mcap": "mcap", "rlbench": "PIL"}.get(name, "h5py"))
     module = __import__(f"stampede.export.{name}", fromlist=["Writer"])
     written: list[int] = []
     write = module.Writer.write
@@ -179,13 +182,17 @@ def test_an_export_that_was_cut_off_goes_on(
         written.append(episode.id)
         write(self, episode)
 
+    catalogue = shutil.copy(made, tmp_path / "demos.db")
     folder = tmp_path / "out"
-    arguments = [name, str(made), "--out", str(folder), "--where", "task = 'pick_and_lift'", "--cameras", "front"]
+    cameras = "" if name == "rlbench" else "front"  # it would want depths and masks too
+    arguments = [name, str(catalogue), "--out", str(folder), "--where", "outcome = 'success'", "--cameras", cameras]
     monkeypatch.setattr(module.Writer, "write", cut_off)
     with pytest.raises(KeyboardInterrupt):
         export(arguments, tell=lambda line: None)
     finals = [p for p in folder.rglob("*") if p.is_file() and p.suffix != ".json" and ".pieces" not in p.parts]
-    assert len(finals) == (1 if name == "mcap" else 0)  # mcap has a file an episode
+    assert bool(finals) == (name in ("mcap", "rlbench"))  # an episode is whole by itself
+
+    stampede.Session(catalogue=catalogue).run_all(["reach_target"], episodes=1, seed=1, pictures=PICTURES)
 
     def counted(self: Any, episode: stampede.StoredEpisode) -> None:
         written.append(episode.id)
@@ -194,10 +201,29 @@ def test_an_export_that_was_cut_off_goes_on(
     monkeypatch.setattr(module.Writer, "write", counted)
     with pytest.raises(stampede.Error, match="another export was cut off here"):
         export([*arguments, "--limit", "2"], tell=lambda line: None)
-    assert export(arguments, tell=lambda line: None) == 3
-    assert sorted(written) == [1, 2, 3]  # the first was not written twice
+    told: list[str] = []
+    assert export(arguments, tell=told.append) == 4 and "; 1 that came later are not" in told[-1]
+    assert sorted(written) == [1, 2, 3, 4]  # the first was not written twice
     whole = run(made, tmp_path / "whole", *arguments[:1], *arguments[4:])
     assert {p.relative_to(folder) for p in folder.rglob("*")} == {p.relative_to(whole) for p in whole.rglob("*")}
+
+
+def test_an_export_does_not_go_on_with_another_catalogue(
+    made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    catalogue = Path(shutil.copy(made, tmp_path / "demos.db"))
+    arguments = ["rlds", str(catalogue), "--out", str(tmp_path / "out"), "--where", "episode = 1"]
+
+    def cut_off(self: Any, episode: stampede.StoredEpisode) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rlds.Writer, "write", cut_off)
+    with pytest.raises(KeyboardInterrupt):
+        export(arguments, tell=lambda line: None)
+    catalogue.unlink()
+    stampede.Session(catalogue=catalogue).run_all(["reach_target"], episodes=1, seed=3, pictures=PICTURES)
+    with pytest.raises(stampede.Error, match="is not the file that it began with"):
+        export(arguments, tell=lambda line: None)
 
 
 def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
@@ -213,12 +239,13 @@ def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
     with pytest.raises(stampede.Error, match="no share"):
         export(of("robomimic", str(made), "--valid", "1.5"))
     with pytest.raises(stampede.Error, match="did you mean 'front'"):
-        export(["robomimic", str(made), "--out", str(tmp_path / "cameras"), "--cameras", "fornt"])
+        export(of("robomimic", str(made), "--cameras", "fornt"))
     with pytest.raises(stampede.Error, match="--draw"):
-        export(["robomimic", str(made), "--out", str(tmp_path / "draw"), "--cameras", "overhead"])
+        export(of("robomimic", str(made), "--cameras", "overhead"))
     with pytest.raises(SystemExit):
         export(of("robomimick", str(made)))
     assert "robomimick" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()  # the right command may follow
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "thesis.txt").write_text("mine")
     with pytest.raises(stampede.Error, match="not empty"):

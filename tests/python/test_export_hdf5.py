@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -263,6 +264,31 @@ def test_an_export_that_was_killed_goes_on_with_what_was_whole(
     again = run(made, tmp_path / "again", "robomimic", "--where", LIFTS)
     assert [path.name for path in folder.iterdir()] == ["pick_and_lift.hdf5"]
     assert listing(folder / "pick_and_lift.hdf5") == listing(again / "pick_and_lift.hdf5")
+
+
+def test_a_file_that_was_finished_before_the_catalogue_grew_is_whole(
+    made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    catalogue = shutil.copy(made, tmp_path / "demos.db")
+    arguments = ["robomimic", str(catalogue), "--out", str(tmp_path / "out"), "--cameras", ""]
+    complete = robomimic.Writer.complete
+
+    def cut_off(self: Any, file: Any, name: str, *rest: Any) -> None:
+        if name != "pick_and_lift.hdf5":
+            raise KeyboardInterrupt
+        complete(self, file, name, *rest)
+
+    monkeypatch.setattr(robomimic.Writer, "complete", cut_off)
+    with pytest.raises(KeyboardInterrupt):
+        export(arguments, tell=lambda line: None)
+    assert (tmp_path / "out/pick_and_lift.hdf5").exists()
+    monkeypatch.setattr(robomimic.Writer, "complete", complete)
+    for task, seed in (("pick_and_lift", 20), ("reach_target", 1_000_020)):
+        stampede.Session(catalogue=catalogue).run_all([task], episodes=1, seed=seed)
+    assert export(arguments, tell=lambda line: None) == 5
+    whole = run(made, tmp_path / "whole", "robomimic", "--cameras", "")
+    for path in whole.iterdir():
+        assert listing(path) == listing(tmp_path / "out" / path.name)
 
 
 def test_episodes_that_do_not_fit_into_one_file(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,8 @@
 """Datasets in the formats that trainers read: `python -m stampede.export FORMAT demos.db --out FOLDER`.
 
 A format is a module here with a class `Writer`. The rest is shared: which episodes, splits, progress, and that an
-export which was cut off goes on where it stopped, with nothing half done under a final name.
+export which was cut off goes on where it stopped, with the episodes that it began with and nothing half done under a
+final name.
 """
 
 from __future__ import annotations
@@ -105,17 +106,22 @@ def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] |
     """Runs the command line; gives the number of episodes in the dataset. Raises Error for bad input."""
     options = _parse(arguments)
     catalogue = Catalogue(options.catalogue)
-    episodes = catalogue.episodes(options.where)[: options.limit]
+    folder = Path(options.out)
+    fitting = catalogue.episodes(options.where)[: options.limit]
+    episodes = _begun(folder, options, catalogue)
+    begins = not episodes
+    if begins:
+        episodes = fitting
     if not episodes:
         raise fault(
             options.catalogue,
             f"no episode fulfils `{options.where}`",
             "`stampede show FILE` lists them; --where takes a condition on view `episodes`",
         )
-    folder = Path(options.out)
-    _keep_manifest(folder, options)
     writer: Writer = _module(options.format).Writer(folder, options, episodes)
     try:
+        if begins:
+            _begin(folder, options, episodes)
         progress = _Progress(len(episodes), tell)
         for episode in episodes:
             if not writer.has(episode):
@@ -125,7 +131,7 @@ def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] |
     finally:
         writer.close()
     (folder / _MANIFEST).unlink()
-    progress.end(folder)
+    progress.end(folder, later=len({one.id for one in fitting} - {one.id for one in episodes}))
     return len(episodes)
 
 
@@ -168,24 +174,48 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     return options
 
 
-def _keep_manifest(folder: Path, options: argparse.Namespace) -> None:
-    """Notes what the export is of, so that what is there is gone on with only where it is the same export."""
-    asked = {key: value for key, value in sorted(vars(options).items()) if key != "out"}
-    asked["catalogue"] = str(Path(options.catalogue).resolve())
-    text = json.dumps(asked, indent=2, default=str) + "\n"
-    manifest = folder / _MANIFEST
-    if manifest.exists():
-        if manifest.read_text() != text:
-            raise fault(
-                str(folder),
-                "another export was cut off here",
-                f"give the options of {manifest} to go on with it, or name another folder",
-            )
-        return
-    if folder.exists() and any(folder.iterdir()):
-        raise fault(str(folder), "the folder is not empty", "name a new one")
+def _begun(folder: Path, options: argparse.Namespace, catalogue: Catalogue) -> list[StoredEpisode]:
+    """The episodes of the export that was cut off in the folder; empty: none was.
+
+    Raises Error where it was another export, or another catalogue lies in that place now, or the folder is in use.
+    """
+    if not (folder / _MANIFEST).exists():
+        if folder.exists() and any(folder.iterdir()):
+            raise fault(str(folder), "the folder is not empty", "name a new one")
+        return []
+    manifest = json.loads((folder / _MANIFEST).read_text())
+    if manifest["options"] != _asked(options):
+        raise fault(
+            str(folder),
+            "another export was cut off here",
+            f"give the options of {folder / _MANIFEST} to go on with it, or name another folder",
+        )
+    known = {episode.id: episode for episode in catalogue.episodes()}
+    episodes = [known[number] for number, _ in manifest["episodes"] if number in known]
+    if _keys(catalogue, episodes) != manifest["episodes"]:
+        raise fault(str(folder), f"{options.catalogue} is not the file that it began with", "name another folder")
+    return episodes
+
+
+def _begin(folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
+    """Notes what the export is of: the same command goes on with these episodes, whatever comes to the catalogue."""
     folder.mkdir(parents=True, exist_ok=True)
-    manifest.write_text(text)
+    manifest = {"options": _asked(options), "episodes": _keys(episodes[0].catalogue, episodes)}
+    partial = folder / f"{_MANIFEST}.part"
+    partial.write_text(json.dumps(manifest, indent=1))
+    partial.replace(folder / _MANIFEST)
+
+
+def _asked(options: argparse.Namespace) -> dict[str, Any]:
+    """The command line, as JSON has it."""
+    asked = {key: value for key, value in sorted(vars(options).items()) if key != "out"}
+    return asked | {"catalogue": str(Path(options.catalogue).resolve())}
+
+
+def _keys(catalogue: Catalogue, episodes: Sequence[StoredEpisode]) -> list[list[Any]]:
+    """Number and key of each."""
+    rows = {row["episode"]: row["key"] for row in catalogue.query("SELECT episode, key FROM episodes")}
+    return [[episode.id, rows[episode.id]] for episode in episodes]
 
 
 class _Progress:
@@ -203,8 +233,9 @@ class _Progress:
         elif self.live:
             print(f"\r\033[K{line[:100]}", end="", file=sys.stderr, flush=True)
 
-    def end(self, folder: Path) -> None:
-        line = f"{self.total} episodes in {folder}"
+    def end(self, folder: Path, later: int) -> None:
+        """later: how many episodes came to the catalogue after the export had begun."""
+        line = f"{self.total} episodes in {folder}" + (f"; {later} that came later are not" if later else "")
         if self.tell:
             self.tell(line)
         else:

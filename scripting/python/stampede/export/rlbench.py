@@ -20,6 +20,7 @@ from stampede import _core
 from stampede._core import EpisodeArrays, Error
 from stampede.catalogue import StoredEpisode
 from stampede.export import cameras_of
+from stampede.faults import fault
 from stampede.rlbench.backend.const import (
     EPISODE_FOLDER,
     EPISODES_FOLDER,
@@ -107,14 +108,14 @@ class Writer:
             try:
                 self._orders[episode.task] = self._session.variations(episode.task)
             except Error as error:
-                raise Error(
-                    f"episode {episode.id}: {error}\n    its variations are numbered by its script: --scripts FOLDER"
-                ) from error
+                cure = "its variations are numbered by its script: --scripts FOLDER"
+                raise fault(f"episode {episode.id}", str(error), cure) from error
         order = self._orders[episode.task]
         if episode.variation not in order:
-            raise Error(
-                f"episode {episode.id}: {episode.task} has no variation '{episode.variation}' any more\n"
-                "    give the scripts that it was made with: --scripts FOLDER"
+            raise fault(
+                f"episode {episode.id}",
+                f"{episode.task} has no variation '{episode.variation}' any more",
+                "give the scripts that it was made with: --scripts FOLDER",
             )
         return order.index(episode.variation)
 
@@ -199,9 +200,10 @@ class Writer:
         except Error as error:
             if self._options.draw:
                 raise
-            raise Error(
-                f"{error}\n    RLBench's folders have rgb, depth and mask of each camera: add --draw, "
-                "or choose with --cameras"
+            raise fault(
+                f"episode {episode.id}",
+                f"not every picture '{column}' is stored",
+                "RLBench's folders have rgb, depth and mask of each camera: add --draw, or choose with --cameras",
             ) from error
 
 
