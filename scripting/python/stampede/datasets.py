@@ -6,6 +6,7 @@ with any number of forked or spawned workers, and need no PyTorch themselves.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any, Literal
@@ -146,11 +147,14 @@ class FrameDataset:
 class WindowStream:
     """The windows of a `FrameDataset` in a random order that a seed fixes, for ever or for some epochs.
 
-    Each worker of a PyTorch DataLoader gives its own share.
+    Each worker of a PyTorch DataLoader gives its own share. PyTorch is imported before the stream is made.
     """
 
     def __init__(self, dataset: FrameDataset, *, seed: int = 0, epochs: int | None = None) -> None:
         self.dataset, self.seed, self.epochs = dataset, seed, epochs
+        torch = sys.modules.get("torch")
+        if torch:  # a DataLoader asks by this type whether it is to iterate or to index
+            torch.utils.data.IterableDataset.register(WindowStream)
 
     def __iter__(self) -> Iterator[Sample]:
         worker, workers = _share()
@@ -164,8 +168,6 @@ class WindowStream:
 
 def _share() -> tuple[int, int]:
     """Which of how many workers this process is."""
-    import sys
-
     torch = sys.modules.get("torch")
     info = torch.utils.data.get_worker_info() if torch else None
     return (info.id, info.num_workers) if info else (0, 1)
