@@ -205,7 +205,15 @@ def test_maniskill(made: Path, tmp_path: Path) -> None:
         frames = episode.frames
         assert one["actions"].shape == (frames - 1, 8) and one["success"][-1] and not one["truncated"][:].any()
         assert one["obs/agent/qpos"].shape == (frames, 9) and one["obs/extra/tcp_pose"].shape == (frames, 7)
-        assert one["env_states/articulations/panda"].shape == (frames, 31)
+        robot = one["env_states/articulations/panda"]
+        assert robot.shape == (frames, 31)
+        # Where it stands is above the pedestal, upright; its velocity is 0.
+        pedestal = next(row for row in episode.table("poses") if row["object"] == "pedestal")
+        assert np.allclose(robot[0, :2], [pedestal["x"], pedestal["y"]]) and np.allclose(robot[:, :13], robot[0, :13])
+        assert np.allclose(robot[0, 3:13], [1, 0, 0, 0, 0, 0, 0, 0, 0, 0])
+        assert np.array_equal(robot[:, 13:20], episode.arrays("joint_positions")["joint_positions"])
+        names = described["env_info"]["state_names"]
+        assert len(names) == one["obs/extra/task_low_dim_state"].shape[1]
         assert all(actor.shape == (frames, 13) for actor in one["env_states/actors"].values())
         assert np.allclose(one["obs/extra/tcp_pose"][:, 3], episode.arrays("gripper_pose")["gripper_pose"][:, 6])
         assert one["obs/sensor_data/front/rgb"].shape == (frames, 24, 32, 3)

@@ -1,9 +1,9 @@
 """ManiSkill's trajectories: for each task an HDF5 file and a JSON file of the same name, with an entry an episode.
 
-Differences that matter: `env_states` are poses as ManiSkill has them (x y z, quaternion w x y z, then linear and
-angular velocities, which are not stored and 0), for the things of the scene; the robot's are its joints, and its
-base, whose pose is not stored, is NaN. All actions are -1 … 1, joint positions too; `env_info` says what that is in rad
-and m. `reset_kwargs` are those of `stampede.Env`. `source_type` is `motionplanning`.
+Differences that matter: `env_states` of things are poses as ManiSkill has them, and 0 for their velocities, which are
+not stored. All actions are -1 … 1, joint positions too; `env_info` says what that is in rad and m, and what the columns
+of `task_low_dim_state` are (`state_names`). `reset_kwargs` are those of `stampede.Env`. `source_type` is
+`motionplanning`.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 from stampede.catalogue import StoredEpisode
 from stampede.export import common_cameras
 from stampede.export.hdf5 import Demo, DemoFiles, Facts, add_action_argument, put_pictures, scale_of
+from stampede.export.scene import robot_base
 from stampede.export.steps import Array, Steps, bodies_of, known
 
 # ManiSkill's names of our action spaces.
@@ -49,7 +50,8 @@ class Writer:
         cameras = self._cameras[episode.task]
         parameters = [f"{camera}_camera_{what}" for camera in cameras for what in ("intrinsics", "extrinsics")]
         steps = Steps(episode, ["object_pose", *parameters])
-        shared = scale_of(steps, self._options.action)
+        names = list(steps.arrays.column("task_low_dim_state").labels)
+        shared = {**scale_of(steps, self._options.action), "state_names": names}
         with self._demos.making(episode, shared, {"info": steps.meta()}) as trajectory:
             self._put_steps(trajectory, steps)
             states = trajectory.create_group("env_states")
@@ -159,9 +161,8 @@ def _joints(steps: Steps) -> tuple[Array, Array]:
 
 
 def _robot(steps: Steps) -> Array:
-    """Pose of the base (NaN), its velocity, joints, their velocities: F x 31."""
-    base = np.zeros((steps.count + 1, 13))
-    base[:, :7] = np.nan
+    """Pose of the base, which stands still, its velocities, joints, their velocities: F x 31."""
+    base = _actor(np.tile(robot_base(steps.episode), (steps.count + 1, 1)))
     return np.hstack([base, *_joints(steps)])
 
 
@@ -171,5 +172,5 @@ def _pose(poses: Array) -> Array:
 
 
 def _actor(poses: Array) -> Array:
-    """The same and velocities, F x 13."""
+    """The same and linear and angular velocities, F x 13."""
     return np.hstack([_pose(poses), np.zeros((len(poses), 6))])

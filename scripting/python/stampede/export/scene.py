@@ -51,6 +51,12 @@ def parts_of(episode: StoredEpisode) -> list[Part]:
     return things + _parts(robot, f"{robot['name']}.{robot['parts'][0]['name']}")
 
 
+def robot_base(episode: StoredEpisode) -> Array:
+    """7: where the robot stands; m, quaternion x y z w, world. NaN of an episode without a scene."""
+    bases = [part for part in parts_of(episode) if part.parent == "world"]
+    return bases[-1].parent_from_joint if bases else np.full(7, np.nan)
+
+
 def quaternion(rotation: Array) -> Array:
     """x y z w with w >= 0, of a 3 x 3 matrix."""
     (a, b, c), (d, e, f), (g, h, i) = np.asarray(rotation)
