@@ -14,7 +14,10 @@ import numpy as np
 import tensorflow as tf
 import tensorflow_datasets as tfds
 
-sys.modules["reverb"] = MagicMock()  # rlds.transformations.pattern needs it, and it has no build for this TensorFlow
+try:
+    import reverb  # noqa: F401
+except ImportError:  # it has no build for the latest TensorFlow, and only rlds.transformations.pattern needs it
+    sys.modules["reverb"] = MagicMock()
 import rlds  # noqa: E402
 
 catalogue = sqlite3.connect(sys.argv[2])
