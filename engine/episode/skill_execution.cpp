@@ -259,6 +259,7 @@ bool SkillExecution::go_on_with_policy(RandomKey key) {
     follow(make_brake());
     return false;
   }
+  rollout_.keep = world.grasped();  // the policy moved the fingers as it liked
   if (policy_->over()) {
     policy_.reset();
     restore_controller();

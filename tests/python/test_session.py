@@ -93,6 +93,44 @@ def test_a_policy_is_the_body_of_a_labelled_skill(tmp_path: Path) -> None:
     assert len(arrays.agent_actions) > 3 and arrays.agent_actions[0].asked.space == "tool_delta"
 
 
+class PicksFromAbove:
+    """Turns the hand down over the thing, closes it, and lifts."""
+
+    def begin(self, call: stampede.PolicyCall) -> None:
+        self.thing, self.frame, self.place = call.arguments["obj"], 0, None
+
+    def act(self, observation: dict[str, np.ndarray]) -> stampede.Action | None:
+        if self.place is None:
+            self.place = observation[f"object_pose/{self.thing}"][:3].copy()
+            x, y, z, w = observation[f"object_pose/{self.thing}"][3:]
+            self.turn = [w, z, -y, -x]  # the thing's, and then half a turn about its own x
+        self.frame += 1
+        if self.frame > 140:
+            return None
+        height = 0.12 if self.frame < 45 or self.frame > 110 else 0.0
+        opening = 0.08 if self.frame < 85 else 0.0
+        pose = [*(self.place + [0, 0, height]), *self.turn]
+        return stampede.Action("tool_pose", pose, gripper=opening)
+
+
+def test_what_a_policy_took_is_in_the_hand_for_the_skill_that_follows(tmp_path: Path) -> None:
+    (tmp_path / "skills").mkdir()
+    (tmp_path / "skills" / "pick.lua").write_text(
+        '''-- Take it from above.
+return skill {
+  label = "pick up the {obj}",
+  params = { "obj: movable & graspable", "from: support" },
+  precondition = { is.hand_empty(), is.on("obj", "from") },
+  effect = { is.holding("obj"), is_not.hand_empty(), is_not.on("obj", "from"), is.lifted("obj") },
+  run = policy("from_above", { until_effect = false }),
+}'''
+    )
+    session = stampede.Session(paths=[tmp_path])
+    session.add_policy("from_above", PicksFromAbove, channels=["object_pose"])
+    episode = session.run("pick_and_lift", seed=4, on_failure="stop")
+    assert episode.success, episode.reason
+
+
 def test_a_policy_that_fails_is_a_failed_episode_with_its_words() -> None:
     class Broken:
         def act(self, observation: dict[str, np.ndarray]) -> None:

@@ -2,6 +2,7 @@
 #include "convert.h"
 
 NB_MODULE(_core, module) {
+  nanobind::set_leak_warnings(false);  // a policy's function may hold its session, and lives as long as the program
   module.doc() = "The engine's classes. Use them by way of the package `stampede`.";
   module.attr("__version__") = STAMPEDE_VERSION;
   stampede::python::bind_errors(module);
