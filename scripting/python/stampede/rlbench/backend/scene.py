@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from stampede import _core
-from stampede._core import Error
 from stampede.rlbench.backend.exceptions import InvalidActionError
 from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.observing import observation_of
