@@ -2,7 +2,8 @@ CREATE VIEW poses AS  -- dense: the last stored pose is carried forward; CROSS k
 SELECT f.episode, f.frame, f.time_s, p.name AS object, s.x, s.y, s.z, s.qx, s.qy, s.qz, s.qw,
        s.frame = f.frame AS changed
 FROM frame f
-CROSS JOIN posed p ON p.episode = f.episode
-CROSS JOIN object_state s ON s.episode = f.episode AND s.posed = p.ordinal
+CROSS JOIN posed p
+CROSS JOIN object_state s
+WHERE p.episode = f.episode AND s.episode = f.episode AND s.posed = p.ordinal
   AND s.frame = (SELECT max(o.frame) FROM object_state o
                  WHERE o.episode = f.episode AND o.posed = p.ordinal AND o.frame <= f.frame);

@@ -1,13 +1,12 @@
-// Several environments at once, each in a thread that stays its own.
+// Several environments at once, shared out among threads.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 #include <stampede/session.h>
 
-#include <condition_variable>
+#include <atomic>
 #include <functional>
-#include <mutex>
 #include <thread>
 
 #include "environments.h"
@@ -17,32 +16,38 @@ namespace {
 
 using namespace nb::literals;
 
-// Lifetime: one caller at a time.
+// Waits until the value is another. It looks for a while before it sleeps: to be woken takes as long as a tenth of a
+// step. Whoever has work gets the processor meanwhile.
+template <class Value>
+void await_other(const std::atomic<Value>& value, Value than) {
+  for (int look = 0; look < 2000; ++look) {
+    if (value.load(std::memory_order_acquire) != than) return;
+    std::this_thread::yield();
+  }
+  value.wait(than, std::memory_order_acquire);
+}
+
+// Lifetime: one caller at a time, whose thread takes the first share of the environments.
 class EnvironmentGroup {
  public:
   EnvironmentGroup(std::vector<Environment> environments, int threads)
-      : environments_(std::move(environments)), failures_(environments_.size()) {
-    const std::size_t count = std::min(environments_.size(), static_cast<std::size_t>(std::max(1, threads)));
-    for (std::size_t i = 0; i < count; ++i) workers_.emplace_back([this, i, count] { work(i, count); });
+      : environments_(std::move(environments)),
+        failures_(environments_.size()),
+        shares_(std::min(environments_.size(), static_cast<std::size_t>(std::max(1, threads)))) {
+    for (std::size_t share = 1; share < shares_; ++share) workers_.emplace_back([this, share] { work(share); });
   }
   ~EnvironmentGroup() {
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
-    }
-    begin_.notify_all();
+    over_ = true;
+    begin_round();
   }
 
-  // Does a job with each environment, in its thread. Throws what the first one threw; the others have done theirs.
+  // Does a job with each environment. Throws what the first one threw; the others have done theirs.
   void each(const std::function<void(std::size_t, Environment&)>& job) {
-    {
-      std::unique_lock lock(mutex_);
-      job_ = &job;
-      running_ = workers_.size();
-      ++round_;
-      begin_.notify_all();
-      end_.wait(lock, [&] { return running_ == 0; });
-    }
+    job_ = &job;
+    running_.store(workers_.size(), std::memory_order_relaxed);
+    begin_round();
+    do_share(0);
+    for (std::size_t left = running_; left != 0; left = running_) await_other(running_, left);
     for (const std::exception_ptr& failure : failures_)
       if (failure) std::rethrow_exception(failure);
   }
@@ -51,37 +56,39 @@ class EnvironmentGroup {
   std::size_t size() const { return environments_.size(); }
 
  private:
-  void work(std::size_t first, std::size_t stride) {
-    for (std::uint64_t done = 0;;) {
-      {
-        std::unique_lock lock(mutex_);
-        begin_.wait(lock, [&] { return over_ || round_ != done; });
-        if (over_) return;
-        done = round_;
-      }
-      for (std::size_t i = first; i < environments_.size(); i += stride) attempt(i);
-      const std::lock_guard lock(mutex_);
-      if (--running_ == 0) end_.notify_one();
+  void begin_round() {
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  }
+
+  void work(std::size_t share) {
+    for (std::uint64_t done = 0;; ++done) {
+      await_other(round_, done);
+      if (over_) return;
+      do_share(share);
+      running_.fetch_sub(1, std::memory_order_release);
+      running_.notify_one();
     }
   }
 
-  void attempt(std::size_t i) {
-    failures_[i] = nullptr;
-    try {
-      (*job_)(i, environments_[i]);
-    } catch (const std::exception&) {
-      failures_[i] = std::current_exception();
+  void do_share(std::size_t first) {
+    for (std::size_t i = first; i < environments_.size(); i += shares_) {
+      failures_[i] = nullptr;
+      try {
+        (*job_)(i, environments_[i]);
+      } catch (const std::exception&) {
+        failures_[i] = std::current_exception();
+      }
     }
   }
 
   std::vector<Environment> environments_;
   const std::function<void(std::size_t, Environment&)>* job_ = nullptr;
   std::vector<std::exception_ptr> failures_;
-  std::mutex mutex_;
-  std::condition_variable begin_, end_;
-  std::uint64_t round_ = 0;
-  std::size_t running_ = 0;
-  bool over_ = false;
+  const std::size_t shares_;
+  bool over_ = false;  // read after a new round has been seen
+  std::atomic<std::uint64_t> round_ = 0;
+  std::atomic<std::size_t> running_ = 0;
   std::vector<std::jthread> workers_;
 };
 
@@ -147,7 +154,7 @@ std::optional<Episode> episode_of(EnvironmentGroup& group, std::size_t index) {
 
 void bind_vectors(nb::module_& module) {
   nb::class_<EnvironmentGroup>(module, "EnvironmentGroup",
-                               "Environments that act at once, each in a thread that stays its own.")
+                               "Environments that act at once in threads, the caller's among them.")
       .def("run", &run_group, "commands"_a, R"(Tells each environment an Action, a Reset or None (nothing), all at once.
 
 Gives a Step for each that was told something; of a reset, only `observation` counts. The GIL is released.)")
