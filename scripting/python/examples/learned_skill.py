@@ -9,47 +9,37 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from clone import BESIDE, CHUNK, COPIES, FOLLOWED, OPEN, Words, demonstrations, features, fit, pose_from, seen_from
-from scipy.spatial.transform import Rotation
+from clone import BESIDE, CHUNK, FOLLOWED
+from imitation import OPEN, Rows, Words, demonstrations, fit
 
 import stampede
 
-CHANNELS = ("gripper_joint_positions", "gripper_pose", "object_pose")
+CHANNELS = ("joint_positions", "gripper_joint_positions", "gripper_pose", "object_pose")
 CLEAR = 0.08  # m that a thing is lifted by
+NO_WORDS = Words([])
 
 
-class Picks:
+def joints(seen):
+    return np.hstack([seen["joint_positions"], seen["gripper_joint_positions"]])
+
+
+def picks(catalogue):
     """Rows to learn from: what each `pick` of a catalogue was told to do."""
-
-    def __init__(self, catalogue):
-        self.features, self.ahead, self.said = [], [], []
-        self.words = Words([])
-        random = np.random.default_rng(0)
-        for episode in stampede.Catalogue(catalogue).demos():
-            seen = episode.arrays(*CHANNELS, "action")
-            for segment in episode.segments:
-                if segment.kind == "skill" and segment.name == "pick" and segment.success:
-                    for _ in range(COPIES):
-                        self.add(seen, segment, random)
-                        self.said.append([self.words("")])
-
-    def add(self, seen, segment, random):
-        rows = np.arange(segment.first_frame, segment.end_frame)
-        tool, told, openings = (
-            seen["gripper_pose"][rows],
-            seen["action/tool_pose"],
-            seen["action/gripper"] / OPEN * 2 - 1,
-        )
-        beside = (openings[rows] > 0)[:, None] * random.normal(size=(len(rows), 6)) * BESIDE
-        hand = Rotation.from_rotvec(beside[:, 3:]) * Rotation.from_quat(tool[:, 3:])
-        tool = np.hstack([tool[:, :3] + beside[:, :3], hand.as_quat()])
-        each = []
-        for k in range(CHUNK):
-            then = np.minimum(rows + k, rows[-1])
-            each.append(seen_from(tool, told[then, :3], Rotation.from_quat(told[then, 3:]), openings[then]))
-        thing = seen[f"object_pose/{segment.arguments[0]}"][rows]
-        self.features.append(features(seen["gripper_joint_positions"][rows], tool, [thing]))
-        self.ahead.append(np.stack(each, axis=1))
+    for episode in stampede.Catalogue(catalogue).demos():
+        seen = episode.arrays(*CHANNELS, "action")
+        for segment in episode.segments:
+            if segment.kind == "skill" and segment.name == "pick" and segment.success:
+                rows = np.arange(segment.first_frame, segment.end_frame)
+                ahead = np.minimum(rows[:, None] + np.arange(CHUNK), rows[-1])
+                yield Rows(
+                    hand=seen["gripper_pose"][rows],
+                    joints=joints(seen)[rows],
+                    things=seen[f"object_pose/{segment.arguments[0]}"][rows][:, None],
+                    ahead=seen["action/tool_pose"][ahead],
+                    opening=seen["action/gripper"][ahead] / OPEN * 2 - 1,
+                    sentences=[""],
+                    often=np.ones(len(rows)),
+                )
 
 
 class ClonedPick:
@@ -62,13 +52,12 @@ class ClonedPick:
         self.thing = f"object_pose/{call.arguments['obj']}"
 
     def act(self, observation):
-        fingers, tool, thing = (observation[name] for name in (*CHANNELS[:2], self.thing))
+        tool, thing = observation["gripper_pose"], observation[self.thing]
         self.begun_at = thing[2] if self.begun_at is None else self.begun_at
         if thing[2] > self.begun_at + CLEAR:
             return None
         if not self.plan:
-            row = features(fingers[None], tool[None], [thing[None]])[0]
-            self.plan = [pose_from(tool, said) for said in self.network.ask(row, [])[:FOLLOWED]]
+            self.plan = self.network.ask(joints(observation), tool, thing[None], NO_WORDS(""))[:FOLLOWED]
         pose, opening = self.plan.pop(0)
         return stampede.Action("tool_pose", pose, gripper=opening)
 
@@ -81,7 +70,8 @@ if __name__ == "__main__":
     parser.add_argument("--episodes", type=int, default=50, help="of the test split, to evaluate with")
     parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
     options = parser.parse_args()
-    network = fit(Picks(demonstrations("pick_and_lift", options.demos, options.out)), options.steps, options.seed)
+    rows = list(picks(demonstrations("pick_and_lift", options.demos, options.out)))
+    network = fit(rows, NO_WORDS, options.steps, BESIDE, options.seed)
     session = stampede.Session(paths=[Path(__file__).parent / "learned"])
     session.add_policy("cloned_pick", lambda: ClonedPick(network), channels=list(CHANNELS))
     for task, variation in (("pick_and_lift", ""), ("stack_blocks", "height=2")):

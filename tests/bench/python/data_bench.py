@@ -49,7 +49,8 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         catalogue = Path(folder, "demos.db")
         pictures = {"cameras": ["front", "wrist"]}
-        stampede.Session(catalogue=catalogue).run_all(["pick_and_lift"], episodes=episodes, workers=2, pictures=pictures)
+        session = stampede.Session(catalogue=catalogue)
+        session.run_all(["pick_and_lift"], episodes=episodes, workers=2, pictures=pictures)
         count = len(stampede.Catalogue(catalogue).demos())
         for i, (name, arguments) in enumerate(EXPORTS.items()):
             taken = seconds_to_export(catalogue, Path(folder, str(i)), arguments)
