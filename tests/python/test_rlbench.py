@@ -448,6 +448,23 @@ def test_a_grasp_is_felt_and_lifts() -> None:
     assert (reward, terminate) == (1.0, True)
 
 
+@pytest.mark.parametrize("name", ["put_knife_on_chopping_board", "take_usb_out_of_computer"])
+def test_a_demo_played_back_by_its_poses_does_the_task(name: str) -> None:
+    """In these a skill lets go by opening the hand a little: the demo's `gripper_open` has to say so."""
+    task = task_for(EndEffectorPoseViaPlanning(), task=tasks.task_of(name))
+    (demo,) = task.get_demos(1, live_demos=True)
+    task.reset_to_demo(demo)
+    terminate, before = False, demo[0]
+    for place, seen in enumerate(demo):
+        if place % 6 == 0 or seen.gripper_open != before.gripper_open:
+            _, reward, terminate = task.step(np.append(seen.gripper_pose, seen.gripper_open))
+        if terminate:
+            break
+        before = seen
+    assert (reward, terminate) == (1.0, True)
+    assert demo[-1].gripper_open == 1.0 and demo[-1].misc["joint_position_action"][-1] == 1.0
+
+
 def test_paths_around_obstacles_are_not_into_them() -> None:
     free, checked = EndEffectorPoseViaPlanning(), EndEffectorPoseViaPlanning(collision_checking=True)
     into_the_table = np.array([0.2, 0.0, 0.70, 1, 0, 0, 0, OPEN])

@@ -88,8 +88,10 @@ if __name__ == "__main__":
     parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
     options = parser.parse_args()
     catalogue = demonstrations(options.task, options.demos, options.out)
-    files = Path(options.out, f"{options.task}-robomimic")
-    export(["robomimic", str(catalogue), "--out", str(files), "--cameras", ""])
-    demos = Demos(files / f"{options.task}.hdf5")
+    folder = Path(options.out, f"{options.task}-robomimic")
+    file = folder / f"{options.task}.hdf5"
+    if not file.exists():
+        export(["robomimic", str(catalogue), "--out", str(folder), "--cameras", ""])
+    demos = Demos(file)
     network = fit(demos.rows, demos.words, options.steps, BESIDE, options.seed)
     report(lambda: Cloned(network, demos), options.task, CHANNELS, options.episodes, options.horizon)

@@ -1,9 +1,10 @@
-"""PPO (Stable-Baselines3) learns `reach_target` from state: `python reach_ppo.py --steps 60000`."""
+"""PPO (Stable-Baselines3) learns `reach_target` from state: `python reach_ppo.py`."""
 
 import argparse
 import time
 
 import gymnasium
+import numpy as np
 import torch
 from stable_baselines3 import PPO
 
@@ -17,6 +18,7 @@ SETTINGS = {
     "normalise_actions": True,
     "horizon_s": 5,
 }
+LINE_EVERY = 10_000  # steps, a multiple of n_steps
 
 
 class ByProgress(gymnasium.Wrapper):
@@ -41,17 +43,20 @@ def train(steps: int, seed: int = 0) -> PPO:
     torch.set_num_threads(1)
     env = ByProgress(gymnasium.wrappers.FlattenObservation(stampede.Env("reach_target", **SETTINGS)))
     model = PPO("MlpPolicy", env, n_steps=1000, batch_size=250, gamma=0.95, learning_rate=1e-3, seed=seed)
-    return model.learn(steps)
+    begin = time.perf_counter()
+    for _ in range(0, steps, LINE_EVERY):
+        model.learn(min(LINE_EVERY, steps), reset_num_timesteps=False)
+        success, seconds = np.mean(model.ep_success_buffer), time.perf_counter() - begin
+        print(f"{model.num_timesteps} steps: success {success:.2f} in 100 episodes, {seconds:.0f} s", flush=True)
+    return model
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--steps", type=int, default=60_000)
+    parser.add_argument("--steps", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--episodes", type=int, default=100, help="of the test split, to evaluate with")
     options = parser.parse_args()
-    begin = time.perf_counter()
     model = train(options.steps, options.seed)
-    print(f"trained in {time.perf_counter() - begin:.0f} s")
     row = stampede.evaluate(model, "reach_target", episodes=options.episodes).rows[0]
     print(f"success {row.success:.2f} [{row.lower:.2f}, {row.upper:.2f}] of {row.episodes} of the test split")

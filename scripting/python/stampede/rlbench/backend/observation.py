@@ -35,7 +35,8 @@ class Observation:
     joint_velocities     (n,) float64: rad/s
     joint_positions      (n,) float64: rad
     joint_forces         (n,) float64: N m
-    gripper_open         float: 1.0 where the first finger is beyond 0.9 of its range, else 0.0
+    gripper_open         float: 1.0 where the first finger is beyond 0.9 of its range, else 0.0; in demos 1.0 also where
+                         the hand was told to open less wide
     gripper_pose         (7,) float64: x y z in m and quaternion x y z w of the point between the pads; world
     gripper_matrix       (4, 4) float64: the same, world_from_gripper
     gripper_joint_positions (2,) float64: m, 0 … 0.04

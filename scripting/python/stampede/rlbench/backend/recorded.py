@@ -11,8 +11,7 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
-OPENING_M = 0.08  # of the Panda hand, between the pads
-_OPEN_SHARE = 0.9  # of the range, from which on RLBench calls a hand open
+_SHUT_M = 1e-3  # a hand that was told to open less wide than that was told to close
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
 Draw = Callable[..., Mapping[str, np.ndarray]]
@@ -38,19 +37,26 @@ def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) ->
     """
     `misc` of each frame of a demo, without the cameras.
 
-    joint_position_action, (8,) float64: what led to the frame: joint positions (rad), and 1.0 where the fingers were
-    told to open beyond 0.9 of their range, else 0.0; the first frame has none. frame: of the episode.
+    joint_position_action, (8,) float64: what led to the frame: joint positions (rad), and 1.0 where the hand was told
+    to open, else 0.0; the first frame has none. frame: of the episode.
     """
-    joints, openings = arrays["action/joint_position"], arrays["action/gripper"]
+    joints = arrays["action/joint_position"]
     yield {"variation_index": variation_index, "frame": frames[0]}
     for _, frame in pairwise(frames):
-        is_open = float(openings[frame - 1] > _OPEN_SHARE * OPENING_M)
-        action = np.append(joints[frame - 1], is_open)
+        action = np.append(joints[frame - 1], float(_told_to_open(arrays, frame)))
         yield {"variation_index": variation_index, "frame": frame, "joint_position_action": action}
 
 
 def numbers_at(arrays: EpisodeArrays, frame: int) -> dict[str, np.ndarray]:
-    return {name: arrays[name][frame] for name in NUMBERS}
+    """`NUMBERS` of a frame. A demo's hand lets go by opening just far enough: it is open where it was told to be."""
+    numbers = {name: arrays[name][frame] for name in NUMBERS}
+    numbers["gripper_open"] = np.maximum(numbers["gripper_open"], float(_told_to_open(arrays, frame)))
+    return numbers
+
+
+def _told_to_open(arrays: EpisodeArrays, frame: int) -> bool:
+    """Whether what the hand was told before the frame was to open, however wide."""
+    return frame > 0 and bool(arrays["action/gripper"][frame - 1] > _SHUT_M)
 
 
 def demo_observations(
