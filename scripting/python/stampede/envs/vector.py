@@ -240,7 +240,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             for i, one in enumerate(each):
                 infos = self._add_info(infos, one, i)
             return infos
-        # Almost every step: all have the same keys, so each array is made at once.
+        # Almost every step: all have the same keys, so each array is made at once, and one mask is that of all.
+        mask = self._all.copy()
         for key, value in first.items():
             if type(value) in (bool, int, float):
                 infos[key] = np.array([one[key] for one in each], type(value))
@@ -248,7 +249,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
                 infos[key] = np.empty(self.num_envs, object)
                 for i, one in enumerate(each):
                     infos[key][i] = one[key]
-            infos[f"_{key}"] = self._all.copy()
+            infos[f"_{key}"] = mask
         return infos
 
     def _check_open(self, use: str) -> None:
