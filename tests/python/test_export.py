@@ -166,6 +166,46 @@ def test_mcap(made: Path, tmp_path: Path) -> None:
     assert {cube["id"] for cube in messages["/scene"][0][1]["entities"]} >= {skills[0].arguments[0]}
 
 
+CHANNELS = ("--channels", "joint_forces,object_pose/table", "--cameras", "", "--where", "task = 'pick_and_lift'")
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "rows"),
+    [
+        ("robomimic", "data/demo_0/obs", -1),
+        ("mimicgen", "data/demo_0/obs", -1),
+        ("libero", "data/demo_0/obs", -1),
+        ("maniskill", "traj_0/obs/extra", None),
+    ],
+)
+def test_further_channels_in_hdf5(made: Path, tmp_path: Path, name: str, place: str, rows: int | None) -> None:
+    h5py = pytest.importorskip("h5py")
+    folder = run(made, tmp_path / "out", name, *CHANNELS)
+    arrays = stampede.Catalogue(made)[1].arrays("joint_forces", "object_pose/table")
+    file = min(path for path in folder.rglob("*") if path.suffix in (".h5", ".hdf5"))
+    with h5py.File(file) as data:
+        assert np.array_equal(data[place]["joint_forces"], arrays["joint_forces"][:rows])
+        assert np.array_equal(data[place]["object_pose.table"], arrays["object_pose/table"][:rows])
+        names = data["data"].attrs["channel_names"] if "data" in data else None
+    names = names or json.loads(file.with_suffix(".json").read_text())["env_info"]["channel_names"]
+    assert json.loads(names)["joint_forces"] == list(arrays.column("joint_forces").labels)
+
+
+def test_further_channels_in_lerobot_and_mcap(made: Path, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    reader = pytest.importorskip("mcap.reader")
+    forces = stampede.Catalogue(made)[1].arrays("joint_forces")["joint_forces"]
+    folder = run(made, tmp_path / "lerobot", "lerobot", *CHANNELS, "--limit", "1", "--valid", "0")
+    feature = json.loads((folder / "meta/info.json").read_text())["features"]["observation.joint_forces"]
+    assert feature["shape"] == [7] and len(feature["names"]) == 7
+    rows = parquet.read_table(next(folder.rglob("data/**/*.parquet")))["observation.joint_forces"].to_pylist()
+    assert np.array_equal(np.array(rows, np.float32), forces[:-1].astype(np.float32))
+    folder = run(made, tmp_path / "mcap", "mcap", *CHANNELS, "--limit", "1")
+    with next(folder.iterdir()).open("rb") as stream:
+        found = [json.loads(m.data) for *_, m in reader.make_reader(stream).iter_messages(["/channels/joint_forces"])]
+    assert np.array_equal([one["values"] for one in found], forces)
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_export_that_was_cut_off_goes_on(
     made: Path, tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
@@ -242,6 +282,12 @@ def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
         export(of("robomimic", str(made), "--cameras", "fornt"))
     with pytest.raises(stampede.Error, match="--draw"):
         export(of("robomimic", str(made), "--cameras", "overhead"))
+    with pytest.raises(stampede.Error, match="no column of that name"):
+        export(of("robomimic", str(made), "--channels", "joint_force"))
+    with pytest.raises(stampede.Error, match="'front_rgb' has no row of numbers"):
+        export(of("robomimic", str(made), "--channels", "joint_forces,front_rgb"))
+    with pytest.raises(SystemExit):
+        export(of("rlbench", str(made), "--channels", "facts"))
     with pytest.raises(SystemExit):
         export(of("robomimick", str(made)))
     assert "robomimick" in capsys.readouterr().err

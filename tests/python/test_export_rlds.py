@@ -192,6 +192,14 @@ def test_features_are_what_is_in_the_records(made: Path, tmp_path: Path) -> None
     assert (last[:6] == 0).all() and last[6] < 0.08  # to stay, and to hold
 
 
+def test_further_channels(made: Path, tmp_path: Path) -> None:
+    folder = run(made, tmp_path / "out", "--channels", "joint_forces", "--cameras", "")
+    leaf = flat(json.loads((folder / "features.json").read_text()))["steps/observation/joint_forces"]
+    assert leaf["tensor"]["shape"] == {"dimensions": ["7"]}
+    forces = stampede.Catalogue(made)[1].arrays("joint_forces")["joint_forces"].astype(np.float32)
+    assert np.array_equal(np.reshape(read(folder)[1]["steps/observation/joint_forces"], (-1, 7)), forces)
+
+
 def test_shards_and_another_name(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rlds, "_SHARD_BYTES", 1)
     folder = run(made, tmp_path / "out", "--valid", "0", "--cameras", "")

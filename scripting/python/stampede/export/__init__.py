@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from stampede.catalogue import Catalogue, StoredEpisode
+from stampede.export import steps
 from stampede.faults import fault, unknown
 
 FORMATS = {
@@ -118,6 +119,8 @@ def export(arguments: Sequence[str] | None = None, tell: Callable[[str], None] |
             f"no episode fulfils `{options.where}`",
             "`stampede show FILE` lists them; --where takes a condition on view `episodes`",
         )
+    if begins and getattr(options, "channels", None):
+        steps.channels_of(episodes[0], episodes[0].arrays(*options.channels), options.channels)  # raises for a bad one
     writer: Writer = _module(options.format).Writer(folder, options, episodes)
     try:
         if begins:
@@ -162,6 +165,14 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
             metavar="NAMES",
             help="comma-separated, or '' for none (default: those with a stored picture of every frame)",
         )
+        if name != "rlbench":  # what is in its demos is fixed
+            one.add_argument(
+                "--channels",
+                type=lambda text: [channel for channel in text.split(",") if channel],
+                default=[],
+                metavar="NAMES",
+                help="further columns of numbers, such as joint_forces,facts,object_pose (engine/episode/README.md)",
+            )
         one.add_argument("--draw", action="store_true", help="draw pictures that are not stored")
         one.add_argument(
             "--valid", type=float, default=0.1, metavar="SHARE", help="of the training episodes (default: %(default)s)"

@@ -41,13 +41,16 @@ def add_action_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def scale_of(steps: Steps, action: str) -> Facts:
-    """What actions are: their space, a name for each value, and what -1 and 1 stand for, in rad and m."""
+    """What actions are: their space, a name for each value, and what -1 and 1 stand for, in rad and m.
+
+    And names for the values of further channels."""
     lower, upper = steps.bounds(action)
     return {
         "action_space": action,
         "action_names": steps.action_names(action),
         "action_lower": [*map(float, lower), 0.0],
         "action_upper": [*map(float, upper), OPENING],
+        **({"channel_names": json.dumps(steps.channel_names)} if steps.channels else {}),
     }
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from stampede.catalogue import StoredEpisode
 from stampede.export import common_cameras, split_of
 from stampede.export.pieces import Pieces, place
-from stampede.export.steps import ACTIONS, Array, Steps
+from stampede.export.steps import ACTIONS, Array, Steps, check_names
 from stampede.export.video import ENCODERS, NAMES, library, write_film
 from stampede.faults import fault
 
@@ -89,7 +89,7 @@ class Writer:
         return self._pieces.has(episode.id)
 
     def write(self, episode: StoredEpisode) -> None:
-        steps = Steps(episode)
+        steps = Steps(episode, channels=self._options.channels)
         columns, names, labels = self._columns(steps)
         with self._pieces.making(episode.id) as piece:
             with ThreadPoolExecutor(max(1, len(self._cameras))) as threads:
@@ -116,6 +116,7 @@ class Writer:
             for one in (names, *columns):  # of several tasks: a feature is the same in all episodes
                 del one[_THINGS]
         for episode, one in zip(self._episodes, described, strict=True):
+            check_names(episode, one["names"], names)
             if one["sizes"] != described[0]["sizes"]:
                 raise fault(f"episode {episode.id}", "its pictures have another size than the first's", "--where SQL")
         self._features = self._describe(names, described[0]["sizes"])
@@ -161,6 +162,7 @@ class Writer:
             "observation.state": state.astype(np.float32),
             _THINGS: things.astype(np.float32),
             "action": steps.natural_actions(self._options.action).astype(np.float32),
+            **{f"observation.{name}": values[:-1].astype(np.float32) for name, values in steps.channels.items()},
             "next.reward": steps.rewards.astype(np.float32),
             "next.done": done,
             "next.success": steps.success,
@@ -176,6 +178,7 @@ class Writer:
             "observation.state": [*arrays.column("joint_positions").labels, "gripper"],
             _THINGS: list(arrays.column("task_low_dim_state").labels),
             "action": steps.action_names(self._options.action),
+            **{f"observation.{name}": labels for name, labels in steps.channel_names.items()},
         }
         return columns, names, labels
 

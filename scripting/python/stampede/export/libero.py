@@ -55,7 +55,7 @@ class Writer:
         return self._demos.has(episode)
 
     def write(self, episode: StoredEpisode) -> None:
-        steps = Steps(episode)
+        steps = Steps(episode, channels=self._options.channels)
         pose = steps.observed("gripper_pose")
         fingers = steps.observed("gripper_joint_positions")
         states = np.hstack([steps.observed(column) for column in _STATES])
@@ -81,6 +81,8 @@ class Writer:
             observed.create_dataset("ee_states", data=np.hstack([pose[:, :3], turned]))
             observed.create_dataset("ee_pos", data=pose[:, :3])
             observed.create_dataset("ee_ori", data=turned)
+            for name, values in steps.channels.items():
+                observed.create_dataset(name, data=values[:-1])
             for camera in self._cameras[self._demos.file_of(episode)]:
                 pictures = episode.pictures(f"{camera}_rgb", range(steps.count), draw=self._options.draw)
                 put_pictures(observed, _CAMERAS.get(camera, f"{camera}_rgb"), pictures)

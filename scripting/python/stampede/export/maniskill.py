@@ -49,7 +49,7 @@ class Writer:
     def write(self, episode: StoredEpisode) -> None:
         cameras = self._cameras[episode.task]
         parameters = [f"{camera}_camera_{what}" for camera in cameras for what in ("intrinsics", "extrinsics")]
-        steps = Steps(episode, ["object_pose", *parameters])
+        steps = Steps(episode, ["object_pose", *parameters], self._options.channels)
         names = list(steps.arrays.column("task_low_dim_state").labels)
         shared = {**scale_of(steps, self._options.action), "state_names": names}
         with self._demos.making(episode, shared, {"info": steps.meta()}) as trajectory:
@@ -86,6 +86,8 @@ class Writer:
         observed.create_dataset("agent/qvel", data=speeds)
         observed.create_dataset("extra/tcp_pose", data=_pose(arrays["gripper_pose"]))
         observed.create_dataset("extra/task_low_dim_state", data=known(arrays["task_low_dim_state"]))
+        for name, values in steps.channels.items():
+            observed.create_dataset(f"extra/{name}", data=values)
         for camera in self._cameras[steps.episode.task]:
             pictures = steps.episode.pictures(f"{camera}_rgb", draw=self._options.draw)
             put_pictures(observed.require_group(f"sensor_data/{camera}"), "rgb", pictures)

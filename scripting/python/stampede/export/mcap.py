@@ -12,6 +12,7 @@
 | `/action` | stampede.Action | commanded joints and opening, for plots |
 | `/progress` | stampede.Progress | how much of the goal holds, and the reward |
 | `/facts` | stampede.Facts | the facts that hold, when they change |
+| `/channels/NAME` | stampede.Channel | what `--channels` named, a dot for each slash |
 
 Names of joints have `_` for `.` in `/action`, as paths of plots want it. A hull is shown as the box around it; what is
 not known is left out.
@@ -32,7 +33,7 @@ import numpy as np
 from stampede.catalogue import StoredEpisode
 from stampede.export import cameras_of
 from stampede.export.scene import Part, parts_of, pose_of, quaternion
-from stampede.export.steps import Array, matrices
+from stampede.export.steps import Array, channels_of, matrices
 
 Message = dict[str, Any]
 
@@ -104,6 +105,7 @@ SCHEMAS: dict[str, Message] = {
     ),
     "stampede.Progress": _object(progress=_NUMBER, reward=_NUMBER),
     "stampede.Facts": _object(facts=_list(_TEXT)),
+    "stampede.Channel": _object(values=_NUMBERS),
 }
 
 # Columns of joints: positions, velocities and forces of the arm, the fingers and things.
@@ -139,7 +141,7 @@ class Writer:
         path = self._path(episode)
         partial = path.with_name(path.name + ".part")
         with partial.open("wb") as stream:
-            _EpisodeFile(stream, episode).write(cameras_of(episode, self._options))
+            _EpisodeFile(stream, episode).write(cameras_of(episode, self._options), self._options.channels)
         partial.rename(path)
 
     def finish(self) -> None:
@@ -161,7 +163,7 @@ class _EpisodeFile:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
 
-    def write(self, cameras: list[str]) -> None:
+    def write(self, cameras: list[str], channels: list[str]) -> None:
         self._writer.start(profile="", library="stampede")
         self._writer.add_metadata("episode", self._about())
         arrays = self._episode.arrays()
@@ -170,6 +172,7 @@ class _EpisodeFile:
         self._put("/scene", "foxglove.SceneUpdate", 0, {"deletions": [], "entities": [_entity(p) for p in parts]})
         bases = [part.frame for part in parts if part.parent == "world" and f"object_pose/{part.frame}" in arrays]
         facts = arrays["facts"]
+        further = channels_of(self._episode, self._episode.arrays(*channels), channels) if channels else {}
         for frame in range(self._episode.frames):
             time_ns = self._time_ns(frame)
             joints = _joints(arrays, frame)
@@ -194,6 +197,8 @@ class _EpisodeFile:
                 self._write_action(arrays, frame)
             progress = {name: float(arrays[name][frame]) for name in ("progress", "reward")}
             self._put("/progress", "stampede.Progress", time_ns, _known(progress))
+            for name, rows in further.items():
+                self._put(f"/channels/{name}", "stampede.Channel", time_ns, {"values": rows[frame].tolist()})
             if frame == 0 or (facts[frame] != facts[frame - 1]).any():
                 holding = [str(arrays.atoms[k]) for k in np.flatnonzero(facts[frame])]
                 self._put("/facts", "stampede.Facts", time_ns, {"facts": holding})

@@ -26,7 +26,7 @@ from stampede.catalogue import StoredEpisode
 from stampede.export import common_cameras, split_of
 from stampede.export.pictures import png_files, size_of
 from stampede.export.pieces import Pieces
-from stampede.export.steps import ACTIONS, Array, Steps, known
+from stampede.export.steps import ACTIONS, Array, Steps, check_names, known
 from stampede.export.tfrecord import example, features, record
 from stampede.faults import fault
 
@@ -90,10 +90,11 @@ class Writer:
         return self._final.exists() or self._pieces.has(episode.id)
 
     def write(self, episode: StoredEpisode) -> None:
-        steps = Steps(episode, ["facts", "motion"])
+        steps = Steps(episode, ["facts", "motion"], self._options.channels)
         images = {camera: png_files(episode, camera) for camera in self._cameras}
         values: dict[str, Array | list[bytes]] = {_observed(_image(camera)): files for camera, files in images.items()}
         values |= {f"steps/{name}": column for name, column in _columns(steps, self._options.action).items()}
+        values |= {_observed(name): rows.astype(np.float32) for name, rows in steps.channels.items()}
         values |= {f"episode_metadata/{name}": value for name, value in _about(steps).items()}
         things = known(steps.arrays["task_low_dim_state"]).astype(np.float32)
         described = {
@@ -101,6 +102,7 @@ class Writer:
             "state": [*steps.arrays.column("joint_positions").labels, "gripper"],
             "action": steps.action_names(self._options.action),
             "things": list(steps.arrays.column("task_low_dim_state").labels),
+            "channels": steps.channel_names,
         }
         with self._pieces.making(episode.id) as piece:
             (piece / "features").write_bytes(features(values))
@@ -124,6 +126,8 @@ class Writer:
             json.loads((self._pieces.of(episode.id) / "described.json").read_text()) for episode in self._episodes
         ]
         first = described[0]
+        for episode, one in zip(self._episodes, described, strict=True):
+            check_names(episode, one["channels"], first["channels"])
         same_things = all(one["things"] == first["things"] for one in described)
         parts = ["features", "things"] if same_things else ["features"]
         splits = []
@@ -132,7 +136,8 @@ class Writer:
             if chosen:
                 splits.append(self._put_split(folder, theirs, sorted(chosen, key=_place), parts))
         sizes = {camera: [size for one in described for size in one["sizes"][camera]] for camera in self._cameras}
-        layout = _layout(first["state"], first["action"], first["things"] if same_things else [], sizes)
+        things = first["things"] if same_things else []
+        layout = _layout(first["state"], first["action"], things, sizes, first["channels"])
         info = {
             "name": self._options.name,
             "version": _VERSION,
@@ -226,12 +231,19 @@ def _about(steps: Steps) -> dict[str, Array | list[bytes]]:
     return about
 
 
-def _layout(state: list[str], action: list[str], things: list[str], sizes: dict[str, list[list[int]]]) -> Json:
+def _layout(
+    state: list[str],
+    action: list[str],
+    things: list[str],
+    sizes: dict[str, list[list[int]]],
+    channels: dict[str, list[str]],
+) -> Json:
     """features.json: how tfds is told what is in a record. sizes: height and width of each camera's pictures."""
     observation = {
         "state": _vector(state, "rad, and the opening of the gripper in m"),
         "tool_pose": _vector(["x", "y", "z", "qx", "qy", "qz", "qw"], "m, 1; world"),
         **{_image(camera): _picture(some) for camera, some in sizes.items()},
+        **{name: _vector(labels, "as engine/episode/README.md has it") for name, labels in channels.items()},
     }
     if things:
         observation[_THINGS] = _vector(things, "m, 1 and rad; world")

@@ -55,7 +55,7 @@ class Writer:
         return self._demos.has(episode)
 
     def write(self, episode: StoredEpisode) -> None:
-        steps = Steps(episode, self.columns(episode))
+        steps = Steps(episode, self.columns(episode), self._options.channels)
         states, names = _states(steps)
         shared = {**scale_of(steps, self._options.action), "state_names": names}
         with self._demos.making(episode, shared, self.facts(steps)) as demo:
@@ -126,7 +126,7 @@ def _observed(steps: Steps) -> dict[str, Array]:
     """Numbers at all frames, by robomimic's names."""
     pose = steps.arrays["gripper_pose"]
     observed = {name: known(steps.arrays[column]) for name, column in _OBSERVED.items()}
-    return {**observed, "robot0_eef_pos": pose[:, :3], "robot0_eef_quat": pose[:, 3:]}
+    return {**observed, "robot0_eef_pos": pose[:, :3], "robot0_eef_quat": pose[:, 3:], **steps.channels}
 
 
 def _action_parts(steps: Steps) -> dict[str, Array]:

@@ -9,14 +9,14 @@ that up.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stampede._core import Segment
+from stampede._core import EpisodeArrays, Segment
 from stampede.catalogue import StoredEpisode
 from stampede.faults import fault
 
@@ -87,25 +87,67 @@ def bodies_of(episode: StoredEpisode) -> list[str]:
     return [str(name) for name in rows.values("object")]
 
 
+def channels_of(episode: StoredEpisode, arrays: EpisodeArrays, asked: Sequence[str]) -> dict[str, Array]:
+    """Columns, and those of groups such as `object_pose`, as F x k each, unknown values as 0; a dot for each slash."""
+    found = {}
+    for channel in asked:
+        names = [name for name in arrays.keys() if name == channel or name.startswith(f"{channel}/")]
+        values = [arrays[name] for name in names]
+        if not names or any(one.dtype.kind not in "fiub" or one.shape[:1] != (episode.frames,) for one in values):
+            cure = "engine/episode/README.md says which columns have F rows; --cameras chooses pictures"
+            raise fault(f"episode {episode.id}", f"channel '{channel}' has no row of numbers for each frame", cure)
+        for name, rows in zip(names, values, strict=True):
+            found[name.replace("/", ".")] = known(rows.reshape(len(rows), -1))
+    return found
+
+
+def check_names(episode: StoredEpisode, names: Mapping[str, list[str]], first: Mapping[str, list[str]]) -> None:
+    """Raises Error where a feature's components are not those of the first episode: it is the same in all."""
+    for name, expected in first.items():
+        if names.get(name) != expected:
+            raise fault(
+                f"episode {episode.id}",
+                f"the components of {name} are not those of the first episode",
+                "--where exports them apart, for instance by task or variation",
+            )
+
+
 class Steps:
     """The steps of one episode. Arrays have F - 1 rows, unless they say otherwise.
 
-    further: more columns that are read at once. Raises Error for an episode of fewer than two frames, and for one of
-    another arm than the Panda.
+    further: more columns that are read at once. channels: columns, or groups of them (`object_pose`), that were asked
+    for beside the format's own. Raises Error for an episode of fewer than two frames, for one of another arm than the
+    Panda, and for a channel that is not there or has no row of numbers a frame.
     """
 
-    def __init__(self, episode: StoredEpisode, further: Sequence[str] = ()) -> None:
+    def __init__(self, episode: StoredEpisode, further: Sequence[str] = (), channels: Sequence[str] = ()) -> None:
         if episode.frames < 2:
             raise fault(f"episode {episode.id}", "it has no step", "--where 'frames > 1' leaves it out")
         self.episode = episode
-        self.arrays = episode.arrays(*_COLUMNS, *further)
+        self.arrays = episode.arrays(*_COLUMNS, *further, *channels)
         self.count = episode.frames - 1
+        self._asked = channels
         if self.arrays["joint_positions"].shape[1] != len(JOINT_SPEED):
             raise fault(f"episode {episode.id}", "its arm does not have seven joints", "only the Panda can be exported")
 
     def observed(self, column: str) -> Array:
         """A column at the frames that have an action, unknown values as 0."""
         return known(self.arrays[column][:-1])
+
+    @cached_property
+    def channels(self) -> dict[str, Array]:
+        """F x k each: what was asked for beside the format's own. Names have no slash."""
+        return channels_of(self.episode, self.arrays, self._asked)
+
+    @cached_property
+    def channel_names(self) -> dict[str, list[str]]:
+        """Of the components of each channel."""
+        columns = {name.replace("/", "."): self.arrays.column(name) for name in self.arrays.keys()}
+        names = {}
+        for channel, rows in self.channels.items():
+            labels = list(map(str, self.arrays.atoms if channel == "facts" else columns[channel].labels))
+            names[channel] = labels if len(labels) == rows.shape[1] else [str(k) for k in range(rows.shape[1])]
+        return names
 
     @property
     def success(self) -> Array:
