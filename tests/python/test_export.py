@@ -166,7 +166,7 @@ def test_mcap(made: Path, tmp_path: Path) -> None:
     assert {cube["id"] for cube in messages["/scene"][0][1]["entities"]} >= {skills[0].arguments[0]}
 
 
-CHANNELS = ("--channels", "joint_forces,object_pose/table", "--cameras", "", "--where", "task = 'pick_and_lift'")
+CHANNELS = ("--channels", "joint_forces,object_pose/table,progress", "--cameras", "", "--where", "task = 'pick_and_lift'")
 
 
 @pytest.mark.parametrize(
@@ -198,8 +198,10 @@ def test_further_channels_in_lerobot_and_mcap(made: Path, tmp_path: Path) -> Non
     folder = run(made, tmp_path / "lerobot", "lerobot", *CHANNELS, "--limit", "1", "--valid", "0")
     feature = json.loads((folder / "meta/info.json").read_text())["features"]["observation.joint_forces"]
     assert feature["shape"] == [7] and len(feature["names"]) == 7
-    rows = parquet.read_table(next(folder.rglob("data/**/*.parquet")))["observation.joint_forces"].to_pylist()
-    assert np.array_equal(np.array(rows, np.float32), forces[:-1].astype(np.float32))
+    table = parquet.read_table(next(folder.rglob("data/**/*.parquet")))
+    rows = np.array(table["observation.joint_forces"].to_pylist(), np.float32)
+    assert np.array_equal(rows, forces[:-1].astype(np.float32))
+    assert str(table["observation.progress"].type) == "float"  # a single number is no vector to LeRobot
     folder = run(made, tmp_path / "mcap", "mcap", *CHANNELS, "--limit", "1")
     with next(folder.iterdir()).open("rb") as stream:
         found = [json.loads(m.data) for *_, m in reader.make_reader(stream).iter_messages(["/channels/joint_forces"])]

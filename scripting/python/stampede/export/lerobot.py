@@ -162,7 +162,7 @@ class Writer:
             "observation.state": state.astype(np.float32),
             _THINGS: things.astype(np.float32),
             "action": steps.natural_actions(self._options.action).astype(np.float32),
-            **{f"observation.{name}": values[:-1].astype(np.float32) for name, values in steps.channels.items()},
+            **{f"observation.{name}": _feature(values[:-1]) for name, values in steps.channels.items()},
             "next.reward": steps.rewards.astype(np.float32),
             "next.done": done,
             "next.success": steps.success,
@@ -356,7 +356,7 @@ class Writer:
                 fields.append(arrow.field(name, arrow.list_(_language_row(name))))
             elif feature["dtype"] != "video":
                 kind = kinds[feature["dtype"]]
-                vector = feature["names"] is not None
+                vector = feature["shape"][0] > 1
                 fields.append(arrow.field(name, arrow.list_(kind, feature["shape"][0]) if vector else kind))
         return arrow.schema(fields)
 
@@ -432,6 +432,11 @@ def _language_row(column: str) -> Any:
 
 def _numbered(texts: Sequence[str]) -> dict[str, int]:
     return {text: number for number, text in enumerate(dict.fromkeys(texts))}
+
+
+def _feature(rows: Array) -> Array:
+    """Rows of a channel, float32; one of a single number is no vector to LeRobot."""
+    return (rows[:, 0] if rows.shape[1] == 1 else rows).astype(np.float32)
 
 
 def _stats(columns: dict[str, Array], histograms: dict[str, Array]) -> dict[str, dict[str, Any]]:
