@@ -83,6 +83,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         self.metadata = {**self.metadata, "render_fps": rate, "autoreset_mode": self.autoreset_mode}
         self._accounts = [EpisodeAccount(task) for _ in range(num_envs)]
         self._all = np.ones(num_envs, np.bool_)
+        self._columns: dict[str, tuple[list[Any], np.ndarray]] = {}  # of the infos of the last step
         self._randoms: list[np.random.Generator | None] = [None] * num_envs
         self._seeds: list[int | None] = [None] * num_envs
         self.closed = False
@@ -240,15 +241,15 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             for i, one in enumerate(each):
                 infos = self._add_info(infos, one, i)
             return infos
-        # Almost every step: all have the same keys, so each array is made at once, and one mask is that of all.
+        # Almost every step: all have the same keys, so each array is made at once, most are those of the step before, and
+        # one mask is that of all.
         mask = self._all.copy()
-        for key, value in first.items():
-            if type(value) in (bool, int, float):
-                infos[key] = np.array([one[key] for one in each], type(value))
-            else:
-                infos[key] = np.empty(self.num_envs, object)
-                for i, one in enumerate(each):
-                    infos[key][i] = one[key]
+        for key in first:
+            values = [one[key] for one in each]
+            before = self._columns.get(key)
+            if before is None or before[0] != values:
+                before = self._columns[key] = values, _column(values)
+            infos[key] = before[1]
             infos[f"_{key}"] = mask
         return infos
 
@@ -260,6 +261,16 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         self._check_open(use)
         if not all(account.begun for account in self._accounts):
             raise fault(f"VectorEnv.{use}", "nothing has begun", "call reset() first")
+
+
+def _column(values: list[Any]) -> np.ndarray:
+    """An array of numbers, or of anything else as it is; not to be written to, as later steps may give it again."""
+    kind = type(values[0])
+    column = np.empty(len(values), kind if kind in (bool, int, float) else object)
+    for i, value in enumerate(values):
+        column[i] = value
+    column.setflags(write=False)
+    return column
 
 
 def _mode(mode: AutoresetMode | str) -> AutoresetMode:
