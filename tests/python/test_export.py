@@ -166,7 +166,8 @@ def test_mcap(made: Path, tmp_path: Path) -> None:
     assert {cube["id"] for cube in messages["/scene"][0][1]["entities"]} >= {skills[0].arguments[0]}
 
 
-CHANNELS = ("--channels", "joint_forces,object_pose/table,progress", "--cameras", "", "--where", "task = 'pick_and_lift'")
+CHANNELS = ("--channels", "joint_forces,object_pose/table,progress", "--cameras", "")
+CHANNELS += ("--where", "task = 'pick_and_lift'")
 
 
 @pytest.mark.parametrize(

@@ -241,8 +241,8 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             for i, one in enumerate(each):
                 infos = self._add_info(infos, one, i)
             return infos
-        # Almost every step: all have the same keys, so each array is made at once, most are those of the step before, and
-        # one mask is that of all.
+        # Almost every step: all have the same keys. Each array is made at once, or is that of the step before; one mask
+        # is that of all.
         mask = self._all.copy()
         for key in first:
             values = [one[key] for one in each]
