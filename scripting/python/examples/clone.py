@@ -5,13 +5,12 @@ were done with and the words of the instruction. It foretells where the hand is 
 (action chunks: Zhao et al., RSS 2023, arXiv:2304.13705).
 """
 
-import argparse
 import json
 from pathlib import Path
 
 import h5py
 import numpy as np
-from imitation import Rows, Words, demonstrations, fit, report
+from imitation import Rows, Words, demonstrations, fit, report, task_arguments
 from scipy.spatial.transform import Rotation
 
 import stampede
@@ -78,15 +77,7 @@ class Cloned:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("task", nargs="?", default="pick_and_lift")
-    parser.add_argument("--demos", type=int, default=200)
-    parser.add_argument("--steps", type=int, default=15_000, help="of the optimiser")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--episodes", type=int, default=100, help="of the test split, to evaluate with")
-    parser.add_argument("--horizon", type=float, default=60, help="s, simulated")
-    parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
-    options = parser.parse_args()
+    options = task_arguments(__doc__, steps=15_000).parse_args()
     catalogue = demonstrations(options.task, options.demos, options.out)
     folder = Path(options.out, f"{options.task}-robomimic")
     file = folder / f"{options.task}.hdf5"

@@ -6,6 +6,7 @@ task-parameterised models: Calinon, 2016, doi:10.1007/s11370-015-0187-9). The li
 nothing that is seen tells why, a cube is gripped by this pair of faces or that, and the mean of two grasps is none.
 """
 
+import argparse
 import re
 import time
 from collections import Counter
@@ -187,6 +188,30 @@ def fit(demos, words, steps, beside, seed=0):
             seconds = time.perf_counter() - begin
             print(f"{step} steps, {seconds:.0f} s: loss {np.mean(losses[-steps // 10 :]):.3f}", flush=True)
     return network.eval()
+
+
+def joints_of(seen):
+    """… x 9, of the engine's columns or channels: of the arm, rad, and the fingers, m."""
+    return np.hstack([seen["joint_positions"], seen["gripper_joint_positions"]])
+
+
+def arguments(description, steps):
+    """The command line that all of them have."""
+    parser = argparse.ArgumentParser(description=description.splitlines()[0])
+    parser.add_argument("--demos", type=int, default=200)
+    parser.add_argument("--steps", type=int, default=steps, help="of the optimiser")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--episodes", type=int, default=100, help="of the test split, to evaluate with")
+    parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
+    return parser
+
+
+def task_arguments(description, steps):
+    """The same, of those that learn a whole task."""
+    parser = arguments(description, steps)
+    parser.add_argument("task", nargs="?", default="pick_and_lift")
+    parser.add_argument("--horizon", type=float, default=60, help="s, simulated")
+    return parser
 
 
 def demonstrations(task, count, folder):

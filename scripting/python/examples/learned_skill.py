@@ -5,22 +5,17 @@ them sees the one thing that it is called with, so a planner can use it in any t
 place of the skill that ships, and keeps its precondition and effect.
 """
 
-import argparse
 from pathlib import Path
 
 import numpy as np
 from clone import BESIDE, CHUNK, FOLLOWED
-from imitation import OPEN, Rows, Words, demonstrations, fit
+from imitation import OPEN, Rows, Words, arguments, demonstrations, fit, joints_of
 
 import stampede
 
 CHANNELS = ("joint_positions", "gripper_joint_positions", "gripper_pose", "object_pose")
 CLEAR = 0.08  # m that a thing is lifted by
 NO_WORDS = Words([])
-
-
-def joints(seen):
-    return np.hstack([seen["joint_positions"], seen["gripper_joint_positions"]])
 
 
 def picks(catalogue):
@@ -33,7 +28,7 @@ def picks(catalogue):
                 ahead = np.minimum(rows[:, None] + np.arange(CHUNK), rows[-1])
                 yield Rows(
                     hand=seen["gripper_pose"][rows],
-                    joints=joints(seen)[rows],
+                    joints=joints_of(seen)[rows],
                     things=seen[f"object_pose/{segment.arguments[0]}"][rows][:, None],
                     ahead=seen["action/tool_pose"][ahead],
                     opening=seen["action/gripper"][ahead] / OPEN * 2 - 1,
@@ -57,18 +52,14 @@ class ClonedPick:
         if thing[2] > self.begun_at + CLEAR:
             return None
         if not self.plan:
-            self.plan = self.network.ask(joints(observation), tool, thing[None], NO_WORDS(""))[:FOLLOWED]
+            self.plan = self.network.ask(joints_of(observation), tool, thing[None], NO_WORDS(""))[:FOLLOWED]
         pose, opening = self.plan.pop(0)
         return stampede.Action("tool_pose", pose, gripper=opening)
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--demos", type=int, default=200)
-    parser.add_argument("--steps", type=int, default=10_000, help="of the optimiser")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--episodes", type=int, default=50, help="of the test split, to evaluate with")
-    parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
+    parser = arguments(__doc__, steps=10_000)
+    parser.set_defaults(episodes=50)
     options = parser.parse_args()
     rows = list(picks(demonstrations("pick_and_lift", options.demos, options.out)))
     network = fit(rows, NO_WORDS, options.steps, BESIDE, options.seed)

@@ -6,10 +6,8 @@ passes its approach without stopping has no such frame there. The catalogue know
 and the via-points that they pass. Everything else is the same here: network, demos, straight lines that are followed.
 """
 
-import argparse
-
 import numpy as np
-from imitation import OPEN, Rows, Words, demonstrations, fit, report
+from imitation import OPEN, Rows, Words, demonstrations, fit, joints_of, report, task_arguments
 from scipy.spatial.transform import Rotation
 
 import stampede
@@ -63,16 +61,13 @@ class NextPoses:
         now = slice(0, len(then))
         return Rows(
             hand=tool[now],
-            joints=self.joints(seen)[now],
+            joints=joints_of(seen)[now],
             things=self.things(seen)[now],
             ahead=tool[then][:, None],
             opening=2 * opening[then][:, None] / OPEN - 1,
             sentences=episode.instructions(),
             often=1 / np.bincount(then)[then],  # each pose as often as any other
         )
-
-    def joints(self, seen):
-        return np.hstack([seen["joint_positions"], seen["gripper_joint_positions"]])
 
     def things(self, seen):
         return np.stack([seen[f"object_pose/{name}"] for name in self.names], axis=-2)
@@ -92,7 +87,7 @@ class ByPoses:
     def act(self, observation):
         tool = observation["gripper_pose"]
         if self.left == 0:
-            joints, things = self.demos.joints(observation), self.demos.things(observation)
+            joints, things = joints_of(observation), self.demos.things(observation)
             self.goal, self.next_opening = self.network.ask(joints, tool, things, self.said)[0]
             self.left, self.last = AGAIN, None
         way = self.goal[:3] - tool[:3]
@@ -114,15 +109,8 @@ class ByPoses:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("task", nargs="?", default="pick_and_lift")
+    parser = task_arguments(__doc__, steps=8_000)
     parser.add_argument("--from", dest="rule", choices=sorted(FRAMES), default="segments")
-    parser.add_argument("--demos", type=int, default=200)
-    parser.add_argument("--steps", type=int, default=8_000, help="of the optimiser")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--episodes", type=int, default=100, help="of the test split, to evaluate with")
-    parser.add_argument("--horizon", type=float, default=60, help="s, simulated")
-    parser.add_argument("--out", default=".build/examples", help="folder for demonstrations")
     options = parser.parse_args()
     demos = NextPoses(demonstrations(options.task, options.demos, options.out), options.rule)
     print(f"{demos.count / len(demos.rows):.1f} poses a demo")

@@ -172,7 +172,7 @@ class _EpisodeFile:
         self._put("/scene", "foxglove.SceneUpdate", 0, {"deletions": [], "entities": [_entity(p) for p in parts]})
         bases = [part.frame for part in parts if part.parent == "world" and f"object_pose/{part.frame}" in arrays]
         facts = arrays["facts"]
-        further = channels_of(self._episode, self._episode.arrays(*channels), channels) if channels else {}
+        further = channels_of(self._episode, arrays, channels)
         for frame in range(self._episode.frames):
             time_ns = self._time_ns(frame)
             joints = _joints(arrays, frame)
