@@ -1,4 +1,4 @@
-// Builds Bullet's bodies from the scene's, always in the same order: Bullet's ids follow it.
+// Builds what moves and what is touched from the scene's bodies, always in the same order: Bullet's ids follow it.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -91,8 +91,6 @@ bool has_flat_sides_only(const Part& part) {
   });
 }
 
-enum class Role { still, moving, free, pad };
-
 // What measurements asked for. Pads: without anchor and coupling a held cube creeps or falls, and more rolling or
 // spinning friction stops a handle from turning in the hand. Free bodies: without anchors five stacked cubes wander
 // 15 mm in 30 s, with them less than 1 mm. Flat sides resist turning by themselves: rows for it cost time and drift.
@@ -113,11 +111,14 @@ void set_surface(btCollisionObject& object, const Part& part, Role role) {
   if (surface.anchor) object.setCollisionFlags(object.getCollisionFlags() | btCollisionObject::CF_HAS_FRICTION_ANCHOR);
 }
 
-void set_identity(btCollisionObject& object, int body, int part, bool collides) {
+void set_identity(btCollisionObject& object, int body, int part, Role role) {
   object.setUserIndex(body);
   object.setUserIndex2(part);
-  object.setUserIndex3(collides ? 1 : 0);
-  object.setActivationState(DISABLE_DEACTIVATION);  // sleeping holds state that no snapshot can reach
+  // To Bullet's eyes what stands still is static and asleep, all else is awake: pairs that cannot touch cost nothing.
+  const bool still = role == Role::still;
+  const int flags = object.getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT;
+  object.setCollisionFlags(still ? flags | btCollisionObject::CF_STATIC_OBJECT : flags);
+  object.forceActivationState(still ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);
 }
 
 // Of each part of a fixed body: what it is rigidly part of, and how.
@@ -166,8 +167,7 @@ bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy
   const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
   const auto* two = static_cast<const btCollisionObject*>(b->m_clientObject);
   if (one->getUserIndex() == two->getUserIndex()) return false;
-  if (one->isStaticObject() && two->isStaticObject()) return false;
-  return one->getUserIndex3() == 1 && two->getUserIndex3() == 1;
+  return !(one->isStaticObject() && two->isStaticObject());
 }
 
 void World::Impl::build() {
@@ -193,31 +193,9 @@ void World::Impl::build_free(int index) {
     throw Error(description.name, "a free body has exactly one part", "fix it to the world, or make it one part");
   const LinkFrame frame = link_frame(part, of_part(part, Transform::Identity()), description.name);
   const Transform link_from_part = frame.part_from_link.inverse();
-  btRigidBody::btRigidBodyConstructionInfo info(part.mass, nullptr, make_part_shape(part, link_from_part, shapes),
-                                                to_bullet(frame.moments));
-  info.m_startWorldTransform = to_bullet(Transform(description.world_from_body * frame.part_from_link));
-  auto rigid = std::make_unique<btRigidBody>(info);
-  set_surface(*rigid, part, Role::free);
-  set_identity(*rigid, index, 0, has_collision(part));
-  BodySlot& slot = body_slot(index);
-  slot.free = rigid.get();
-  slot.parts[0].object = rigid.get();
-  slot.parts[0].link_from_part = link_from_part;
-  world.addRigidBody(rigid.get());
-  objects.push_back(std::move(rigid));
-}
-
-void World::Impl::add_static_part(int index, int part_index, const Transform& world_from_part) {
-  const Part& description = part({index, part_index});
-  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr,
-                                                make_part_shape(description, Transform::Identity(), shapes));
-  info.m_startWorldTransform = to_bullet(world_from_part);
-  auto rigid = std::make_unique<btRigidBody>(info);
-  set_surface(*rigid, description, Role::still);
-  set_identity(*rigid, index, part_index, has_collision(description));
-  body_slot(index).parts[static_cast<std::size_t>(part_index)].object = rigid.get();
-  if (has_collision(description)) world.addRigidBody(rigid.get());
-  objects.push_back(std::move(rigid));
+  btCollisionObject& object = add_object({index, 0}, link_from_part, Role::free);
+  object.setWorldTransform(to_bullet(Transform(description.world_from_body * frame.part_from_link)));
+  body_slot(index).free = &dynamics.add_free({&object, part.mass, frame.moments, Vector3::Zero(), Vector3::Zero()});
 }
 
 void World::Impl::build_fixed(int index) {
@@ -225,90 +203,66 @@ void World::Impl::build_fixed(int index) {
   const Assembly assembly = assemble(description);
   BodySlot& slot = body_slot(index);
   std::vector<Transform> still(description.parts.size(), Transform::Identity());
-  if (assembly.links > 0) {
-    multibodies.push_back(
-        std::make_unique<btMultiBody>(assembly.links, 1.0, btVector3(1, 1, 1), /*fixedBase=*/true, /*canSleep=*/false));
-    slot.multibody = multibodies.back().get();
-    slot.multibody->setBaseWorldTransform(to_bullet(description.world_from_body));
-  }
+  if (assembly.links > 0) slot.tree = &dynamics.add_tree(description.world_from_body);
   for (std::size_t p = 0; p < description.parts.size(); ++p) {
     const Part& part = description.parts[p];
     const auto parent = static_cast<std::size_t>(std::max(part.parent, 0));
+    const PartRef ref{index, static_cast<int>(p)};
     PartSlot& mine = slot.parts[p];
     if (assembly.still[p]) {
       still[p] = p == 0 ? Transform::Identity() : still[parent] * part.joint.parent_from_joint;
-      add_static_part(index, static_cast<int>(p), description.world_from_body * still[p]);
+      add_object(ref, Transform::Identity(), Role::still)
+          .setWorldTransform(to_bullet(Transform(description.world_from_body * still[p])));
       continue;
     }
-    mine.multibody = slot.multibody;
-    mine.link = assembly.link[p];
     if (assembly.host[p] != static_cast<int>(p)) {
-      const PartSlot& host = slot.parts[static_cast<std::size_t>(assembly.host[p])];
-      mine.link_from_part = host.link_from_part * assembly.host_from_part[p];
+      mine = slot.parts[static_cast<std::size_t>(assembly.host[p])];
+      mine.link_from_part = mine.link_from_part * assembly.host_from_part[p];
+      mine.dof = -1;
       continue;
     }
-    const LinkFrame frame = link_frame(part, assembly.masses[p], description.name + "." + part.name);
-    mine.link_from_part = frame.part_from_link.inverse();
-    mine.driven_by_joint = part.joint.kind != JointKind::fixed;
-    // Bullet chains centre-of-mass frames; a still parent counts as the base, whose frame is part 0's.
-    const Transform parent_link_from_joint =
-        (assembly.still[parent] ? still[parent] : slot.parts[parent].link_from_part) * part.joint.parent_from_joint;
-    const int parent_link = assembly.still[parent] ? -1 : assembly.link[parent];
-    const btQuaternion turn = to_bullet(
-        Quaternion(Matrix3(mine.link_from_part.linear() * parent_link_from_joint.linear().transpose())).normalized());
-    const btVector3 axis = to_bullet(Vector3(mine.link_from_part.linear() * part.joint.axis.normalized()));
-    const btVector3 to_pivot = to_bullet(Vector3(parent_link_from_joint.translation()));
-    const btVector3 to_centre = to_bullet(Vector3(-mine.link_from_part.translation()));
-    const double mass = assembly.masses[p].mass;
-    const btVector3 moments = to_bullet(frame.moments);
-    if (part.joint.kind == JointKind::hinge) {
-      slot.multibody->setupRevolute(mine.link, mass, moments, parent_link, turn, axis, to_pivot, to_centre, true);
-    } else if (part.joint.kind == JointKind::slider) {
-      slot.multibody->setupPrismatic(mine.link, mass, moments, parent_link, turn, axis, to_pivot, to_centre, true);
-    } else {
-      slot.multibody->setupFixed(mine.link, mass, moments, parent_link, turn, to_pivot, to_centre);
-    }
-  }
-  if (slot.multibody) add_joint_constraints(index, assembly.host);
-}
-
-void World::Impl::add_joint_constraints(int index, const std::vector<int>& host) {
-  const Body& description = body(index);
-  BodySlot& slot = body_slot(index);
-  btMultiBody& multibody = *slot.multibody;
-  multibody.finalizeMultiDof();
-  multibody.setLinearDamping(0);
-  multibody.setAngularDamping(0);
-  multibody.setHasSelfCollision(false);
-  world.addMultiBody(&multibody);
-  for (std::size_t p = 0; p < slot.parts.size(); ++p) {
-    PartSlot& mine = slot.parts[p];
-    const Part& part = description.parts[p];
-    if (!mine.multibody || host[p] != static_cast<int>(p)) continue;
-    // Every link gets a collider, if only an empty one: Bullet solves a joint's motor only where one is.
-    auto collider = std::make_unique<btMultiBodyLinkCollider>(&multibody, mine.link);
-    collider->setCollisionShape(make_part_shape(part, mine.link_from_part, shapes));
+    const MassProperties& mass = assembly.masses[p];
+    const LinkFrame frame = link_frame(part, mass, description.name + "." + part.name);
     const std::vector<int>& pads = scene->robot.pads;
     const bool pad = index == kRobot && std::find(pads.begin(), pads.end(), static_cast<int>(p)) != pads.end();
-    set_surface(*collider, part, pad ? Role::pad : Role::moving);
-    set_identity(*collider, index, static_cast<int>(p), has_collision(part));
-    multibody.getLink(mine.link).m_collider = collider.get();
-    mine.object = collider.get();
-    world.addCollisionObject(collider.get(), 1, -1);
-    objects.push_back(std::move(collider));
-    if (!mine.driven_by_joint) continue;
-    multibody.setJointPos(mine.link, part.joint.initial);
-    if (part.joint.lower < part.joint.upper) {
-      auto limit =
-          std::make_unique<btMultiBodyJointLimitConstraint>(&multibody, mine.link, part.joint.lower, part.joint.upper);
-      world.addMultiBodyConstraint(limit.get());
-      constraints.push_back(std::move(limit));
-    }
+    btCollisionObject& object = add_object(ref, frame.part_from_link.inverse(), pad ? Role::pad : Role::moving);
+    Articulation::Link link;
+    // The parent's part may be merged into another: the joint is seen from that one's frame.
+    link.parent = assembly.still[parent] ? -1 : assembly.link[parent];
+    link.parent_from_joint =
+        (assembly.still[parent] ? still[parent] : assembly.host_from_part[parent]) * part.joint.parent_from_joint;
+    link.kind = part.joint.kind;
+    link.axis = part.joint.axis.normalized();
+    link.mass = mass.mass;
+    link.centre = mass.centre;
+    link.inertia = mass.inertia;
+    link.object = &object;
+    link.link_from_object = frame.part_from_link;
+    mine.tree = slot.tree;
+    mine.link = slot.tree->add(link);
+    mine.dof = slot.tree->dof(mine.link);
+    dynamics.add_object(object, *slot.tree, mine.link);
+    if (mine.dof < 0) continue;
+    slot.tree->position[static_cast<std::size_t>(mine.dof)] = part.joint.initial;
+    if (part.joint.lower < part.joint.upper)
+      dynamics.add_stop(*slot.tree, {mine.dof, part.joint.lower, part.joint.upper});
   }
-  for (PartSlot& mine : slot.parts)  // merged parts were met before their host had its collider
-    if (mine.multibody && !mine.object) mine.object = multibody.getLink(mine.link).m_collider;
-  multibody.forwardKinematics(scratch_rotations, scratch_origins);
-  multibody.updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+  if (slot.tree) slot.tree->place();
+}
+
+// In the world only where it collides with anything.
+btCollisionObject& World::Impl::add_object(PartRef ref, const Transform& link_from_part, Role role) {
+  const Part& description = part(ref);
+  objects.push_back(std::make_unique<btCollisionObject>());
+  btCollisionObject& object = *objects.back();
+  object.setCollisionShape(make_part_shape(description, link_from_part, shapes));
+  set_surface(object, description, role);
+  set_identity(object, ref.body, ref.part, role);
+  PartSlot& slot = body_slot(ref.body).parts[static_cast<std::size_t>(ref.part)];
+  slot.object = &object;
+  slot.link_from_part = link_from_part;
+  if (has_collision(description)) world.addCollisionObject(&object);
+  return object;
 }
 
 }  // namespace stampede

@@ -45,10 +45,9 @@ Wrench World::contact_wrench(int robot_part) const {
       torque += sign * (impulse.point - origin).cross(impulse.force);
     }
   }
-  for (const TorsionSolver::Torsion& torsion : w.solver.torsions()) {
-    const bool first = torsion.on != nullptr && beyond(*torsion.on);
-    const bool second = torsion.other != nullptr && beyond(*torsion.other);
-    if (first != second) torque += (first ? 1 : -1) * torsion.impulse;
+  for (const Dynamics::Torsion& torsion : w.dynamics.torsions()) {
+    const bool first = beyond(*torsion.on), second = beyond(*torsion.other);
+    if (first != second) torque += (first ? 1 : -1) * to_bullet(torsion.impulse);
   }
   const Matrix3 part_from_world = world_from_part.linear().transpose();
   return {part_from_world * from_bullet(force) / w.dt, part_from_world * from_bullet(torque) / w.dt};

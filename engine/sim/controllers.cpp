@@ -16,7 +16,7 @@ constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
 constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
 constexpr double kSingularity = 1e-4;     // damping of the null-space projector
 constexpr double kArmErp = 0.2, kFingerErp = 0.2;
-constexpr double kGearForce = 50;  // N
+constexpr double kGearErp = 0.04, kGearForce = 50;  // N
 // A finger just told to move is not blocked. Nor is one whose contact has just been dropped: asked for so much speed,
 // it would be 4 mm deep in what it holds before contact is found again.
 constexpr std::int64_t kStartSteps = 3;
@@ -62,52 +62,34 @@ void World::Impl::build_robot_motors() {
   const BodySlot& robot_slot = body_slot(kRobot);
   const auto motor_of = [&](int part_index) {
     const PartSlot& driven = slot({kRobot, part_index});
-    if (!driven.driven_by_joint)
+    if (driven.dof < 0)
       throw Error(robot.name, "part '" + part({kRobot, part_index}).name + "' has no joint to drive",
                   "name moving links");
-    auto motor = std::make_unique<btMultiBodyJointMotor>(robot_slot.multibody, driven.link, 0, 0);
-    world.addMultiBodyConstraint(motor.get());
-    constraints.push_back(std::move(motor));
-    return static_cast<btMultiBodyJointMotor*>(constraints.back().get());
+    return &dynamics.add_motor(*robot_slot.tree, driven.dof);
   };
   const auto joints = static_cast<Eigen::Index>(robot.arm.size());
   JointVector start(joints);
   for (std::size_t j = 0; j < robot.arm.size(); ++j) {
     start[static_cast<Eigen::Index>(j)] = part({kRobot, robot.arm[j]}).joint.initial;
-    arm_links.push_back(slot({kRobot, robot.arm[j]}).link);
     arm_motors.push_back(motor_of(robot.arm[j]));
-    arm_motors.back()->setErp(kArmErp);
-    robot_slot.multibody->setJointPos(arm_links.back(), start[static_cast<Eigen::Index>(j)]);
+    arm_motors.back()->erp = kArmErp;
+    arm_motors.back()->position_gain = 1;
   }
   for (const int finger : robot.fingers) {
-    finger_links.push_back(slot({kRobot, finger}).link);
     finger_motors.push_back(motor_of(finger));
-    finger_motors.back()->setErp(kFingerErp);
-    finger_motors.back()->setRhsClamp(robot.finger_speed);
+    finger_motors.back()->erp = kFingerErp;
   }
   if (robot.fingers.size() == 2) {
     // Two force-limited motors alone let the pair wander along the closing axis: the gear couples them.
-    const btVector3 origin(0, 0, 0);
-    auto gear = std::make_unique<btMultiBodyGearConstraint>(robot_slot.multibody, finger_links[0], robot_slot.multibody,
-                                                            finger_links[1], origin, origin, btMatrix3x3::getIdentity(),
-                                                            btMatrix3x3::getIdentity());
-    gear->setGearRatio(-1);
-    gear->setErp(0.2);
-    gear->setMaxAppliedImpulse(kGearForce * dt);
-    gear->setRelativePositionTarget(0);
-    gear->finalizeMultiDof();
-    world.addMultiBodyConstraint(gear.get());
-    constraints.push_back(std::move(gear));
+    dynamics.add_gear(*robot_slot.tree, {finger_motors[0]->dof, finger_motors[1]->dof, kGearErp, kGearForce});
   }
-  robot_slot.multibody->forwardKinematics(scratch_rotations, scratch_origins);
-  robot_slot.multibody->updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
   hand.opening = 0;
   for (const int finger : robot.fingers) hand.opening += part({kRobot, finger}).joint.initial;
   hand.force = robot.grip_force;
   reference.setpoint = {start, JointVector::Zero(joints), JointVector::Zero(joints)};
   reference_now = reference.setpoint;
   arm_torque = JointVector::Zero(joints);
-  dynamics = ArmDynamics(robot);
+  arm_dynamics = ArmDynamics(robot);
 }
 
 JointState World::Impl::reference_at(std::int64_t step) const {
@@ -143,9 +125,9 @@ void World::Impl::control_position(const JointState& now, const JointState& next
   const bool moving = reference.trajectory != nullptr || reference.servo;
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    arm_motors[j]->setPositionTarget(now.position[i], 1);
-    arm_motors[j]->setVelocityTarget(moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i], 1);
-    arm_motors[j]->setMaxAppliedImpulse(effort_of(scene->robot.limits[j]) * dt);
+    arm_motors[j]->position = now.position[i];
+    arm_motors[j]->velocity = moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i];
+    arm_motors[j]->most_force = effort_of(scene->robot.limits[j]);
   }
   arm_torque.setZero();
 }
@@ -161,17 +143,17 @@ void World::Impl::update_dynamics() {
     load.centre = pose * carried.centre_of_mass;
     load.inertia = pose.linear() * carried.inertia * pose.linear().transpose();
   }
-  dynamics.update(poses[0], scene->gravity, load);
+  arm_dynamics.update(poses[0], scene->gravity, load);
 }
 
-// Bullet's own motors are given no impulse, so that only the torque acts; torques stop at the joints' limits.
+// The motors are given no force, so that only the torque acts; torques stop at the joints' limits.
 void World::Impl::give_torques(JointVector torque) {
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const double most = effort_of(scene->robot.limits[j]);
     torque[i] = std::clamp(torque[i], -most, most);
-    arm_motors[j]->setMaxAppliedImpulse(0);
-    body_slot(kRobot).multibody->addJointTorque(arm_links[j], torque[i]);
+    arm_motors[j]->most_force = 0;
+    body_slot(kRobot).tree->torque[static_cast<std::size_t>(arm_motors[j]->dof)] += torque[i];
   }
   arm_torque = torque;
 }
@@ -179,10 +161,10 @@ void World::Impl::give_torques(JointVector torque) {
 // What is asked for, but for the part of it that would take a joint beyond its limits.
 void World::Impl::control_torque(const JointVector& asked) {
   update_dynamics();
-  const JointMatrix& mass = dynamics.mass();
+  const JointMatrix& mass = arm_dynamics.mass();
   const JointVector free = mass.ldlt().solve(asked);
   const JointVector safe = safe_acceleration(free, arm_position_now(), arm_velocity_now(), scene->robot.limits, dt);
-  give_torques(dynamics.gravity() + asked + mass * (safe - free));
+  give_torques(arm_dynamics.gravity() + asked + mass * (safe - free));
 }
 
 // Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step
@@ -190,7 +172,7 @@ void World::Impl::control_torque(const JointVector& asked) {
 // is unstable at 240 Hz with the inertias of a real wrist.
 void World::Impl::control_joint_impedance(const JointState& next) {
   update_dynamics();
-  const JointMatrix& mass = dynamics.mass();
+  const JointMatrix& mass = arm_dynamics.mass();
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const Eigen::Index joints = q.size();
   double strongest = 0;
@@ -209,15 +191,15 @@ void World::Impl::control_joint_impedance(const JointState& next) {
   const JointVector acceleration = implicit.ldlt().solve(feed_forward + pull);
   const JointVector softened =
       pull - dt * damping.cwiseProduct(acceleration) - dt * dt * stiffness.cwiseProduct(acceleration);
-  give_torques(dynamics.gravity() + feed_forward + softened);
+  give_torques(arm_dynamics.gravity() + feed_forward + softened);
 }
 
 // As above with the stiffness of the tip mapped to the joints through the Jacobian, and a soft posture spring
 // towards the reference in its null space, so that the elbow neither drifts nor disturbs the tip.
 void World::Impl::control_cartesian_impedance(const JointState& next) {
   update_dynamics();
-  const JointMatrix& mass = dynamics.mass();
-  const TipJacobian& jacobian = dynamics.jacobian();
+  const JointMatrix& mass = arm_dynamics.mass();
+  const TipJacobian& jacobian = arm_dynamics.jacobian();
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const Eigen::Index joints = q.size();
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -226,8 +208,8 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   const Vector6 target_velocity = arm.jacobian(next.position) * next.velocity;
   const Vector6 tip_velocity = jacobian * v;
   Vector6 error;
-  error << target.translation() - dynamics.world_from_tip().translation(),
-      turn_between(dynamics.world_from_tip().linear(), target.linear());
+  error << target.translation() - arm_dynamics.world_from_tip().translation(),
+      turn_between(arm_dynamics.world_from_tip().linear(), target.linear());
 
   const double k = controller.stiffness > 0 ? controller.stiffness : kTipStiffness;
   Vector6 stiffness;
@@ -257,7 +239,7 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   const JointMatrix resistance = jacobian.transpose() * tip_resistance.asDiagonal() * jacobian +
                                  projector * posture_resistance.asDiagonal() * projector;
   const JointVector acceleration = JointMatrix(mass + resistance).ldlt().solve(feed_forward + pull);
-  give_torques(dynamics.gravity() + feed_forward + pull - resistance * acceleration);
+  give_torques(arm_dynamics.gravity() + feed_forward + pull - resistance * acceleration);
 }
 
 // Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction
@@ -270,15 +252,17 @@ void World::Impl::control_hand() {
   for (std::size_t f = 0; f < finger_motors.size(); ++f) {
     const double limit = part({kRobot, robot.fingers[f]}).joint.effort;
     const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
-    const double lag = each - body_slot(kRobot).multibody->getJointPos(finger_links[f]);
-    const double speed = body_slot(kRobot).multibody->getJointVel(finger_links[f]);
+    JointMotor& motor = *finger_motors[f];
+    const auto dof = static_cast<std::size_t>(motor.dof);
+    const double lag = each - body_slot(kRobot).tree->position[dof];
+    const double speed = body_slot(kRobot).tree->velocity[dof];
     const bool blocked = steps >= std::max(hand_step, boundary_step) + kStartSteps && lag < -kBlockedLag &&
                          std::abs(speed) < kBlockedSpeed * robot.finger_speed;
-    btMultiBodyJointMotor& motor = *finger_motors[f];
-    motor.setPositionTarget(each, blocked ? 0 : 1);
-    motor.setVelocityTarget(blocked ? -kPressSpeed : 0, 1);
-    motor.setRhsClamp(blocked ? kPressSpeed : robot.finger_speed);
-    motor.setMaxAppliedImpulse(force * dt);
+    motor.position = each;
+    motor.position_gain = blocked ? 0 : 1;
+    motor.velocity = blocked ? -kPressSpeed : 0;
+    motor.fastest = blocked ? kPressSpeed : robot.finger_speed;
+    motor.most_force = force;
   }
 }
 

@@ -1,59 +1,54 @@
-// What a World is made of. Private to engine/sim; the only header here that shows Bullet's dynamics.
+// What a World is made of. Private to engine/sim; the only header here that shows Bullet's world.
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-#include <btBulletDynamicsCommon.h>
+#include <btBulletCollisionCommon.h>
 
 #include "engine/sim/anchors.h"
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
 #include "engine/sim/collision_model.h"
 #include "engine/sim/contacts.h"
+#include "engine/sim/dynamics.h"
 #include "engine/sim/shapes.h"
-#include "engine/sim/torsion_solver.h"
 #include "engine/sim/world.h"
 
 namespace stampede {
 
 constexpr int kRobot = -1;
 
-// Where a part lives in Bullet. Static parts and free bodies are rigid bodies; moving parts are links.
+enum class Role { still, moving, free, pad };  // of a part
+
+// Where a part lives.
 struct PartSlot {
   btCollisionObject* object = nullptr;  // its frame is the link's: centre of mass, principal axes
   Transform link_from_part = Transform::Identity();
-  btMultiBody* multibody = nullptr;  // null: rigid
-  int link = -1;                     // of multibody
-  bool driven_by_joint = false;      // the part itself moves on a hinge or slider
+  Articulation* tree = nullptr;  // null: it stands still, or is free
+  int link = -1;                 // of the tree
+  int dof = -1;                  // of the tree, where the part itself moves on a hinge or slider
 };
 
 struct BodySlot {
   std::vector<PartSlot> parts;
-  btMultiBody* multibody = nullptr;  // null: nothing of it moves on a joint
-  btRigidBody* free = nullptr;       // the one part of a free body
+  Articulation* tree = nullptr;  // null: nothing of it moves on a joint
+  FreeBody* free = nullptr;      // the one part of a free body
 };
 
 // A joint of furniture with what acts on it. All of it is a function of joint positions and `locked`.
 struct Mechanism {
   PartRef part;
-  btMultiBody* multibody = nullptr;
-  int link = -1;
-  double inertia = 1;                       // that one joint feels at the start, kg or kg m^2
-  btMultiBodyJointMotor* brake = nullptr;   // friction, and the lock of a latch
-  btMultiBodyJointMotor* spring = nullptr;  // return spring or detent
-  int key_link = -1;                        // of the latch; -1: none
+  Articulation* tree = nullptr;
+  std::size_t dof = 0;
+  double inertia = 1;            // that one joint feels at the start, kg or kg m^2
+  JointMotor* brake = nullptr;   // friction, and the lock of a latch
+  JointMotor* spring = nullptr;  // return spring or detent
+  int key_dof = -1;              // of the latch; -1: none
   double key_initial = 0;
   double relock_below = 0;
   bool locked = false;
-  double torque = 0;  // given as addJointTorque in this step
+  double torque = 0;  // given in this step
 };
 
-// Pairs that Bullet need not look at: parts of one body, static with static, parts without shape.
+// Pairs that Bullet need not look at: parts of one body, static with static.
 struct PairFilter final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 };
@@ -74,8 +69,7 @@ struct World::Impl {
   void build();
   void build_free(int body);
   void build_fixed(int body);
-  void add_static_part(int body, int part, const Transform& world_from_part);
-  void add_joint_constraints(int body, const std::vector<int>& host);
+  btCollisionObject& add_object(PartRef ref, const Transform& link_from_part, Role role);
   void build_robot_motors();
   void build_mechanisms();
 
@@ -127,19 +121,14 @@ struct World::Impl {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  TorsionSolver solver;
-  btMultiBodyDynamicsWorld world;
+  btCollisionWorld world;
   std::vector<std::unique_ptr<btCollisionObject>> objects;  // in creation order: Bullet sorts pairs by it
-  std::vector<std::unique_ptr<btMultiBody>> multibodies;
-  std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints;
-  btAlignedObjectArray<btQuaternion> scratch_rotations;
-  btAlignedObjectArray<btVector3> scratch_origins;
+  Dynamics dynamics;
 
   std::vector<BodySlot> bodies;  // the robot first, then the scene's
   std::vector<Mechanism> mechanisms;
-  std::vector<btMultiBodyJointMotor*> arm_motors, finger_motors;
-  std::vector<int> arm_links, finger_links;
-  ArmDynamics dynamics;
+  std::vector<JointMotor*> arm_motors, finger_motors;  // their dofs are those of the joints
+  ArmDynamics arm_dynamics;
 
   std::int64_t steps = 0;
   operation::Controller controller;

@@ -46,40 +46,38 @@ static double inertia_of(const World::Impl& impl, PartRef ref) {
 
 void World::Impl::build_mechanisms() {
   const auto add_motor = [&](const Mechanism& mechanism) {
-    auto motor = std::make_unique<btMultiBodyJointMotor>(mechanism.multibody, mechanism.link, 0, 0);
-    world.addMultiBodyConstraint(motor.get());
-    constraints.push_back(std::move(motor));
-    return static_cast<btMultiBodyJointMotor*>(constraints.back().get());
+    return &dynamics.add_motor(*mechanism.tree, static_cast<int>(mechanism.dof));
   };
   for (int index = 0; index < static_cast<int>(scene->bodies.size()); ++index) {
     const Body& description = body(index);
     for (int p = 0; p < static_cast<int>(description.parts.size()); ++p) {
       const PartSlot& here = slot({index, p});
-      if (!here.driven_by_joint) continue;
+      if (here.dof < 0) continue;
       const Joint& joint = part({index, p}).joint;
       Mechanism mechanism;
       mechanism.part = {index, p};
-      mechanism.multibody = here.multibody;
-      mechanism.link = here.link;
+      mechanism.tree = here.tree;
+      mechanism.dof = static_cast<std::size_t>(here.dof);
       mechanism.inertia = inertia_of(*this, mechanism.part);
       mechanism.brake = add_motor(mechanism);
       if (joint.spring_force > 0 || joint.detent > 0) {
         mechanism.spring = add_motor(mechanism);
-        mechanism.spring->setErp(kSpringErp);
-        mechanism.spring->setRhsClamp(kSpringSpeed);
+        mechanism.spring->erp = kSpringErp;
+        mechanism.spring->position_gain = 1;
+        mechanism.spring->fastest = kSpringSpeed;
       }
       if (!joint.latch_key.empty()) {
         int key = -1;
         for (int other = 0; other < static_cast<int>(description.parts.size()); ++other) {
           const Part& candidate = part({index, other});
-          if (slot({index, other}).driven_by_joint &&
+          if (slot({index, other}).dof >= 0 &&
               (candidate.joint.name == joint.latch_key || candidate.name == joint.latch_key))
             key = other;
         }
         if (key < 0)
           throw Error(description.name, "the latch of '" + joint.name + "' names no joint '" + joint.latch_key + "'",
                       "name a moving joint of the same object");
-        mechanism.key_link = slot({index, key}).link;
+        mechanism.key_dof = slot({index, key}).dof;
         mechanism.key_initial = part({index, key}).joint.initial;
         mechanism.relock_below = std::max(joint.latch_close, joint.lower + kRelockRange * (joint.upper - joint.lower));
         mechanism.locked = joint.initial <= mechanism.relock_below;
@@ -92,35 +90,30 @@ void World::Impl::build_mechanisms() {
 void World::Impl::move_mechanisms() {
   for (Mechanism& mechanism : mechanisms) {
     const Joint& joint = part(mechanism.part).joint;
-    const double q = mechanism.multibody->getJointPos(mechanism.link);
-    const double v = mechanism.multibody->getJointVel(mechanism.link);
-    if (mechanism.key_link >= 0) {
-      const double key = mechanism.multibody->getJointPos(mechanism.key_link);
+    const double q = mechanism.tree->position[mechanism.dof];
+    const double v = mechanism.tree->velocity[mechanism.dof];
+    if (mechanism.key_dof >= 0) {
+      const double key = mechanism.tree->position[static_cast<std::size_t>(mechanism.key_dof)];
       const double turned = (key - mechanism.key_initial) / (joint.latch_open - mechanism.key_initial);  // 1: opens
       if (mechanism.locked && turned >= 1)
         mechanism.locked = false;
       else if (!mechanism.locked && turned <= kKeyBack && q <= mechanism.relock_below)
         mechanism.locked = true;
     }
-    // Constraints stay in place all the time: their order is part of the state. Only their targets change.
-    if (mechanism.locked) {
-      mechanism.brake->setErp(kLockErp);
-      mechanism.brake->setPositionTarget(joint.lower, 1);
-      mechanism.brake->setMaxAppliedImpulse(kLockForce * dt);
-    } else {
-      mechanism.brake->setPositionTarget(0, 0);
-      mechanism.brake->setMaxAppliedImpulse(joint.friction * dt);
-    }
+    mechanism.brake->erp = kLockErp;
+    mechanism.brake->position = joint.lower;
+    mechanism.brake->position_gain = mechanism.locked ? 1 : 0;
+    mechanism.brake->most_force = mechanism.locked ? kLockForce : joint.friction;
     mechanism.torque = 0;
     if (joint.damping > 0) {  // implicit: the speed at the end of the step is what is damped
       mechanism.torque = -joint.damping * v / (1 + dt * joint.damping / mechanism.inertia);
-      mechanism.multibody->addJointTorque(mechanism.link, mechanism.torque);
+      mechanism.tree->torque[mechanism.dof] += mechanism.torque;
     }
     if (mechanism.spring) {
       const double nearest = q < (joint.lower + joint.upper) / 2 ? joint.lower : joint.upper;
       const bool detent = joint.detent > 0;
-      mechanism.spring->setPositionTarget(detent ? nearest : joint.spring_target, 1);
-      mechanism.spring->setMaxAppliedImpulse((detent ? joint.detent : joint.spring_force) * dt);
+      mechanism.spring->position = detent ? nearest : joint.spring_target;
+      mechanism.spring->most_force = detent ? joint.detent : joint.spring_force;
     }
   }
 }

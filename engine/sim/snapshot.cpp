@@ -36,23 +36,20 @@ struct Reader {
 
 }  // namespace
 
-// Free bodies: rotation matrix, origin, velocities. Joints: position, velocity.
+// Free bodies: rotation matrix, origin, velocities. Trees: positions, velocities.
 std::vector<double> World::Impl::state() const {
   std::vector<double> out;
   for (const BodySlot& slot : bodies) {
     if (slot.free) {
-      const btTransform& pose = slot.free->getWorldTransform();
+      const btTransform& pose = slot.free->object->getWorldTransform();
       for (int row = 0; row < 3; ++row) put(out, pose.getBasis()[row]);
       put(out, pose.getOrigin());
-      put(out, slot.free->getLinearVelocity());
-      put(out, slot.free->getAngularVelocity());
+      put(out, to_bullet(slot.free->linear));
+      put(out, to_bullet(slot.free->angular));
     }
-    if (!slot.multibody) continue;
-    for (const PartSlot& part : slot.parts) {
-      if (!part.driven_by_joint) continue;
-      out.push_back(slot.multibody->getJointPos(part.link));
-      out.push_back(slot.multibody->getJointVel(part.link));
-    }
+    if (!slot.tree) continue;
+    out.insert(out.end(), slot.tree->position.begin(), slot.tree->position.end());
+    out.insert(out.end(), slot.tree->velocity.begin(), slot.tree->velocity.end());
   }
   return out;
 }
@@ -64,21 +61,14 @@ void World::Impl::set_state(const std::vector<double>& state) {
       btTransform pose;
       for (int row = 0; row < 3; ++row) pose.getBasis()[row] = in.vector();
       pose.setOrigin(in.vector());
-      slot.free->setLinearVelocity(in.vector());
-      slot.free->setAngularVelocity(in.vector());
-      slot.free->setWorldTransform(pose);
-      slot.free->setCenterOfMassTransform(pose);  // sets what Bullet interpolates and the inertia in world axes
-      slot.free->clearForces();
+      slot.free->linear = from_bullet(in.vector());
+      slot.free->angular = from_bullet(in.vector());
+      slot.free->object->setWorldTransform(pose);
     }
-    if (!slot.multibody) continue;
-    for (const PartSlot& part : slot.parts) {
-      if (!part.driven_by_joint) continue;
-      slot.multibody->setJointPos(part.link, in.number());
-      slot.multibody->setJointVel(part.link, in.number());
-    }
-    slot.multibody->clearForcesAndTorques();
-    slot.multibody->forwardKinematics(scratch_rotations, scratch_origins);
-    slot.multibody->updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+    if (!slot.tree) continue;
+    for (double& position : slot.tree->position) position = in.number();
+    for (double& velocity : slot.tree->velocity) velocity = in.number();
+    slot.tree->place();
   }
 }
 
@@ -103,8 +93,7 @@ void World::Impl::rebuild_broadphase() {
     object->setBroadphaseHandle(broadphase.createProxy(lower, upper, object->getCollisionShape()->getShapeType(),
                                                        object, group, mask, &dispatcher));
   }
-  solver.reset();
-  solver.forget_torsions();
+  dynamics.forget_torsions();
 }
 
 void World::Impl::canonicalise() {
@@ -118,14 +107,14 @@ void World::Impl::canonicalise() {
 void World::Impl::place(int index, const Transform& world_from_body) {
   if (index < 0 || index >= static_cast<int>(scene->bodies.size()) || !body_slot(index).free)
     throw Error("place", "body " + std::to_string(index) + " is not free", "place free bodies only");
-  btRigidBody& rigid = *body_slot(index).free;
+  FreeBody& free = *body_slot(index).free;
   const Transform world_from_link = world_from_body * body_slot(index).parts[0].link_from_part.inverse();
-  rigid.setLinearVelocity({0, 0, 0});
-  rigid.setAngularVelocity({0, 0, 0});
-  rigid.setWorldTransform(to_bullet(world_from_link));
-  rigid.setCenterOfMassTransform(to_bullet(world_from_link));
-  broadphase.getOverlappingPairCache()->cleanProxyFromPairs(rigid.getBroadphaseHandle(), &dispatcher);
-  world.updateSingleAabb(&rigid);
+  free.linear = free.angular = Vector3::Zero();
+  free.object->setWorldTransform(to_bullet(world_from_link));
+  if (free.object->getBroadphaseHandle()) {
+    broadphase.getOverlappingPairCache()->cleanProxyFromPairs(free.object->getBroadphaseHandle(), &dispatcher);
+    world.updateSingleAabb(free.object);
+  }
   canonical = false;
   ++stamp;
 }

@@ -29,14 +29,11 @@ World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
       dt(1.0 / scene->physics_hz),
       configuration(small_pools()),
       dispatcher(&configuration),
-      world(&dispatcher, &broadphase, &solver, &configuration) {
-  world.setGravity(to_bullet(scene->gravity));
+      world(&dispatcher, &broadphase, &configuration),
+      dynamics(world, scene->gravity, dt) {
+  world.setForceUpdateAllAabbs(false);  // what stands still does
   broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
   world.getDispatchInfo().m_deterministicOverlappingPairs = true;  // else results depend on the broadphase's history
-  btContactSolverInfo& info = world.getSolverInfo();
-  info.m_numIterations = kSolverIterations;
-  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;      // without it grasps slide under full force
-  info.m_solverMode &= ~SOLVER_USE_ARTICULATED_WARMSTARTING;  // keeps impulses that no snapshot can reach
   poses.resize(scene->bodies.size() + 1);
   pose_stamps.resize(poses.size());
   efforts.resize(poses.size());
@@ -52,8 +49,6 @@ World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
 
 World::Impl::~Impl() {
   // Bullet's lists hold plain pointers: emptied before the owners let go.
-  for (auto it = constraints.rbegin(); it != constraints.rend(); ++it) world.removeMultiBodyConstraint(it->get());
-  for (auto it = multibodies.rbegin(); it != multibodies.rend(); ++it) world.removeMultiBody(it->get());
   for (auto it = objects.rbegin(); it != objects.rend(); ++it)
     if ((*it)->getBroadphaseHandle()) world.removeCollisionObject(it->get());
 }
@@ -80,20 +75,20 @@ const Transform& World::Impl::world_from_part(PartRef ref) const {
 
 double World::Impl::position(PartRef ref) const {
   const PartSlot& here = slot(ref);
-  return here.driven_by_joint ? here.multibody->getJointPos(here.link) : 0;
+  return here.dof >= 0 ? here.tree->position[static_cast<std::size_t>(here.dof)] : 0;
 }
 
 JointVector World::Impl::arm_position_now() const {
-  JointVector q(static_cast<Eigen::Index>(arm_links.size()));
-  for (std::size_t j = 0; j < arm_links.size(); ++j)
-    q[static_cast<Eigen::Index>(j)] = body_slot(kRobot).multibody->getJointPos(arm_links[j]);
+  JointVector q(static_cast<Eigen::Index>(arm_motors.size()));
+  for (std::size_t j = 0; j < arm_motors.size(); ++j)
+    q[static_cast<Eigen::Index>(j)] = body_slot(kRobot).tree->position[static_cast<std::size_t>(arm_motors[j]->dof)];
   return q;
 }
 
 JointVector World::Impl::arm_velocity_now() const {
-  JointVector v(static_cast<Eigen::Index>(arm_links.size()));
-  for (std::size_t j = 0; j < arm_links.size(); ++j)
-    v[static_cast<Eigen::Index>(j)] = body_slot(kRobot).multibody->getJointVel(arm_links[j]);
+  JointVector v(static_cast<Eigen::Index>(arm_motors.size()));
+  for (std::size_t j = 0; j < arm_motors.size(); ++j)
+    v[static_cast<Eigen::Index>(j)] = body_slot(kRobot).tree->velocity[static_cast<std::size_t>(arm_motors[j]->dof)];
   return v;
 }
 
@@ -105,17 +100,18 @@ Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
   if (linear) linear->setZero();
   const BodySlot& mine = body_slot(ref.body);
   if (mine.free) {
-    if (linear) *linear = from_bullet(mine.free->getLinearVelocity());
-    return from_bullet(mine.free->getAngularVelocity());
+    if (linear) *linear = mine.free->linear;
+    return mine.free->angular;
   }
   Vector3 angular = Vector3::Zero();
   const Vector3 centre = world_from_part(ref) * part(ref).centre_of_mass;
   for (int at = ref.part; at >= 0; at = part({ref.body, at}).parent) {
     const PartSlot& here = slot({ref.body, at});
-    if (!here.driven_by_joint) continue;
+    if (here.dof < 0) continue;
     const Transform& pose = world_from_part({ref.body, at});
     const Joint& joint = part({ref.body, at}).joint;
-    const Vector3 rate = pose.linear() * joint.axis.normalized() * here.multibody->getJointVel(here.link);
+    const Vector3 rate =
+        pose.linear() * joint.axis.normalized() * here.tree->velocity[static_cast<std::size_t>(here.dof)];
     if (joint.kind == JointKind::hinge) {
       angular += rate;
       if (linear) *linear += rate.cross(centre - pose.translation());
@@ -127,9 +123,7 @@ Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
 }
 
 void World::Impl::read_efforts() {
-  const auto applied = [&](btMultiBodyJointMotor* motor) {
-    return motor && motor->getMaxAppliedImpulse() > 0 ? motor->getAppliedImpulse(0) / dt : 0.0;
-  };
+  const auto applied = [](const JointMotor* motor) { return motor ? motor->force : 0.0; };
   const Robot& robot = scene->robot;
   for (std::size_t j = 0; j < arm_motors.size(); ++j)
     efforts[0][static_cast<std::size_t>(robot.arm[j])] =
@@ -181,30 +175,27 @@ bool World::Impl::strained() const {
 // A crash at full speed takes an arm's joint by a hundredth of a radian over its stop before Bullet's limit begins to
 // act. The stop is rigid: it is put back, at rest.
 void World::Impl::keep_within_stops() {
-  btMultiBody& robot = *body_slot(kRobot).multibody;
+  Articulation& robot = *body_slot(kRobot).tree;
   bool moved = false;
-  for (std::size_t j = 0; j < arm_links.size(); ++j) {
+  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const JointLimits& limits = scene->robot.limits[j];
-    const double q = robot.getJointPos(arm_links[j]);
+    const auto dof = static_cast<std::size_t>(arm_motors[j]->dof);
+    const double q = robot.position[dof];
     if (!(limits.lower < limits.upper) || (q >= limits.lower - kOverStop_rad && q <= limits.upper + kOverStop_rad))
       continue;
-    robot.setJointPos(arm_links[j], std::clamp(q, limits.lower, limits.upper));
-    robot.setJointVel(arm_links[j], 0);
+    robot.position[dof] = std::clamp(q, limits.lower, limits.upper);
+    robot.velocity[dof] = 0;
     moved = true;
   }
-  if (!moved) return;
-  robot.forwardKinematics(scratch_rotations, scratch_origins);
-  robot.updateCollisionObjectWorldTransforms(scratch_rotations, scratch_origins);
+  if (moved) robot.place();
 }
 
 void World::step() {
   Impl& w = *impl_;
-  w.world.getSolverInfo().m_numIterations = w.strained() ? kStrainedIterations : kSolverIterations;
   w.control();
   w.move_mechanisms();
   w.anchors.before_step(w.world);
-  w.solver.forget_torsions();
-  w.world.stepSimulation(w.dt, 0);
+  w.dynamics.step(w.strained() ? kStrainedIterations : kSolverIterations);
   w.keep_within_stops();
   w.anchors.after_step(w.dispatcher);
   w.contacts.add_step(w.dispatcher, w.dt);
@@ -278,7 +269,7 @@ double World::joint_position(PartRef part) const { return impl_->position(part);
 
 double World::joint_velocity(PartRef part) const {
   const PartSlot& slot = impl_->slot(part);
-  return slot.driven_by_joint ? slot.multibody->getJointVel(slot.link) : 0;
+  return slot.dof >= 0 ? slot.tree->velocity[static_cast<std::size_t>(slot.dof)] : 0;
 }
 
 double World::joint_effort(PartRef part) const {

@@ -1,13 +1,13 @@
-// The engine's step against a bare Bullet loop of the same scene: Panda, table, 10 resting 4 cm cubes, arm moving,
-// 240 Hz. Both run in turn, one step each, so that a slow phase of the machine meets both.
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+// The engine's step against a bare loop over Bullet's own solver, the same scene: Panda, table, resting 4 cm cubes, arm
+// moving, 240 Hz. Both run in turn, one step each, so that a slow phase of the machine meets both.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "engine/sim/collision_state.h"
-#include "engine/sim/impl.h"
+#include "engine/sim/world.h"
+#include "tests/bench/bare_bullet.h"
 #include "tests/support/panda.h"
 
 namespace stampede {
@@ -29,29 +29,14 @@ Trajectory waving(const Arm& arm) {
   return path;
 }
 
-// What a minimal program would do: the same bodies and constraints, motor targets, stepSimulation, nothing else.
-void bare_step(World::Impl& w, const Trajectory& path, std::int64_t step) {
-  const JointState now = evaluate(path, static_cast<double>(step), 240);
-  for (std::size_t j = 0; j < w.arm_motors.size(); ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    w.arm_motors[j]->setPositionTarget(now.position[i], 1);
-    w.arm_motors[j]->setVelocityTarget(now.velocity[i], 1);
-    w.arm_motors[j]->setMaxAppliedImpulse(w.scene->robot.limits[j].effort * w.dt);
-  }
-  for (btMultiBodyJointMotor* finger : w.finger_motors) {
-    finger->setPositionTarget(0.04, 1);
-    finger->setMaxAppliedImpulse(20 * w.dt);
-  }
-  w.world.stepSimulation(w.dt, 0);
-}
-
 void engine_against_bare(benchmark::State& state, ControllerKind kind) {
-  const auto scene = bench_scene();
+  const auto scene = std::make_shared<const Scene>(table_scene(static_cast<int>(state.range(0))));
   World engine(scene);
-  World::Impl bare(scene);
+  BareBullet bare(*scene);
   const Trajectory path = waving(engine.arm());
   double engine_s = 0, bare_s = 0;
   std::int64_t step = 0;
+  engine.keep_log(false);
   engine.apply(operation::Controller{kind, 0});
   for (auto _ : state) {
     if (step % path.steps() == 0) {
@@ -67,7 +52,7 @@ void engine_against_bare(benchmark::State& state, ControllerKind kind) {
         benchmark::DoNotOptimize(engine.world_from_part({b, 0}));
     }
     const auto middle = Clock::now();
-    bare_step(bare, path, step);
+    bare.step(evaluate(path, static_cast<double>(step), scene->physics_hz));
     const auto end = Clock::now();
     engine_s += std::chrono::duration<double>(middle - start).count();
     bare_s += std::chrono::duration<double>(end - middle).count();
@@ -120,9 +105,20 @@ void freeze_world(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(world.collision_state());
 }
 
-BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)->MinTime(3);
-BENCHMARK_CAPTURE(engine_against_bare, joint_impedance, ControllerKind::joint_impedance)->MinTime(3);
-BENCHMARK_CAPTURE(engine_against_bare, cartesian_impedance, ControllerKind::cartesian_impedance)->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)
+    ->ArgName("cubes")
+    ->Arg(3)
+    ->Arg(10)
+    ->Arg(30)
+    ->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, joint_impedance, ControllerKind::joint_impedance)
+    ->ArgName("cubes")
+    ->Arg(10)
+    ->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, cartesian_impedance, ControllerKind::cartesian_impedance)
+    ->ArgName("cubes")
+    ->Arg(10)
+    ->MinTime(3);
 BENCHMARK(collision_query)->ArgName("free_only")->Arg(0)->Arg(1);
 BENCHMARK(snapshot_and_restore);
 BENCHMARK(build_world);

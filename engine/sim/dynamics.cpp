@@ -1,0 +1,530 @@
+#include "engine/sim/dynamics.h"
+
+#include <btBulletCollisionCommon.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine/sim/bullet_convert.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kErp = 0.2;           // share of an error in position that a step takes away: contacts, anchors, stops
+constexpr double kStopImpulse = 100;   // N s at most
+constexpr double kSettled = 1e-7;      // m/s or rad/s: an iteration that changes no more is the last
+constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
+constexpr double kFastestJoint = 100;  // m/s or rad/s
+constexpr double kLargestTurn = 0.785398163397448;  // rad a step
+constexpr double kSlowSpin = 1e-4;                  // rad/s: gyroscopic torque is left out below
+constexpr int kTorsionPoints = 4;                   // of a pair of bodies
+
+Matrix3 skew(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// The spin after a step of torque-free rotation: one implicit step, which neither gains energy nor tumbles apart at
+// 240 Hz (Catto, Numerical Methods, GDC 2015). World axes; `turn`: principal axes in the world.
+Vector3 after_gyration(const Vector3& spin, const Vector3& moments, const Matrix3& turn, double dt) {
+  const Vector3 local = turn.transpose() * spin, momentum = moments.cwiseProduct(local);
+  const Vector3 error = dt * local.cross(momentum);
+  Matrix3 slope = moments.asDiagonal();
+  slope += dt * (skew(local) * Matrix3(moments.asDiagonal()) - skew(momentum));
+  return turn * (local - slope.inverse() * error);
+}
+
+// Two directions across a unit one.
+void tangents(const Vector3& normal, Vector3& one, Vector3& other) {
+  if (std::abs(normal.z()) > 0.70710678118654752) {
+    const double scale = 1 / std::sqrt(normal.y() * normal.y() + normal.z() * normal.z());
+    one = {0, -normal.z() * scale, normal.y() * scale};
+  } else {
+    const double scale = 1 / std::sqrt(normal.x() * normal.x() + normal.y() * normal.y());
+    one = {-normal.y() * scale, normal.x() * scale, 0};
+  }
+  other = normal.cross(one);
+}
+
+void turn_by(btCollisionObject& object, const Vector3& spin, double dt) {
+  const double speed = spin.norm();
+  if (speed * dt < 1e-15) return;
+  const double angle = std::min(speed * dt, kLargestTurn);
+  Matrix3 turned = Eigen::AngleAxisd(angle, spin / speed) * from_bullet(object.getWorldTransform()).linear();
+  turned = turned * (1.5 * Matrix3::Identity() - 0.5 * turned.transpose() * turned);  // stays a rotation
+  object.getWorldTransform().setBasis(to_bullet(turned));
+}
+
+}  // namespace
+
+FreeBody& Dynamics::add_free(const FreeBody& body) {
+  free_.push_back(body);
+  Mover mover;
+  mover.free = &free_.back();
+  mover.pairs = 3;
+  nodes_.push_back({static_cast<int>(movers_.size()), -1});
+  body.object->setUserPointer(&nodes_.back());
+  movers_.push_back(mover);
+  return free_.back();
+}
+
+Articulation& Dynamics::add_tree(const Transform& world_from_base) {
+  trees_.emplace_back(world_from_base);
+  Mover mover;
+  mover.tree = &trees_.back();
+  movers_.push_back(mover);
+  return trees_.back();
+}
+
+Dynamics::Mover& Dynamics::mover_of(const Articulation& tree) {
+  return *std::find_if(movers_.begin(), movers_.end(), [&](const Mover& mover) { return mover.tree == &tree; });
+}
+
+void Dynamics::add_object(btCollisionObject& object, Articulation& tree, int link) {
+  nodes_.push_back({static_cast<int>(&mover_of(tree) - movers_.data()), link});
+  object.setUserPointer(&nodes_.back());
+}
+
+JointMotor& Dynamics::add_motor(Articulation& tree, int dof) {
+  motors_.push_back({});
+  motors_.back().dof = dof;
+  mover_of(tree).motors.push_back(&motors_.back());
+  return motors_.back();
+}
+
+void Dynamics::add_gear(Articulation& tree, const JointGear& gear) { mover_of(tree).gears.push_back(gear); }
+void Dynamics::add_stop(Articulation& tree, const JointStop& stop) { mover_of(tree).stops.push_back(stop); }
+
+void Dynamics::step(int iterations) {
+  world_.performDiscreteCollisionDetection();
+  torsions_.clear();
+  apply_forces();
+  find_touching();
+  for (const Island& island : islands_) solve_island(island, iterations);
+  move();
+}
+
+void Dynamics::apply_forces() {
+  int pairs = 0;
+  for (Mover& mover : movers_) {
+    if (mover.tree) mover.pairs = mover.tree->pairs();
+    mover.at = pairs;
+    pairs += mover.pairs;
+  }
+  velocities_.assign(static_cast<std::size_t>(pairs), Pair::Zero());
+  for (Mover& mover : movers_) {
+    double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+    if (mover.free) {
+      FreeBody& body = *mover.free;
+      const Matrix3 turn = from_bullet(body.object->getWorldTransform()).linear();
+      mover.inverse_inertia = turn * body.moments.cwiseInverse().asDiagonal() * turn.transpose();
+      const Vector3 linear = body.linear + dt_ * gravity_;
+      const Vector3 angular = body.angular.squaredNorm() > kSlowSpin * kSlowSpin
+                                  ? after_gyration(body.angular, body.moments, turn, dt_)
+                                  : body.angular;
+      for (int i = 0; i < 3; ++i) {
+        speeds[i] = linear[i];
+        speeds[3 + i] = angular[i];
+      }
+      continue;
+    }
+    Articulation& tree = *mover.tree;
+    tree.prepare(gravity_);
+    for (int i = 0; i < tree.dofs(); ++i) {
+      double acceleration = 0;
+      for (int j = 0; j < tree.dofs(); ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        acceleration += tree.inverse_mass(i)[j] * (tree.torque[k] - tree.bias()[k]);
+      }
+      speeds[i] = tree.velocity[static_cast<std::size_t>(i)] + dt_ * acceleration;
+    }
+    std::fill(tree.torque.begin(), tree.torque.end(), 0.0);
+  }
+}
+
+// Islands: movers that touch each other, directly or through others. All in an order that knows nothing of the past.
+void Dynamics::find_touching() {
+  for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].island = static_cast<int>(m);
+  const auto root = [&](int mover) {
+    while (movers_[static_cast<std::size_t>(mover)].island != mover)
+      mover = movers_[static_cast<std::size_t>(mover)].island;
+    return mover;
+  };
+  touching_.clear();
+  btDispatcher& dispatcher = *world_.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(i);
+    if (manifold->getNumContacts() == 0) continue;
+    const Node one = node_of(manifold->getBody0()), other = node_of(manifold->getBody1());
+    if (one.mover < 0 && other.mover < 0) continue;
+    if (one.mover >= 0 && other.mover >= 0) {
+      const int a = root(one.mover), b = root(other.mover);
+      movers_[static_cast<std::size_t>(std::max(a, b))].island = std::min(a, b);
+    }
+    touching_.push_back({std::max(one.mover, other.mover), manifold->getBody0()->getWorldArrayIndex(),
+                         manifold->getBody1()->getWorldArrayIndex(), manifold});
+  }
+  for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].island = root(static_cast<int>(m));
+  for (Touching& touching : touching_) touching.island = movers_[static_cast<std::size_t>(touching.island)].island;
+  std::stable_sort(touching_.begin(), touching_.end(), [](const Touching& a, const Touching& b) {
+    return std::tie(a.island, a.first, a.second) < std::tie(b.island, b.first, b.second);
+  });
+  islands_.clear();
+  auto next = touching_.begin();
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    if (movers_[m].island != static_cast<int>(m)) continue;
+    const auto begin = next;
+    while (next != touching_.end() && next->island == static_cast<int>(m)) ++next;
+    if (begin != next || movers_[m].tree)
+      islands_.push_back({static_cast<int>(m), static_cast<int>(begin - touching_.begin()),
+                          static_cast<int>(next - touching_.begin())});
+  }
+}
+
+void Dynamics::solve_island(const Island& island, int iterations) {
+  numbers_.clear();
+  joints_.clear();
+  rows_.clear();
+  motor_rows_.clear();
+  contacts_.clear();
+  for (int i = island.touching_begin; i < island.touching_end; ++i)
+    add_contacts(touching_[static_cast<std::size_t>(i)]);
+  for (std::size_t m = static_cast<std::size_t>(island.number); m < movers_.size(); ++m)
+    if (movers_[m].tree && movers_[m].island == island.number) add_joints(movers_[m]);
+  for (int i = 0; i < iterations; ++i)
+    if (iterate(i % 2 == 1) <= kSettled) break;
+  keep_results();
+}
+
+Dynamics::Node Dynamics::node_of(const btCollisionObject* object) {
+  const auto* node = static_cast<const Node*>(object->getUserPointer());
+  return node ? *node : Node{};
+}
+
+Dynamics::Row& Dynamics::begin_row(std::vector<Row>& rows) {
+  Row& row = rows.emplace_back();
+  row.numbers = static_cast<int>(numbers_.size());
+  return row;
+}
+
+double* Dynamics::add_side(Row& row, const Mover& mover) {
+  const int side = row.pairs[0] == 0 ? 0 : 1;
+  row.at[side] = mover.at;
+  row.pairs[side] = mover.pairs;
+  const std::size_t begin = numbers_.size();
+  numbers_.resize(begin + 2 * static_cast<std::size_t>(mover.pairs), Pair::Zero());
+  return numbers_[begin].data();
+}
+
+void Dynamics::respond(const Articulation& tree, double* jacobian) {
+  const int count = 2 * tree.pairs();
+  double* response = jacobian + count;
+  for (int i = 0; i < tree.dofs(); ++i) {
+    const double share = jacobian[i];
+    if (share == 0) continue;
+    const double* column = tree.inverse_mass(i);
+    for (int j = 0; j < count; ++j) response[j] += share * column[j];
+  }
+}
+
+void Dynamics::add_free_side(Row& row, const Mover& mover, const Vector3& linear, const Vector3& angular) {
+  double* jacobian = add_side(row, mover);
+  const double lightness = 1 / mover.free->mass;
+  const Vector3 turned = mover.inverse_inertia * angular;
+  for (int i = 0; i < 3; ++i) {
+    jacobian[i] = linear[i];
+    jacobian[3 + i] = angular[i];
+    jacobian[6 + i] = lightness * linear[i];
+    jacobian[9 + i] = turned[i];
+  }
+}
+
+void Dynamics::add_point(Row& row, const Node& node, const Vector3& point, const Vector3& direction) {
+  if (node.mover < 0) return;
+  const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
+  if (mover.free) {
+    const Vector3 arm = point - from_bullet(mover.free->object->getWorldTransform().getOrigin());
+    add_free_side(row, mover, direction, arm.cross(direction));
+    return;
+  }
+  double* jacobian = add_side(row, mover);
+  mover.tree->jacobian(node.link, point,
+                       [&](int dof, const Vector3& linear, const Vector3&) { jacobian[dof] = linear.dot(direction); });
+  respond(*mover.tree, jacobian);
+}
+
+void Dynamics::add_turn(Row& row, const Node& node, const Vector3& direction) {
+  if (node.mover < 0) return;
+  const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
+  if (mover.free) {
+    add_free_side(row, mover, Vector3::Zero(), direction);
+    return;
+  }
+  double* jacobian = add_side(row, mover);
+  mover.tree->jacobian(node.link, Vector3::Zero(), [&](int dof, const Vector3&, const Vector3& angular) {
+    jacobian[dof] = angular.dot(direction);
+  });
+  respond(*mover.tree, jacobian);
+}
+
+// The row is complete but for its bounds.
+void Dynamics::end_row(Row& row, double target) {
+  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers)];
+  Pair sum = Pair::Zero();
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < row.pairs[side]; ++k) sum += numbers[k] * numbers[row.pairs[side] + k];
+    numbers += 2 * row.pairs[side];
+  }
+  row.response = sum.sum();
+  row.response_inverse = row.response > 1e-15 ? 1 / row.response : 0;
+  row.target = target;
+}
+
+void Dynamics::add_contacts(const Touching& touching) {
+  btPersistentManifold& manifold = *touching.manifold;
+  const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+  for (int p = 0; p < manifold.getNumContacts(); ++p) {
+    btManifoldPoint& point = manifold.getContactPoint(p);
+    const Vector3 normal = from_bullet(point.m_normalWorldOnB);
+    const Vector3 on_one = from_bullet(point.m_positionWorldOnA), on_other = from_bullet(point.m_positionWorldOnB);
+    Vector3 across[2];
+    tangents(normal, across[0], across[1]);
+    Contact contact;
+    contact.point = &point;
+    contact.first = manifold.getBody0();
+    contact.second = manifold.getBody1();
+    contact.normal = static_cast<int>(rows_.size());
+    const double distance = point.getDistance();
+    Row& row = begin_row(rows_);
+    add_point(row, one, on_one, normal);
+    add_point(row, other, on_other, -normal);
+    end_row(row, distance > 0 ? -distance / dt_ : -distance * kErp / dt_);
+    if (point.m_combinedRestitution > 0) {
+      const double approach = speed(row);
+      if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
+    }
+    row.lower = 0;
+    row.upper = 1e10;
+    row.impulse = point.m_appliedImpulse;
+    const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
+    const double kept[2] = {point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2};
+    for (int i = 0; i < 2; ++i) {
+      Row& friction = begin_row(rows_);
+      add_point(friction, one, on_one, across[i]);
+      add_point(friction, other, on_other, -across[i]);
+      end_row(friction, anchored ? -(on_one - on_other).dot(across[i]) * kErp / dt_ : 0);
+      friction.impulse = kept[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Row& started = rows_[static_cast<std::size_t>(contact.normal + i)];
+      if (started.impulse != 0) push(started, started.impulse);
+    }
+    point.m_lateralFrictionDir1 = to_bullet(across[0]);
+    point.m_lateralFrictionDir2 = to_bullet(across[1]);
+    if (p < kTorsionPoints) {
+      const auto add_torsion = [&](const Vector3& axis) {
+        Row& torsion = begin_row(rows_);
+        add_turn(torsion, one, axis);
+        add_turn(torsion, other, -axis);
+        end_row(torsion, 0);
+        return static_cast<int>(rows_.size()) - 1;
+      };
+      if (point.m_combinedSpinningFriction > 0) contact.spin = add_torsion(normal);
+      if (point.m_combinedRollingFriction > 0) {
+        contact.roll = add_torsion(across[0]);
+        add_torsion(across[1]);
+      }
+    }
+    contacts_.push_back(contact);
+  }
+}
+
+void Dynamics::add_joints(const Mover& mover) {
+  const Articulation& tree = *mover.tree;
+  const auto add_row = [&](int dof, int other) -> Row& {
+    Row& row = begin_row(joints_);
+    double* jacobian = add_side(row, mover);
+    jacobian[dof] = 1;
+    if (other >= 0) jacobian[other] = -1;
+    respond(tree, jacobian);
+    return row;
+  };
+  const std::size_t first = joints_.size();
+  for (JointMotor* motor : mover.motors) {
+    motor->force = 0;
+    if (!(motor->most_force > 0)) continue;
+    Row& row = add_row(motor->dof, -1);
+    const double error = motor->position - tree.position[static_cast<std::size_t>(motor->dof)];
+    const double wanted = motor->velocity + motor->position_gain * motor->erp * error / dt_;
+    end_row(row, std::clamp(wanted, -motor->fastest, motor->fastest));
+    row.upper = motor->most_force * dt_;
+    row.lower = -row.upper;
+    motor_rows_.push_back({static_cast<int>(joints_.size()) - 1, motor});
+  }
+  start_motors(mover, first);
+  for (const JointGear& gear : mover.gears) {
+    Row& row = add_row(gear.one, gear.other);
+    const double error =
+        tree.position[static_cast<std::size_t>(gear.one)] - tree.position[static_cast<std::size_t>(gear.other)];
+    end_row(row, -gear.erp * error / dt_);
+    row.upper = gear.most_force * dt_;
+    row.lower = -row.upper;
+  }
+  for (const JointStop& stop : mover.stops) {
+    const double q = tree.position[static_cast<std::size_t>(stop.dof)];
+    for (const double sign : {1.0, -1.0}) {
+      const double room = sign > 0 ? q - stop.lower : stop.upper - q;
+      if (room > 0) continue;
+      Row& row = begin_row(joints_);
+      double* jacobian = add_side(row, mover);
+      jacobian[stop.dof] = sign;
+      respond(tree, jacobian);
+      end_row(row, -room * kErp / dt_);
+      row.upper = kStopImpulse;
+    }
+  }
+}
+
+// Where every joint has one motor, the impulses that give all joints the speeds asked for are M (wanted - now): the
+// answer, but for contacts and for motors at the end of their force.
+void Dynamics::start_motors(const Mover& mover, std::size_t first) {
+  const Articulation& tree = *mover.tree;
+  const auto count = static_cast<std::size_t>(tree.dofs());
+  if (joints_.size() - first != count || mover.motors.size() != count) return;
+  std::vector<double>& missing = scratch_;
+  missing.assign(count, 0);
+  const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const int dof = mover.motors[i]->dof;
+    missing[static_cast<std::size_t>(dof)] = joints_[first + i].target - speeds[dof];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Row& row = joints_[first + i];
+    double impulse = 0;
+    for (std::size_t j = 0; j < count; ++j)
+      impulse += tree.mass(mover.motors[i]->dof, static_cast<int>(j)) * missing[j];
+    row.impulse = std::clamp(impulse, row.lower, row.upper);
+  }
+  for (std::size_t i = 0; i < count; ++i) push(joints_[first + i], joints_[first + i].impulse);
+}
+
+double Dynamics::speed(const Row& row) const {
+  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers)];
+  const Pair* one = &velocities_[static_cast<std::size_t>(row.at[0])];
+  Pair sum = Pair::Zero();
+  for (int k = 0; k < row.pairs[0]; ++k) sum += numbers[k] * one[k];
+  numbers += 2 * row.pairs[0];
+  const Pair* other = &velocities_[static_cast<std::size_t>(row.at[1])];
+  for (int k = 0; k < row.pairs[1]; ++k) sum += numbers[k] * other[k];
+  return sum[0] + sum[1];
+}
+
+void Dynamics::push(const Row& row, double impulse) {
+  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers + row.pairs[0])];
+  Pair* one = &velocities_[static_cast<std::size_t>(row.at[0])];
+  for (int k = 0; k < row.pairs[0]; ++k) one[k] += impulse * numbers[k];
+  numbers += row.pairs[0] + row.pairs[1];
+  Pair* other = &velocities_[static_cast<std::size_t>(row.at[1])];
+  for (int k = 0; k < row.pairs[1]; ++k) other[k] += impulse * numbers[k];
+}
+
+// What changed, m/s or rad/s.
+double Dynamics::solve(Row& row) {
+  const double before = row.impulse;
+  row.impulse = std::clamp(before + (row.target - speed(row)) * row.response_inverse, row.lower, row.upper);
+  if (row.impulse == before) return 0;
+  push(row, row.impulse - before);
+  return std::abs(row.impulse - before) * row.response;
+}
+
+// Two rows whose impulses together are at most `most`.
+double Dynamics::solve_cone(Row& row, Row& other, double most) {
+  const double before[2] = {row.impulse, other.impulse};
+  double one = before[0] + (row.target - speed(row)) * row.response_inverse;
+  double two = before[1] + (other.target - speed(other)) * other.response_inverse;
+  const double squared = one * one + two * two;
+  if (squared > most * most) {
+    const double scale = most / std::sqrt(squared);
+    one *= scale;
+    two *= scale;
+  }
+  row.impulse = one;
+  other.impulse = two;
+  if (one != before[0]) push(row, one - before[0]);
+  if (two != before[1]) push(other, two - before[1]);
+  return std::max(std::abs(one - before[0]) * row.response, std::abs(two - before[1]) * other.response);
+}
+
+// Once over all rows; joints alternately from both ends. The greatest change.
+double Dynamics::iterate(bool forwards) {
+  double most = 0;
+  const std::size_t count = joints_.size();
+  for (std::size_t i = 0; i < count; ++i) most = std::max(most, solve(joints_[forwards ? i : count - 1 - i]));
+  for (const Contact& contact : contacts_)
+    most = std::max(most, solve(rows_[static_cast<std::size_t>(contact.normal)]));
+  for (const Contact& contact : contacts_) {
+    const double pressure = rows_[static_cast<std::size_t>(contact.normal)].impulse;
+    if (contact.spin >= 0) {
+      Row& spin = rows_[static_cast<std::size_t>(contact.spin)];
+      spin.upper = contact.point->m_combinedSpinningFriction * pressure;
+      spin.lower = -spin.upper;
+      most = std::max(most, solve(spin));
+    }
+    if (contact.roll >= 0) {
+      Row* roll = &rows_[static_cast<std::size_t>(contact.roll)];
+      most = std::max(most, solve_cone(roll[0], roll[1], contact.point->m_combinedRollingFriction * pressure));
+    }
+  }
+  for (const Contact& contact : contacts_) {
+    Row* normal = &rows_[static_cast<std::size_t>(contact.normal)];
+    if (normal->impulse == 0 && normal[1].impulse == 0 && normal[2].impulse == 0) continue;
+    most = std::max(most, solve_cone(normal[1], normal[2], contact.point->m_combinedFriction * normal->impulse));
+  }
+  return most;
+}
+
+void Dynamics::keep_results() {
+  for (const auto& [row, motor] : motor_rows_) motor->force = joints_[static_cast<std::size_t>(row)].impulse / dt_;
+  for (const Contact& contact : contacts_) {
+    const Row* normal = &rows_[static_cast<std::size_t>(contact.normal)];
+    contact.point->m_appliedImpulse = normal[0].impulse;
+    contact.point->m_appliedImpulseLateral1 = normal[1].impulse;
+    contact.point->m_appliedImpulseLateral2 = normal[2].impulse;
+    if (contact.spin < 0 && contact.roll < 0) continue;
+    Vector3 impulse = Vector3::Zero();
+    if (contact.spin >= 0)
+      impulse += rows_[static_cast<std::size_t>(contact.spin)].impulse * from_bullet(contact.point->m_normalWorldOnB);
+    if (contact.roll >= 0) {
+      const Row* roll = &rows_[static_cast<std::size_t>(contact.roll)];
+      impulse += roll[0].impulse * from_bullet(contact.point->m_lateralFrictionDir1) +
+                 roll[1].impulse * from_bullet(contact.point->m_lateralFrictionDir2);
+    }
+    torsions_.push_back({contact.first, contact.second, impulse});
+  }
+}
+
+void Dynamics::move() {
+  for (const Mover& mover : movers_) {
+    const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+    if (mover.free) {
+      FreeBody& body = *mover.free;
+      body.linear = {speeds[0], speeds[1], speeds[2]};
+      body.angular = {speeds[3], speeds[4], speeds[5]};
+      body.object->getWorldTransform().getOrigin() += to_bullet(Vector3(dt_ * body.linear));
+      turn_by(*body.object, body.angular, dt_);
+      continue;
+    }
+    Articulation& tree = *mover.tree;
+    for (std::size_t i = 0; i < tree.position.size(); ++i) {
+      tree.velocity[i] = std::clamp(speeds[i], -kFastestJoint, kFastestJoint);
+      tree.position[i] += dt_ * tree.velocity[i];
+    }
+    tree.place();
+  }
+}
+
+}  // namespace stampede

@@ -1,0 +1,159 @@
+// Makes bodies move: forces, joints and contacts, one step of semi-implicit Euler at a time. Bullet finds the contacts.
+//
+// Contacts and joints are rows of velocity constraints, solved by projected Gauss-Seidel as in Bullet's own solvers
+// (Catto, Iterative Dynamics with Temporal Coherence, GDC 2005; Coumans, Bullet 3), with which its settings are shared.
+// What differs, all for speed: every tree's mass matrix is inverted once a step and shared by its rows; a tree whose
+// joints are all driven starts at the speeds that its motors ask for; contacts start with the impulses of the step
+// before; and bodies that touch each other are iterated until nothing changes any more, each such island for itself.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "engine/sim/articulation.h"
+
+class btCollisionObject;
+class btCollisionWorld;
+class btManifoldPoint;
+class btPersistentManifold;
+
+namespace stampede {
+
+// A body without joints. Its object's frame: centre of mass and principal axes.
+struct FreeBody {
+  btCollisionObject* object = nullptr;
+  double mass = 1;
+  Vector3 moments = Vector3::Ones();
+  Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();  // velocities, world, m/s and rad/s
+};
+
+// Drives a joint of a tree towards a speed and a position with a limited force: the speed aimed at is
+// velocity + position_gain * erp * (position - q) / dt, at most `fastest`.
+struct JointMotor {
+  int dof = 0;
+  double erp = 1;  // share of the error in position that a step takes away
+  double position = 0, position_gain = 0, velocity = 0;
+  double fastest = 1e30;  // m/s or rad/s
+  double most_force = 0;  // N or N m; 0: it is off
+  double force = 0;       // of the last step
+};
+
+// Keeps two joints of a tree at equal positions.
+struct JointGear {
+  int one = 0, other = 0;  // dofs
+  double erp = 0.04;
+  double most_force = 0;
+};
+
+struct JointStop {
+  int dof = 0;
+  double lower = 0, upper = 0;
+};
+
+class Dynamics {
+ public:
+  Dynamics(btCollisionWorld& world, const Vector3& gravity, double dt) : world_(world), gravity_(gravity), dt_(dt) {}
+
+  // In the order in which they are added. References stay valid.
+  FreeBody& add_free(const FreeBody& body);
+  Articulation& add_tree(const Transform& world_from_base);
+  void add_object(btCollisionObject& object, Articulation& tree, int link);  // the object moves with the link
+  JointMotor& add_motor(Articulation& tree, int dof);
+  void add_gear(Articulation& tree, const JointGear& gear);
+  void add_stop(Articulation& tree, const JointStop& stop);
+
+  void step(int iterations);  // at most so many
+
+  // What rolling and spinning friction did in the last step: contact points leave that out.
+  struct Torsion {
+    const btCollisionObject *on, *other;
+    Vector3 impulse;  // angular, world, on `on`; the other got the opposite
+  };
+  const std::vector<Torsion>& torsions() const { return torsions_; }
+  void forget_torsions() { torsions_.clear(); }
+
+ private:
+  using Pair = Eigen::Array2d;
+  struct Mover {  // what moves as one: a free body or a tree
+    FreeBody* free = nullptr;
+    Articulation* tree = nullptr;
+    int at = 0, pairs = 0;                      // its part of velocities_
+    int island = 0;                             // the first of all movers that it touches, over others too
+    Matrix3 inverse_inertia = Matrix3::Zero();  // of a free body, world axes
+    std::vector<JointMotor*> motors;
+    std::vector<JointGear> gears;
+    std::vector<JointStop> stops;
+  };
+  struct Node {  // what an object belongs to; nothing: it stands still
+    int mover = -1, link = -1;
+  };
+  struct Row {                              // a constraint on the speeds of one or two movers
+    int numbers = 0;                        // where its numbers begin: for each mover the Jacobian, then its response
+    int at[2] = {0, 0}, pairs[2] = {0, 0};  // of the movers, in velocities_
+    double response = 0, response_inverse = 0;  // J M^-1 J^T
+    double target = 0;                          // m/s or rad/s
+    double impulse = 0, lower = 0, upper = 0;
+  };
+  struct Contact {
+    btManifoldPoint* point = nullptr;
+    const btCollisionObject *first = nullptr, *second = nullptr;
+    int normal = 0;            // its row; two rows of friction follow it
+    int spin = -1, roll = -1;  // rows, the latter of two; -1: none
+  };
+  struct Touching {
+    int island = 0;
+    int first = 0, second = 0;  // objects of the world
+    btPersistentManifold* manifold = nullptr;
+  };
+  struct Island {
+    int number = 0;
+    int touching_begin = 0, touching_end = 0;
+  };
+
+  static Node node_of(const btCollisionObject* object);
+  Mover& mover_of(const Articulation& tree);
+  void apply_forces();
+  void find_touching();
+  void solve_island(const Island& island, int iterations);
+  void add_contacts(const Touching& touching);
+  void add_joints(const Mover& mover);
+  void start_motors(const Mover& mover, std::size_t first);
+  Row& begin_row(std::vector<Row>& rows);
+  double* add_side(Row& row, const Mover& mover);
+  void add_free_side(Row& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
+  void add_point(Row& row, const Node& node, const Vector3& point, const Vector3& direction);
+  void add_turn(Row& row, const Node& node, const Vector3& direction);
+  static void respond(const Articulation& tree, double* jacobian);
+  void end_row(Row& row, double target);
+  double speed(const Row& row) const;
+  void push(const Row& row, double impulse);
+  double solve(Row& row);
+  double solve_cone(Row& row, Row& other, double most);
+  double iterate(bool forwards);
+  void keep_results();
+  void move();
+
+  btCollisionWorld& world_;
+  Vector3 gravity_;
+  double dt_;
+  std::deque<FreeBody> free_;  // deques: what they hold stays where it is
+  std::deque<Articulation> trees_;
+  std::deque<JointMotor> motors_;
+  std::deque<Node> nodes_;
+  std::vector<Mover> movers_;
+
+  std::vector<Pair> velocities_;
+  std::vector<Touching> touching_;
+  std::vector<Island> islands_;
+  std::vector<Torsion> torsions_;
+  // Of the island that is being solved.
+  std::vector<Pair> numbers_;
+  std::vector<Row> joints_, rows_;
+  std::vector<std::pair<int, JointMotor*>> motor_rows_;
+  std::vector<Contact> contacts_;
+  std::vector<double> scratch_;
+};
+
+}  // namespace stampede
