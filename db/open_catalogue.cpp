@@ -49,7 +49,8 @@ void check_tables(const sql::Database& database, int schema) {
                            ", which lay between two releases, or " + kAgain);
 }
 
-// Looks before anything is changed. Throws CatalogueError for every file that is not ours to use.
+// Looks before anything is changed. Throws CatalogueError for every file that is not ours to use. Call it within a
+// transaction: another run may be making the tables.
 Content inspect(const sql::Database& database) {
   const std::int64_t id = database.number("PRAGMA application_id");
   const std::int64_t version = database.number("PRAGMA user_version");
@@ -147,6 +148,13 @@ void add_reasons(const sql::Database& database) {
   for (const Reason one : all_reasons()) reason.run(to_string(one));
 }
 
+Content inspect_alone(const sql::Database& database) {
+  database.run("BEGIN");
+  const Content content = inspect(database);
+  database.run("COMMIT");
+  return content;
+}
+
 // One transaction makes what is missing: tables, the migration of an older file, views and indexes. Another run may
 // have done it meanwhile, so all is asked again inside.
 void make_ready(const sql::Database& database, const fs::path& path) {
@@ -178,7 +186,7 @@ Catalogue Catalogue::open(const fs::path& path) {
   check_path(path, false);
   auto impl = std::make_unique<Impl>();
   ReadFile file = open_to_read(path);
-  const Content content = inspect(file.database);
+  const Content content = inspect_alone(file.database);
   if (content.empty())
     throw CatalogueError(path.string(), "this file is empty: no run has written to it",
                          "run some tasks first: `stampede run TASK --out " + path.string() + "`");
@@ -197,7 +205,7 @@ Catalogue Catalogue::write(const fs::path& path) {
   auto impl = std::make_unique<Impl>();
   sql::Database& database = impl->database;
   database = sql::Database(fs::absolute(path).string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, path.string());
-  inspect(database);
+  inspect_alone(database);
   if (sqlite3_db_readonly(database.handle(), "main")) database.fail(SQLITE_READONLY);
   use_log(database);
   make_ready(database, path);
