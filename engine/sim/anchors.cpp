@@ -18,8 +18,9 @@ void AnchorNormals::after_step(btCollisionDispatcher& dispatcher) {
     if (count == 0 || (manifold.getContactPoint(0).m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) == 0)
       continue;
     const btCollisionObject& body = *manifold.getBody0();
-    const btMatrix3x3 turn =
-        body.getWorldTransform().getBasis() * before_[static_cast<std::size_t>(body.getWorldArrayIndex())].transpose();
+    const btMatrix3x3& before = before_[static_cast<std::size_t>(body.getWorldArrayIndex())];
+    if (body.getWorldTransform().getBasis() == before) continue;
+    const btMatrix3x3 turn = body.getWorldTransform().getBasis() * before.transpose();
     for (int p = 0; p < count; ++p) {
       btManifoldPoint& point = manifold.getContactPoint(p);
       point.m_normalWorldOnB = (turn * point.m_normalWorldOnB).normalized();

@@ -203,7 +203,7 @@ void World::Impl::build_fixed(int index) {
   const Assembly assembly = assemble(description);
   BodySlot& slot = body_slot(index);
   std::vector<Transform> still(description.parts.size(), Transform::Identity());
-  if (assembly.links > 0) slot.tree = &dynamics.add_tree(description.world_from_body);
+  if (assembly.links > 0) slot.tree = &dynamics.add_tree(description.world_from_body, index != kRobot);
   for (std::size_t p = 0; p < description.parts.size(); ++p) {
     const Part& part = description.parts[p];
     const auto parent = static_cast<std::size_t>(std::max(part.parent, 0));

@@ -102,7 +102,7 @@ void ContactWindow::close() {
     contact.a = sum.a;
     contact.b = sum.b;
     contact.mean_force = sum.normal / static_cast<double>(steps_);
-    contact.peak_force = std::max(sum.peak, sum.step_normal);
+    contact.peak_force = std::max({sum.peak, sum.step_normal, contact.mean_force});  // a mean of equals is rounded
     contact.depth = sum.depth;
     const double length = sum.normal_vector.norm();
     if (length > 0) contact.normal = sum.normal_vector / length;

@@ -13,14 +13,21 @@
 namespace stampede {
 namespace {
 
-constexpr double kErp = 0.2;           // share of an error in position that a step takes away: contacts, anchors, stops
-constexpr double kStopImpulse = 100;   // N s at most
-constexpr double kSettled = 1e-7;      // m/s or rad/s: an iteration that changes no more is the last
-constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
-constexpr double kFastestJoint = 100;  // m/s or rad/s
-constexpr double kLargestTurn = 0.785398163397448;  // rad a step
-constexpr double kSlowSpin = 1e-4;                  // rad/s: gyroscopic torque is left out below
-constexpr int kTorsionPoints = 4;                   // of a pair of bodies
+constexpr double kErp = 0.2;  // share of an error in position that a step takes away: contacts, anchors, stops
+// Contacts start with a share of the impulse that they had in the step before. On links less of it, and no friction:
+// what is pressed into a hole sticks and jumps otherwise.
+constexpr double kKept = 1, kKeptOnLink = 0.85;
+constexpr double kStopImpulse = 100;                   // N s at most
+constexpr double kSettled = 1e-7;                      // m/s or rad/s: an iteration that changes no more is the last
+constexpr double kBounceSpeed = 0.2;                   // m/s: nothing bounces below
+constexpr double kFastestJoint = 100;                  // m/s or rad/s
+constexpr double kLargestTurn = 0.785398163397448;     // rad a step
+constexpr double kSlowSpin = 1e-4;                     // rad/s: gyroscopic torque is left out below
+constexpr int kTorsionPoints = 4;                      // of a pair of bodies
+constexpr double kRestSpeed = 1e-4, kRestSpin = 1e-3;  // m/s, rad/s: slower is at rest
+constexpr int kRestSteps = 24;                         // at rest for so long, an island falls asleep
+constexpr int kFindSteps = 8;      // that it stays awake for at least, where contacts have to be found anew
+constexpr double kMeetGap = 1e-3;  // m: what will be nearer than that at the end of the step meets
 
 Matrix3 skew(const Vector3& v) {
   Matrix3 m;
@@ -68,14 +75,16 @@ FreeBody& Dynamics::add_free(const FreeBody& body) {
   mover.pairs = 3;
   nodes_.push_back({static_cast<int>(movers_.size()), -1});
   body.object->setUserPointer(&nodes_.back());
+  mover.objects.push_back(body.object);
   movers_.push_back(mover);
   return free_.back();
 }
 
-Articulation& Dynamics::add_tree(const Transform& world_from_base) {
+Articulation& Dynamics::add_tree(const Transform& world_from_base, bool may_sleep) {
   trees_.emplace_back(world_from_base);
   Mover mover;
   mover.tree = &trees_.back();
+  mover.may_sleep = may_sleep;
   movers_.push_back(mover);
   return trees_.back();
 }
@@ -85,8 +94,10 @@ Dynamics::Mover& Dynamics::mover_of(const Articulation& tree) {
 }
 
 void Dynamics::add_object(btCollisionObject& object, Articulation& tree, int link) {
-  nodes_.push_back({static_cast<int>(&mover_of(tree) - movers_.data()), link});
+  Mover& mover = mover_of(tree);
+  nodes_.push_back({static_cast<int>(&mover - movers_.data()), link});
   object.setUserPointer(&nodes_.back());
+  mover.objects.push_back(&object);
 }
 
 JointMotor& Dynamics::add_motor(Articulation& tree, int dof) {
@@ -102,10 +113,126 @@ void Dynamics::add_stop(Articulation& tree, const JointStop& stop) { mover_of(tr
 void Dynamics::step(int iterations) {
   world_.performDiscreteCollisionDetection();
   torsions_.clear();
+  wake_what_is_met();
   apply_forces();
   find_touching();
   for (const Island& island : islands_) solve_island(island, iterations);
   move();
+  if (sleep_) fall_asleep();
+}
+
+void Dynamics::set_asleep(Mover& mover, bool asleep) {
+  mover.asleep = asleep;
+  for (btCollisionObject* object : mover.objects)
+    object->forceActivationState(asleep ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);
+  if (!asleep) return;
+  if (mover.free) mover.free->linear = mover.free->angular = Vector3::Zero();
+  if (mover.tree) std::fill(mover.tree->velocity.begin(), mover.tree->velocity.end(), 0.0);
+}
+
+Vector3 Dynamics::velocity_at(const Node& node, const Vector3& point) const {
+  const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
+  if (mover.free)
+    return mover.free->linear +
+           mover.free->angular.cross(point - from_bullet(mover.free->object->getWorldTransform().getOrigin()));
+  Vector3 velocity = Vector3::Zero();
+  mover.tree->jacobian(node.link, point, [&](int dof, const Vector3& linear, const Vector3&) {
+    velocity += mover.tree->velocity[static_cast<std::size_t>(dof)] * linear;
+  });
+  return velocity;
+}
+
+bool Dynamics::meet(const btPersistentManifold& manifold) const {
+  const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+  for (int p = 0; p < manifold.getNumContacts(); ++p) {
+    const btManifoldPoint& point = manifold.getContactPoint(p);
+    const Vector3 apart = velocity_at(one, from_bullet(point.m_positionWorldOnA)) -
+                          velocity_at(other, from_bullet(point.m_positionWorldOnB));
+    if (point.getDistance() + dt_ * from_bullet(point.m_normalWorldOnB).dot(apart) < kMeetGap) return true;
+  }
+  return false;
+}
+
+void Dynamics::wake_what_is_met() {
+  btDispatcher& dispatcher = *world_.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+    if (one.mover < 0 || other.mover < 0 || asleep(one) == asleep(other) || !meet(manifold)) continue;
+    wake_with_neighbours(asleep(one) ? one.mover : other.mover);
+  }
+}
+
+void Dynamics::wake_with_neighbours(int first) {
+  const auto rouse = [&](int mover) {
+    set_asleep(movers_[static_cast<std::size_t>(mover)], false);
+    movers_[static_cast<std::size_t>(mover)].rest = 0;
+    waking_.push_back(mover);
+  };
+  waking_.clear();
+  rouse(first);
+  btDispatcher& dispatcher = *world_.getDispatcher();
+  while (!waking_.empty()) {
+    const int woken = waking_.back();
+    waking_.pop_back();
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+      if (manifold.getNumContacts() == 0) continue;
+      const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+      if (one.mover == woken && asleep(other)) rouse(other.mover);
+      if (other.mover == woken && asleep(one)) rouse(one.mover);
+    }
+  }
+}
+
+void Dynamics::wake(const btCollisionObject& object) {
+  const Node node = node_of(&object);
+  if (node.mover >= 0) wake_with_neighbours(node.mover);
+}
+
+void Dynamics::let_sleep(bool sleep) {
+  sleep_ = sleep;
+  forget_contacts();
+}
+
+void Dynamics::forget_contacts() {
+  torsions_.clear();
+  for (Mover& mover : movers_) {
+    if (mover.asleep) set_asleep(mover, false);
+    mover.rest = std::min(mover.rest, kRestSteps - kFindSteps);
+  }
+}
+
+std::vector<int> Dynamics::rest() const {
+  std::vector<int> rest;
+  for (const Mover& mover : movers_) rest.push_back(mover.rest);
+  return rest;
+}
+
+void Dynamics::set_rest(const std::vector<int>& rest) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].rest = rest[m];
+}
+
+bool Dynamics::at_rest(const Mover& mover) const {
+  if (mover.free)
+    return mover.free->linear.squaredNorm() < kRestSpeed * kRestSpeed &&
+           mover.free->angular.squaredNorm() < kRestSpin * kRestSpin;
+  return std::all_of(mover.tree->velocity.begin(), mover.tree->velocity.end(),
+                     [](double speed) { return std::abs(speed) < kRestSpeed; });
+}
+
+// Whole islands at once. What hangs in the air has none.
+void Dynamics::fall_asleep() {
+  least_rest_.assign(movers_.size(), 0);
+  for (const Island& island : islands_) least_rest_[static_cast<std::size_t>(island.number)] = kRestSteps;
+  for (Mover& mover : movers_) {
+    if (mover.asleep) continue;
+    mover.rest = mover.may_sleep && at_rest(mover) ? std::min(mover.rest + 1, kRestSteps) : 0;
+    int& least = least_rest_[static_cast<std::size_t>(mover.island)];
+    least = std::min(least, mover.rest);
+  }
+  for (Mover& mover : movers_)
+    if (!mover.asleep && least_rest_[static_cast<std::size_t>(mover.island)] == kRestSteps) set_asleep(mover, true);
 }
 
 void Dynamics::apply_forces() {
@@ -117,6 +244,7 @@ void Dynamics::apply_forces() {
   }
   velocities_.assign(static_cast<std::size_t>(pairs), Pair::Zero());
   for (Mover& mover : movers_) {
+    if (mover.asleep) continue;
     double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
     if (mover.free) {
       FreeBody& body = *mover.free;
@@ -160,7 +288,7 @@ void Dynamics::find_touching() {
     btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(i);
     if (manifold->getNumContacts() == 0) continue;
     const Node one = node_of(manifold->getBody0()), other = node_of(manifold->getBody1());
-    if (one.mover < 0 && other.mover < 0) continue;
+    if (asleep(one) || asleep(other)) continue;  // with another sleeper, or near something that it does not meet
     if (one.mover >= 0 && other.mover >= 0) {
       const int a = root(one.mover), b = root(other.mover);
       movers_[static_cast<std::size_t>(std::max(a, b))].island = std::min(a, b);
@@ -176,7 +304,7 @@ void Dynamics::find_touching() {
   islands_.clear();
   auto next = touching_.begin();
   for (std::size_t m = 0; m < movers_.size(); ++m) {
-    if (movers_[m].island != static_cast<int>(m)) continue;
+    if (movers_[m].island != static_cast<int>(m) || movers_[m].asleep) continue;
     const auto begin = next;
     while (next != touching_.end() && next->island == static_cast<int>(m)) ++next;
     if (begin != next || movers_[m].tree)
@@ -287,6 +415,7 @@ void Dynamics::end_row(Row& row, double target) {
 void Dynamics::add_contacts(const Touching& touching) {
   btPersistentManifold& manifold = *touching.manifold;
   const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+  const bool on_link = one.link >= 0 || other.link >= 0;
   for (int p = 0; p < manifold.getNumContacts(); ++p) {
     btManifoldPoint& point = manifold.getContactPoint(p);
     const Vector3 normal = from_bullet(point.m_normalWorldOnB);
@@ -309,7 +438,7 @@ void Dynamics::add_contacts(const Touching& touching) {
     }
     row.lower = 0;
     row.upper = 1e10;
-    row.impulse = point.m_appliedImpulse;
+    row.impulse = (on_link ? kKeptOnLink : kKept) * point.m_appliedImpulse;
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     const double kept[2] = {point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2};
     for (int i = 0; i < 2; ++i) {
@@ -317,7 +446,7 @@ void Dynamics::add_contacts(const Touching& touching) {
       add_point(friction, one, on_one, across[i]);
       add_point(friction, other, on_other, -across[i]);
       end_row(friction, anchored ? -(on_one - on_other).dot(across[i]) * kErp / dt_ : 0);
-      friction.impulse = kept[i];
+      friction.impulse = on_link ? 0 : kKept * kept[i];
     }
     for (int i = 0; i < 3; ++i) {
       const Row& started = rows_[static_cast<std::size_t>(contact.normal + i)];
@@ -509,6 +638,7 @@ void Dynamics::keep_results() {
 
 void Dynamics::move() {
   for (const Mover& mover : movers_) {
+    if (mover.asleep) continue;
     const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
     if (mover.free) {
       FreeBody& body = *mover.free;

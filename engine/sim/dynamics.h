@@ -5,6 +5,9 @@
 // What differs, all for speed: every tree's mass matrix is inverted once a step and shared by its rows; a tree whose
 // joints are all driven starts at the speeds that its motors ask for; contacts start with the impulses of the step
 // before; and bodies that touch each other are iterated until nothing changes any more, each such island for itself.
+//
+// An island that has been at rest for a while sleeps: it keeps its contacts and their impulses, and costs nothing. What
+// meets a sleeper wakes all that lies together with it.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,7 +61,7 @@ class Dynamics {
 
   // In the order in which they are added. References stay valid.
   FreeBody& add_free(const FreeBody& body);
-  Articulation& add_tree(const Transform& world_from_base);
+  Articulation& add_tree(const Transform& world_from_base, bool may_sleep);
   void add_object(btCollisionObject& object, Articulation& tree, int link);  // the object moves with the link
   JointMotor& add_motor(Articulation& tree, int dof);
   void add_gear(Articulation& tree, const JointGear& gear);
@@ -66,22 +69,34 @@ class Dynamics {
 
   void step(int iterations);  // at most so many
 
+  // Whoever moves a body himself wakes it first, and all that lies together with it.
+  void wake(const btCollisionObject& object);
+  void let_sleep(bool sleep);  // false: all wake, and stay so
+  // Where contacts are dropped: all wake; who slept may sleep again as soon as contacts are found anew.
+  void forget_contacts();
+  // For how many steps each mover has been at rest: all that tells one moment from another beside positions and
+  // velocities, right after `forget_contacts`.
+  std::vector<int> rest() const;
+  void set_rest(const std::vector<int>& rest);
+
   // What rolling and spinning friction did in the last step: contact points leave that out.
   struct Torsion {
     const btCollisionObject *on, *other;
     Vector3 impulse;  // angular, world, on `on`; the other got the opposite
   };
   const std::vector<Torsion>& torsions() const { return torsions_; }
-  void forget_torsions() { torsions_.clear(); }
 
  private:
   using Pair = Eigen::Array2d;
   struct Mover {  // what moves as one: a free body or a tree
     FreeBody* free = nullptr;
     Articulation* tree = nullptr;
-    int at = 0, pairs = 0;                      // its part of velocities_
-    int island = 0;                             // the first of all movers that it touches, over others too
+    int at = 0, pairs = 0;  // its part of velocities_
+    int island = 0;         // the first of all movers that it touches, over others too
+    bool may_sleep = true, asleep = false;
+    int rest = 0;                               // steps for which it has been at rest
     Matrix3 inverse_inertia = Matrix3::Zero();  // of a free body, world axes
+    std::vector<btCollisionObject*> objects;
     std::vector<JointMotor*> motors;
     std::vector<JointGear> gears;
     std::vector<JointStop> stops;
@@ -114,6 +129,16 @@ class Dynamics {
 
   static Node node_of(const btCollisionObject* object);
   Mover& mover_of(const Articulation& tree);
+  bool asleep(const Node& node) const {
+    return node.mover >= 0 && movers_[static_cast<std::size_t>(node.mover)].asleep;
+  }
+  void set_asleep(Mover& mover, bool asleep);
+  Vector3 velocity_at(const Node& node, const Vector3& point) const;
+  bool meet(const btPersistentManifold& manifold) const;
+  void wake_what_is_met();
+  void wake_with_neighbours(int mover);
+  bool at_rest(const Mover& mover) const;
+  void fall_asleep();
   void apply_forces();
   void find_touching();
   void solve_island(const Island& island, int iterations);
@@ -138,6 +163,7 @@ class Dynamics {
   btCollisionWorld& world_;
   Vector3 gravity_;
   double dt_;
+  bool sleep_ = true;
   std::deque<FreeBody> free_;  // deques: what they hold stays where it is
   std::deque<Articulation> trees_;
   std::deque<JointMotor> motors_;
@@ -147,6 +173,7 @@ class Dynamics {
   std::vector<Pair> velocities_;
   std::vector<Touching> touching_;
   std::vector<Island> islands_;
+  std::vector<int> waking_, least_rest_;
   std::vector<Torsion> torsions_;
   // Of the island that is being solved.
   std::vector<Pair> numbers_;

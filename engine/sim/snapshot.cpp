@@ -8,6 +8,7 @@ namespace stampede {
 
 struct Snapshot::Data {
   std::vector<double> state;  // bodies and joints, see World::Impl::state
+  std::vector<int> rest;  // see Dynamics::rest
   std::vector<bool> locked;
   std::int64_t steps = 0;
   operation::Controller controller;
@@ -93,7 +94,7 @@ void World::Impl::rebuild_broadphase() {
     object->setBroadphaseHandle(broadphase.createProxy(lower, upper, object->getCollisionShape()->getShapeType(),
                                                        object, group, mask, &dispatcher));
   }
-  dynamics.forget_torsions();
+  dynamics.forget_contacts();
 }
 
 void World::Impl::canonicalise() {
@@ -108,6 +109,7 @@ void World::Impl::place(int index, const Transform& world_from_body) {
   if (index < 0 || index >= static_cast<int>(scene->bodies.size()) || !body_slot(index).free)
     throw Error("place", "body " + std::to_string(index) + " is not free", "place free bodies only");
   FreeBody& free = *body_slot(index).free;
+  dynamics.wake(*free.object);
   const Transform world_from_link = world_from_body * body_slot(index).parts[0].link_from_part.inverse();
   free.linear = free.angular = Vector3::Zero();
   free.object->setWorldTransform(to_bullet(world_from_link));
@@ -125,6 +127,7 @@ Snapshot World::snapshot() const {
     throw Error("World::snapshot", "bodies have moved since the last boundary", "apply operation::Boundary first");
   auto data = std::make_shared<Snapshot::Data>();
   data->state = w.state();
+  data->rest = w.dynamics.rest();
   for (const Mechanism& mechanism : w.mechanisms) data->locked.push_back(mechanism.locked);
   data->steps = w.steps;
   data->controller = w.controller;
@@ -147,6 +150,7 @@ void World::restore(const Snapshot& snapshot) {
     throw Error("World::restore", "the snapshot is of another scene", "restore into a world of an equal scene");
   w.set_state(data.state);
   w.rebuild_broadphase();
+  w.dynamics.set_rest(data.rest);
   for (std::size_t i = 0; i < w.mechanisms.size(); ++i) w.mechanisms[i].locked = data.locked[i];
   w.steps = w.boundary_step = data.steps;
   w.controller = data.controller;

@@ -149,6 +149,8 @@ std::int64_t World::step_count() const { return impl_->steps; }
 double World::dt() const { return impl_->dt; }
 const std::vector<Command>& World::log() const { return impl_->log; }
 
+void World::let_sleep(bool sleep) { impl_->dynamics.let_sleep(sleep); }
+
 void World::keep_log(bool keep) {
   impl_->keeps_log = keep;
   if (!keep) impl_->log.clear();

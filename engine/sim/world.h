@@ -116,6 +116,9 @@ class World {
   void step();                              // one physics step of 1/physics_hz
   const std::vector<Command>& log() const;  // since construction, or as restore left it
   void keep_log(bool keep);                 // false: it is emptied, and stays so
+  // What has come to rest and touches nothing that moves is not simulated until something meets it; facts, forces and
+  // replay are the same. false: all is simulated all the time, for measurements.
+  void let_sleep(bool sleep);
 
   // Poses are of part frames, not centres of mass.
   const Transform& world_from_part(PartRef part) const;  // current after each step

@@ -29,7 +29,7 @@ Trajectory waving(const Arm& arm) {
   return path;
 }
 
-void engine_against_bare(benchmark::State& state, ControllerKind kind) {
+void engine_against_bare(benchmark::State& state, ControllerKind kind, bool sleep = false) {
   const auto scene = std::make_shared<const Scene>(table_scene(static_cast<int>(state.range(0))));
   World engine(scene);
   BareBullet bare(*scene);
@@ -37,6 +37,7 @@ void engine_against_bare(benchmark::State& state, ControllerKind kind) {
   double engine_s = 0, bare_s = 0;
   std::int64_t step = 0;
   engine.keep_log(false);
+  engine.let_sleep(sleep);
   engine.apply(operation::Controller{kind, 0});
   for (auto _ : state) {
     if (step % path.steps() == 0) {
@@ -106,6 +107,12 @@ void freeze_world(benchmark::State& state) {
 }
 
 BENCHMARK_CAPTURE(engine_against_bare, joint_position, ControllerKind::joint_position)
+    ->ArgName("cubes")
+    ->Arg(3)
+    ->Arg(10)
+    ->Arg(30)
+    ->MinTime(3);
+BENCHMARK_CAPTURE(engine_against_bare, resting_cubes_asleep, ControllerKind::joint_position, true)
     ->ArgName("cubes")
     ->Arg(3)
     ->Arg(10)
