@@ -1,7 +1,8 @@
 // The engine's part of tests/bench/peers; each mode prints one JSON object.
-//   peers_bench physics CUBES SECONDS   steps a second: Panda, table, resting cubes, the arm waving, 240 Hz
-//   peers_bench checks SECONDS          free configurations among ten posts looked at a second, one and many a call
-//   peers_bench posts                   those posts and configurations, for others to look at
+//   peers_bench physics CUBES SECONDS [asleep]   steps a second: Panda, table, resting cubes, the arm waving, 240 Hz
+//   peers_bench checks SECONDS                   free configurations among ten posts looked at a second, one and many
+//                                                a call
+//   peers_bench posts                            those posts and configurations, for others to look at
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -49,8 +50,19 @@ double rate_of(double seconds, const std::function<std::int64_t()>& round) {
   return static_cast<double>(done) / passed.count();
 }
 
-void physics(int cubes, double seconds) {
+// What rests may sleep, or not; throws where this engine cannot let it.
+template <typename Engine>
+void let_sleep(Engine& world, bool sleep) {
+  if constexpr (requires { world.let_sleep(sleep); }) {
+    world.let_sleep(sleep);
+  } else if (sleep) {
+    throw Error("World", "nothing sleeps in this engine");
+  }
+}
+
+void physics(int cubes, double seconds, bool sleep) {
   World world(std::make_shared<const Scene>(table_scene(cubes)));
+  let_sleep(world, sleep);
   world.keep_log(false);
   const Trajectory path = waving(world.arm());
   const auto wave = [&] {
@@ -119,14 +131,15 @@ void posts() {
 int main(int argc, char** argv) {
   try {
     const std::string mode = argc > 1 ? argv[1] : "";
-    if (mode == "physics" && argc == 4) {
-      physics(std::atoi(argv[2]), std::atof(argv[3]));
+    const bool sleep = argc == 5 && std::strcmp(argv[4], "asleep") == 0;
+    if (mode == "physics" && (argc == 4 || sleep)) {
+      physics(std::atoi(argv[2]), std::atof(argv[3]), sleep);
     } else if (mode == "checks" && argc == 3) {
       checks(std::atof(argv[2]));
     } else if (mode == "posts" && argc == 2) {
       posts();
     } else {
-      std::fprintf(stderr, "usage: peers_bench physics CUBES SECONDS | checks SECONDS | posts\n");
+      std::fprintf(stderr, "usage: peers_bench physics CUBES SECONDS [asleep] | checks SECONDS | posts\n");
       return 2;
     }
   } catch (const Error& error) {

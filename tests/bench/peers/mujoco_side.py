@@ -1,6 +1,6 @@
 """MuJoCo's part of tests/bench/peers; each mode prints one JSON object.
 
-mujoco_side.py physics CUBES SECONDS            steps a second, the arm waving
+mujoco_side.py physics CUBES SECONDS [asleep]   steps a second, the arm waving
 mujoco_side.py pick CUBES EPISODES [pictures]   scripted pick-and-lift, wall seconds per simulated second
 mujoco_side.py pictures SECONDS [shadows]       frames of five cameras a second
 mujoco_side.py look FOLDER                      what the cameras see during a pick-and-lift, as PNG files
@@ -51,13 +51,13 @@ def cube_places(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
     return np.array([data.body(i).xpos for i in range(model.nbody) if model.body(i).name.startswith("cube")])
 
 
-def physics(cubes: int, seconds: float) -> dict:
-    model, data = model_of(scene.resting_cubes(cubes))
+def physics(cubes: int, seconds: float, sleep: bool) -> dict:
+    model, data = model_of(scene.resting_cubes(cubes), sleep=sleep)
     path = scene.waving(990)
     before, arm = cube_places(model, data).copy(), addresses(model)
     lag, frames, begin = 0.0, -20, 0.0
     while True:
-        if frames == 0:  # warm
+        if frames == 0:  # warm, and what may sleep does
             begin = time.perf_counter()
         target = path[(frames + 20) % len(path)]
         data.ctrl[:7] = target
@@ -76,6 +76,7 @@ def physics(cubes: int, seconds: float) -> dict:
         "cubes_moved_mm": 1e3 * moved,
         "arm_lag_rad": lag,
         "contacts": int(data.ncon),
+        "awake": int(data.ntree_awake),
     }
 
 
@@ -257,7 +258,7 @@ def look_at(folder: str) -> dict:
 def main(arguments: list[str]) -> dict:
     mode, *rest = arguments
     if mode == "physics":
-        return physics(int(rest[0]), float(rest[1]))
+        return physics(int(rest[0]), float(rest[1]), "asleep" in rest[2:])
     if mode == "pick":
         return pick(int(rest[0]), int(rest[1]), "pictures" in rest[2:])
     if mode == "pictures":

@@ -51,7 +51,7 @@ class Bench:
         except ValueError:
             pass
         said = (answer.stderr.strip() or answer.stdout.strip()).splitlines()
-        raise Skipped(f"{Path(str(command[0])).name}: {said[-1] if said else answer.returncode}")
+        raise Skipped(said[-1] if said else f"{Path(str(command[0])).name}: exit code {answer.returncode}")
 
     def peer(self, module: str, script: str, *arguments: object, **more: object) -> dict:
         if find_spec(module) is None:
@@ -182,6 +182,13 @@ def physics(bench: Bench) -> None:
         }
         rates = {side: (lambda ask=ask: ask()["steps_per_s"]) for side, ask in sides.items()}
         bench.row(1, f"physics, Panda and {cubes} cubes", "steps/s", rates)
+    for cubes in (3, 10, 30):
+        sides = {
+            "ours": lambda n=cubes: bench.json_of([bench.built("peers_bench"), "physics", n, bench.seconds, "asleep"]),
+            "MuJoCo": lambda n=cubes: bench.mujoco("physics", n, bench.seconds, "asleep"),
+        }
+        rates = {side: (lambda ask=ask: ask()["steps_per_s"]) for side, ask in sides.items()}
+        bench.row(1, f"physics, Panda and {cubes} cubes that may sleep", "steps/s", rates)
 
 
 def bare(bench: Bench) -> None:
@@ -422,6 +429,10 @@ def classical(bench: Bench) -> None:
                 note += f"; Fast Downward's search without its translator {statistics.median(search):.3g} s"
             bench.say(f"    {note}")
             bench.results[-1].update(note=note, steps=steps, search_s=search)
+    ratios = [r["ratios"]["Fast Downward"]["median"] for r in bench.results if r["row"] == 9 and r["ratios"]]
+    if ratios:
+        mean = statistics.geometric_mean(ratios)
+        bench.say(f" 9  task planning, {len(ratios)} problems solved by both: geometric mean of the ratios {mean:.3g}")
 
 
 def all_tasks(bench: Bench) -> None:

@@ -60,6 +60,7 @@ def mjcf(
     looks: bool = False,
     cameras: bool = False,
     shadows: bool = False,
+    sleep: bool = False,
 ) -> str:
     """The Panda, a table and cubes. `looks`: with what only renderers need."""
     urdf = ElementTree.parse(URDF).getroot()
@@ -145,7 +146,9 @@ def mjcf(
     )
     return f"""<mujoco>
   <compiler angle="radian" eulerseq="XYZ" balanceinertia="true" fusestatic="true"/>
-  <option timestep="{1 / HZ!r}" integrator="implicitfast"/>
+  <option timestep="{1 / HZ!r}" integrator="implicitfast">
+    <flag sleep="{"enable" if sleep else "disable"}"/>
+  </option>
   <visual>
     <global offwidth="128" offheight="128"/>
     <quality offsamples="0" shadowsize="1024" numslices="20" numstacks="2" numquads="1"/>
