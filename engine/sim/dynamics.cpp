@@ -14,17 +14,21 @@ namespace stampede {
 namespace {
 
 constexpr double kErp = 0.2;  // share of an error in position that a step takes away: contacts, anchors, stops
-// Contacts start with a share of the impulse that they had in the step before. On links less of it, and no friction:
-// what is pressed into a hole sticks and jumps otherwise.
-constexpr double kKept = 1, kKeptOnLink = 0.85;
-constexpr double kStopImpulse = 100;                   // N s at most
-constexpr double kSettled = 1e-7;                      // m/s or rad/s: an iteration that changes no more is the last
-constexpr double kBounceSpeed = 0.2;                   // m/s: nothing bounces below
-constexpr double kFastestJoint = 100;                  // m/s or rad/s
-constexpr double kLargestTurn = 0.785398163397448;     // rad a step
-constexpr double kSlowSpin = 1e-4;                     // rad/s: gyroscopic torque is left out below
-constexpr int kTorsionPoints = 4;                      // of a pair of bodies
-constexpr double kRestSpeed = 1e-4, kRestSpin = 1e-3;  // m/s, rad/s: slower is at rest
+// Contacts start with a share of the impulse that they had in the step before, and without friction. With a robot among
+// them they keep less, and least on links: what is pressed into a hole sticks and jumps otherwise.
+constexpr double kKept = 1, kKeptBesideRobot = 0.85, kKeptOnRobot = 0.4;
+// What settles without a robot comes to rest, and sleeps, if iterations suffice: five stacked cubes need 200.
+constexpr int kPatience = 200;
+constexpr double kStopImpulse = 100;                // N s at most
+constexpr double kSettled = 1e-6;                   // m/s or rad/s: an iteration that changes no more is the last
+constexpr double kBounceSpeed = 0.2;                // m/s: nothing bounces below
+constexpr double kFastestJoint = 100;               // m/s or rad/s
+constexpr double kLargestTurn = 0.785398163397448;  // rad a step
+constexpr double kSlowSpin = 1e-4;                  // rad/s: gyroscopic torque is left out below
+constexpr int kTorsionPoints = 2;                   // more points between two free bodies resist turning by themselves
+constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;  // m/s, rad/s: slower is at rest
+constexpr double kTrembling = 10, kSettling = 100;     // times that
+constexpr double kSmoothing = 0.125;                   // of the speeds that are looked at: resting things tremble
 constexpr int kRestSteps = 24;                         // at rest for so long, an island falls asleep
 constexpr int kFindSteps = 8;      // that it stays awake for at least, where contacts have to be found anew
 constexpr double kMeetGap = 1e-3;  // m: what will be nearer than that at the end of the step meets
@@ -166,7 +170,7 @@ void Dynamics::wake_what_is_met() {
 void Dynamics::wake_with_neighbours(int first) {
   const auto rouse = [&](int mover) {
     set_asleep(movers_[static_cast<std::size_t>(mover)], false);
-    movers_[static_cast<std::size_t>(mover)].rest = 0;
+    static_cast<Rest&>(movers_[static_cast<std::size_t>(mover)]) = {};
     waking_.push_back(mover);
   };
   waking_.clear();
@@ -203,22 +207,24 @@ void Dynamics::forget_contacts() {
   }
 }
 
-std::vector<int> Dynamics::rest() const {
-  std::vector<int> rest;
-  for (const Mover& mover : movers_) rest.push_back(mover.rest);
-  return rest;
+std::vector<Dynamics::Rest> Dynamics::rest() const { return {movers_.begin(), movers_.end()}; }
+
+void Dynamics::set_rest(const std::vector<Rest>& rest) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) static_cast<Rest&>(movers_[m]) = rest[m];
 }
 
-void Dynamics::set_rest(const std::vector<int>& rest) {
-  for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].rest = rest[m];
-}
-
-bool Dynamics::at_rest(const Mover& mover) const {
+bool Dynamics::slower(const Mover& mover, double than) {
+  const double speed = than * kRestSpeed, spin = than * kRestSpin;
   if (mover.free)
-    return mover.free->linear.squaredNorm() < kRestSpeed * kRestSpeed &&
-           mover.free->angular.squaredNorm() < kRestSpin * kRestSpin;
+    return mover.free->linear.squaredNorm() < speed * speed && mover.free->angular.squaredNorm() < spin * spin;
   return std::all_of(mover.tree->velocity.begin(), mover.tree->velocity.end(),
-                     [](double speed) { return std::abs(speed) < kRestSpeed; });
+                     [&](double rate) { return std::abs(rate) < speed; });
+}
+
+bool Dynamics::at_rest(const Mover& mover) {
+  if (!mover.free) return slower(mover, 1);
+  return slower(mover, kTrembling) && mover.mean_linear.squaredNorm() < kRestSpeed * kRestSpeed &&
+         mover.mean_angular.squaredNorm() < kRestSpin * kRestSpin;
 }
 
 // Whole islands at once. What hangs in the air has none.
@@ -227,6 +233,10 @@ void Dynamics::fall_asleep() {
   for (const Island& island : islands_) least_rest_[static_cast<std::size_t>(island.number)] = kRestSteps;
   for (Mover& mover : movers_) {
     if (mover.asleep) continue;
+    if (mover.free) {
+      mover.mean_linear += kSmoothing * (mover.free->linear - mover.mean_linear);
+      mover.mean_angular += kSmoothing * (mover.free->angular - mover.mean_angular);
+    }
     mover.rest = mover.may_sleep && at_rest(mover) ? std::min(mover.rest + 1, kRestSteps) : 0;
     int& least = least_rest_[static_cast<std::size_t>(mover.island)];
     least = std::min(least, mover.rest);
@@ -294,13 +304,20 @@ void Dynamics::find_touching() {
       movers_[static_cast<std::size_t>(std::max(a, b))].island = std::min(a, b);
     }
     touching_.push_back({std::max(one.mover, other.mover), manifold->getBody0()->getWorldArrayIndex(),
-                         manifold->getBody1()->getWorldArrayIndex(), manifold});
+                         manifold->getBody1()->getWorldArrayIndex(), manifold, one.link >= 0 || other.link >= 0});
   }
   for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].island = root(static_cast<int>(m));
   for (Touching& touching : touching_) touching.island = movers_[static_cast<std::size_t>(touching.island)].island;
   std::stable_sort(touching_.begin(), touching_.end(), [](const Touching& a, const Touching& b) {
     return std::tie(a.island, a.first, a.second) < std::tie(b.island, b.first, b.second);
   });
+  for (auto it = touching_.begin(); it != touching_.end();) {
+    auto end = it;
+    int points = 0;
+    for (; end != touching_.end() && end->first == it->first && end->second == it->second; ++end)
+      points += end->manifold->getNumContacts();
+    for (; it != end; ++it) it->points = points;
+  }
   islands_.clear();
   auto next = touching_.begin();
   for (std::size_t m = 0; m < movers_.size(); ++m) {
@@ -319,10 +336,22 @@ void Dynamics::solve_island(const Island& island, int iterations) {
   rows_.clear();
   motor_rows_.clear();
   contacts_.clear();
-  for (int i = island.touching_begin; i < island.touching_end; ++i)
-    add_contacts(touching_[static_cast<std::size_t>(i)]);
-  for (std::size_t m = static_cast<std::size_t>(island.number); m < movers_.size(); ++m)
-    if (movers_[m].tree && movers_[m].island == island.number) add_joints(movers_[m]);
+  bool with_robot = false, settling = true;
+  for (const Mover& mover : movers_) {
+    if (mover.island != island.number) continue;
+    with_robot = with_robot || !mover.may_sleep;
+    settling = settling && mover.may_sleep && slower(mover, kSettling);
+  }
+  for (const bool on_link : {false, true}) {
+    if (on_link) link_contacts_ = contacts_.size();
+    const double kept = !with_robot ? kKept : on_link ? kKeptOnRobot : kKeptBesideRobot;
+    for (int i = island.touching_begin; i < island.touching_end; ++i)
+      if (const Touching& touching = touching_[static_cast<std::size_t>(i)]; touching.on_link == on_link)
+        add_contacts(touching, kept);
+  }
+  for (const Mover& mover : movers_)
+    if (mover.tree && mover.island == island.number) add_joints(mover);
+  if (settling) iterations = std::max(iterations, kPatience);
   for (int i = 0; i < iterations; ++i)
     if (iterate(i % 2 == 1) <= kSettled) break;
   keep_results();
@@ -412,10 +441,9 @@ void Dynamics::end_row(Row& row, double target) {
   row.target = target;
 }
 
-void Dynamics::add_contacts(const Touching& touching) {
+void Dynamics::add_contacts(const Touching& touching, double kept) {
   btPersistentManifold& manifold = *touching.manifold;
   const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
-  const bool on_link = one.link >= 0 || other.link >= 0;
   for (int p = 0; p < manifold.getNumContacts(); ++p) {
     btManifoldPoint& point = manifold.getContactPoint(p);
     const Vector3 normal = from_bullet(point.m_normalWorldOnB);
@@ -438,23 +466,18 @@ void Dynamics::add_contacts(const Touching& touching) {
     }
     row.lower = 0;
     row.upper = 1e10;
-    row.impulse = (on_link ? kKeptOnLink : kKept) * point.m_appliedImpulse;
+    row.impulse = kept * point.m_appliedImpulse;
+    if (row.impulse > 0) push(row, row.impulse);
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
-    const double kept[2] = {point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2};
     for (int i = 0; i < 2; ++i) {
       Row& friction = begin_row(rows_);
       add_point(friction, one, on_one, across[i]);
       add_point(friction, other, on_other, -across[i]);
       end_row(friction, anchored ? -(on_one - on_other).dot(across[i]) * kErp / dt_ : 0);
-      friction.impulse = on_link ? 0 : kKept * kept[i];
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Row& started = rows_[static_cast<std::size_t>(contact.normal + i)];
-      if (started.impulse != 0) push(started, started.impulse);
     }
     point.m_lateralFrictionDir1 = to_bullet(across[0]);
     point.m_lateralFrictionDir2 = to_bullet(across[1]);
-    if (p < kTorsionPoints) {
+    if (touching.on_link || touching.points <= kTorsionPoints) {
       const auto add_torsion = [&](const Vector3& axis) {
         Row& torsion = begin_row(rows_);
         add_turn(torsion, one, axis);
@@ -588,14 +611,13 @@ double Dynamics::solve_cone(Row& row, Row& other, double most) {
   return std::max(std::abs(one - before[0]) * row.response, std::abs(two - before[1]) * other.response);
 }
 
-// Once over all rows; joints alternately from both ends. The greatest change.
-double Dynamics::iterate(bool forwards) {
+// Once over some contacts; the greatest change.
+double Dynamics::iterate_contacts(std::size_t begin, std::size_t end) {
   double most = 0;
-  const std::size_t count = joints_.size();
-  for (std::size_t i = 0; i < count; ++i) most = std::max(most, solve(joints_[forwards ? i : count - 1 - i]));
-  for (const Contact& contact : contacts_)
-    most = std::max(most, solve(rows_[static_cast<std::size_t>(contact.normal)]));
-  for (const Contact& contact : contacts_) {
+  for (std::size_t i = begin; i < end; ++i)
+    most = std::max(most, solve(rows_[static_cast<std::size_t>(contacts_[i].normal)]));
+  for (std::size_t i = begin; i < end; ++i) {
+    const Contact& contact = contacts_[i];
     const double pressure = rows_[static_cast<std::size_t>(contact.normal)].impulse;
     if (contact.spin >= 0) {
       Row& spin = rows_[static_cast<std::size_t>(contact.spin)];
@@ -608,12 +630,22 @@ double Dynamics::iterate(bool forwards) {
       most = std::max(most, solve_cone(roll[0], roll[1], contact.point->m_combinedRollingFriction * pressure));
     }
   }
-  for (const Contact& contact : contacts_) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const Contact& contact = contacts_[i];
     Row* normal = &rows_[static_cast<std::size_t>(contact.normal)];
     if (normal->impulse == 0 && normal[1].impulse == 0 && normal[2].impulse == 0) continue;
     most = std::max(most, solve_cone(normal[1], normal[2], contact.point->m_combinedFriction * normal->impulse));
   }
   return most;
+}
+
+// Once over all rows: what is held meets other things first and the fingers last, so that it stays in the hand. Joints
+// alternately from both ends. The greatest change.
+double Dynamics::iterate(bool forwards) {
+  double most = iterate_contacts(0, link_contacts_);
+  const std::size_t count = joints_.size();
+  for (std::size_t i = 0; i < count; ++i) most = std::max(most, solve(joints_[forwards ? i : count - 1 - i]));
+  return std::max(most, iterate_contacts(link_contacts_, contacts_.size()));
 }
 
 void Dynamics::keep_results() {

@@ -67,17 +67,21 @@ class Dynamics {
   void add_gear(Articulation& tree, const JointGear& gear);
   void add_stop(Articulation& tree, const JointStop& stop);
 
-  void step(int iterations);  // at most so many
+  void step(int iterations);  // at most so many where a robot takes part
 
   // Whoever moves a body himself wakes it first, and all that lies together with it.
   void wake(const btCollisionObject& object);
   void let_sleep(bool sleep);  // false: all wake, and stay so
   // Where contacts are dropped: all wake; who slept may sleep again as soon as contacts are found anew.
   void forget_contacts();
-  // For how many steps each mover has been at rest: all that tells one moment from another beside positions and
-  // velocities, right after `forget_contacts`.
-  std::vector<int> rest() const;
-  void set_rest(const std::vector<int>& rest);
+  // How long each mover has been at rest: all that tells one moment from another beside positions and velocities, right
+  // after `forget_contacts`.
+  struct Rest {
+    int rest = 0;                                                           // steps
+    Vector3 mean_linear = Vector3::Zero(), mean_angular = Vector3::Zero();  // velocities of a free body, smoothed
+  };
+  std::vector<Rest> rest() const;
+  void set_rest(const std::vector<Rest>& rest);
 
   // What rolling and spinning friction did in the last step: contact points leave that out.
   struct Torsion {
@@ -88,13 +92,12 @@ class Dynamics {
 
  private:
   using Pair = Eigen::Array2d;
-  struct Mover {  // what moves as one: a free body or a tree
+  struct Mover : Rest {  // what moves as one: a free body or a tree
     FreeBody* free = nullptr;
     Articulation* tree = nullptr;
     int at = 0, pairs = 0;  // its part of velocities_
     int island = 0;         // the first of all movers that it touches, over others too
     bool may_sleep = true, asleep = false;
-    int rest = 0;                               // steps for which it has been at rest
     Matrix3 inverse_inertia = Matrix3::Zero();  // of a free body, world axes
     std::vector<btCollisionObject*> objects;
     std::vector<JointMotor*> motors;
@@ -121,6 +124,8 @@ class Dynamics {
     int island = 0;
     int first = 0, second = 0;  // objects of the world
     btPersistentManifold* manifold = nullptr;
+    bool on_link = false;
+    int points = 0;  // of all manifolds of these two
   };
   struct Island {
     int number = 0;
@@ -137,12 +142,13 @@ class Dynamics {
   bool meet(const btPersistentManifold& manifold) const;
   void wake_what_is_met();
   void wake_with_neighbours(int mover);
-  bool at_rest(const Mover& mover) const;
+  static bool at_rest(const Mover& mover);
+  static bool slower(const Mover& mover, double than);  // so many times the speed of rest
   void fall_asleep();
   void apply_forces();
   void find_touching();
   void solve_island(const Island& island, int iterations);
-  void add_contacts(const Touching& touching);
+  void add_contacts(const Touching& touching, double kept);
   void add_joints(const Mover& mover);
   void start_motors(const Mover& mover, std::size_t first);
   Row& begin_row(std::vector<Row>& rows);
@@ -156,6 +162,7 @@ class Dynamics {
   void push(const Row& row, double impulse);
   double solve(Row& row);
   double solve_cone(Row& row, Row& other, double most);
+  double iterate_contacts(std::size_t begin, std::size_t end);
   double iterate(bool forwards);
   void keep_results();
   void move();
@@ -180,6 +187,7 @@ class Dynamics {
   std::vector<Row> joints_, rows_;
   std::vector<std::pair<int, JointMotor*>> motor_rows_;
   std::vector<Contact> contacts_;
+  std::size_t link_contacts_ = 0;  // the first contact on a link; those before it are not
   std::vector<double> scratch_;
 };
 

@@ -8,7 +8,7 @@ namespace stampede {
 
 struct Snapshot::Data {
   std::vector<double> state;  // bodies and joints, see World::Impl::state
-  std::vector<int> rest;      // see Dynamics::rest
+  std::vector<Dynamics::Rest> rest;
   std::vector<bool> locked;
   std::int64_t steps = 0;
   operation::Controller controller;
