@@ -50,7 +50,7 @@ Scene scene_with_vases(int count, int triangles_each) {
 
 void draw_frames(benchmark::State& state, Scene made, const DrawOptions& options) {
   const auto scene = std::make_shared<const Scene>(std::move(made));
-  const std::unique_ptr<Renderer> renderer = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->load(scene);
   SceneState moment = initial_state(*scene);
   std::vector<Picture> pictures;
@@ -92,7 +92,7 @@ void triangles_100k_shadows(benchmark::State& state) {
 void load_next_scene(benchmark::State& state) {
   const std::array<std::shared_ptr<const Scene>, 2> scenes{std::make_shared<const Scene>(scene_with_five_cameras(10)),
                                                            std::make_shared<const Scene>(scene_with_five_cameras(10))};
-  const std::unique_ptr<Renderer> renderer = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> renderer = make_renderer();
   std::size_t next = 0;
   for (auto _ : state) renderer->load(scenes[next++ % 2]);
 }
