@@ -145,6 +145,7 @@ void paint_frames(EpisodePainter& painter, const Observation& observation, const
       for (const PictureKind kind : kPictureKinds) {
         if (!observation.kinds.has(kind)) continue;
         image.kind = to_string(kind);
+        image.visible = kind == PictureKind::instance ? visible_pixels(pictures[i]) : decltype(image.visible){};
         images.append(image, to_png(pictures[i], kind));
       }
       if (!observation.points) continue;
