@@ -359,17 +359,14 @@ void SoftwareRenderer::write_ids(const PixelSurface& surface, const PictureKinds
   const std::size_t count = surface.pixels();
   if (kinds.instance) picture.instance.resize(count);
   if (kinds.semantic) picture.semantic.resize(count);
-  for (std::size_t i = 0; i < count;) {
+  std::int32_t last = kNoTriangle;
+  std::uint32_t ids = 0;
+  for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t triangle = surface.triangle[i];
-    const std::uint32_t ids = triangle == kNoTriangle ? 0 : ids_of_triangle_[static_cast<std::size_t>(triangle)];
-    const std::size_t begin = i;
-    while (i < count && surface.triangle[i] == triangle) ++i;
-    if (kinds.instance)
-      std::fill(picture.instance.begin() + static_cast<std::ptrdiff_t>(begin),
-                picture.instance.begin() + static_cast<std::ptrdiff_t>(i), static_cast<std::uint16_t>(ids));
-    if (kinds.semantic)
-      std::fill(picture.semantic.begin() + static_cast<std::ptrdiff_t>(begin),
-                picture.semantic.begin() + static_cast<std::ptrdiff_t>(i), static_cast<std::uint16_t>(ids >> 16));
+    if (triangle != last) ids = triangle == kNoTriangle ? 0 : ids_of_triangle_[static_cast<std::size_t>(triangle)];
+    last = triangle;
+    if (kinds.instance) picture.instance[i] = static_cast<std::uint16_t>(ids);
+    if (kinds.semantic) picture.semantic[i] = static_cast<std::uint16_t>(ids >> 16);
   }
 }
 
