@@ -76,7 +76,8 @@ struct Side {
   }
 };
 
-int first_row(std::int32_t row) { return (row + 255) >> 8; }
+// The row or column whose middle is the first at a place or behind it.
+int first_middle(std::int32_t place) { return (place + 255) >> 8; }
 
 template <typename Sink>
 void fill_rows(int from, int to, Side left, Side right, int width, Sink& sink) {
@@ -94,7 +95,8 @@ void fill_corners(Corner a, Corner b, Corner c, int width, int height, Sink& sin
   if (c.row < a.row) std::swap(a, c);
   if (c.row < b.row) std::swap(b, c);
   const auto within = [&](int row) { return row < 0 ? 0 : row > height ? height : row; };
-  const int top = within(first_row(a.row)), middle = within(first_row(b.row)), bottom = within(first_row(c.row));
+  const int top = within(first_middle(a.row)), middle = within(first_middle(b.row)),
+            bottom = within(first_middle(c.row));
   if (top >= bottom) return;
   const std::int64_t turn = static_cast<std::int64_t>(b.column - a.column) * (c.row - a.row) -
                             static_cast<std::int64_t>(c.column - a.column) * (b.row - a.row);
@@ -117,11 +119,21 @@ std::int64_t area_of(const Corner& a, const Corner& b, const Corner& c) {
          static_cast<std::int64_t>(c.column - a.column) * (b.row - a.row);
 }
 
-bool beside(const Corner& a, const Corner& b, const Corner& c, int width, int height) {
-  const std::int32_t right = width << 8, below = height << 8;
-  return (a.column < 0 && b.column < 0 && c.column < 0) || (a.row < 0 && b.row < 0 && c.row < 0) ||
-         (a.column > right && b.column > right && c.column > right) ||
-         (a.row > below && b.row > below && c.row > below);
+std::int32_t least_of(std::int32_t a, std::int32_t b, std::int32_t c) {
+  const std::int32_t least = a < b ? a : b;
+  return least < c ? least : c;
+}
+std::int32_t most_of(std::int32_t a, std::int32_t b, std::int32_t c) {
+  const std::int32_t most = a > b ? a : b;
+  return most > c ? most : c;
+}
+
+// Whether the middle of any pixel may lie inside: not beside the picture, nor between rows or columns.
+bool may_show(const Corner& a, const Corner& b, const Corner& c, int width, int height) {
+  const int left = first_middle(least_of(a.column, b.column, c.column)),
+            right = first_middle(most_of(a.column, b.column, c.column)),
+            top = first_middle(least_of(a.row, b.row, c.row)), bottom = first_middle(most_of(a.row, b.row, c.row));
+  return left < right && top < bottom && left < width && top < height && right > 0 && bottom > 0;
 }
 
 // ---- triangles that reach behind the eye or far beside it, cut to what can be projected
@@ -265,7 +277,7 @@ void fill_thing(const SurfaceView& surface, const PinholeOfEye& eye, const Thing
     const bool whole = (corners.outside[ia] | corners.outside[ib] | corners.outside[ic]) == 0;
     if (whole) {
       const std::int64_t area = area_of(a, b, c);
-      if (area == 0 || (area > 0 && !thing.two_sided) || beside(a, b, c, surface.width, surface.height)) continue;
+      if (area == 0 || (area > 0 && !thing.two_sided) || !may_show(a, b, c, surface.width, surface.height)) continue;
     } else if (corners.z[ia] < eye.near && corners.z[ib] < eye.near && corners.z[ic] < eye.near) {
       continue;
     }
@@ -333,7 +345,7 @@ void fill_shadow(const SurfaceView& surface, const ThingInEye& thing, const Corn
     const bool whole = (corners.outside[ia] | corners.outside[ib] | corners.outside[ic]) == 0;
     if (whole) {
       const std::int64_t area = area_of(a, b, c);
-      if (area == 0 || (area > 0 && !thing.two_sided) || beside(a, b, c, surface.width, surface.height)) continue;
+      if (area == 0 || (area > 0 && !thing.two_sided) || !may_show(a, b, c, surface.width, surface.height)) continue;
     }
     const Doubles3 pa = at(ia), pb = at(ib), pc = at(ic);
     if (!plane_through(pa, pb, pc, sink.plane)) continue;
