@@ -270,9 +270,9 @@ void SoftwareRenderer::see_things(const Eye& eye) {
     const auto outside = [&](double focal, double along, double centre) {  // of a plane through the eye
       return (focal * along + centre * at.z()) / std::hypot(focal, centre);
     };
-    seen_[i] = at.z() + reach > near && at.z() - reach < far && outside(focal_x, at.x(), centre_x) > -reach &&
-                       outside(focal_x, at.x(), right) < reach && outside(focal_y, at.y(), centre_y) > -reach &&
-                       outside(focal_y, at.y(), below) < reach
+    seen_[i] = things[i].index_count > 0 && at.z() + reach > near && at.z() - reach < far &&
+                       outside(focal_x, at.x(), centre_x) > -reach && outside(focal_x, at.x(), right) < reach &&
+                       outside(focal_y, at.y(), centre_y) > -reach && outside(focal_y, at.y(), below) < reach
                    ? 1
                    : 0;
   }
