@@ -98,6 +98,11 @@ struct PixelKernels {
   // Tints what lies behind, triangle by triangle, and leaves the surface as it is.
   void (*tint)(const SurfaceView&, const PinholeOfEye&, const ThingInEye&, const CornersInEye&, const ThingPaint&,
                const LampPaint&, std::uint32_t* colours);
+  // What a picture holds, one value a pixel: three bytes; m, 0 where nothing is; and the low and high half of the ids
+  // of triangles, 0 where nothing is (null: not wanted).
+  void (*write_colours)(const SurfaceView&, const std::uint32_t* colours, std::uint8_t* rgb);
+  void (*write_depth)(const SurfaceView&, float* depth);
+  void (*write_ids)(const SurfaceView&, const std::uint32_t* ids, std::uint16_t* low, std::uint16_t* high);
 };
 
 const PixelKernels& plain_pixel_kernels();

@@ -655,6 +655,7 @@ void shade(const SurfaceView& surface, const PaintJob& job, std::uint32_t* colou
     for (int x = 0; x < surface.width;) {
       const std::int32_t triangle = triangles[x];
       const int begin = x;
+      while (x + kLaneCount <= surface.width && !any(load<Ints>(triangles + x) != triangle)) x += kLaneCount;
       while (x < surface.width && triangles[x] == triangle) ++x;
       if (triangle == kNoTriangle) continue;
       const std::int32_t thing = job.thing_of_triangle[triangle];
@@ -707,4 +708,52 @@ void tint(const SurfaceView& surface, const PinholeOfEye& eye, const ThingInEye&
   });
 }
 
-constexpr PixelKernels kKernels{fill, fill_shadow, shade, tint};
+// ---- pictures
+
+std::size_t pixels_of(const SurfaceView& surface) {
+  return static_cast<std::size_t>(surface.width) * static_cast<std::size_t>(surface.height);
+}
+
+void write_colours(const SurfaceView& surface, const std::uint32_t* colours, std::uint8_t* rgb) {
+  using Bytes = std::uint8_t __attribute__((vector_size(16)));
+  constexpr Bytes kOrder{0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15};
+  const std::size_t count = pixels_of(surface);
+  std::size_t i = 0;
+  for (; i + 6 <= count; i += 4)  // four bytes too many each, which the next overwrite
+    store(rgb + 3 * i, __builtin_shuffle(load<Bytes>(colours + i), kOrder));
+  for (; i < count; ++i)
+    for (std::size_t k = 0; k < 3; ++k) rgb[3 * i + k] = static_cast<std::uint8_t>(colours[i] >> (8 * k));
+}
+
+void write_depth(const SurfaceView& surface, float* depth) {
+  const std::size_t count = pixels_of(surface);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Floats there = 1.0F / load<Floats>(surface.nearness + i);
+    const Floats lanes = load<Ints>(surface.triangle + i) == kNoTriangle ? Floats{} : there;
+    if (i + kLanes <= count)
+      store(depth + i, lanes);
+    else
+      __builtin_memcpy(depth + i, &lanes, (count - i) * sizeof(float));
+  }
+}
+
+void write_ids(const SurfaceView& surface, const std::uint32_t* ids, std::uint16_t* low, std::uint16_t* high) {
+  using Shorts = std::uint16_t __attribute__((vector_size(16)));
+  const std::size_t count = pixels_of(surface);
+  const auto id_of = [&](std::int32_t triangle) { return triangle == kNoTriangle ? 0 : ids[triangle]; };
+  for (std::size_t i = 0; i < count;) {
+    const std::int32_t triangle = surface.triangle[i];
+    const std::uint32_t id = id_of(triangle);
+    if (i + kLanes <= count && !any(load<Ints>(surface.triangle + i) != triangle)) {
+      if (low != nullptr) store(low + i, Shorts{} + static_cast<std::uint16_t>(id));
+      if (high != nullptr) store(high + i, Shorts{} + static_cast<std::uint16_t>(id >> 16));
+      i += kLanes;
+      continue;
+    }
+    if (low != nullptr) low[i] = static_cast<std::uint16_t>(id);
+    if (high != nullptr) high[i] = static_cast<std::uint16_t>(id >> 16);
+    ++i;
+  }
+}
+
+constexpr PixelKernels kKernels{fill, fill_shadow, shade, tint, write_colours, write_depth, write_ids};

@@ -38,24 +38,6 @@ Eigen::Matrix<double, 3, 4> texels_from_world(const ShadowView& view, ShadowUse 
   return texels;
 }
 
-void write_colours(const PixelSurface& surface, std::vector<std::uint8_t>& rgb) {
-  const std::size_t count = surface.pixels();
-  rgb.resize(3 * count);
-  std::uint8_t* out = rgb.data();
-  for (std::size_t i = 0; i < count; ++i, out += 3) {
-    const std::uint32_t word = surface.colours[i];
-    out[0] = static_cast<std::uint8_t>(word);
-    out[1] = static_cast<std::uint8_t>(word >> 8);
-    out[2] = static_cast<std::uint8_t>(word >> 16);
-  }
-}
-
-void write_depth(const PixelSurface& surface, std::vector<float>& depth) {
-  depth.resize(surface.pixels());
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    depth[i] = surface.triangle[i] == kNoTriangle ? 0 : 1 / surface.nearness[i];
-}
-
 void add_colours(const PixelSurface& surface, std::vector<std::uint16_t>& sums) {
   for (std::size_t i = 0; i < surface.pixels(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
@@ -191,17 +173,16 @@ void SoftwareRenderer::draw_pinhole(const View& view, const DrawOptions& options
   const bool apart = kinds.rgb && options.samples > 1;  // then colours are drawn by themselves
   const bool coloured = kinds.rgb && !apart;
   if (coloured || kinds.depth || kinds.instance || kinds.semantic) {
-    const PixelSurface& surface = draw_surface(eye_of(view, coloured, 0, 0), options.shadows);
-    if (coloured) write_colours(surface, picture.rgb);
-    if (kinds.depth) write_depth(surface, picture.depth);
-    write_ids(surface, kinds, picture);
+    draw_surface(eye_of(view, coloured, 0, 0), options.shadows);
+    write_kinds(kinds, coloured, picture);
   }
   if (!apart) return;
   const int n = options.samples;
   sums_.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0);
-  for (int i = 0; i < n * n; ++i)
-    add_colours(draw_surface(eye_of(view, true, (i % n + 0.5) / n - 0.5, (i / n + 0.5) / n - 0.5), options.shadows),
-                sums_);
+  for (int i = 0; i < n * n; ++i) {
+    draw_surface(eye_of(view, true, (i % n + 0.5) / n - 0.5, (i / n + 0.5) / n - 0.5), options.shadows);
+    add_colours(surface_, sums_);
+  }
   picture.rgb.resize(sums_.size());
   for (std::size_t i = 0; i < sums_.size(); ++i)
     picture.rgb[i] = static_cast<std::uint8_t>((sums_[i] + n * n / 2) / (n * n));
@@ -210,7 +191,7 @@ void SoftwareRenderer::draw_pinhole(const View& view, const DrawOptions& options
 // Into surface_. Which things come from what is kept shows in no pixel: a surface does not tell in what order it was
 // filled, and a colour depends on its own triangle and pixel alone. Shadows move with others, so then only colours are
 // made anew.
-const PixelSurface& SoftwareRenderer::draw_surface(const Eye& eye, bool shadows) {
+void SoftwareRenderer::draw_surface(const Eye& eye, bool shadows) {
   const bool coloured = eye.key.coloured, keep_colours = coloured && !shadows;
   const auto& things = drawing_->things();
   see_things(eye);
@@ -228,10 +209,9 @@ const PixelSurface& SoftwareRenderer::draw_surface(const Eye& eye, bool shadows)
     surface_.clear(eye.key.width, eye.key.height, eye.key.lens[5], coloured, kBackground);
   }
   fill(eye, wanted_, surface_);
-  if (!coloured) return surface_;
+  if (!coloured) return;
   shade(eye, keep_colours ? wanted_ : seen_, shadows, surface_);
   tint(eye, shadows, surface_);
-  return surface_;
 }
 
 // Things that stand where they stood in the draw before join what is kept; when one of these moves, it begins anew.
@@ -355,19 +335,21 @@ void SoftwareRenderer::tint(const Eye& eye, bool shadows, PixelSurface& surface)
                   surface.colours.data());
 }
 
-void SoftwareRenderer::write_ids(const PixelSurface& surface, const PictureKinds& kinds, Picture& picture) const {
-  const std::size_t count = surface.pixels();
-  if (kinds.instance) picture.instance.resize(count);
-  if (kinds.semantic) picture.semantic.resize(count);
-  std::int32_t last = kNoTriangle;
-  std::uint32_t ids = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t triangle = surface.triangle[i];
-    if (triangle != last) ids = triangle == kNoTriangle ? 0 : ids_of_triangle_[static_cast<std::size_t>(triangle)];
-    last = triangle;
-    if (kinds.instance) picture.instance[i] = static_cast<std::uint16_t>(ids);
-    if (kinds.semantic) picture.semantic[i] = static_cast<std::uint16_t>(ids >> 16);
+void SoftwareRenderer::write_kinds(const PictureKinds& kinds, bool coloured, Picture& picture) {
+  const SurfaceView view = surface_.view();
+  if (coloured) {
+    picture.rgb.resize(3 * surface_.pixels());
+    kernels_.write_colours(view, surface_.colours.data(), picture.rgb.data());
   }
+  if (kinds.depth) {
+    picture.depth.resize(surface_.pixels());
+    kernels_.write_depth(view, picture.depth.data());
+  }
+  if (!kinds.instance && !kinds.semantic) return;
+  if (kinds.instance) picture.instance.resize(surface_.pixels());
+  if (kinds.semantic) picture.semantic.resize(surface_.pixels());
+  kernels_.write_ids(view, ids_of_triangle_.data(), kinds.instance ? picture.instance.data() : nullptr,
+                     kinds.semantic ? picture.semantic.data() : nullptr);
 }
 
 std::unique_ptr<Renderer> make_renderer() { return std::make_unique<SoftwareRenderer>(pixel_kernels(), true); }

@@ -39,7 +39,7 @@ class SoftwareRenderer : public Renderer {
   void draw_shadows();
   void draw_view(const View& view, const DrawOptions& options, Picture& picture);
   void draw_pinhole(const View& view, const DrawOptions& options, Picture& picture);
-  const PixelSurface& draw_surface(const Eye& eye, bool shadows);
+  void draw_surface(const Eye& eye, bool shadows);  // into surface_
   void keep_still_things(const Eye& eye, KeptView& kept);
   void see_things(const Eye& eye);
   void fill(const Eye& eye, const Flags& wanted, PixelSurface& surface);
@@ -48,7 +48,7 @@ class SoftwareRenderer : public Renderer {
   ThingInEye in_eye(const Eye& eye, std::size_t thing) const;
   ThingPaint paint_of(const Eye& eye, std::size_t thing, bool shadows) const;
   LampPaint lamp(bool shadows) const;
-  void write_ids(const PixelSurface& surface, const PictureKinds& kinds, Picture& picture) const;
+  void write_kinds(const PictureKinds& kinds, bool coloured, Picture& picture);
   const Lens& lens_of(const Camera& camera);
 
   const PixelKernels& kernels_;
