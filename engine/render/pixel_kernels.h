@@ -27,6 +27,8 @@ struct CornersInEye {
   std::int32_t* outside = nullptr;                 // not 0: cannot be projected as it is
 };
 
+inline constexpr int kShadowBorder = 6;  // pixels
+
 // Row by row: m = [turn | shift].
 using Rows = std::array<float, 12>;
 
@@ -69,9 +71,9 @@ struct ThingPaint {
 struct LampPaint {
   std::array<float, 3> colour{};
   float ambient = 0, diffuse = 0, specular = 0;
-  const float* shadow_map = nullptr;  // null: no shadows
-  int shadow_side = 0;
-  float shadow_offset = 0;  // m along the normal
+  const float* shadow_map = nullptr;  // null: no shadows; the outermost kShadowBorder pixels are 0: nothing in the way
+  int shadow_side = 0;                // pixels, with the border
+  float shadow_offset = 0;            // m along the normal
 };
 
 // How the normal of a triangle changes over the picture, up to a positive factor. A frame's scratch, one a triangle.

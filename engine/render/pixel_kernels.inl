@@ -526,37 +526,41 @@ void paint_pixel(const TextureLevels& texture, const TexturePlanes& planes, floa
   sample(texture, chosen, steps, colour);
 }
 
-// Four comparing samples around a place, each between four texels, along one axis.
+// Two comparing samples beside a place, each between two texels, along one axis. Both axes together: four and sixteen.
 struct ShadowTaps {
-  int first;
-  float weights[4] = {0, 0, 0, 0};
-  explicit ShadowTaps(float texels) {
-    const float before = texels - 0.5F - 0.75F, after = texels - 0.5F + 0.75F;
-    first = floor_of(before);
-    const int second = floor_of(after);
-    const float a = before - static_cast<float>(first), b = after - static_cast<float>(second);
-    const int offset = second - first;  // 1 or 2
-    weights[0] += 0.5F * (1 - a);
-    weights[1] += 0.5F * a;
-    weights[offset] += 0.5F * (1 - b);
-    weights[offset + 1] += 0.5F * b;
+  Ints first;
+  Floats weights[4];
+  ShadowTaps(Floats texels, int side) {
+    const Floats within = lesser_of(greater_of(texels, all(2)), all(static_cast<float>(side - 4)));
+    const Floats before = within - 1.25F, after = within + 0.25F;  // the middle of a texel lies at its half
+    first = __builtin_convertvector(before, Ints);
+    const Ints second = __builtin_convertvector(after, Ints), apart = second - first;  // 1 or 2
+    const Floats a = before - __builtin_convertvector(first, Floats),
+                 b = after - __builtin_convertvector(second, Floats);
+    const Floats near = 0.5F - 0.5F * b, far = 0.5F * b;
+    weights[0] = 0.5F - 0.5F * a;
+    weights[1] = 0.5F * a + (apart == 1 ? near : Floats{});
+    weights[2] = apart == 1 ? far : near;
+    weights[3] = apart == 1 ? Floats{} : far;
   }
 };
 
-// How much of the lamp a place sees.
-float lit_share(const LampPaint& lamp, float column, float row, float nearness) {
-  const auto side = static_cast<float>(lamp.shadow_side);
-  if (!(column > -4 && row > -4 && column < side + 4 && row < side + 4)) return 1;  // nothing is in the way there
-  const float reference = nearness > 0 ? nearness : 0;
-  const ShadowTaps across(column), along(row);
-  float share = 0;
-  for (int j = 0; j < 4; ++j)
+// How much of the lamp each place sees.
+Floats lit_share(const LampPaint& lamp, Floats column, Floats row, Floats nearness) {
+  const Floats reference = greater_of(nearness, Floats{});
+  const ShadowTaps across(column, lamp.shadow_side), along(row, lamp.shadow_side);
+  const Ints start = along.first * lamp.shadow_side + across.first;
+  Floats share{};
+  for (int j = 0; j < 4; ++j) {
+    Floats lit{};
     for (int i = 0; i < 4; ++i) {
-      const int x = across.first + i, y = along.first + j;
-      const bool inside = x >= 0 && y >= 0 && x < lamp.shadow_side && y < lamp.shadow_side;
-      const float there = inside ? lamp.shadow_map[y * lamp.shadow_side + x] : 0;
-      if (reference >= there) share += across.weights[i] * along.weights[j];
+      Floats there{};
+      for (int lane = 0; lane < kLaneCount; ++lane)
+        there[lane] = lamp.shadow_map[start[lane] + j * lamp.shadow_side + i];
+      lit += reference >= there ? across.weights[i] : Floats{};
     }
+    share += along.weights[j] * lit;
+  }
   return share;
 }
 
@@ -576,7 +580,7 @@ struct Brush {
     }
   }
 
-  Floats shadow(const Floats (&n)[3], Floats per_length, const Floats (&ray)[3], Floats nearness, Ints wanted) const {
+  Floats shadow(const Floats (&n)[3], Floats per_length, const Floats (&ray)[3], Floats nearness) const {
     Floats place[3];
     for (std::size_t k = 0; k < 3; ++k)
       place[k] = static_cast<float>(thing.eye[k]) + ray[k] / nearness + lamp.shadow_offset * per_length * n[k];
@@ -584,10 +588,7 @@ struct Brush {
     const Floats column = m[0] * place[0] + m[1] * place[1] + m[2] * place[2] + m[3];
     const Floats row = m[4] * place[0] + m[5] * place[1] + m[6] * place[2] + m[7];
     const Floats height = m[8] * place[0] + m[9] * place[1] + m[10] * place[2] + m[11];
-    Floats share = all(1);
-    for (int lane = 0; lane < kLaneCount; ++lane)
-      if (wanted[lane] != 0) share[lane] = lit_share(lamp, column[lane], row[lane], height[lane]);
-    return share;
+    return lit_share(lamp, column, row, height);
   }
 
   // Red, green and blue of 0 … 255, not rounded.
@@ -609,7 +610,7 @@ struct Brush {
     for (int i = 0; i < 5; ++i) shine *= shine;
     Floats diffuse = lamp.diffuse * lambert, specular = lambert > 0.0F ? lamp.specular * shine : Floats{};
     if (lamp.shadow_map != nullptr) {
-      const Floats share = shadow(n, per_length, ray, nearness, wanted);
+      const Floats share = shadow(n, per_length, ray, nearness);
       diffuse *= share;
       specular *= share;
     }

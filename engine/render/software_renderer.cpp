@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kKeptTextures = 128;  // between scenes
 constexpr std::size_t kKeptLenses = 16;
 constexpr std::uint32_t kBackground = 204 | 214 << 8 | 224U << 16;  // sRGB: a bright, plain wall
+constexpr int kBorderedSide = kShadowSide + 2 * kShadowBorder;
 constexpr double kRounding = 1e-5;  // of places, in m and in shares: more than all that floats lose before pixels
 
 Rows rows_of(const Eigen::Matrix<double, 3, 4>& matrix) {
@@ -34,8 +35,20 @@ enum class ShadowUse { draw, ask };
 Eigen::Matrix<double, 3, 4> texels_from_world(const ShadowView& view, ShadowUse use) {
   Eigen::Matrix<double, 3, 4> texels = view.shadow_from_world.topRows<3>();
   texels.topRows<2>() *= kShadowSide;
+  texels(0, 3) += kShadowBorder;
+  texels(1, 3) += kShadowBorder;
   if (use == ShadowUse::draw) texels.row(2) = view.eye.clip_from_world.row(2);
   return texels;
+}
+
+// Of things wider than the fit, only what lies inside throws shadows.
+void clear_border(std::vector<float>& shadow_map) {
+  for (int row = 0; row < kBorderedSide; ++row) {
+    float* at = &shadow_map[static_cast<std::size_t>(row) * kBorderedSide];
+    const bool inside = row >= kShadowBorder && row < kBorderedSide - kShadowBorder;
+    std::fill_n(at, inside ? kShadowBorder : kBorderedSide, 0.0F);
+    std::fill_n(at + kBorderedSide - kShadowBorder, kShadowBorder, 0.0F);
+  }
 }
 
 void add_colours(const PixelSurface& surface, std::vector<std::uint16_t>& sums) {
@@ -115,8 +128,8 @@ void SoftwareRenderer::draw_shadows() {
     if (!things[i].translucent)
       balls.push_back({world_from_shape_[i] * things[i].entry->centre, things[i].entry->radius});
   shadow_view_ = shadow_view(scene_->light, balls);
-  shadow_nearness_.assign(std::size_t{kShadowSide} * kShadowSide + kLanes, 0.0F);
-  const SurfaceView map{kShadowSide, kShadowSide, shadow_nearness_.data(), nullptr};
+  shadow_nearness_.assign(std::size_t{kBorderedSide} * kBorderedSide + kLanes, 0.0F);
+  const SurfaceView map{kBorderedSide, kBorderedSide, shadow_nearness_.data(), nullptr};
   const Eigen::Matrix<double, 3, 4> texels = texels_from_world(shadow_view_, ShadowUse::draw);
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (things[i].translucent) continue;
@@ -124,6 +137,7 @@ void SoftwareRenderer::draw_shadows() {
                            things[i].two_sided};
     kernels_.fill_shadow(map, thing, corners_);
   }
+  clear_border(shadow_nearness_);
 }
 
 const Lens& SoftwareRenderer::lens_of(const Camera& camera) {
@@ -308,7 +322,7 @@ LampPaint SoftwareRenderer::lamp(bool shadows) const {
   paint.specular = static_cast<float>(light.specular);
   if (!shadows) return paint;
   paint.shadow_map = shadow_nearness_.data();
-  paint.shadow_side = kShadowSide;
+  paint.shadow_side = kBorderedSide;
   // A step along the normal keeps a surface out of its own shadow, whose map knows it by steps of a texel only.
   paint.shadow_offset = static_cast<float>(1.5 * shadow_view_.texel_m);
   return paint;
