@@ -30,7 +30,7 @@ class Renderer {
                     std::vector<Picture>& pictures) = 0;
 };
 
-// Our own loops, in the calling thread. The same pixels on every processor.
+// Our own loops, in the calling thread. From the same triangles and poses, the same pixels on every processor.
 std::unique_ptr<Renderer> make_renderer();
 
 // OpenGL core profile by Mesa's llvmpipe in the calling thread (LP_NUM_THREADS=0, set when the first is made).
