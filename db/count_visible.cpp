@@ -4,13 +4,10 @@
 
 namespace stampede {
 
-std::map<int, std::int64_t> visible_pixels(std::span<const std::uint8_t> png) {
+std::vector<std::pair<int, std::int64_t>> visible_pixels(std::span<const std::uint8_t> png) {
   Picture picture;
   from_png(png, PictureKind::instance, picture);
-  std::map<int, std::int64_t> pixels;
-  for (const std::uint16_t instance : picture.instance)
-    if (instance != 0) ++pixels[instance];
-  return pixels;
+  return visible_pixels(picture);
 }
 
 void count_stored_masks(const sql::Database& database) {

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "db/sqlite.h"
 
 namespace stampede {
 
 // Of a PNG of kind `instance`: number in the mask -> pixels; the background is left out. Throws Error when it is none.
-std::map<int, std::int64_t> visible_pixels(std::span<const std::uint8_t> png);
+std::vector<std::pair<int, std::int64_t>> visible_pixels(std::span<const std::uint8_t> png);
 
 void count_stored_masks(const sql::Database& database);  // all that table image holds, into table mask_pixels
 

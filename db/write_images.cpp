@@ -67,7 +67,8 @@ void EpisodeWriter::write_masks(const EpisodeRecord& episode) {
 void EpisodeWriter::write_image(const ImageRecord& image, int camera, const std::vector<std::uint8_t>& bytes) {
   image_.run(id_, image.frame, camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
   if (image.kind != "instance") return;
-  for (const auto& [instance, pixels] : visible_pixels(bytes)) visible_.run(id_, image.frame, camera, instance, pixels);
+  const auto visible = image.visible.empty() ? visible_pixels(bytes) : image.visible;  // who painted it counted already
+  for (const auto& [instance, pixels] : visible) visible_.run(id_, image.frame, camera, instance, pixels);
 }
 
 // One picture in memory at a time.

@@ -59,6 +59,7 @@ struct ImageRecord {
   int camera = 0;    // index in EpisodeRecord::cameras
   std::string kind;  // rgb depth instance semantic points
   int width = 0, height = 0;
+  std::vector<std::pair<int, std::int64_t>> visible = {};  // of kind instance: pixels by instance; else empty
 };
 class ImageStore {
  public:

@@ -301,7 +301,7 @@ View Observer::view_from(const std::string& camera, const ScenePoses& poses) con
 
 std::vector<Picture> Observer::draw(const std::vector<View>& views, const ScenePoses& poses,
                                     const PictureKinds& kinds) {
-  if (!renderer_) renderer_ = make_osmesa_renderer();
+  if (!renderer_) renderer_ = make_renderer();
   if (!loaded_) renderer_->load(scene_);
   loaded_ = true;
   DrawOptions options;

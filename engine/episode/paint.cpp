@@ -4,10 +4,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/episode/encode_queue.h"
 #include "engine/episode/observation.h"
 #include "engine/model/camera.h"
-#include "engine/render/png.h"
-#include "engine/render/point_cloud.h"
 
 namespace stampede {
 namespace {
@@ -22,8 +21,6 @@ int camera_index(const Scene& scene, const std::string& name) {
   }
   throw Error("camera '" + name + "'", "the scene has no such camera", did_you_mean(name, names));
 }
-
-std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 }  // namespace
 
@@ -136,22 +133,13 @@ std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrame
 
 void paint_frames(EpisodePainter& painter, const Observation& observation, const std::vector<std::int64_t>& frames,
                   ImageStore& images) {
+  EncodeQueue queue(observation, painter.cameras(), images, frames.size() > 1 ? idle_encoders() : 0);
   std::vector<Picture> pictures;
   for (const std::int64_t frame : frames) {
     painter.paint(frame, pictures);
-    const std::vector<View> views = observation.points ? painter.views(frame) : std::vector<View>{};
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      ImageRecord image{frame, painter.cameras()[i], {}, pictures[i].width, pictures[i].height};
-      for (const PictureKind kind : kPictureKinds) {
-        if (!observation.kinds.has(kind)) continue;
-        image.kind = to_string(kind);
-        images.append(image, to_png(pictures[i], kind));
-      }
-      if (!observation.points) continue;
-      image.kind = "points";
-      images.append(image, bytes_of(to_ply(point_cloud(pictures[i], views[i]))));
-    }
+    queue.add(frame, pictures, observation.points ? painter.views(frame) : std::vector<View>{});
   }
+  queue.finish();
 }
 
 void paint_episode(Renderer& renderer, EpisodeRecord& episode) {

@@ -52,7 +52,7 @@ void check_all_settings(const std::map<std::string, CallSettings>& all, const Sk
 // From what was recorded, as anybody could later.
 void paint(Renderer* renderer, EpisodeRecord& record) {
   if (chosen(observation_of(record)).images == WhichFrames::none) return;
-  const std::unique_ptr<Renderer> own = renderer == nullptr ? make_osmesa_renderer() : nullptr;
+  const std::unique_ptr<Renderer> own = renderer == nullptr ? make_renderer() : nullptr;
   paint_episode(own ? *own : *renderer, record);
 }
 

@@ -1,5 +1,7 @@
 #include "engine/render/picture.h"
 
+#include <algorithm>
+
 namespace stampede {
 
 std::string_view to_string(PictureKind kind) {
@@ -23,5 +25,20 @@ bool PictureKinds::*member_of(PictureKind kind) {
 
 bool PictureKinds::has(PictureKind kind) const { return this->*member_of(kind); }
 void PictureKinds::add(PictureKind kind) { this->*member_of(kind) = true; }
+
+std::vector<std::pair<int, std::int64_t>> visible_pixels(const Picture& picture) {
+  std::vector<std::pair<int, std::int64_t>> visible;
+  const std::vector<std::uint16_t>& ids = picture.instance;
+  for (std::size_t i = 0; i < ids.size();) {
+    const std::size_t begin = i;
+    while (i < ids.size() && ids[i] == ids[begin]) ++i;
+    if (ids[begin] == 0) continue;
+    auto found = std::find_if(visible.begin(), visible.end(), [&](const auto& one) { return one.first == ids[begin]; });
+    if (found == visible.end()) found = visible.insert(visible.end(), {ids[begin], 0});
+    found->second += static_cast<std::int64_t>(i - begin);
+  }
+  std::sort(visible.begin(), visible.end());
+  return visible;
+}
 
 }  // namespace stampede

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/geometry/transform.h"
@@ -33,6 +34,9 @@ struct Picture {
   std::vector<std::uint16_t> instance;  // MaskEntry::instance; 0: background
   std::vector<std::uint16_t> semantic;  // MaskEntry::semantic; 0: background
 };
+
+// How many pixels show each instance, by its number; those of the background are left out.
+std::vector<std::pair<int, std::int64_t>> visible_pixels(const Picture& picture);
 
 // A camera at one moment.
 struct View {

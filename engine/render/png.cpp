@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/render/picture_deflate.h"
 
 namespace stampede {
 namespace {
@@ -19,14 +20,9 @@ constexpr int kMostPixels = 4096;  // a side, of what is read
 enum class Filter : std::uint8_t { none = 0, sub = 1, up = 2 };
 enum class ColourType : std::uint8_t { grey = 0, rgb = 2 };
 
-// How each kind is written: the smallest among the fast ways, of all five filters and levels 1 to 6 on drawn pictures.
-struct Style {
-  Filter filter;
-  int level;  // of libdeflate
-};
-constexpr int kRgbLevel = 2;
-constexpr Style kDepthStyle{Filter::up, 1};
-constexpr Style kIdStyle{Filter::sub, 2};
+// Of all five filters, levels 1 to 6 and our own compression, on drawn pictures: those that are both fast and small.
+// Colours change little from pixel to pixel, depth little from row to row, and ids repeat.
+constexpr int kLevel = 1;  // of libdeflate
 
 struct FreeCompressor {
   void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
@@ -34,15 +30,14 @@ struct FreeCompressor {
 
 // What a thread uses again for each picture: making a compressor costs more than compressing a small picture.
 struct Encoder {
-  std::array<std::unique_ptr<libdeflate_compressor, FreeCompressor>, 3> by_level;
-  Bytes rows;                        // with filters applied, a filter's number ahead of each
-  std::vector<std::uint16_t> above;  // the row before
+  std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor{libdeflate_alloc_compressor(kLevel)};
+  PictureDeflate own;
+  Bytes rows;                         // with filters applied, a filter's number ahead of each
+  std::vector<std::uint16_t> values;  // of depth
+  Bytes packed;                       // larger than most pictures come out
 
-  libdeflate_compressor* at(int level) {
-    auto& compressor = by_level.at(static_cast<std::size_t>(level));
-    if (!compressor) compressor.reset(libdeflate_alloc_compressor(level));
+  Encoder() {
     if (!compressor) throw std::bad_alloc();
-    return compressor.get();
   }
 };
 
@@ -81,40 +76,45 @@ void put_header(Bytes& png, int width, int height, int bits, ColourType type) {
   close_chunk(png, start);
 }
 
-// `rows` are filtered and start with the filter's number each.
-Bytes png_of_rows(int width, int height, int bits, ColourType type, const Bytes& rows, libdeflate_compressor* with) {
-  Bytes png;
+// The rows of the encoder, which are filtered and start with the filter's number each. `own`: compressed by ourselves.
+Bytes png_of_rows(int width, int height, int bits, ColourType type, Encoder& with, bool own) {
+  Bytes& png = with.packed;
   put_header(png, width, height, bits, type);
   const std::size_t start = open_chunk(png, "IDAT"), data = png.size();
-  png.resize(data + libdeflate_zlib_compress_bound(with, rows.size()));
-  const std::size_t size = libdeflate_zlib_compress(with, rows.data(), rows.size(), &png[data], png.size() - data);
-  png.resize(data + size);
+  if (own) {
+    const std::size_t pixel_size = type == ColourType::rgb ? 3 : 2;
+    with.own.add_stream(with.rows, with.rows.size() / static_cast<std::size_t>(height), pixel_size, png);
+  } else {
+    png.resize(data + libdeflate_zlib_compress_bound(with.compressor.get(), with.rows.size()));
+    png.resize(data + libdeflate_zlib_compress(with.compressor.get(), with.rows.data(), with.rows.size(), &png[data],
+                                               png.size() - data));
+  }
   close_chunk(png, start);
   close_chunk(png, open_chunk(png, "IEND"));
-  png.shrink_to_fit();
-  return png;
+  return {png.begin(), png.end()};
 }
 
-// 16-bit values, most significant byte first, by `value_of(index)`; less what the filter predicts, byte by byte.
-template <typename ValueOf>
-Bytes grey_png(int width, int height, const Style& style, const ValueOf& value_of) {
-  Encoder& with = encoder();
-  const auto pixels = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  with.rows.resize((1 + 2 * pixels) * rows);
-  with.above.assign(pixels, 0);
-  std::uint8_t* at = with.rows.data();
-  for (std::size_t row = 0, index = 0; row < rows; ++row) {
-    *at++ = static_cast<std::uint8_t>(style.filter);
-    std::uint16_t left = 0;
-    for (std::uint16_t& above : with.above) {
-      const std::uint16_t value = value_of(index++);
-      const std::uint16_t predicted = style.filter == Filter::up ? above : style.filter == Filter::sub ? left : 0;
-      *at++ = static_cast<std::uint8_t>((value >> 8) - (predicted >> 8));
-      *at++ = static_cast<std::uint8_t>(value - predicted);
-      above = left = value;
+// 16-bit values, most significant byte first; less those above, byte by byte, or as they are.
+void put_values(std::span<const std::uint16_t> values, std::size_t width, Filter filter, Bytes& rows) {
+  rows.resize(2 * values.size() + values.size() / width);
+  std::uint8_t* at = rows.data();
+  for (std::size_t row = 0; row < values.size(); row += width) {
+    *at++ = static_cast<std::uint8_t>(filter);
+    const std::uint16_t* value = &values[row];
+    if (filter == Filter::up && row > 0) {
+      const std::uint16_t* above = value - width;
+      for (std::size_t i = 0; i < width; ++i) {
+        at[2 * i] = static_cast<std::uint8_t>((value[i] >> 8) - (above[i] >> 8));
+        at[2 * i + 1] = static_cast<std::uint8_t>(value[i] - above[i]);
+      }
+    } else {
+      for (std::size_t i = 0; i < width; ++i) {
+        at[2 * i] = static_cast<std::uint8_t>(value[i] >> 8);
+        at[2 * i + 1] = static_cast<std::uint8_t>(value[i]);
+      }
     }
+    at += 2 * width;
   }
-  return png_of_rows(width, height, 16, ColourType::grey, with.rows, with.at(style.level));
 }
 
 std::uint16_t depth_value(float depth) {
@@ -193,10 +193,13 @@ Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb) {
   with.rows.resize((row_size + 1) * static_cast<std::size_t>(height));
   std::uint8_t* at = with.rows.data();
   for (std::size_t from = 0; from < rgb.size(); from += row_size) {
-    *at++ = static_cast<std::uint8_t>(Filter::none);  // flat areas: filters make more of them
-    at = std::copy_n(&rgb[from], row_size, at);
+    *at++ = static_cast<std::uint8_t>(Filter::sub);
+    const std::uint8_t* row = &rgb[from];
+    std::copy_n(row, 3, at);
+    for (std::size_t i = 3; i < row_size; ++i) at[i] = static_cast<std::uint8_t>(row[i] - row[i - 3]);
+    at += row_size;
   }
-  return png_of_rows(width, height, 8, ColourType::rgb, with.rows, with.at(kRgbLevel));
+  return png_of_rows(width, height, 8, ColourType::rgb, with, false);
 }
 
 Bytes to_png(const Picture& picture, PictureKind kind) {
@@ -204,16 +207,21 @@ Bytes to_png(const Picture& picture, PictureKind kind) {
     require(!picture.rgb.empty(), "it has no colours");
     return png_of(picture.width, picture.height, picture.rgb);
   }
-  const std::size_t count = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const auto width = static_cast<std::size_t>(picture.width);
+  const std::size_t count = width * static_cast<std::size_t>(picture.height);
   require(picture.width > 0 && picture.height > 0, "a picture without pixels is no PNG file");
+  Encoder& with = encoder();
   if (kind == PictureKind::depth) {
     require(picture.depth.size() == count, "it has no depth");
-    return grey_png(picture.width, picture.height, kDepthStyle,
-                    [&](std::size_t i) { return depth_value(picture.depth[i]); });
+    with.values.resize(count);
+    std::transform(picture.depth.begin(), picture.depth.end(), with.values.begin(), depth_value);
+    put_values(with.values, width, Filter::up, with.rows);
+    return png_of_rows(picture.width, picture.height, 16, ColourType::grey, with, false);
   }
   const std::vector<std::uint16_t>& ids = kind == PictureKind::instance ? picture.instance : picture.semantic;
   require(ids.size() == count, kind == PictureKind::instance ? "it has no instances" : "it has no classes");
-  return grey_png(picture.width, picture.height, kIdStyle, [&](std::size_t i) { return ids[i]; });
+  put_values(ids, width, Filter::none, with.rows);
+  return png_of_rows(picture.width, picture.height, 16, ColourType::grey, with, true);
 }
 
 void from_png(std::span<const std::uint8_t> png, PictureKind kind, Picture& picture) {

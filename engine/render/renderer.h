@@ -1,4 +1,4 @@
-// Draws a scene. The interface is small, so that other back ends can join; OSMesa is the one there is.
+// Draws a scene. The interface is small, so that other back ends can join.
 #pragma once
 
 #include <memory>
@@ -29,6 +29,9 @@ class Renderer {
   virtual void draw(const ScenePoses& poses, std::span<const View> views, const DrawOptions& options,
                     std::vector<Picture>& pictures) = 0;
 };
+
+// Our own loops, in the calling thread. From the same triangles and poses, the same pixels on every processor.
+std::unique_ptr<Renderer> make_renderer();
 
 // OpenGL core profile by Mesa's llvmpipe in the calling thread (LP_NUM_THREADS=0, set when the first is made).
 std::unique_ptr<Renderer> make_osmesa_renderer();

@@ -60,6 +60,12 @@ std::shared_ptr<const TessellationCache::Entry> TessellationCache::get(const Sha
   if (!bounds.isEmpty()) entry->centre = bounds.center();
   for (const auto& position : entry->mesh.positions)
     entry->radius = std::max(entry->radius, (corner(position) - entry->centre).norm());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<float>& places = entry->places.at(axis);
+    places.reserve(entry->mesh.positions.size() + kLanes);
+    for (const auto& position : entry->mesh.positions) places.push_back(position[axis]);
+    while (places.size() % kLanes != 0) places.push_back(0);
+  }
   corners_ += entry->mesh.positions.size();
   entries_.emplace(key, entry);
   return entry;
@@ -131,12 +137,16 @@ const Transform& SceneDrawing::pose_of(const Thing& thing, const ScenePoses& pos
   return (*of)[part];
 }
 
+Transform SceneDrawing::world_from_shape(const Thing& thing, const ScenePoses& poses) const {
+  return pose_of(thing, poses) * thing.part_from_shape;
+}
+
 void SceneDrawing::move(const ScenePoses& poses) {
   for (Thing& thing : things_) {
-    const Transform world_from_shape = pose_of(thing, poses) * thing.part_from_shape;
-    thing.world_centre = world_from_shape * thing.entry->centre;
-    const Eigen::Matrix3f turn = world_from_shape.linear().cast<float>();
-    const Eigen::Vector3f shift = world_from_shape.translation().cast<float>();
+    const Transform world_from_this = world_from_shape(thing, poses);
+    thing.world_centre = world_from_this * thing.entry->centre;
+    const Eigen::Matrix3f turn = world_from_this.linear().cast<float>();
+    const Eigen::Vector3f shift = world_from_this.translation().cast<float>();
     const DrawnMesh& mesh = thing.entry->mesh;
     MovedCorner* moved = &moved_[thing.first_corner];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

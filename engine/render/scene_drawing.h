@@ -43,11 +43,14 @@ struct Eye {
   int width = 0, height = 0;
 };
 
+inline constexpr std::size_t kLanes = 8;  // floats that are computed together
+
 // A shape's triangles, told apart by content: scenes of a task share most of them.
 class TessellationCache {
  public:
   struct Entry {
     DrawnMesh mesh;
+    std::array<std::vector<float>, 3> places;  // x, y, z of the mesh's corners, each padded to whole kLanes
     bool closed = true;
     Vector3 centre = Vector3::Zero();  // of a sphere around it
     double radius = 0;
@@ -70,6 +73,19 @@ class SceneDrawing {
   // out is only what no rasteriser would draw: so pixels do not depend on it. `colours`: else nothing translucent.
   void select(const Eye& eye, bool colours, Selection& selection);
 
+  struct Thing {
+    int body = -1;  // of Scene::bodies; kRobot, kRegion
+    int part = 0;   // or index of the region
+    Transform part_from_shape = Transform::Identity();
+    std::shared_ptr<const TessellationCache::Entry> entry;
+    std::uint32_t first_corner = 0, first_index = 0, index_count = 0;
+    bool two_sided = false, translucent = false;
+    std::string texture;
+    Vector3 world_centre = Vector3::Zero();  // as of the last move
+  };
+  const std::vector<Thing>& things() const { return things_; }
+  Transform world_from_shape(const Thing& thing, const ScenePoses& poses) const;  // throws Error, as move does
+
   const std::vector<StillCorner>& still() const { return still_; }
   const std::vector<MovedCorner>& moved() const { return moved_; }
   std::size_t triangles() const { return corners_of_triangles_.size() / 3; }
@@ -82,16 +98,6 @@ class SceneDrawing {
   std::vector<Ball> balls() const;
 
  private:
-  struct Thing {
-    int body = -1;  // of Scene::bodies; kRobot, kRegion
-    int part = 0;   // or index of the region
-    Transform part_from_shape = Transform::Identity();
-    std::shared_ptr<const TessellationCache::Entry> entry;
-    std::uint32_t first_corner = 0, first_index = 0, index_count = 0;
-    bool two_sided = false, translucent = false;
-    std::string texture;
-    Vector3 world_centre = Vector3::Zero();
-  };
   void add(const Scene& scene, const Shape& shape, int body, int part, std::uint32_t ids, TessellationCache& cache);
   const Transform& pose_of(const Thing& thing, const ScenePoses& poses) const;
   void project(const Thing& thing, const Eigen::Matrix4f& clip_from_world, const Eye& eye);

@@ -83,7 +83,7 @@ Picture portrait(Renderer& renderer, Scene& scene, const Bounds& bounds) {
 
 void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file) {
   const std::vector<const ScriptFile*> objects = library->files(DefinitionKind::object);
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   const int rows = (static_cast<int>(objects.size()) + kColumns - 1) / kColumns;
   Canvas canvas(kColumns * (kSide + kGap) + kGap, rows * (kSide + kCaption + kGap) + kGap, kPaper);
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -142,7 +142,7 @@ class Rendering {
     text_.object().key("episodes").array();
     // A film's pictures follow each other, so one thread draws it.
     in_order(
-        wanted.size(), film_ ? 1 : workers_, request_.stop, [] { return make_osmesa_renderer(); },
+        wanted.size(), film_ ? 1 : workers_, request_.stop, [] { return make_renderer(); },
         [&](std::unique_ptr<Renderer>& renderer, std::size_t i) { return draw(*renderer, shelf.read(wanted[i])); },
         [&](std::size_t, Drawn drawn) { keep(drawn, shelf); });
     const bool interrupted = request_.stopped() && done_ + skipped_ < static_cast<std::int64_t>(wanted.size());

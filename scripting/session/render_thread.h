@@ -29,7 +29,7 @@ class RenderThread {
   // Waits until the work is done there; throws what it threw. One caller at a time.
   void run(const std::function<void(Renderer&)>& work) {
     std::packaged_task<void()> task([this, &work] {
-      if (!renderer_) renderer_ = make_osmesa_renderer();
+      if (!renderer_) renderer_ = make_renderer();
       work(*renderer_);
     });
     std::future<void> done = task.get_future();

@@ -16,7 +16,7 @@ namespace {
 class LazyRenderer : public Renderer {
  public:
   void load(std::shared_ptr<const Scene> scene) override {
-    if (!renderer_) renderer_ = make_osmesa_renderer();
+    if (!renderer_) renderer_ = make_renderer();
     renderer_->load(std::move(scene));
   }
   void draw(const ScenePoses& poses, std::span<const View> views, const DrawOptions& options,

@@ -48,9 +48,10 @@ Scene scene_with_vases(int count, int triangles_each) {
   return scene;
 }
 
-void draw_frames(benchmark::State& state, Scene made, const DrawOptions& options) {
+void draw_frames(benchmark::State& state, Scene made, const DrawOptions& options,
+                 std::unique_ptr<Renderer> (*make)() = make_renderer) {
   const auto scene = std::make_shared<const Scene>(std::move(made));
-  const std::unique_ptr<Renderer> renderer = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> renderer = make();
   renderer->load(scene);
   SceneState moment = initial_state(*scene);
   std::vector<Picture> pictures;
@@ -76,6 +77,12 @@ void all_kinds(benchmark::State& state) { draw_frames(state, scene_with_five_cam
 void all_kinds_shadows(benchmark::State& state) {
   draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .shadows = true});
 }
+void all_kinds_opengl(benchmark::State& state) {
+  draw_frames(state, scene_with_five_cameras(10), {}, make_osmesa_renderer);
+}
+void all_kinds_shadows_opengl(benchmark::State& state) {
+  draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .shadows = true}, make_osmesa_renderer);
+}
 void depth_only(benchmark::State& state) {
   draw_frames(state, scene_with_five_cameras(10), {.kinds = {false, true, false, false}});
 }
@@ -92,7 +99,7 @@ void triangles_100k_shadows(benchmark::State& state) {
 void load_next_scene(benchmark::State& state) {
   const std::array<std::shared_ptr<const Scene>, 2> scenes{std::make_shared<const Scene>(scene_with_five_cameras(10)),
                                                            std::make_shared<const Scene>(scene_with_five_cameras(10))};
-  const std::unique_ptr<Renderer> renderer = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> renderer = make_renderer();
   std::size_t next = 0;
   for (auto _ : state) renderer->load(scenes[next++ % 2]);
 }
@@ -100,6 +107,9 @@ void load_next_scene(benchmark::State& state) {
 BENCHMARK(all_kinds)->Unit(benchmark::kMillisecond);
 BENCHMARK(all_kinds)->Unit(benchmark::kMillisecond)->Threads(2)->UseRealTime();
 BENCHMARK(all_kinds_shadows)->Unit(benchmark::kMillisecond);
+BENCHMARK(all_kinds_opengl)->Unit(benchmark::kMillisecond);
+BENCHMARK(all_kinds_opengl)->Unit(benchmark::kMillisecond)->Threads(2)->UseRealTime();
+BENCHMARK(all_kinds_shadows_opengl)->Unit(benchmark::kMillisecond);
 BENCHMARK(depth_only)->Unit(benchmark::kMillisecond);
 BENCHMARK(all_kinds_2x2_samples)->Unit(benchmark::kMillisecond);
 BENCHMARK(all_kinds_256_pixels)->Unit(benchmark::kMillisecond);

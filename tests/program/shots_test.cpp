@@ -107,7 +107,7 @@ TEST_CASE("a drawer whose front faces away from the usual camera is shown by the
   add_skill(record, 2, 20, "chest.drawer");
   add_skill(record, 20, 28, "cube");
   std::vector<Shot> shots = shots_of(record, *here);
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   for (const std::size_t usual : {0u, 1u}) {
     choose_cameras(*renderer, record, here, {"behind", "before"}, usual, shots);
     CHECK(cameras_of(shots, *here) == std::vector<std::string>{"before", "behind"});
@@ -121,7 +121,7 @@ TEST_CASE("a camera that sees about as much as the best one stays") {
   EpisodeRecord record = episode();
   add_skill(record, 0, 30, "cube");
   std::vector<Shot> shots = shots_of(record, *here);
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   for (const std::size_t usual : {0u, 1u}) {
     choose_cameras(*renderer, record, here, {"one", "two"}, usual, shots);
     CHECK(shots.front().camera == usual);

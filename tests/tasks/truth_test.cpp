@@ -186,7 +186,7 @@ std::set<int> seen(Renderer& renderer, Scene scene, const Vector3& at, double ra
 
 TEST_CASE("each number of the mask table is drawn, and what has none is in no mask, in every task that ships") {
   const int part = GENERATE(range(0, kParts));
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   for (const std::string& task : shipped_tasks(part, kParts)) {
     EpisodeScripts scripts(all_tasks(), task, first_variation(task), 61);
     RunOptions options;

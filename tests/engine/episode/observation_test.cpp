@@ -128,7 +128,7 @@ TEST_CASE("the moving block moves in the masks, and in the colours too") {
 
 TEST_CASE("pictures made later are the same bytes, one camera alone is the same as among others") {
   const EpisodeRecord& episode = seen();
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   ObservationChoice alone = observation_of(episode);
   alone.cameras = {"wrist"};
   const Observation observation = chosen(alone);

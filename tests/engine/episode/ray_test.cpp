@@ -66,7 +66,7 @@ TEST_CASE("depth and masks agree with rays through the physics") {
   const Start start = make_start(task, symbols, {});
   REQUIRE(start.scene);
   const World world(start.scene);
-  const auto renderer = make_osmesa_renderer();
+  const auto renderer = make_renderer();
   renderer->load(start.scene);
   const ScenePoses poses = scene_poses(*start.scene, initial_state(*start.scene));
   Agreement sum;

@@ -80,7 +80,7 @@ struct Studio {
   explicit Studio(Scene scene_)
       : scene(std::make_shared<Scene>(std::move(scene_))),
         poses(scene_poses(*scene, initial_state(*scene))),
-        renderer(make_osmesa_renderer()) {
+        renderer(make_renderer()) {
     renderer->load(scene);
   }
   std::vector<Picture> draw(const std::vector<View>& views, const DrawOptions& options = {}) {

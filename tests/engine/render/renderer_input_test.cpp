@@ -68,7 +68,7 @@ TEST_CASE("A scene must be numbered, loaded and whole") {
   Scene unnumbered = all_shapes();
   unnumbered.bodies[0].parts[0].instance = 0;
   CHECK_THAT(refusal([&] { Studio studio(unnumbered); }), Contains("number_masks"));
-  const std::unique_ptr<Renderer> empty = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> empty = make_renderer();
   std::vector<Picture> pictures;
   CHECK_THAT(refusal([&] { empty->draw({}, {}, {}, pictures); }), Contains("load"));
   CHECK_THAT(refusal([&] { empty->load(nullptr); }), Contains("no scene"));

@@ -1,0 +1,36 @@
+#include <utility>
+
+#include "engine/render/pixel_kernels.h"
+
+#ifdef __x86_64__
+
+#include <immintrin.h>
+
+// After all headers: what they define must run on every processor.
+#pragma GCC target("avx2")
+
+namespace stampede {
+namespace {
+
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+
+Floats square_root(Floats of) { return _mm256_sqrt_ps(of); }
+
+#include "engine/render/pixel_kernels.inl"
+
+}  // namespace
+
+const PixelKernels* avx2_pixel_kernels() { return __builtin_cpu_supports("avx2") ? &kKernels : nullptr; }
+
+}  // namespace stampede
+
+#else
+
+namespace stampede {
+
+const PixelKernels* avx2_pixel_kernels() { return nullptr; }
+
+}  // namespace stampede
+
+#endif
