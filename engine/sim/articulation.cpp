@@ -26,7 +26,7 @@ int Articulation::add(const Link& link) {
   bias_.assign(count, 0);
   mass_.assign(count * count, 0);
   factor_.assign(count * count, 0);
-  inverse_.assign(count * 2 * static_cast<std::size_t>(pairs()), 0);
+  inverse_.assign(count * static_cast<std::size_t>(width()), 0);
   return static_cast<int>(links_.size()) - 1;
 }
 
@@ -152,7 +152,7 @@ void Articulation::find_mass() {
 
 // By Cholesky factors: M = L L^T, and M^-1 = L^-T L^-1.
 void Articulation::invert_mass() {
-  const auto n = static_cast<std::size_t>(dofs()), stride = 2 * static_cast<std::size_t>(pairs());
+  const auto n = static_cast<std::size_t>(dofs()), stride = static_cast<std::size_t>(width());
   const auto l = [&](std::size_t row, std::size_t column) -> double& { return factor_[row * n + column]; };
   for (std::size_t j = 0; j < n; ++j) {
     double diagonal = mass_[j * n + j];

@@ -27,7 +27,7 @@ class Articulation {
   int add(const Link& link);                                                       // its index
   int dof(int link) const { return places_[static_cast<std::size_t>(link)].dof; }  // -1: a fixed joint
   int dofs() const { return static_cast<int>(position.size()); }
-  int pairs() const { return (dofs() + 1) / 2; }  // of numbers, in arrays that are read two at a time
+  int width() const { return (dofs() + 3) / 4 * 4; }  // of arrays that are read four numbers at a time
 
   // By dof: m or rad, and their rates. Whoever sets positions calls `place` before anything else.
   std::vector<double> position, velocity;
@@ -40,9 +40,9 @@ class Articulation {
   // in world axes.
   void prepare(const Vector3& gravity);
   // By dof, of the last `prepare`. `bias`: the torques that would keep every joint at its speed. The inverse of the
-  // mass matrix is symmetric, its rows are 2 * pairs() apart and filled up with zeros.
+  // mass matrix is symmetric, its rows are width() apart and filled up with zeros.
   const std::vector<double>& bias() const { return bias_; }
-  const double* inverse_mass(int dof) const { return &inverse_[static_cast<std::size_t>(dof * 2 * pairs())]; }
+  const double* inverse_mass(int dof) const { return &inverse_[static_cast<std::size_t>(dof * width())]; }
   double mass(int row, int column) const { return mass_[static_cast<std::size_t>(row * dofs() + column)]; }
 
   // How a point of a link moves, and how the link turns, at unit speed of each dof: calls visit(dof, linear, angular)

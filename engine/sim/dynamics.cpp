@@ -76,7 +76,7 @@ FreeBody& Dynamics::add_free(const FreeBody& body) {
   free_.push_back(body);
   Mover mover;
   mover.free = &free_.back();
-  mover.pairs = 3;
+  mover.quads = 2;
   nodes_.push_back({static_cast<int>(movers_.size()), -1});
   body.object->setUserPointer(&nodes_.back());
   mover.objects.push_back(body.object);
@@ -246,16 +246,16 @@ void Dynamics::fall_asleep() {
 }
 
 void Dynamics::apply_forces() {
-  int pairs = 0;
+  int quads = 0;
   for (Mover& mover : movers_) {
-    if (mover.tree) mover.pairs = mover.tree->pairs();
-    mover.at = pairs;
-    pairs += mover.pairs;
+    if (mover.tree) mover.quads = mover.tree->width() / 4;
+    mover.at = quads;
+    quads += mover.quads;
   }
-  velocities_.assign(static_cast<std::size_t>(pairs), Pair::Zero());
+  velocities_.assign(static_cast<std::size_t>(quads), Quad{});
   for (Mover& mover : movers_) {
     if (mover.asleep) continue;
-    double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+    double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
     if (mover.free) {
       FreeBody& body = *mover.free;
       const Matrix3 turn = from_bullet(body.object->getWorldTransform()).linear();
@@ -336,6 +336,8 @@ void Dynamics::solve_island(const Island& island, int iterations) {
   rows_.clear();
   motor_rows_.clear();
   contacts_.clear();
+  touched_.clear();
+  std::size_t link_contacts = 0;
   bool with_robot = false, settling = true;
   for (const Mover& mover : movers_) {
     if (mover.island != island.number) continue;
@@ -343,7 +345,7 @@ void Dynamics::solve_island(const Island& island, int iterations) {
     settling = settling && mover.may_sleep && slower(mover, kSettling);
   }
   for (const bool on_link : {false, true}) {
-    if (on_link) link_contacts_ = contacts_.size();
+    if (on_link) link_contacts = contacts_.size();
     const double kept = !with_robot ? kKept : on_link ? kKeptOnRobot : kKeptBesideRobot;
     for (int i = island.touching_begin; i < island.touching_end; ++i)
       if (const Touching& touching = touching_[static_cast<std::size_t>(i)]; touching.on_link == on_link)
@@ -352,8 +354,10 @@ void Dynamics::solve_island(const Island& island, int iterations) {
   for (const Mover& mover : movers_)
     if (mover.tree && mover.island == island.number) add_joints(mover);
   if (settling) iterations = std::max(iterations, kPatience);
+  const SolverIsland rows{numbers_.data(),  velocities_.data(), rows_.data(),     joints_.data(),
+                          contacts_.data(), link_contacts,      contacts_.size(), joints_.size()};
   for (int i = 0; i < iterations; ++i)
-    if (iterate(i % 2 == 1) <= kSettled) break;
+    if (solve_rows_(rows, i % 2 == 1) <= kSettled) break;
   keep_results();
 }
 
@@ -362,23 +366,23 @@ Dynamics::Node Dynamics::node_of(const btCollisionObject* object) {
   return node ? *node : Node{};
 }
 
-Dynamics::Row& Dynamics::begin_row(std::vector<Row>& rows) {
-  Row& row = rows.emplace_back();
+SolverRow& Dynamics::begin_row(std::vector<SolverRow>& rows) {
+  SolverRow& row = rows.emplace_back();
   row.numbers = static_cast<int>(numbers_.size());
   return row;
 }
 
-double* Dynamics::add_side(Row& row, const Mover& mover) {
-  const int side = row.pairs[0] == 0 ? 0 : 1;
+double* Dynamics::add_side(SolverRow& row, const Mover& mover) {
+  const int side = row.quads[0] == 0 ? 0 : 1;
   row.at[side] = mover.at;
-  row.pairs[side] = mover.pairs;
+  row.quads[side] = mover.quads;
   const std::size_t begin = numbers_.size();
-  numbers_.resize(begin + 2 * static_cast<std::size_t>(mover.pairs), Pair::Zero());
-  return numbers_[begin].data();
+  numbers_.resize(begin + 2 * static_cast<std::size_t>(mover.quads));
+  return numbers_[begin].v;
 }
 
 void Dynamics::respond(const Articulation& tree, double* jacobian) {
-  const int count = 2 * tree.pairs();
+  const int count = tree.width();
   double* response = jacobian + count;
   for (int i = 0; i < tree.dofs(); ++i) {
     const double share = jacobian[i];
@@ -388,19 +392,19 @@ void Dynamics::respond(const Articulation& tree, double* jacobian) {
   }
 }
 
-void Dynamics::add_free_side(Row& row, const Mover& mover, const Vector3& linear, const Vector3& angular) {
+void Dynamics::add_free_side(SolverRow& row, const Mover& mover, const Vector3& linear, const Vector3& angular) {
   double* jacobian = add_side(row, mover);
   const double lightness = 1 / mover.free->mass;
   const Vector3 turned = mover.inverse_inertia * angular;
   for (int i = 0; i < 3; ++i) {
     jacobian[i] = linear[i];
     jacobian[3 + i] = angular[i];
-    jacobian[6 + i] = lightness * linear[i];
-    jacobian[9 + i] = turned[i];
+    jacobian[8 + i] = lightness * linear[i];
+    jacobian[11 + i] = turned[i];
   }
 }
 
-void Dynamics::add_point(Row& row, const Node& node, const Vector3& point, const Vector3& direction) {
+void Dynamics::add_point(SolverRow& row, const Node& node, const Vector3& point, const Vector3& direction) {
   if (node.mover < 0) return;
   const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
   if (mover.free) {
@@ -414,7 +418,7 @@ void Dynamics::add_point(Row& row, const Node& node, const Vector3& point, const
   respond(*mover.tree, jacobian);
 }
 
-void Dynamics::add_turn(Row& row, const Node& node, const Vector3& direction) {
+void Dynamics::add_turn(SolverRow& row, const Node& node, const Vector3& direction) {
   if (node.mover < 0) return;
   const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
   if (mover.free) {
@@ -429,16 +433,21 @@ void Dynamics::add_turn(Row& row, const Node& node, const Vector3& direction) {
 }
 
 // The row is complete but for its bounds.
-void Dynamics::end_row(Row& row, double target) {
-  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers)];
-  Pair sum = Pair::Zero();
-  for (int side = 0; side < 2; ++side) {
-    for (int k = 0; k < row.pairs[side]; ++k) sum += numbers[k] * numbers[row.pairs[side] + k];
-    numbers += 2 * row.pairs[side];
+void Dynamics::end_row(SolverRow& row, double target) {
+  const Quad* numbers = &numbers_[static_cast<std::size_t>(row.numbers)];
+  row.response = 0;
+  for (const int quads : row.quads) {
+    for (int k = 0; k < quads; ++k)
+      for (int i = 0; i < 4; ++i) row.response += numbers[k].v[i] * numbers[quads + k].v[i];
+    numbers += 2 * quads;
   }
-  row.response = sum.sum();
   row.response_inverse = row.response > 1e-15 ? 1 / row.response : 0;
   row.target = target;
+}
+
+void Dynamics::start(SolverRow& row, double impulse) {
+  row.impulse = impulse;
+  if (impulse != 0) push(numbers_.data(), velocities_.data(), row, impulse);
 }
 
 void Dynamics::add_contacts(const Touching& touching, double kept) {
@@ -450,27 +459,26 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
     const Vector3 on_one = from_bullet(point.m_positionWorldOnA), on_other = from_bullet(point.m_positionWorldOnB);
     Vector3 across[2];
     tangents(normal, across[0], across[1]);
-    Contact contact;
-    contact.point = &point;
-    contact.first = manifold.getBody0();
-    contact.second = manifold.getBody1();
+    SolverContact contact;
     contact.normal = static_cast<int>(rows_.size());
+    contact.friction = point.m_combinedFriction;
+    contact.spinning = point.m_combinedSpinningFriction;
+    contact.rolling = point.m_combinedRollingFriction;
     const double distance = point.getDistance();
-    Row& row = begin_row(rows_);
+    SolverRow& row = begin_row(rows_);
     add_point(row, one, on_one, normal);
     add_point(row, other, on_other, -normal);
     end_row(row, distance > 0 ? -distance / dt_ : -distance * kErp / dt_);
     if (point.m_combinedRestitution > 0) {
-      const double approach = speed(row);
+      const double approach = speed(numbers_.data(), velocities_.data(), row);
       if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
     }
     row.lower = 0;
     row.upper = 1e10;
-    row.impulse = kept * point.m_appliedImpulse;
-    if (row.impulse > 0) push(row, row.impulse);
+    start(row, kept * point.m_appliedImpulse);
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     for (int i = 0; i < 2; ++i) {
-      Row& friction = begin_row(rows_);
+      SolverRow& friction = begin_row(rows_);
       add_point(friction, one, on_one, across[i]);
       add_point(friction, other, on_other, -across[i]);
       end_row(friction, anchored ? -(on_one - on_other).dot(across[i]) * kErp / dt_ : 0);
@@ -479,26 +487,27 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
     point.m_lateralFrictionDir2 = to_bullet(across[1]);
     if (touching.on_link || touching.points <= kTorsionPoints) {
       const auto add_torsion = [&](const Vector3& axis) {
-        Row& torsion = begin_row(rows_);
+        SolverRow& torsion = begin_row(rows_);
         add_turn(torsion, one, axis);
         add_turn(torsion, other, -axis);
         end_row(torsion, 0);
         return static_cast<int>(rows_.size()) - 1;
       };
-      if (point.m_combinedSpinningFriction > 0) contact.spin = add_torsion(normal);
-      if (point.m_combinedRollingFriction > 0) {
+      if (contact.spinning > 0) contact.spin = add_torsion(normal);
+      if (contact.rolling > 0) {
         contact.roll = add_torsion(across[0]);
         add_torsion(across[1]);
       }
     }
     contacts_.push_back(contact);
+    touched_.push_back({&point, manifold.getBody0(), manifold.getBody1()});
   }
 }
 
 void Dynamics::add_joints(const Mover& mover) {
   const Articulation& tree = *mover.tree;
-  const auto add_row = [&](int dof, int other) -> Row& {
-    Row& row = begin_row(joints_);
+  const auto add_row = [&](int dof, int other) -> SolverRow& {
+    SolverRow& row = begin_row(joints_);
     double* jacobian = add_side(row, mover);
     jacobian[dof] = 1;
     if (other >= 0) jacobian[other] = -1;
@@ -509,7 +518,7 @@ void Dynamics::add_joints(const Mover& mover) {
   for (JointMotor* motor : mover.motors) {
     motor->force = 0;
     if (!(motor->most_force > 0)) continue;
-    Row& row = add_row(motor->dof, -1);
+    SolverRow& row = add_row(motor->dof, -1);
     const double error = motor->position - tree.position[static_cast<std::size_t>(motor->dof)];
     const double wanted = motor->velocity + motor->position_gain * motor->erp * error / dt_;
     end_row(row, std::clamp(wanted, -motor->fastest, motor->fastest));
@@ -519,7 +528,7 @@ void Dynamics::add_joints(const Mover& mover) {
   }
   start_motors(mover, first);
   for (const JointGear& gear : mover.gears) {
-    Row& row = add_row(gear.one, gear.other);
+    SolverRow& row = add_row(gear.one, gear.other);
     const double error =
         tree.position[static_cast<std::size_t>(gear.one)] - tree.position[static_cast<std::size_t>(gear.other)];
     end_row(row, -gear.erp * error / dt_);
@@ -531,7 +540,7 @@ void Dynamics::add_joints(const Mover& mover) {
     for (const double sign : {1.0, -1.0}) {
       const double room = sign > 0 ? q - stop.lower : stop.upper - q;
       if (room > 0) continue;
-      Row& row = begin_row(joints_);
+      SolverRow& row = begin_row(joints_);
       double* jacobian = add_side(row, mover);
       jacobian[stop.dof] = sign;
       respond(tree, jacobian);
@@ -549,129 +558,47 @@ void Dynamics::start_motors(const Mover& mover, std::size_t first) {
   if (joints_.size() - first != count || mover.motors.size() != count) return;
   std::vector<double>& missing = scratch_;
   missing.assign(count, 0);
-  const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+  const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
   for (std::size_t i = 0; i < count; ++i) {
     const int dof = mover.motors[i]->dof;
     missing[static_cast<std::size_t>(dof)] = joints_[first + i].target - speeds[dof];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    Row& row = joints_[first + i];
+    SolverRow& row = joints_[first + i];
     double impulse = 0;
     for (std::size_t j = 0; j < count; ++j)
       impulse += tree.mass(mover.motors[i]->dof, static_cast<int>(j)) * missing[j];
     row.impulse = std::clamp(impulse, row.lower, row.upper);
   }
-  for (std::size_t i = 0; i < count; ++i) push(joints_[first + i], joints_[first + i].impulse);
-}
-
-double Dynamics::speed(const Row& row) const {
-  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers)];
-  const Pair* one = &velocities_[static_cast<std::size_t>(row.at[0])];
-  Pair sum = Pair::Zero();
-  for (int k = 0; k < row.pairs[0]; ++k) sum += numbers[k] * one[k];
-  numbers += 2 * row.pairs[0];
-  const Pair* other = &velocities_[static_cast<std::size_t>(row.at[1])];
-  for (int k = 0; k < row.pairs[1]; ++k) sum += numbers[k] * other[k];
-  return sum[0] + sum[1];
-}
-
-void Dynamics::push(const Row& row, double impulse) {
-  const Pair* numbers = &numbers_[static_cast<std::size_t>(row.numbers + row.pairs[0])];
-  Pair* one = &velocities_[static_cast<std::size_t>(row.at[0])];
-  for (int k = 0; k < row.pairs[0]; ++k) one[k] += impulse * numbers[k];
-  numbers += row.pairs[0] + row.pairs[1];
-  Pair* other = &velocities_[static_cast<std::size_t>(row.at[1])];
-  for (int k = 0; k < row.pairs[1]; ++k) other[k] += impulse * numbers[k];
-}
-
-// What changed, m/s or rad/s.
-double Dynamics::solve(Row& row) {
-  const double before = row.impulse;
-  row.impulse = std::clamp(before + (row.target - speed(row)) * row.response_inverse, row.lower, row.upper);
-  if (row.impulse == before) return 0;
-  push(row, row.impulse - before);
-  return std::abs(row.impulse - before) * row.response;
-}
-
-// Two rows whose impulses together are at most `most`.
-double Dynamics::solve_cone(Row& row, Row& other, double most) {
-  const double before[2] = {row.impulse, other.impulse};
-  double one = before[0] + (row.target - speed(row)) * row.response_inverse;
-  double two = before[1] + (other.target - speed(other)) * other.response_inverse;
-  const double squared = one * one + two * two;
-  if (squared > most * most) {
-    const double scale = most / std::sqrt(squared);
-    one *= scale;
-    two *= scale;
-  }
-  row.impulse = one;
-  other.impulse = two;
-  if (one != before[0]) push(row, one - before[0]);
-  if (two != before[1]) push(other, two - before[1]);
-  return std::max(std::abs(one - before[0]) * row.response, std::abs(two - before[1]) * other.response);
-}
-
-// Once over some contacts; the greatest change.
-double Dynamics::iterate_contacts(std::size_t begin, std::size_t end) {
-  double most = 0;
-  for (std::size_t i = begin; i < end; ++i)
-    most = std::max(most, solve(rows_[static_cast<std::size_t>(contacts_[i].normal)]));
-  for (std::size_t i = begin; i < end; ++i) {
-    const Contact& contact = contacts_[i];
-    const double pressure = rows_[static_cast<std::size_t>(contact.normal)].impulse;
-    if (contact.spin >= 0) {
-      Row& spin = rows_[static_cast<std::size_t>(contact.spin)];
-      spin.upper = contact.point->m_combinedSpinningFriction * pressure;
-      spin.lower = -spin.upper;
-      most = std::max(most, solve(spin));
-    }
-    if (contact.roll >= 0) {
-      Row* roll = &rows_[static_cast<std::size_t>(contact.roll)];
-      most = std::max(most, solve_cone(roll[0], roll[1], contact.point->m_combinedRollingFriction * pressure));
-    }
-  }
-  for (std::size_t i = begin; i < end; ++i) {
-    const Contact& contact = contacts_[i];
-    Row* normal = &rows_[static_cast<std::size_t>(contact.normal)];
-    if (normal->impulse == 0 && normal[1].impulse == 0 && normal[2].impulse == 0) continue;
-    most = std::max(most, solve_cone(normal[1], normal[2], contact.point->m_combinedFriction * normal->impulse));
-  }
-  return most;
-}
-
-// Once over all rows: what is held meets other things first and the fingers last, so that it stays in the hand. Joints
-// alternately from both ends. The greatest change.
-double Dynamics::iterate(bool forwards) {
-  double most = iterate_contacts(0, link_contacts_);
-  const std::size_t count = joints_.size();
-  for (std::size_t i = 0; i < count; ++i) most = std::max(most, solve(joints_[forwards ? i : count - 1 - i]));
-  return std::max(most, iterate_contacts(link_contacts_, contacts_.size()));
+  for (std::size_t i = 0; i < count; ++i) start(joints_[first + i], joints_[first + i].impulse);
 }
 
 void Dynamics::keep_results() {
   for (const auto& [row, motor] : motor_rows_) motor->force = joints_[static_cast<std::size_t>(row)].impulse / dt_;
-  for (const Contact& contact : contacts_) {
-    const Row* normal = &rows_[static_cast<std::size_t>(contact.normal)];
-    contact.point->m_appliedImpulse = normal[0].impulse;
-    contact.point->m_appliedImpulseLateral1 = normal[1].impulse;
-    contact.point->m_appliedImpulseLateral2 = normal[2].impulse;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const SolverContact& contact = contacts_[i];
+    btManifoldPoint& point = *touched_[i].point;
+    const SolverRow* normal = &rows_[static_cast<std::size_t>(contact.normal)];
+    point.m_appliedImpulse = normal[0].impulse;
+    point.m_appliedImpulseLateral1 = normal[1].impulse;
+    point.m_appliedImpulseLateral2 = normal[2].impulse;
     if (contact.spin < 0 && contact.roll < 0) continue;
     Vector3 impulse = Vector3::Zero();
     if (contact.spin >= 0)
-      impulse += rows_[static_cast<std::size_t>(contact.spin)].impulse * from_bullet(contact.point->m_normalWorldOnB);
+      impulse += rows_[static_cast<std::size_t>(contact.spin)].impulse * from_bullet(point.m_normalWorldOnB);
     if (contact.roll >= 0) {
-      const Row* roll = &rows_[static_cast<std::size_t>(contact.roll)];
-      impulse += roll[0].impulse * from_bullet(contact.point->m_lateralFrictionDir1) +
-                 roll[1].impulse * from_bullet(contact.point->m_lateralFrictionDir2);
+      const SolverRow* roll = &rows_[static_cast<std::size_t>(contact.roll)];
+      impulse += roll[0].impulse * from_bullet(point.m_lateralFrictionDir1) +
+                 roll[1].impulse * from_bullet(point.m_lateralFrictionDir2);
     }
-    torsions_.push_back({contact.first, contact.second, impulse});
+    torsions_.push_back({touched_[i].first, touched_[i].second, impulse});
   }
 }
 
 void Dynamics::move() {
   for (const Mover& mover : movers_) {
     if (mover.asleep) continue;
-    const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].data();
+    const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
     if (mover.free) {
       FreeBody& body = *mover.free;
       body.linear = {speeds[0], speeds[1], speeds[2]};

@@ -10,12 +10,12 @@
 // meets a sleeper wakes all that lies together with it.
 #pragma once
 
-#include <Eigen/Core>
 #include <deque>
 #include <memory>
 #include <vector>
 
 #include "engine/sim/articulation.h"
+#include "engine/sim/solve_rows.h"
 
 class btCollisionObject;
 class btCollisionWorld;
@@ -91,11 +91,10 @@ class Dynamics {
   const std::vector<Torsion>& torsions() const { return torsions_; }
 
  private:
-  using Pair = Eigen::Array2d;
   struct Mover : Rest {  // what moves as one: a free body or a tree
     FreeBody* free = nullptr;
     Articulation* tree = nullptr;
-    int at = 0, pairs = 0;  // its part of velocities_
+    int at = 0, quads = 0;  // its part of velocities_
     int island = 0;         // the first of all movers that it touches, over others too
     bool may_sleep = true, asleep = false;
     Matrix3 inverse_inertia = Matrix3::Zero();  // of a free body, world axes
@@ -107,18 +106,9 @@ class Dynamics {
   struct Node {  // what an object belongs to; nothing: it stands still
     int mover = -1, link = -1;
   };
-  struct Row {                              // a constraint on the speeds of one or two movers
-    int numbers = 0;                        // where its numbers begin: for each mover the Jacobian, then its response
-    int at[2] = {0, 0}, pairs[2] = {0, 0};  // of the movers, in velocities_
-    double response = 0, response_inverse = 0;  // J M^-1 J^T
-    double target = 0;                          // m/s or rad/s
-    double impulse = 0, lower = 0, upper = 0;
-  };
-  struct Contact {
+  struct Touched {
     btManifoldPoint* point = nullptr;
     const btCollisionObject *first = nullptr, *second = nullptr;
-    int normal = 0;            // its row; two rows of friction follow it
-    int spin = -1, roll = -1;  // rows, the latter of two; -1: none
   };
   struct Touching {
     int island = 0;
@@ -151,19 +141,14 @@ class Dynamics {
   void add_contacts(const Touching& touching, double kept);
   void add_joints(const Mover& mover);
   void start_motors(const Mover& mover, std::size_t first);
-  Row& begin_row(std::vector<Row>& rows);
-  double* add_side(Row& row, const Mover& mover);
-  void add_free_side(Row& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
-  void add_point(Row& row, const Node& node, const Vector3& point, const Vector3& direction);
-  void add_turn(Row& row, const Node& node, const Vector3& direction);
+  SolverRow& begin_row(std::vector<SolverRow>& rows);
+  double* add_side(SolverRow& row, const Mover& mover);
+  void add_free_side(SolverRow& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
+  void add_point(SolverRow& row, const Node& node, const Vector3& point, const Vector3& direction);
+  void add_turn(SolverRow& row, const Node& node, const Vector3& direction);
+  void start(SolverRow& row, double impulse);
   static void respond(const Articulation& tree, double* jacobian);
-  void end_row(Row& row, double target);
-  double speed(const Row& row) const;
-  void push(const Row& row, double impulse);
-  double solve(Row& row);
-  double solve_cone(Row& row, Row& other, double most);
-  double iterate_contacts(std::size_t begin, std::size_t end);
-  double iterate(bool forwards);
+  void end_row(SolverRow& row, double target);
   void keep_results();
   void move();
 
@@ -177,18 +162,19 @@ class Dynamics {
   std::deque<Node> nodes_;
   std::vector<Mover> movers_;
 
-  std::vector<Pair> velocities_;
+  std::vector<Quad> velocities_;
   std::vector<Touching> touching_;
   std::vector<Island> islands_;
   std::vector<int> waking_, least_rest_;
   std::vector<Torsion> torsions_;
   // Of the island that is being solved.
-  std::vector<Pair> numbers_;
-  std::vector<Row> joints_, rows_;
+  std::vector<Quad> numbers_;
+  std::vector<SolverRow> joints_, rows_;
   std::vector<std::pair<int, JointMotor*>> motor_rows_;
-  std::vector<Contact> contacts_;
-  std::size_t link_contacts_ = 0;  // the first contact on a link; those before it are not
+  std::vector<SolverContact> contacts_;
+  std::vector<Touched> touched_;  // of the contacts
   std::vector<double> scratch_;
+  SolveRows solve_rows_ = fastest_solve_rows();
 };
 
 }  // namespace stampede

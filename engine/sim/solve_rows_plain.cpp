@@ -1,0 +1,23 @@
+#include "engine/sim/solve_rows.h"
+
+namespace stampede {
+namespace plain_rows {
+#include "engine/sim/solve_rows.inl"
+}  // namespace plain_rows
+
+double solve_rows_plain(const SolverIsland& island, bool forwards) { return plain_rows::solve_all(island, forwards); }
+
+SolveRows fastest_solve_rows() {
+  static const SolveRows fastest = solve_rows_avx2() != nullptr ? solve_rows_avx2() : solve_rows_plain;
+  return fastest;
+}
+
+void push(const Quad* numbers, Quad* velocities, const SolverRow& row, double impulse) {
+  plain_rows::push_by(numbers, velocities, row, impulse);
+}
+
+double speed(const Quad* numbers, const Quad* velocities, const SolverRow& row) {
+  return plain_rows::speed_of(numbers, velocities, row);
+}
+
+}  // namespace stampede
