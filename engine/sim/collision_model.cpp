@@ -17,6 +17,7 @@ CollisionModel::CollisionModel(std::shared_ptr<const Scene> scene_in) : scene(st
   const auto parts = panda.body.parts.size();
   moved.assign(parts, false);
   hand.assign(parts, false);
+  joints.assign(parts, 0);
   for (std::size_t p = 0; p < parts; ++p) {
     const Part& part = panda.body.parts[p];
     const std::size_t begin = robot.size();
@@ -24,6 +25,7 @@ CollisionModel::CollisionModel(std::shared_ptr<const Scene> scene_in) : scene(st
     robot_parts.push_back({begin, robot.size()});
     const bool driven = std::find(panda.arm.begin(), panda.arm.end(), static_cast<int>(p)) != panda.arm.end();
     moved[p] = driven || (part.parent >= 0 && moved[static_cast<std::size_t>(part.parent)]);
+    joints[p] = (driven ? 1 : 0) + (part.parent >= 0 ? joints[static_cast<std::size_t>(part.parent)] : 0);
     hand[p] = part.parent >= 0 && (part.parent == panda.arm.back() || hand[static_cast<std::size_t>(part.parent)]);
   }
   hand[static_cast<std::size_t>(panda.tip_part)] = true;

@@ -28,6 +28,7 @@ struct CollisionModel {
   std::vector<Range> robot_parts;   // pieces of each part
   std::vector<bool> moved, hand;    // per robot part: moves with the arm; behind its last joint
   std::vector<int> held_partners;   // robot parts that a held body is tested against
+  std::vector<int> joints;          // per robot part: how many of the arm's joints move it
   std::vector<Piece> bodies;        // of all bodies but the robot, in body and part order
   std::vector<Range> body_pieces;   // pieces of each body
   std::vector<std::size_t> part_0;  // per body: where its parts begin among those of all bodies

@@ -62,8 +62,17 @@ void CollisionQuery::place_carried() {
     place(carried_[i - held_begin_], model_.bodies[i], world_from_held);
 }
 
+void CollisionQuery::put(const JointVector& q, double reach) {
+  const Robot& robot = model_.scene->robot;
+  for (std::size_t j = 0; j < robot.arm.size(); ++j)
+    positions_[static_cast<std::size_t>(robot.arm[j])] = q[static_cast<Eigen::Index>(j)];
+  place_robot();
+  if (state_.held_) place_carried();
+  find_near(reach);
+}
+
 // One box around all that moves leaves out most of what stands about, for all pieces of the robot at once.
-void CollisionQuery::find_near() {
+void CollisionQuery::find_near(double reach) {
   Vector3 lower = Vector3::Constant(1e9), upper = -lower;
   const auto add = [&](const Placed& placed) {
     lower = lower.cwiseMin(placed.lower);
@@ -76,8 +85,7 @@ void CollisionQuery::find_near() {
   for (std::size_t i = 0; i < state_.pieces_.size(); ++i) {
     if (i >= held_begin_ && i < held_end_) continue;
     const Placed& placed = state_.pieces_[i];
-    if (!boxes_apart(lower, upper, placed.lower, placed.upper, padding_))
-      near_.push_back(static_cast<std::uint32_t>(i));
+    if (!boxes_apart(lower, upper, placed.lower, placed.upper, reach)) near_.push_back(static_cast<std::uint32_t>(i));
   }
 }
 

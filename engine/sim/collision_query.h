@@ -13,6 +13,13 @@ class CollisionQuery {
   CollisionQuery(const CollisionState& state, double padding_m);
 
   bool touches(const JointVector& q);
+  // A bubble of free space about a configuration (Quinlan, Real-Time Modification of Collision-Free Paths, Stanford
+  // 1994). On the way to another configuration no point of a link moves further than the sum of the joints' turns times
+  // their distances from it; where that is less than the link's clearance, nothing can touch. What is not in a bubble
+  // may be free as well. Plain arithmetic in one order: the same on every processor.
+  enum class Found { bubble, free, touching };  // free: but contact is too near for a bubble
+  Found find_bubble(const JointVector& q);
+  bool in_bubble(const JointVector& q) const;  // the last that was found
   // Calls visitor(pair) for what touches, in a fixed order, until it says true: enough.
   template <typename Visitor>
   bool visit(const JointVector& q, const Visitor& visitor);
@@ -24,9 +31,33 @@ class CollisionQuery {
 
  private:
   using Piece = CollisionModel::Piece;
+  struct Lump {      // what moves as one: a part of the robot, or what it holds
+    int joints = 0;  // of the arm that move it
+    bool held = false;
+    CollisionModel::Range pieces;  // of the robot or, held, of the bodies
+    double clearance = 0;          // from bodies, m
+    std::vector<double> reach;     // per joint: of its farthest point from the joint's origin, m
+    Vector3 centre = Vector3::Zero();
+    double radius = 0;
+  };
+  struct Meeting {  // two lumps that must not meet; `other` is moved by more joints
+    std::size_t one = 0, other = 0;
+    double clearance = 0;
+  };
+  void list_lumps();
+  void measure(Lump& lump);
+  bool clear_of_bodies(Lump& lump) const;
+  bool clear_of_each_other(Meeting& meeting) const;
+  double drift(const Lump& lump, int first_joint, const JointVector& q) const;
+  const Piece& piece_of(const Lump& lump, std::size_t piece) const;
+  const Placed& placed_of(const Lump& lump, std::size_t piece) const;
+
+  void put(const JointVector& q, double reach);
+  template <typename Visitor>
+  bool visit_placed(const Visitor& visitor) const;
   void place_robot();
   void place_carried();
-  void find_near();
+  void find_near(double reach);
   bool near(const Piece& a, const Placed& at_a, const Piece& b, const Placed& at_b, double distance) const;
   template <typename Visitor>
   bool meets_bodies(const Piece& piece, const Placed& placed, bool may_touch, const Visitor& visitor) const;
@@ -42,6 +73,9 @@ class CollisionQuery {
   std::vector<bool> allowed_;        // per piece of the bodies
   std::vector<std::uint32_t> near_;  // pieces of bodies within the box around all that moves, in order
   std::size_t held_begin_ = 0, held_end_ = 0;
+  std::vector<Lump> lumps_;  // with their meetings: made when first asked for
+  std::vector<Meeting> meetings_;
+  JointVector bubble_;  // its middle
 };
 
 template <typename Visitor>
@@ -68,12 +102,13 @@ bool CollisionQuery::meets_part(const Piece& piece, const Placed& placed, int ro
 
 template <typename Visitor>
 bool CollisionQuery::visit(const JointVector& q, const Visitor& visitor) {
+  put(q, padding_);
+  return visit_placed(visitor);
+}
+
+template <typename Visitor>
+bool CollisionQuery::visit_placed(const Visitor& visitor) const {
   const Robot& robot = model_.scene->robot;
-  for (std::size_t j = 0; j < robot.arm.size(); ++j)
-    positions_[static_cast<std::size_t>(robot.arm[j])] = q[static_cast<Eigen::Index>(j)];
-  place_robot();
-  if (state_.held_) place_carried();
-  find_near();
   const bool holding = state_.held_.has_value();
   for (std::size_t i = 0; i < robot_.size(); ++i) {
     const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
