@@ -55,7 +55,12 @@ void forward_kinematics(const Body& body, const Transform& world_from_base, std:
       continue;
     }
     const Transform& parent = world_from_part[static_cast<std::size_t>(part.parent)];
-    world_from_part[i] = parent * part.joint.parent_from_joint * joint_motion(part.joint, part_positions[i]);
+    Transform& here = world_from_part[i];
+    here = product(parent, part.joint.parent_from_joint);
+    if (part.joint.kind == JointKind::slider)
+      here.translation() += part_positions[i] * (here.linear() * part.joint.axis.normalized());
+    else if (part.joint.kind == JointKind::hinge)
+      here.linear() *= Eigen::AngleAxisd(part_positions[i], part.joint.axis.normalized()).toRotationMatrix();
   }
 }
 

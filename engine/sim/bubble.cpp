@@ -8,8 +8,8 @@ namespace stampede {
 namespace {
 
 constexpr double kFar = 0.3;     // m: no link needs to be further from contact
-constexpr double kAmple = 0.06;  // m: boxes that are so far apart are not looked at more closely
-constexpr double kWanted = 0.1;  // m: nor shapes
+constexpr double kAmple = 0.03;  // m: boxes that are so far apart are not looked at more closely
+constexpr double kWanted = 0.03;  // m: nor shapes
 constexpr double kTight = 1e-3;  // m: a bubble with less is not worth its name
 constexpr double kSlack = 1e-7;  // m, for rounding
 
@@ -32,45 +32,60 @@ const CollisionQuery::Placed& CollisionQuery::placed_of(const Lump& lump, std::s
 }
 
 void CollisionQuery::list_lumps() {
-  std::vector<std::size_t> lump_of(model_.robot_parts.size(), 0);
-  const auto add = [&](int joints, bool held, CollisionModel::Range pieces) {
+  lumps_.reserve(model_.robot_parts.size() + 1);
+  meetings_.reserve(model_.scene->robot.checked_pairs.size() + model_.held_partners.size());
+  const Robot& robot = model_.scene->robot;
+  const auto add = [&](int part, int joints, bool held, CollisionModel::Range pieces) {
     Lump& lump = lumps_.emplace_back();
+    lump.part = part;
     lump.joints = joints;
     lump.held = held;
     lump.pieces = pieces;
-    lump.reach.resize(static_cast<std::size_t>(joints));
-    return lumps_.size() - 1;
+    Vector3 lower = Vector3::Constant(1e9), upper = -lower;
+    for (std::size_t i = pieces.begin; i < pieces.end; ++i) {
+      Placed placed;
+      place(placed, piece_of(lump, i), Transform::Identity());
+      lower = lower.cwiseMin(placed.lower);
+      upper = upper.cwiseMax(placed.upper);
+    }
+    lump.middle = (lower + upper) / 2;
+    lump.radius = (upper - lower).norm() / 2;
   };
   for (std::size_t p = 0; p < model_.robot_parts.size(); ++p)
-    lump_of[p] = add(model_.joints[p], false, model_.robot_parts[p]);
+    add(static_cast<int>(p), model_.joints[p], false, model_.robot_parts[p]);
   const auto add_meeting = [&](std::size_t a, std::size_t b) {
     if (lumps_[a].pieces.begin == lumps_[a].pieces.end || lumps_[b].pieces.begin == lumps_[b].pieces.end) return;
     if (lumps_[a].joints > lumps_[b].joints) std::swap(a, b);
     meetings_.push_back({a, b, 0});
   };
-  for (const auto& [one, two] : model_.scene->robot.checked_pairs)
-    add_meeting(lump_of[static_cast<std::size_t>(one)], lump_of[static_cast<std::size_t>(two)]);
-  if (!state_.held_) return;
-  const std::size_t held =
-      add(static_cast<int>(model_.scene->robot.arm.size()), true, CollisionModel::Range{held_begin_, held_end_});
-  for (const int part : model_.held_partners) add_meeting(lump_of[static_cast<std::size_t>(part)], held);
+  for (const auto& [one, two] : robot.checked_pairs)
+    add_meeting(static_cast<std::size_t>(one), static_cast<std::size_t>(two));
+  if (state_.held_) {
+    add(robot.tip_part, static_cast<int>(robot.arm.size()), true, CollisionModel::Range{held_begin_, held_end_});
+    for (const int part : model_.held_partners) add_meeting(static_cast<std::size_t>(part), lumps_.size() - 1);
+  }
+  placed_.resize(lumps_.size());
+}
+
+void CollisionQuery::place_lump(std::size_t index) {
+  if (placed_[index]) return;
+  placed_[index] = true;
+  const Lump& lump = lumps_[index];
+  if (lump.held) return place_carried();
+  for (std::size_t i = lump.pieces.begin; i < lump.pieces.end; ++i)
+    place(robot_[i], model_.robot[i], poses_[static_cast<std::size_t>(lump.part)]);
 }
 
 // The ball around a lump, and how far the joints are from what is farthest in it.
-void CollisionQuery::measure(Lump& lump) {
-  Vector3 lower = Vector3::Constant(1e9), upper = -lower;
-  for (std::size_t i = lump.pieces.begin; i < lump.pieces.end; ++i) {
-    lower = lower.cwiseMin(placed_of(lump, i).lower);
-    upper = upper.cwiseMax(placed_of(lump, i).upper);
-  }
-  lump.centre = (lower + upper) / 2;
-  lump.radius = (upper - lower).norm() / 2;
+void CollisionQuery::measure(Lump& lump) const {
+  lump.centre = (lump.held ? world_from_carried() : poses_[static_cast<std::size_t>(lump.part)]) * lump.middle;
   const std::vector<int>& arm = model_.scene->robot.arm;
-  for (std::size_t j = 0; j < lump.reach.size(); ++j)
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lump.joints); ++j)
     lump.reach[j] = (lump.centre - poses_[static_cast<std::size_t>(arm[j])].translation()).norm() + lump.radius;
 }
 
-bool CollisionQuery::clear_of_bodies(Lump& lump) const {
+bool CollisionQuery::clear_of_bodies(std::size_t index) {
+  Lump& lump = lumps_[index];
   lump.clearance = kFar;
   if (lump.joints == 0) return true;
   const bool may_touch =
@@ -80,6 +95,7 @@ bool CollisionQuery::clear_of_bodies(Lump& lump) const {
     if (may_touch && allowed_[k]) continue;
     const Placed& body = state_.pieces_[k];
     if (ball_gap(lump.centre, lump.radius, body.lower, body.upper) - padding_ >= lump.clearance) continue;
+    place_lump(index);
     for (std::size_t i = lump.pieces.begin; i < lump.pieces.end; ++i) {
       const Placed& placed = placed_of(lump, i);
       double gap = box_gap(placed.lower, placed.upper, body.lower, body.upper);
@@ -87,18 +103,22 @@ bool CollisionQuery::clear_of_bodies(Lump& lump) const {
       if (gap < kAmple)
         gap = std::max(gap, gap_between(piece_of(lump, i).convex, placed.world_from_shape, model_.bodies[k].convex,
                                         body.world_from_shape, kWanted));
-      if (gap - padding_ < kTight) return false;
       lump.clearance = std::min(lump.clearance, gap - padding_);
+      if (gap - padding_ < kTight && closer_than(piece_of(lump, i).convex, placed.world_from_shape,
+                                                 model_.bodies[k].convex, body.world_from_shape, padding_))
+        return false;
     }
   }
   return true;
 }
 
-bool CollisionQuery::clear_of_each_other(Meeting& meeting) const {
+bool CollisionQuery::clear_of_each_other(Meeting& meeting) {
   const Lump &one = lumps_[meeting.one], &other = lumps_[meeting.other];
   meeting.clearance = (one.centre - other.centre).norm() - one.radius - other.radius;
   if (meeting.clearance >= kWanted) return true;
   meeting.clearance = kWanted;
+  place_lump(meeting.one);
+  place_lump(meeting.other);
   for (std::size_t i = one.pieces.begin; i < one.pieces.end; ++i)
     for (std::size_t k = other.pieces.begin; k < other.pieces.end; ++k) {
       const Placed &at_i = placed_of(one, i), &at_k = placed_of(other, k);
@@ -107,8 +127,10 @@ bool CollisionQuery::clear_of_each_other(Meeting& meeting) const {
       if (gap < kAmple)
         gap = std::max(gap, gap_between(piece_of(one, i).convex, at_i.world_from_shape, piece_of(other, k).convex,
                                         at_k.world_from_shape, kWanted));
-      if (gap < kTight) return false;
       meeting.clearance = std::min(meeting.clearance, gap);
+      if (gap < kTight && closer_than(piece_of(one, i).convex, at_i.world_from_shape, piece_of(other, k).convex,
+                                      at_k.world_from_shape, 0))
+        return false;
     }
   return true;
 }
@@ -116,16 +138,30 @@ bool CollisionQuery::clear_of_each_other(Meeting& meeting) const {
 CollisionQuery::Found CollisionQuery::find_bubble(const JointVector& q) {
   if (lumps_.empty()) list_lumps();
   bubble_ = q;
-  put(q, padding_ + kFar);
-  bool clear = true;
+  set_positions(q);
+  const Robot& robot = model_.scene->robot;
+  forward_kinematics(robot.body, robot.body.world_from_body, positions_, poses_);
+  std::fill(placed_.begin(), placed_.end(), false);
+  Vector3 lower = Vector3::Constant(1e9), upper = -lower;
   for (Lump& lump : lumps_) {
     if (lump.pieces.begin == lump.pieces.end) continue;
     measure(lump);
-    clear = clear && clear_of_bodies(lump);
+    if (lump.joints == 0) continue;
+    lower = lower.cwiseMin((lump.centre.array() - lump.radius).matrix());
+    upper = upper.cwiseMax((lump.centre.array() + lump.radius).matrix());
   }
-  for (Meeting& meeting : meetings_) clear = clear && clear_of_each_other(meeting);
-  if (clear) return Found::bubble;
-  return visit_placed([](const CollisionPair&) { return true; }) ? Found::touching : Found::free;
+  find_near(lower, upper, padding_ + kFar);
+  double least = kFar;
+  for (std::size_t i = lumps_.size(); i-- > 0;) {  // the hand first: it is what meets things
+    if (lumps_[i].pieces.begin == lumps_[i].pieces.end) continue;
+    if (!clear_of_bodies(i)) return Found::touching;
+    least = std::min(least, lumps_[i].clearance);
+  }
+  for (Meeting& meeting : meetings_) {
+    if (!clear_of_each_other(meeting)) return Found::touching;
+    least = std::min(least, meeting.clearance);
+  }
+  return least < kTight ? Found::free : Found::bubble;
 }
 
 // How far a point of the lump can be from where it was in the bubble's middle, seen from the link before `first_joint`.

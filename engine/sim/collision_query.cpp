@@ -40,7 +40,7 @@ CollisionQuery::CollisionQuery(const CollisionState& state, double padding_m)
 }
 
 void CollisionQuery::place(Placed& placed, const CollisionModel::Piece& piece, const Transform& world_from_part) {
-  placed.world_from_shape = world_from_part * piece.part_from_shape;
+  placed.world_from_shape = product(world_from_part, piece.part_from_shape);
   const Vector3 centre = placed.world_from_shape * piece.convex.box_centre;
   const Vector3 reach = placed.world_from_shape.linear().cwiseAbs() * piece.convex.box_half;
   placed.lower = centre - reach;
@@ -54,25 +54,25 @@ void CollisionQuery::place_robot() {
     place(robot_[i], model_.robot[i], poses_[static_cast<std::size_t>(model_.robot[i].part.part)]);
 }
 
-void CollisionQuery::place_carried() {
+Transform CollisionQuery::world_from_carried() const {
   const Robot& robot = model_.scene->robot;
-  const Transform world_from_held =
-      poses_[static_cast<std::size_t>(robot.tip_part)] * robot.tip_part_from_tip * state_.tip_from_held_;
+  return poses_[static_cast<std::size_t>(robot.tip_part)] * robot.tip_part_from_tip * state_.tip_from_held_;
+}
+
+void CollisionQuery::place_carried() {
+  const Transform world_from_held = world_from_carried();
   for (std::size_t i = held_begin_; i < held_end_; ++i)
     place(carried_[i - held_begin_], model_.bodies[i], world_from_held);
 }
 
-void CollisionQuery::put(const JointVector& q, double reach) {
+void CollisionQuery::set_positions(const JointVector& q) {
   const Robot& robot = model_.scene->robot;
   for (std::size_t j = 0; j < robot.arm.size(); ++j)
     positions_[static_cast<std::size_t>(robot.arm[j])] = q[static_cast<Eigen::Index>(j)];
-  place_robot();
-  if (state_.held_) place_carried();
-  find_near(reach);
 }
 
 // One box around all that moves leaves out most of what stands about, for all pieces of the robot at once.
-void CollisionQuery::find_near(double reach) {
+void CollisionQuery::find_near() {
   Vector3 lower = Vector3::Constant(1e9), upper = -lower;
   const auto add = [&](const Placed& placed) {
     lower = lower.cwiseMin(placed.lower);
@@ -81,6 +81,10 @@ void CollisionQuery::find_near(double reach) {
   for (std::size_t i = 0; i < robot_.size(); ++i)
     if (model_.moved[static_cast<std::size_t>(model_.robot[i].part.part)]) add(robot_[i]);
   for (const Placed& placed : carried_) add(placed);
+  find_near(lower, upper, padding_);
+}
+
+void CollisionQuery::find_near(Vector3 lower, Vector3 upper, double reach) {
   near_.clear();
   for (std::size_t i = 0; i < state_.pieces_.size(); ++i) {
     if (i >= held_begin_ && i < held_end_) continue;

@@ -1,6 +1,8 @@
 // One thread's working memory for questions to one CollisionState. Room-internal.
 #pragma once
 
+#include <array>
+
 #include "engine/sim/collision_model.h"
 #include "engine/sim/collision_state.h"
 
@@ -31,12 +33,14 @@ class CollisionQuery {
 
  private:
   using Piece = CollisionModel::Piece;
-  struct Lump {      // what moves as one: a part of the robot, or what it holds
-    int joints = 0;  // of the arm that move it
+  struct Lump {                        // what moves as one: a part of the robot, or what it holds
+    int part = 0;                      // of the robot: it, or the tip's
+    int joints = 0;                    // of the arm that move it
+    Vector3 middle = Vector3::Zero();  // of the ball around it, in the part's frame
     bool held = false;
-    CollisionModel::Range pieces;  // of the robot or, held, of the bodies
-    double clearance = 0;          // from bodies, m
-    std::vector<double> reach;     // per joint: of its farthest point from the joint's origin, m
+    CollisionModel::Range pieces;    // of the robot or, held, of the bodies
+    double clearance = 0;            // from bodies, m
+    std::array<double, 16> reach{};  // per joint: of its farthest point from the joint's origin, m
     Vector3 centre = Vector3::Zero();
     double radius = 0;
   };
@@ -45,19 +49,22 @@ class CollisionQuery {
     double clearance = 0;
   };
   void list_lumps();
-  void measure(Lump& lump);
-  bool clear_of_bodies(Lump& lump) const;
-  bool clear_of_each_other(Meeting& meeting) const;
+  void measure(Lump& lump) const;
+  bool clear_of_bodies(std::size_t index);  // exactly; false: it touches
+  bool clear_of_each_other(Meeting& meeting);
   double drift(const Lump& lump, int first_joint, const JointVector& q) const;
   const Piece& piece_of(const Lump& lump, std::size_t piece) const;
   const Placed& placed_of(const Lump& lump, std::size_t piece) const;
 
-  void put(const JointVector& q, double reach);
+  void set_positions(const JointVector& q);
+  void place_lump(std::size_t index);
   template <typename Visitor>
   bool visit_placed(const Visitor& visitor) const;
   void place_robot();
   void place_carried();
-  void find_near(double reach);
+  Transform world_from_carried() const;
+  void find_near(Vector3 lower, Vector3 upper, double reach);
+  void find_near();
   bool near(const Piece& a, const Placed& at_a, const Piece& b, const Placed& at_b, double distance) const;
   template <typename Visitor>
   bool meets_bodies(const Piece& piece, const Placed& placed, bool may_touch, const Visitor& visitor) const;
@@ -75,7 +82,8 @@ class CollisionQuery {
   std::size_t held_begin_ = 0, held_end_ = 0;
   std::vector<Lump> lumps_;  // with their meetings: made when first asked for
   std::vector<Meeting> meetings_;
-  JointVector bubble_;  // its middle
+  std::vector<bool> placed_;  // per lump, at the bubble's middle
+  JointVector bubble_;        // its middle
 };
 
 template <typename Visitor>
@@ -102,7 +110,10 @@ bool CollisionQuery::meets_part(const Piece& piece, const Placed& placed, int ro
 
 template <typename Visitor>
 bool CollisionQuery::visit(const JointVector& q, const Visitor& visitor) {
-  put(q, padding_);
+  set_positions(q);
+  place_robot();
+  if (state_.held_) place_carried();
+  find_near();
   return visit_placed(visitor);
 }
 
