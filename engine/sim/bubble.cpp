@@ -7,11 +7,11 @@
 namespace stampede {
 namespace {
 
-constexpr double kFar = 0.3;     // m: no link needs to be further from contact
-constexpr double kAmple = 0.03;  // m: boxes that are so far apart are not looked at more closely
+constexpr double kFar = 0.3;      // m: no link needs to be further from contact
+constexpr double kAmple = 0.03;   // m: boxes that are so far apart are not looked at more closely
 constexpr double kWanted = 0.03;  // m: nor shapes
-constexpr double kTight = 1e-3;  // m: a bubble with less is not worth its name
-constexpr double kSlack = 1e-7;  // m, for rounding
+constexpr double kTight = 1e-3;   // m: a bubble with less is not worth its name
+constexpr double kSlack = 1e-7;   // m, for rounding
 
 double box_gap(const Vector3& lower_a, const Vector3& upper_a, const Vector3& lower_b, const Vector3& upper_b) {
   return (lower_a - upper_b).cwiseMax(lower_b - upper_a).cwiseMax(0.0).norm();
