@@ -109,6 +109,6 @@ struct PixelKernels {
 
 const PixelKernels& plain_pixel_kernels();
 const PixelKernels* avx2_pixel_kernels();  // null where the processor has none
-const PixelKernels& pixel_kernels();       // the fastest
+const PixelKernels& pixel_kernels();       // the fastest that may be used, see may_use_avx2
 
 }  // namespace stampede

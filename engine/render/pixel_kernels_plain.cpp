@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/processor.h"
 #include "engine/render/pixel_kernels.h"
 
 namespace stampede {
@@ -21,8 +22,7 @@ Floats square_root(Floats of) {
 const PixelKernels& plain_pixel_kernels() { return kKernels; }
 
 const PixelKernels& pixel_kernels() {
-  static const PixelKernels& fastest = avx2_pixel_kernels() != nullptr ? *avx2_pixel_kernels() : plain_pixel_kernels();
-  return fastest;
+  return may_use_avx2() && avx2_pixel_kernels() != nullptr ? *avx2_pixel_kernels() : plain_pixel_kernels();
 }
 
 }  // namespace stampede

@@ -39,7 +39,7 @@ struct SolverIsland {
 using SolveRows = double (*)(const SolverIsland& island, bool forwards);
 double solve_rows_plain(const SolverIsland& island, bool forwards);
 SolveRows solve_rows_avx2();  // null where the processor has none
-SolveRows fastest_solve_rows();
+SolveRows fastest_solve_rows();  // that may be used, see may_use_avx2
 
 // What an impulse does to the velocities.
 void push(const Quad* numbers, Quad* velocities, const SolverRow& row, double impulse);

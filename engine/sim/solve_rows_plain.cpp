@@ -1,5 +1,7 @@
 #include "engine/sim/solve_rows.h"
 
+#include "engine/base/processor.h"
+
 namespace stampede {
 namespace plain_rows {
 #include "engine/sim/solve_rows.inl"
@@ -8,8 +10,7 @@ namespace plain_rows {
 double solve_rows_plain(const SolverIsland& island, bool forwards) { return plain_rows::solve_all(island, forwards); }
 
 SolveRows fastest_solve_rows() {
-  static const SolveRows fastest = solve_rows_avx2() != nullptr ? solve_rows_avx2() : solve_rows_plain;
-  return fastest;
+  return may_use_avx2() && solve_rows_avx2() != nullptr ? solve_rows_avx2() : solve_rows_plain;
 }
 
 void push(const Quad* numbers, Quad* velocities, const SolverRow& row, double impulse) {

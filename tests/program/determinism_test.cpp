@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "db/catalogue.h"
 #include "tests/program/say.h"
@@ -45,6 +46,17 @@ TEST_CASE("two workers write what one writes, a second run adds nothing, replay 
   const Said counted = say({"query", folder / "one.db", "SELECT count(*) AS n FROM episodes", "--format", "csv"});
   CHECK(counted.out == "n\n4\n");
   CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
+}
+
+TEST_CASE("processors with AVX2 and without write the same catalogue, pictures included") {
+  const Folder folder;
+  const std::vector<std::string> more = {"--episodes", "1", "--images", "keyframes", "--shadows"};
+  REQUIRE(say(run_words(folder / "wide.db", more)).code == kDone);
+  ::setenv("STAMPEDE_NO_AVX2", "1", 1);
+  const int code = say(run_words(folder / "plain.db", more)).code;
+  ::unsetenv("STAMPEDE_NO_AVX2");
+  REQUIRE(code == kDone);
+  CHECK(hash_of(folder / "wide.db") == hash_of(folder / "plain.db"));
 }
 
 TEST_CASE("the shards of a run, merged or in one file, are the undivided run") {

@@ -278,3 +278,111 @@ TEST_CASE("many places in one call get the answers of one call each, and a copy 
   CHECK_FALSE(moved.free(world.arm().home()));
   CHECK(world.collision_state().free(world.arm().home()));
 }
+
+namespace {
+
+// All kinds of shapes around the arm, a flat hull and a line among them.
+Scene all_kinds(int count, Random& random) {
+  Scene scene = table_scene(1);
+  for (int i = 0; i < count; ++i) {
+    Body body = box_body("thing" + std::to_string(i), {0.1, 0.06, 0.14}, {0, 0, 0}, 0);
+    Shape& shape = body.parts[0].shapes[0];
+    switch (i % 7) {
+      case 1:
+        shape = sphere(0.06);
+        break;
+      case 2:
+      case 3:
+      case 4:
+        shape.kind = i % 7 == 2 ? ShapeKind::cylinder : i % 7 == 3 ? ShapeKind::capsule : ShapeKind::cone;
+        shape.radius = 0.04;
+        shape.length = 0.16;
+        break;
+      case 5:
+      case 6:  // flat; all in a line
+        shape.kind = ShapeKind::hull;
+        for (int k = 0; k < 6; ++k)
+          shape.points.push_back({random.between(-0.1, 0.1), i % 7 == 5 ? random.between(-0.1, 0.1) : 0, 0});
+        break;
+      default:
+        break;
+    }
+    do {
+      body.world_from_body = random_pose(random, 0.8);
+      body.world_from_body.translation().z() = random.between(0.05, 1.0);
+    } while (body.world_from_body.translation().head<2>().norm() < 0.3);
+    add_body(scene, body);
+  }
+  return scene;
+}
+
+JointVector random_configuration(const Arm& arm, Random& random) {
+  JointVector q(arm.joints());
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    const JointLimits& limits = arm.limits()[static_cast<std::size_t>(j)];
+    q[j] = random.between(limits.lower, limits.upper);
+  }
+  return q;
+}
+
+}  // namespace
+
+TEST_CASE("bubbles leave out no contact, whatever stands about and whatever is held", "[sim]") {
+  Random random(RandomKey("bubbles"));
+  for (int round = 0; round < 12; ++round) {
+    World world(shared(all_kinds(round == 11 ? 0 : 7, random)));
+    CollisionState state = world.collision_state();
+    if (round % 3 == 1) state.hold(body_index(world, "cube1"), translation(0, 0, 0.02));
+    const double padding = round % 2 == 0 ? 0 : 0.005;
+    int free_edges = 0, touching_edges = 0;
+    for (int k = 0; k < 60; ++k) {
+      const JointVector a = random_configuration(world.arm(), random);
+      JointVector b = a;
+      for (double& value : b) value += random.between(-0.4, 0.4);
+      if (!state.free(a, padding)) continue;
+      std::vector<JointVector> samples;
+      const int count = static_cast<int>(std::ceil((b - a).cwiseAbs().maxCoeff() / 0.005));
+      for (int i = 1; i <= count; ++i) samples.push_back(a + (static_cast<double>(i) / count) * (b - a));
+      const auto touching =
+          std::find_if(samples.begin(), samples.end(), [&](const JointVector& q) { return !state.free(q, padding); });
+      CHECK(state.first_touching(samples, padding) == static_cast<std::size_t>(touching - samples.begin()));
+      CHECK(state.edge_free(a, b, 0.005, padding) == (touching == samples.end()));
+      (touching == samples.end() ? free_edges : touching_edges) += 1;
+    }
+    CHECK(free_edges + touching_edges > 0);
+  }
+}
+
+TEST_CASE("what is held may be larger than the arm", "[sim]") {
+  Scene scene = table_scene(0);
+  add_body(scene, box_body("plank", {2.4, 0.2, 0.02}, {0, 1.5, 0.5}, 1));
+  World world(shared(scene));
+  CollisionState state = world.collision_state();
+  state.hold(body_index(world, "plank"), translation(0, 0, 0.02));
+  Random random(RandomKey("plank"));
+  const JointVector home = world.arm().home();
+  for (int k = 0; k < 40; ++k) {
+    JointVector to = home;
+    for (double& value : to) value += random.between(-0.3, 0.3);
+    bool free = true;
+    const int count = static_cast<int>(std::ceil((to - home).cwiseAbs().maxCoeff() / 0.01));
+    for (int i = 1; i <= count; ++i) free = free && state.free(home + (static_cast<double>(i) / count) * (to - home));
+    CHECK(state.edge_free(home, to, 0.01) == free);
+  }
+}
+
+TEST_CASE("among a thousand things the answers are those for each alone", "[sim]") {
+  Random random(RandomKey("thousand"));
+  Scene scene = table_scene(0);
+  for (int i = 0; i < 1000; ++i)
+    add_body(scene, box_body("pebble" + std::to_string(i), Vector3::Constant(0.02),
+                             {random.between(-0.9, 0.9), random.between(-0.9, 0.9), random.between(0.02, 1)}, 0));
+  World world(shared(scene));
+  const CollisionState state = world.collision_state();
+  for (int k = 0; k < 20; ++k) {
+    const JointVector a = random_configuration(world.arm(), random);
+    const bool free = state.free(a);
+    CHECK(free == state.contacts(a).empty());
+    CHECK(state.first_touching(std::span(&a, 1)) == (free ? 1U : 0U));
+  }
+}

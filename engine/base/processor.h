@@ -1,0 +1,10 @@
+// What the processor can do beyond what every one can.
+#pragma once
+
+namespace stampede {
+
+// Inner loops are compiled twice and give the same bytes either way. The environment variable STAMPEDE_NO_AVX2, set to
+// anything, has the plain ones used: for tests, and to see what AVX2 is worth.
+bool may_use_avx2();
+
+}  // namespace stampede
