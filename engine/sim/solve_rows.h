@@ -38,7 +38,7 @@ struct SolverIsland {
 // alternately from both ends. The greatest change of a row's speed, m/s or rad/s.
 using SolveRows = double (*)(const SolverIsland& island, bool forwards);
 double solve_rows_plain(const SolverIsland& island, bool forwards);
-SolveRows solve_rows_avx2();  // null where the processor has none
+SolveRows solve_rows_avx2();     // null where the processor has none
 SolveRows fastest_solve_rows();  // that may be used, see may_use_avx2
 
 // What an impulse does to the velocities.

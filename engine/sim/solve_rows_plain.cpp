@@ -1,6 +1,5 @@
-#include "engine/sim/solve_rows.h"
-
 #include "engine/base/processor.h"
+#include "engine/sim/solve_rows.h"
 
 namespace stampede {
 namespace plain_rows {
