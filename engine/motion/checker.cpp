@@ -1,6 +1,7 @@
 #include "engine/motion/checker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stampede {
@@ -29,7 +30,7 @@ double joint_gap(const JointVector& a, const JointVector& b) {
 }
 
 Checker::Checker(const CollisionState& state, double padding_m, const std::vector<JointVector>& ends)
-    : state_(state), padding_m_(std::max(0.0, padding_m)) {
+    : state_(state), padding_m_(std::max(0.0, padding_m)), many_(state) {
   if (padding_m_ <= 0) return;
   for (const JointVector& end : ends)
     if (!state_.free(end, padding_m_)) excused_.push_back(end);
@@ -45,29 +46,30 @@ bool Checker::free(const JointVector& q) const { return state_.free(q, padding_a
 
 std::string Checker::contact(const JointVector& q) const { return contact_text(state_, q, padding_at(q)); }
 
-// Stretches of equal padding are asked about together.
-std::size_t Checker::first_touching(std::span<const JointVector> configurations) const {
-  std::size_t begin = 0;
-  while (begin < configurations.size()) {
-    const double padding = padding_at(configurations[begin]);
-    std::size_t end = begin + 1;
-    while (end < configurations.size() && padding_at(configurations[end]) == padding) ++end;
-    const std::size_t free = state_.first_touching(configurations.subspan(begin, end - begin), padding);
-    if (free < end - begin) return begin + free;
-    begin = end;
-  }
-  return configurations.size();
+std::size_t Checker::first_touching(std::span<const JointVector> configurations) {
+  paddings_.clear();
+  for (const JointVector& q : configurations) paddings_.push_back(padding_at(q));
+  return many_.first_touching(configurations, paddings_);
 }
 
-bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_rad) const {
-  if (excused_.empty()) return state_.edge_free(a, b, step_rad, padding_m_);
-  const int count = static_cast<int>(std::ceil(joint_gap(a, b) / step_rad));
-  std::vector<JointVector> samples{b};
-  int stride = 1;
-  while (stride < count) stride *= 2;
-  for (; stride >= 2; stride /= 2)
-    for (int i = stride / 2; i < count; i += stride) samples.push_back(a + (static_cast<double>(i) / count) * (b - a));
-  return first_touching(samples) == samples.size();
+// Each eight that are asked about together are spread over the whole edge (Thomason, Kingston, Kavraki, ICRA 2024,
+// doi:10.1109/ICRA57147.2024.10611190).
+bool Checker::edge_free(const JointVector& a, const JointVector& b, double step_rad) {
+  constexpr int kTogether = 8;
+  const JointVector way = b - a;
+  const int count = std::max(1, static_cast<int>(std::ceil(joint_gap(a, b) / step_rad)));
+  const int rounds = (count + kTogether - 1) / kTogether;
+  std::array<JointVector, kTogether> samples;
+  std::array<double, kTogether> paddings{};
+  for (int round = rounds; round > 0; --round) {
+    std::size_t together = 0;
+    for (int i = round; i <= count; i += rounds, ++together) {
+      samples[together] = i == count ? b : JointVector(a + (static_cast<double>(i) / count) * way);
+      paddings[together] = padding_at(samples[together]);
+    }
+    if (!many_.all_free(std::span(samples).first(together), std::span(paddings).first(together))) return false;
+  }
+  return true;
 }
 
 namespace {
@@ -75,7 +77,7 @@ namespace {
 // Collects configurations and asks about many at once.
 class Batch {
  public:
-  explicit Batch(const Checker& checker) : checker_(checker) { samples_.reserve(kSize); }
+  explicit Batch(Checker& checker) : checker_(checker) { samples_.reserve(kSize); }
   // The first that touched something, among those added so far; asked when enough have come together, or at the end.
   std::optional<JointVector> add(const JointVector& q) {
     samples_.push_back(q);
@@ -91,14 +93,13 @@ class Batch {
 
  private:
   static constexpr std::size_t kSize = 64;
-  const Checker& checker_;
+  Checker& checker_;
   std::vector<JointVector> samples_;
 };
 
 }  // namespace
 
-std::optional<JointVector> first_touch(const Checker& checker, const std::vector<JointVector>& waypoints,
-                                       double step_rad) {
+std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad) {
   if (waypoints.empty()) return std::nullopt;
   Batch batch(checker);
   batch.add(waypoints.front());
@@ -112,7 +113,7 @@ std::optional<JointVector> first_touch(const Checker& checker, const std::vector
   return batch.ask();
 }
 
-std::optional<JointVector> first_touch(const Checker& checker, const Trajectory& trajectory, int physics_hz,
+std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz,
                                        double step_rad) {
   if (trajectory.knots.empty()) return std::nullopt;
   Batch batch(checker);

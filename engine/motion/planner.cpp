@@ -67,23 +67,26 @@ JointPath search_path(const CollisionState& state, const JointVector& start, con
                       const MotionLimits& limits, RandomKey key, int care) {
   static constexpr std::array<double, kMostCare + 1> kSpacing{5.0, 2.0, 1.0};
   const double step_rad = kSpacing[static_cast<std::size_t>(care)] * limits.resolution_rad;
-  Checker checker(state, limits.padding_m, {start, goal});
-  JointPath path;
-  if (checker.edge_free(start, goal, step_rad)) {
-    path.waypoints = {start, goal};
-    return path;
-  }
   const RandomKey query = key.with(care);
   TreeOptions options;
   options.step_rad = step_rad;
-  options.iterations = limits.iterations;
-  path.waypoints = grow_trees(checker, state.arm().limits(), start, goal, options, query.with("trees"));
-  if (path.waypoints.empty()) {
-    path.reason = Reason::no_path;
-    path.detail = "no path in " + std::to_string(limits.iterations) + " tree extensions";
+  options.iterations = std::max(1, limits.iterations / 2);
+  options.rounds = limits.rounds;
+  JointPath path;
+  for (const double padding :
+       {limits.padding_m, clearance_m(limits, care)}) {  // what is too narrow with may do without
+    Checker checker(state, padding, {start, goal});
+    if (checker.edge_free(start, goal, step_rad)) {
+      path.waypoints = {start, goal};
+      return path;
+    }
+    path.waypoints = grow_trees(checker, state.arm().limits(), start, goal, options, query.with("trees"));
+    if (path.waypoints.empty()) continue;
+    path.waypoints = distinct(shorten(checker, path.waypoints, options));
     return path;
   }
-  path.waypoints = distinct(shorten(checker, path.waypoints, limits.shortcuts, step_rad, query.with("shorten")));
+  path.reason = Reason::no_path;
+  path.detail = "no path in " + std::to_string(limits.iterations) + " tree extensions";
   return path;
 }
 
@@ -115,7 +118,7 @@ PlannedMotion certify(const CollisionState& state, const std::vector<JointVector
     motion.trajectory = time_path(state.arm(), {waypoints.back()}, limits, physics_hz);
     return motion;
   }
-  const Checker checker(state, std::max(0.0, clearance), {kept.front(), kept.back()});
+  Checker checker(state, std::max(0.0, clearance), {kept.front(), kept.back()});
   const Arm& arm = state.arm();
   const PathSpeedLimit of_arm = tool_limit(arm, limits);
   const PathSpeedLimit limit = [&](const PathPoint& point) {

@@ -1,63 +1,74 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/motion/rrt.h"
 
 namespace stampede {
 namespace {
 
-struct ShortcutPoint {
-  std::size_t segment = 0;  // between waypoint segment and segment + 1
-  JointVector q;
-};
-
-std::vector<double> arc_lengths(const std::vector<JointVector>& path) {
-  std::vector<double> lengths{0};
-  for (std::size_t i = 1; i < path.size(); ++i) lengths.push_back(lengths.back() + (path[i] - path[i - 1]).norm());
-  return lengths;
+double length_of(const std::vector<JointVector>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
+  return sum;
 }
 
-ShortcutPoint point_at(const std::vector<JointVector>& path, const std::vector<double>& lengths, double s) {
-  const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, s);
-  const std::size_t segment = static_cast<std::size_t>(after - lengths.begin()) - 1;
-  const double span = lengths[segment + 1] - lengths[segment];
-  const double share = span > 0 ? std::clamp((s - lengths[segment]) / span, 0.0, 1.0) : 0.0;
-  return {segment, path[segment] + share * (path[segment + 1] - path[segment])};
+// Leaves out all waypoints between two that see each other, the farthest first.
+void skip_corners(Checker& checker, std::vector<JointVector>& path, double step_rad) {
+  for (std::size_t i = 0; i + 2 < path.size(); ++i)
+    for (std::size_t next = path.size() - 1; next > i + 1; --next) {
+      if (!checker.edge_free(path[i], path[next], step_rad)) continue;
+      const auto begin = path.begin();
+      path.erase(begin + static_cast<std::ptrdiff_t>(i) + 1, begin + static_cast<std::ptrdiff_t>(next));
+      break;
+    }
 }
 
-// From each kept waypoint straight to the farthest one that can be seen among the next few.
-std::vector<JointVector> skip_corners(const Checker& checker, const std::vector<JointVector>& path, double step_rad) {
-  constexpr std::size_t kLookAhead = 8;
-  std::vector<JointVector> kept{path.front()};
-  for (std::size_t i = 0; i + 1 < path.size();) {
-    std::size_t next = std::min(i + kLookAhead, path.size() - 1);
-    while (next > i + 1 && !checker.edge_free(path[i], path[next], step_rad)) next = i + 1 + (next - i - 1) / 2;
-    kept.push_back(path[next]);
-    i = next;
+// Waypoints in between, on stretches that are longer than kMost.
+void divide(std::vector<JointVector>& path) {
+  constexpr double kMost = 0.4;  // rad
+  constexpr int kParts = 4;
+  std::vector<JointVector> finer{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const JointVector way = path[i] - path[i - 1];
+    const int parts = std::clamp(static_cast<int>(std::ceil(way.norm() / kMost)), 1, kParts);
+    for (int k = 1; k < parts; ++k) finer.push_back(path[i - 1] + (static_cast<double>(k) / parts) * way);
+    finer.push_back(path[i]);
   }
-  return kept;
+  path = std::move(finer);
+}
+
+// Pulls each waypoint towards the straight line between those beside it, all the way, half or a quarter of it.
+void pull(Checker& checker, std::vector<JointVector>& path, double step_rad) {
+  constexpr double kWorth = 0.01;  // rad: less is not worth the checks
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const JointVector &a = path[i - 1], &b = path[i + 1];
+    const double before = (path[i] - a).norm(), after = (b - path[i]).norm();
+    const JointVector straight = a + before / std::max(before + after, 1e-9) * (b - a);
+    for (const double share : {1.0, 0.5, 0.25}) {
+      const JointVector there = path[i] + share * (straight - path[i]);
+      if (before + after - (there - a).norm() - (b - there).norm() < kWorth) break;
+      if (!checker.edge_free(a, there, step_rad) || !checker.edge_free(there, b, step_rad)) continue;
+      path[i] = there;
+      break;
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<JointVector> shorten(const Checker& checker, std::vector<JointVector> path, int attempts, double step_rad,
-                                 RandomKey key) {
+std::vector<JointVector> shorten(Checker& checker, std::vector<JointVector> path, const TreeOptions& options) {
+  constexpr int kPulls = 3;
+  constexpr double kGain = 0.01;  // of the length: less ends it
   if (path.size() < 3) return path;
-  path = skip_corners(checker, path, step_rad);
-  Random random(key);
-  for (int k = 0; k < attempts && path.size() > 2; ++k) {
-    const std::vector<double> lengths = arc_lengths(path);
-    const double s = random.between(0, lengths.back());
-    const double t = random.between(0, lengths.back());
-    const ShortcutPoint a = point_at(path, lengths, std::min(s, t));
-    const ShortcutPoint b = point_at(path, lengths, std::max(s, t));
-    if (a.segment == b.segment) continue;
-    const double saved = std::abs(t - s) - (b.q - a.q).norm();
-    if (saved < 0.01 || !checker.edge_free(a.q, b.q, step_rad)) continue;  // not worth the checks
-    std::vector<JointVector> shorter(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(a.segment) + 1);
-    shorter.push_back(a.q);
-    shorter.push_back(b.q);
-    shorter.insert(shorter.end(), path.begin() + static_cast<std::ptrdiff_t>(b.segment) + 1, path.end());
-    path = std::move(shorter);
+  skip_corners(checker, path, options.step_rad);
+  double length = length_of(path);
+  for (int round = 0; round < options.rounds && path.size() > 2; ++round) {
+    divide(path);
+    for (int k = 0; k < kPulls; ++k) pull(checker, path, options.step_rad);
+    skip_corners(checker, path, options.step_rad);
+    const double now = length_of(path);
+    if (now > (1 - kGain) * length) break;
+    length = now;
   }
   return path;
 }

@@ -1,6 +1,7 @@
 #include "engine/sim/collision_query.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace stampede {
 namespace {
@@ -99,8 +100,36 @@ bool CollisionQuery::near(const Piece& a, const Placed& at_a, const Piece& b, co
   return closer_than(a.convex, at_a.world_from_shape, b.convex, at_b.world_from_shape, distance);
 }
 
-bool CollisionQuery::touches(const JointVector& q) {
-  return visit(q, [](const CollisionPair&) { return true; });
+bool CollisionQuery::touches(const JointVector& q, double padding_m) {
+  const double own = std::exchange(padding_, padding_m);
+  const bool touching = visit(q, [](const CollisionPair&) { return true; });
+  padding_ = own;
+  return touching;
+}
+
+void CollisionQuery::pose(const JointVector& q) {
+  set_positions(q);
+  const Robot& robot = model_.scene->robot;
+  forward_kinematics(robot.body, robot.body.world_from_body, positions_, poses_);
+}
+
+CollisionQuery::Placed CollisionQuery::placed(std::size_t piece, bool held) const {
+  Placed result;
+  if (held)
+    place(result, model_.bodies[piece], world_from_carried());
+  else
+    place(result, model_.robot[piece], poses_[static_cast<std::size_t>(model_.robot[piece].part.part)]);
+  return result;
+}
+
+bool CollisionQuery::meets_body(std::size_t piece, bool held, std::size_t body_piece, double padding_m) {
+  return near(held ? model_.bodies[piece] : model_.robot[piece], placed(piece, held), model_.bodies[body_piece],
+              state_.pieces_[body_piece], padding_m);
+}
+
+bool CollisionQuery::meets_itself(std::size_t piece, bool held, std::size_t other, bool other_held) {
+  return near(held ? model_.bodies[piece] : model_.robot[piece], placed(piece, held),
+              other_held ? model_.bodies[other] : model_.robot[other], placed(other, other_held), 0);
 }
 
 void CollisionQuery::arm_as_it_was() {

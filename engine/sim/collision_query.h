@@ -1,8 +1,6 @@
 // One thread's working memory for questions to one CollisionState. Room-internal.
 #pragma once
 
-#include <array>
-
 #include "engine/sim/collision_model.h"
 #include "engine/sim/collision_state.h"
 
@@ -12,16 +10,15 @@ namespace stampede {
 class CollisionQuery {
  public:
   using Placed = CollisionState::Placed;
-  CollisionQuery(const CollisionState& state, double padding_m);
+  explicit CollisionQuery(const CollisionState& state, double padding_m = 0);
 
-  bool touches(const JointVector& q);
-  // A bubble of free space about a configuration (Quinlan, Real-Time Modification of Collision-Free Paths, Stanford
-  // 1994). On the way to another configuration no point of a link moves further than the sum of the joints' turns times
-  // their distances from it; where that is less than the link's clearance, nothing can touch. What is not in a bubble
-  // may be free as well. Plain arithmetic in one order: the same on every processor.
-  enum class Found { bubble, free, touching };  // free: but contact is too near for a bubble
-  Found find_bubble(const JointVector& q);
-  bool in_bubble(const JointVector& q) const;  // the last that was found
+  bool touches(const JointVector& q) { return touches(q, padding_); }
+  bool touches(const JointVector& q, double padding_m);
+  // The same in parts: after pose(), single pairs of pieces may be asked about, the robot's or what it holds.
+  void pose(const JointVector& q);
+  const std::vector<Transform>& poses() const { return poses_; }  // of the robot's parts
+  bool meets_body(std::size_t piece, bool held, std::size_t body_piece, double padding_m);
+  bool meets_itself(std::size_t piece, bool held, std::size_t other, bool other_held);
   // Calls visitor(pair) for what touches, in a fixed order, until it says true: enough.
   template <typename Visitor>
   bool visit(const JointVector& q, const Visitor& visitor);
@@ -33,31 +30,8 @@ class CollisionQuery {
 
  private:
   using Piece = CollisionModel::Piece;
-  struct Lump {                        // what moves as one: a part of the robot, or what it holds
-    int part = 0;                      // of the robot: it, or the tip's
-    int joints = 0;                    // of the arm that move it
-    Vector3 middle = Vector3::Zero();  // of the ball around it, in the part's frame
-    bool held = false;
-    CollisionModel::Range pieces;    // of the robot or, held, of the bodies
-    double clearance = 0;            // from bodies, m
-    std::array<double, 16> reach{};  // per joint: of its farthest point from the joint's origin, m
-    Vector3 centre = Vector3::Zero();
-    double radius = 0;
-  };
-  struct Meeting {  // two lumps that must not meet; `other` is moved by more joints
-    std::size_t one = 0, other = 0;
-    double clearance = 0;
-  };
-  void list_lumps();
-  void measure(Lump& lump) const;
-  bool clear_of_bodies(std::size_t index);  // exactly; false: it touches
-  bool clear_of_each_other(Meeting& meeting);
-  double drift(const Lump& lump, int first_joint, const JointVector& q) const;
-  const Piece& piece_of(const Lump& lump, std::size_t piece) const;
-  const Placed& placed_of(const Lump& lump, std::size_t piece) const;
-
+  Placed placed(std::size_t piece, bool held) const;
   void set_positions(const JointVector& q);
-  void place_lump(std::size_t index);
   template <typename Visitor>
   bool visit_placed(const Visitor& visitor) const;
   void place_robot();
@@ -80,10 +54,6 @@ class CollisionQuery {
   std::vector<bool> allowed_;        // per piece of the bodies
   std::vector<std::uint32_t> near_;  // pieces of bodies within the box around all that moves, in order
   std::size_t held_begin_ = 0, held_end_ = 0;
-  std::vector<Lump> lumps_;  // with their meetings: made when first asked for
-  std::vector<Meeting> meetings_;
-  std::vector<bool> placed_;  // per lump, at the bubble's middle
-  JointVector bubble_;        // its middle
 };
 
 template <typename Visitor>

@@ -1,10 +1,10 @@
 #include "engine/sim/collision_state.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/error.h"
 #include "engine/sim/collision_query.h"
+#include "engine/sim/configuration_checker.h"
 
 namespace stampede {
 
@@ -80,53 +80,9 @@ std::vector<CollisionPair> CollisionState::contacts(const JointVector& q, double
   return all;
 }
 
-// What comes next is often in the bubble of what was looked at last.
 std::size_t CollisionState::first_touching(std::span<const JointVector> configurations, double padding_m) const {
-  CollisionQuery query(*this, padding_m);
-  std::size_t i = 0;
-  while (i < configurations.size()) {
-    const CollisionQuery::Found found = query.find_bubble(configurations[i]);
-    if (found == CollisionQuery::Found::touching) return i;
-    ++i;
-    if (found == CollisionQuery::Found::bubble)
-      while (i < configurations.size() && query.in_bubble(configurations[i])) ++i;
-  }
-  return i;
-}
-
-// The middle of the longest stretches first; a bubble there leaves less on both sides.
-bool CollisionState::edge_free(const JointVector& a, const JointVector& b, double step_rad, double padding_m) const {
-  CollisionQuery query(*this, padding_m);
-  const double gap = a.size() == 0 ? 0.0 : (a - b).cwiseAbs().maxCoeff();
-  const int count = std::max(1, static_cast<int>(std::ceil(gap / step_rad)));
-  const auto sample = [&](int i) -> JointVector {
-    return i == count ? b : a + (static_cast<double>(i) / count) * (b - a);
-  };
-  // How many further samples in a direction are in the bubble about sample i.
-  const auto covered = [&](int i, int direction, int most) {
-    int known = 0, beyond = most + 1;
-    while (known + 1 < beyond) {
-      const int tried = known == 0 && beyond > most ? most : (known + beyond) / 2;
-      (query.in_bubble(sample(i + direction * tried)) ? known : beyond) = tried;
-    }
-    return known;
-  };
-  std::vector<std::pair<int, int>> stretches;
-  const auto look = [&](int i, int first, int last) {
-    const CollisionQuery::Found found = query.find_bubble(sample(i));
-    if (found == CollisionQuery::Found::touching) return false;
-    const bool bubble = found == CollisionQuery::Found::bubble;
-    const int before = i - (bubble ? covered(i, -1, i - first) : 0), after = i + (bubble ? covered(i, 1, last - i) : 0);
-    if (first < before) stretches.emplace_back(first, before - 1);
-    if (after < last) stretches.emplace_back(after + 1, last);
-    return true;
-  };
-  if (!look(count, 1, count)) return false;
-  for (std::size_t next = 0; next < stretches.size(); ++next) {
-    const auto [first, last] = stretches[next];
-    if (!look(first + (last - first) / 2, first, last)) return false;
-  }
-  return true;
+  return ConfigurationChecker(*this).first_touching(configurations,
+                                                    std::vector<double>(configurations.size(), padding_m));
 }
 
 bool CollisionState::body_free(int body, const Transform& world_from_body, double padding_m) const {

@@ -48,11 +48,9 @@ class CollisionState {
   bool free(const JointVector& q, double padding_m = 0) const;
   std::optional<CollisionPair> first_contact(const JointVector& q, double padding_m = 0) const;  // in a fixed order
   std::vector<CollisionPair> contacts(const JointVector& q, double padding_m = 0) const;         // each pair once
-  // Index of the first configuration that touches something; configurations.size() when none does.
+  // Index of the first configuration that touches something; configurations.size() when none does. See
+  // ConfigurationChecker, which keeps its tables from call to call.
   std::size_t first_touching(std::span<const JointVector> configurations, double padding_m = 0) const;
-  // From `a`, which is known to be free, to `b` on a straight line, at most `step_rad` (any joint) apart; coarse before
-  // fine, so that contacts are found early.
-  bool edge_free(const JointVector& a, const JointVector& b, double step_rad, double padding_m = 0) const;
 
   // Would this free body, placed there, touch anything but what it may rest on? The arm is where it was, the fingers
   // as open as the state says.
@@ -62,6 +60,7 @@ class CollisionState {
 
  private:
   friend class CollisionQuery;
+  friend class ConfigurationChecker;
   struct Placed {  // a piece of a body: its pose and its bounding box
     Transform world_from_shape = Transform::Identity();
     Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();

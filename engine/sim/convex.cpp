@@ -170,29 +170,6 @@ Vector3 Convex::support(const Vector3& d) const {
   return points[best];
 }
 
-double gap_between(const Convex& a, const Transform& world_from_a, const Convex& b, const Transform& world_from_b,
-                   double enough) {
-  constexpr double kNearEnough = 0.8;                                              // of the distance
-  const Matrix3 turn = world_from_a.linear().transpose() * world_from_b.linear();  // a from b
-  const Vector3 shift = world_from_a.linear().transpose() * (world_from_b.translation() - world_from_a.translation());
-  const double rounding = a.rounding + b.rounding;
-  Simplex simplex;
-  Vector3 v = a.box_centre - (turn * b.box_centre + shift);
-  if (v.squaredNorm() < kTouching) return 0;
-  double bound = 0;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    const Vector3 w = a.support(-v) - (turn * b.support(turn.transpose() * v) + shift);
-    const double squared = v.squaredNorm(), along = v.dot(w);
-    bound = std::max(bound, along / std::sqrt(squared));
-    if (bound - rounding >= enough || along >= kNearEnough * squared) return bound - rounding;
-    if (simplex.size > 0 && squared - along <= kNoProgress * squared) return bound - rounding;
-    simplex.points[static_cast<std::size_t>(simplex.size++)] = w;
-    v = nearest_to_origin(simplex);
-    if (simplex.encloses || v.squaredNorm() <= kTouching) return 0;
-  }
-  return bound - rounding;
-}
-
 bool closer_than(const Convex& a, const Transform& world_from_a, const Convex& b, const Transform& world_from_b,
                  double distance) {
   const Matrix3 turn = world_from_a.linear().transpose() * world_from_b.linear();  // a from b

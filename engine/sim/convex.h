@@ -25,9 +25,4 @@ struct Convex {
 bool closer_than(const Convex& a, const Transform& world_from_a, const Convex& b, const Transform& world_from_b,
                  double distance);
 
-// A lower bound on how far they are apart, from the first plane that shows at least `enough`, or else within a fifth of
-// the truth; 0 or less: perhaps they touch. By the same method. Units: m. Repeatable.
-double gap_between(const Convex& a, const Transform& world_from_a, const Convex& b, const Transform& world_from_b,
-                   double enough);
-
 }  // namespace stampede

@@ -131,6 +131,8 @@ int main(int count, char** words) {
     }
     const bool solved = found.reason == Reason::none;
     const std::string set = problem["set"];
+    if (ends_free && !solved)
+      std::fprintf(stderr, "%s %d: %s\n", set.c_str(), problem["id"].get<int>(), found.detail.c_str());
     answers.push_back({{"set", set},
                        {"id", problem["id"]},
                        {"ends_free", ends_free},

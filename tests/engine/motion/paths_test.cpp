@@ -86,7 +86,7 @@ TEST_CASE("a query has one answer: alone, after others, beside a busy thread") {
 
   MotionLimits quick;
   quick.iterations = 20;  // a thousand queries that draw from everything there is to draw from
-  quick.shortcuts = 2;
+  quick.rounds = 0;
   for (int k = 0; k < 1000; ++k) {
     const Query q = query(state, 1000 + k % 10);
     plan_path(state, q.start, q.goal, quick, RandomKey("other").with(k));

@@ -1,14 +1,14 @@
 // The frozen world that motion planning asks.
-#include "engine/sim/collision_state.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <span>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "engine/sim/configuration_checker.h"
 #include "engine/sim/convex.h"
 #include "tests/engine/sim/sim_scenes.h"
 
@@ -250,14 +250,6 @@ TEST_CASE("many configurations in one call get the answers of one call each", "[
   }
   CHECK(touching > 20);
   CHECK(touching < 390);
-  const JointVector home = world.arm().home();
-  for (std::size_t k = 0; k < 40; ++k) {  // an edge is free exactly when all its samples are
-    bool free = true;
-    const int count = static_cast<int>(std::ceil((all[k] - home).cwiseAbs().maxCoeff() / 0.05));
-    for (int i = 1; i <= count; ++i)
-      free = free && state.free(home + (static_cast<double>(i) / count) * (all[k] - home));
-    CHECK(state.edge_free(home, all[k], 0.05) == free);
-  }
 }
 
 TEST_CASE("many places in one call get the answers of one call each, and a copy is a state of its own", "[sim]") {
@@ -327,8 +319,8 @@ JointVector random_configuration(const Arm& arm, Random& random) {
 
 }  // namespace
 
-TEST_CASE("bubbles leave out no contact, whatever stands about and whatever is held", "[sim]") {
-  Random random(RandomKey("bubbles"));
+TEST_CASE("many at once leave out no contact, whatever stands about and whatever is held", "[sim]") {
+  Random random(RandomKey("together"));
   for (int round = 0; round < 12; ++round) {
     World world(shared(all_kinds(round == 11 ? 0 : 7, random)));
     CollisionState state = world.collision_state();
@@ -346,11 +338,47 @@ TEST_CASE("bubbles leave out no contact, whatever stands about and whatever is h
       const auto touching =
           std::find_if(samples.begin(), samples.end(), [&](const JointVector& q) { return !state.free(q, padding); });
       CHECK(state.first_touching(samples, padding) == static_cast<std::size_t>(touching - samples.begin()));
-      CHECK(state.edge_free(a, b, 0.005, padding) == (touching == samples.end()));
+      ConfigurationChecker checker(state);
+      CHECK(checker.all_free(samples, std::vector<double>(samples.size(), padding)) == (touching == samples.end()));
       (touching == samples.end() ? free_edges : touching_edges) += 1;
     }
     CHECK(free_edges + touching_edges > 0);
   }
+}
+
+TEST_CASE("eight at once are answered as each alone, with AVX2 and without, each with its own padding", "[sim]") {
+  const bool plain = GENERATE(false, true);
+  if (plain) ::setenv("STAMPEDE_NO_AVX2", "1", 1);
+  Random random(RandomKey("lanes"));
+  int touching = 0, all = 0;
+  for (int round = 0; round < 12; ++round) {
+    World world(shared(all_kinds(10, random)));
+    CollisionState state = world.collision_state();
+    state.set_opening(round % 2 == 0 ? 0 : 0.08);
+    if (round % 3 == 1) state.hold(body_index(world, "cube1"), random_pose(random, 0.05));
+    if (round % 3 == 2)
+      for (int body = 0; body < 5; ++body) state.allow({body, 0});
+    ConfigurationChecker checker(state);
+    for (int k = 0; k < 60; ++k) {
+      std::vector<JointVector> some;
+      std::vector<double> paddings;
+      for (std::int64_t i = random.below(19); i >= 0; --i) {
+        some.push_back(random_configuration(world.arm(), random));
+        // A turn more is the same place.
+        if (random.below(4) == 0) some.back()[0] += 2 * std::numbers::pi;
+        paddings.push_back(std::max(0.0, random.between(-0.02, 0.03)));
+      }
+      std::size_t first = 0;
+      while (first < some.size() && state.free(some[first], paddings[first])) ++first;
+      REQUIRE(checker.first_touching(some, paddings) == first);
+      REQUIRE(checker.all_free(some, paddings) == (first == some.size()));
+      all += static_cast<int>(some.size());
+      touching += first < some.size() ? 1 : 0;
+    }
+  }
+  CHECK(touching > 100);
+  CHECK(touching < all / 2);
+  ::unsetenv("STAMPEDE_NO_AVX2");
 }
 
 TEST_CASE("what is held may be larger than the arm", "[sim]") {
@@ -364,10 +392,8 @@ TEST_CASE("what is held may be larger than the arm", "[sim]") {
   for (int k = 0; k < 40; ++k) {
     JointVector to = home;
     for (double& value : to) value += random.between(-0.3, 0.3);
-    bool free = true;
-    const int count = static_cast<int>(std::ceil((to - home).cwiseAbs().maxCoeff() / 0.01));
-    for (int i = 1; i <= count; ++i) free = free && state.free(home + (static_cast<double>(i) / count) * (to - home));
-    CHECK(state.edge_free(home, to, 0.01) == free);
+    const double padding = k % 2 == 0 ? 0 : 0.01;
+    CHECK((state.first_touching(std::span(&to, 1), padding) == 1) == state.free(to, padding));
   }
 }
 
