@@ -39,14 +39,15 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
                   std::string& detail) {
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
+  const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
   const auto candidates =
       grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
-                       context.key.with(info.name), kGraspCandidates);
+                       context.key.with(info.name), wanted + 1);
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
     return Reason::no_grasp;
   }
-  const GraspCandidate& grasp = candidates[static_cast<std::size_t>(context.attempt) % candidates.size()];
+  const GraspCandidate& grasp = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
   value.grasp = grasp;
   value.record.values = seven(grasp.object_from_tip);
   value.record.values.push_back(grasp.width);

@@ -62,6 +62,8 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
 // Reachable and free at both poses, and the arm can go straight from one to the other.
 bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key) {
   const Arm& arm = state.arm();
+  // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
+  if (!state.hand_free(grasp.world_from_tip) || !state.hand_free(grasp.world_from_approach)) return false;
   for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, 3, 12)) {
     if (!state.free(q)) continue;
     constexpr int kSteps = 4;

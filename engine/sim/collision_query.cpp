@@ -55,10 +55,12 @@ void CollisionQuery::place_robot() {
     place(robot_[i], model_.robot[i], poses_[static_cast<std::size_t>(model_.robot[i].part.part)]);
 }
 
-Transform CollisionQuery::world_from_carried() const {
+Transform CollisionQuery::world_from_tip_now() const {
   const Robot& robot = model_.scene->robot;
-  return poses_[static_cast<std::size_t>(robot.tip_part)] * robot.tip_part_from_tip * state_.tip_from_held_;
+  return poses_[static_cast<std::size_t>(robot.tip_part)] * robot.tip_part_from_tip;
 }
+
+Transform CollisionQuery::world_from_carried() const { return world_from_tip_now() * state_.tip_from_held_; }
 
 void CollisionQuery::place_carried() {
   const Transform world_from_held = world_from_carried();
@@ -130,6 +132,21 @@ bool CollisionQuery::meets_body(std::size_t piece, bool held, std::size_t body_p
 bool CollisionQuery::meets_itself(std::size_t piece, bool held, std::size_t other, bool other_held) {
   return near(held ? model_.bodies[piece] : model_.robot[piece], placed(piece, held),
               other_held ? model_.bodies[other] : model_.robot[other], placed(other, other_held), 0);
+}
+
+bool CollisionQuery::hand_free(const Transform& world_from_tip) {
+  const Robot& robot = model_.scene->robot;
+  forward_kinematics(robot.body, robot.body.world_from_body, positions_, poses_);
+  const Transform moved = world_from_tip * world_from_tip_now().inverse();
+  find_near(Vector3::Constant(-1e9), Vector3::Constant(1e9), 0);
+  for (std::size_t i = 0; i < robot_.size(); ++i) {
+    const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
+    if (!model_.hand[part]) continue;
+    place(robot_[i], model_.robot[i], moved * poses_[part]);
+    if (meets_bodies(model_.robot[i], robot_[i], !state_.held_.has_value(), [](const CollisionPair&) { return true; }))
+      return false;
+  }
+  return true;
 }
 
 void CollisionQuery::arm_as_it_was() {

@@ -23,6 +23,7 @@ class CollisionQuery {
   template <typename Visitor>
   bool visit(const JointVector& q, const Visitor& visitor);
 
+  bool hand_free(const Transform& world_from_tip);
   void arm_as_it_was();  // before body_free
   bool body_free(int body, const Transform& world_from_body);
 
@@ -36,6 +37,7 @@ class CollisionQuery {
   bool visit_placed(const Visitor& visitor) const;
   void place_robot();
   void place_carried();
+  Transform world_from_tip_now() const;
   Transform world_from_carried() const;
   void find_near(Vector3 lower, Vector3 upper, double reach);
   void find_near();

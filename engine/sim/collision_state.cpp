@@ -85,6 +85,10 @@ std::size_t CollisionState::first_touching(std::span<const JointVector> configur
                                                     std::vector<double>(configurations.size(), padding_m));
 }
 
+bool CollisionState::hand_free(const Transform& world_from_tip, double padding_m) const {
+  return CollisionQuery(*this, padding_m).hand_free(world_from_tip);
+}
+
 bool CollisionState::body_free(int body, const Transform& world_from_body, double padding_m) const {
   return places_free(body, {&world_from_body, 1}, padding_m).front();
 }

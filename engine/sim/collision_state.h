@@ -52,6 +52,9 @@ class CollisionState {
   // ConfigurationChecker, which keeps its tables from call to call.
   std::size_t first_touching(std::span<const JointVector> configurations, double padding_m = 0) const;
 
+  // Would the empty hand, with its tip there, touch any body? Wherever the rest of the arm may be.
+  bool hand_free(const Transform& world_from_tip, double padding_m = 0) const;
+
   // Would this free body, placed there, touch anything but what it may rest on? The arm is where it was, the fingers
   // as open as the state says.
   bool body_free(int body, const Transform& world_from_body, double padding_m) const;

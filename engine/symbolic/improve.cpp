@@ -202,8 +202,14 @@ std::vector<int> shorten(const GroundTask& task, const Semantics& semantics, Heu
   improver.budget =
       std::min<std::int64_t>(expansions, kWindowWork / static_cast<std::int64_t>(task.operators.size() + 100));
   plan = improver.eliminate(std::move(plan));
+  std::size_t in_vain = 0;  // windows of so many steps, and so any that are as long as the plan
   for (const std::size_t length : {8, 16}) {
-    if (improver.shorten_windows(length, plan)) plan = improver.eliminate(std::move(plan));
+    if (plan.size() <= in_vain) break;
+    if (improver.shorten_windows(length, plan)) {
+      plan = improver.eliminate(std::move(plan));
+    } else {
+      in_vain = length;
+    }
   }
   for (const std::size_t count : {2, 4}) {
     if (improver.postpone(count, plan)) plan = improver.eliminate(std::move(plan));

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/symbolic/alike.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/search.h"
 
@@ -41,32 +43,8 @@ symbolic::SearchResult find_plan(const symbolic::GroundTask& task, const symboli
   return result;
 }
 
-}  // namespace
-
-std::string to_text(const Plan& plan) {
-  std::string text;
-  for (const PlanStep& step : plan) text += to_text(Fact{step.action, step.arguments}) + "\n";
-  return text;
-}
-
-std::string to_text(PlanEnd end) {
-  switch (end) {
-    case PlanEnd::solved:
-      return "solved";
-    case PlanEnd::unsolvable:
-      return "unsolvable (proved)";
-    case PlanEnd::expansion_limit:
-      return "gave up at the limit of expansions";
-    case PlanEnd::memory_limit:
-      return "gave up at the limit of memory";
-    case PlanEnd::no_answer:
-      return "the planner ended without an answer";
-  }
-  return {};
-}
-
-PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits& limits,
-                  const std::set<PlanStep>& forbidden) {
+PlanOutcome solve_whole(const Domain& domain, const Problem& problem, const PlanLimits& limits,
+                        const std::set<PlanStep>& forbidden) {
   using namespace symbolic;
   PlanOutcome outcome;
   LiftedTask lifted;
@@ -117,6 +95,43 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
     outcome.plan.push_back(task.step(op));
     outcome.cost += task.operators[op].cost;
   }
+  return outcome;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan) {
+  std::string text;
+  for (const PlanStep& step : plan) text += to_text(Fact{step.action, step.arguments}) + "\n";
+  return text;
+}
+
+std::string to_text(PlanEnd end) {
+  switch (end) {
+    case PlanEnd::solved:
+      return "solved";
+    case PlanEnd::unsolvable:
+      return "unsolvable (proved)";
+    case PlanEnd::expansion_limit:
+      return "gave up at the limit of expansions";
+    case PlanEnd::memory_limit:
+      return "gave up at the limit of memory";
+    case PlanEnd::no_answer:
+      return "the planner ended without an answer";
+  }
+  return {};
+}
+
+PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits& limits,
+                  const std::set<PlanStep>& forbidden) {
+  std::int64_t spent = 0;
+  if (const std::optional<Problem> fewer = symbolic::without_crowds(domain, problem, forbidden)) {
+    PlanOutcome outcome = solve_whole(domain, *fewer, limits, forbidden);
+    if (outcome.solved && validate(domain, problem, outcome.plan).valid) return outcome;
+    spent = outcome.evaluated;
+  }
+  PlanOutcome outcome = solve_whole(domain, problem, limits, forbidden);
+  outcome.evaluated += spent;
   return outcome;
 }
 

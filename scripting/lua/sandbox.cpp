@@ -374,4 +374,20 @@ std::string Sandbox::compile(std::string_view source, std::string_view chunk_nam
   return bytecode;
 }
 
+bool is_environment(lua_State* state, int index) {
+  index = lua_absindex(state, index);
+  lua_getfield(state, LUA_REGISTRYINDEX, kEnvironmentKey);
+  const bool same = lua_rawequal(state, index, -1) != 0;
+  lua_pop(state, 1);
+  return same;
+}
+
+bool has_modules(lua_State* state) {
+  lua_getfield(state, LUA_REGISTRYINDEX, kModulesKey);
+  lua_pushnil(state);
+  const bool any = lua_next(state, -2) != 0;
+  lua_pop(state, any ? 3 : 1);
+  return any;
+}
+
 }  // namespace stampede

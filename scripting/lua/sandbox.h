@@ -49,4 +49,9 @@ class Sandbox {
   std::unique_ptr<Impl> impl_;
 };
 
+// Is the value at `index` the environment of all chunks, which refuses writes?
+bool is_environment(lua_State* state, int index);
+// Has `require` loaded anything in this state?
+bool has_modules(lua_State* state);
+
 }  // namespace stampede

@@ -17,6 +17,16 @@ bool has_attribute(const Object& object, const std::string& key, const std::stri
   return found != object.attributes.end() && found->second == value;
 }
 
+std::optional<std::vector<KeptValue>> kept_by(ScriptState& scripts, int function) {
+  std::optional<std::vector<KeptValue>> kept;
+  if (function == 0) return std::vector<KeptValue>{};
+  scripts.protect([&](lua_State* state) {
+    scripts.push_kept(function);
+    kept = kept_values(state);
+  });
+  return kept;
+}
+
 void push_arguments(lua_State* state, const Fact& fact) {
   for (const std::string& name : fact.arguments) lua_pushlstring(state, name.data(), name.size());
 }
@@ -75,22 +85,34 @@ Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView&
 std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& view, const CollisionState& free,
                                           RandomKey key, int most) {
   if (tests_.library()->file(DefinitionKind::predicate, fact.predicate) == nullptr || most <= 0) return {};
-  ScriptState scripts(tests_.library(), tests_.hand());
-  const int sample = scripts.function_of(DefinitionKind::predicate, fact.predicate, "sample");
-  if (sample == 0) return {};
-  const ViewScope scope(scripts.view, view, &free, most);
+  Sampler own = sampler(fact.predicate);
+  ScriptState& scripts = *own.scripts;
   std::vector<Placement> placements;
-  scripts.protect([&](lua_State* state) {
-    scripts.push_kept(sample);
-    scripts.push_kept(scripts.view_reference());
-    push_arguments(state, fact);
-    push_random(state, key);
-    lua_call(state, static_cast<int>(fact.arguments.size()) + 2, 1);
-    const std::string object = fact.arguments.empty() ? std::string() : fact.arguments[0];
-    placements = placements_at(state, -1, object, "predicate " + fact.predicate);
-  });
-  if (placements.size() > static_cast<std::size_t>(most)) placements.resize(static_cast<std::size_t>(most));
+  if (own.function != 0) {
+    const ViewScope scope(scripts.view, view, &free, most);
+    scripts.protect([&](lua_State* state) {
+      scripts.push_kept(own.function);
+      scripts.push_kept(scripts.view_reference());
+      push_arguments(state, fact);
+      push_random(state, key);
+      lua_call(state, static_cast<int>(fact.arguments.size()) + 2, 1);
+      const std::string object = fact.arguments.empty() ? std::string() : fact.arguments[0];
+      placements = placements_at(state, -1, object, "predicate " + fact.predicate);
+    });
+    if (placements.size() > static_cast<std::size_t>(most)) placements.resize(static_cast<std::size_t>(most));
+  }
+  if (own.kept && own.kept == kept_by(scripts, own.function)) samplers_[fact.predicate] = std::move(own);
   return placements;
+}
+
+// Out of those that are kept: it goes back when it is as it was.
+LuaSymbols::Sampler LuaSymbols::sampler(const std::string& predicate) {
+  if (auto known = samplers_.extract(predicate)) return std::move(known.mapped());
+  Sampler fresh;
+  fresh.scripts = std::make_unique<ScriptState>(tests_.library(), tests_.hand());
+  fresh.function = fresh.scripts->function_of(DefinitionKind::predicate, predicate, "sample");
+  fresh.kept = kept_by(*fresh.scripts, fresh.function);
+  return fresh;
 }
 
 }  // namespace stampede

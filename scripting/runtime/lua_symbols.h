@@ -1,9 +1,13 @@
 // Predicates of one episode.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
+#include "scripting/runtime/kept_values.h"
 #include "scripting/runtime/script_state.h"
 
 namespace stampede {
@@ -18,7 +22,7 @@ class LuaSymbols : public Symbols {
   // A predicate hides where its file says `observable`, which is then asked of a fact at a moment.
   bool can_hide(const std::string& predicate) const override { return tests_.library()->can_hide(predicate); }
   bool observable(const Fact& fact, const WorldView& view) override;
-  // In a fresh state each time: a sample depends on its arguments only.
+  // A sample depends on its arguments only: each has a fresh state, or one in which no other sample has left anything.
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
                                 int most) override;
 
@@ -28,7 +32,15 @@ class LuaSymbols : public Symbols {
   int function_of(Functions& known, const char* field, const std::string& predicate);
   Value call(int function, const Fact& fact, const WorldView& view);
 
+  struct Sampler {  // a predicate's `sample` in a state of its own
+    std::unique_ptr<ScriptState> scripts;
+    int function = 0;  // 0: it has none
+    std::optional<std::vector<KeptValue>> kept;
+  };
+  Sampler sampler(const std::string& predicate);
+
   TestState& tests_;
+  std::unordered_map<std::string, Sampler> samplers_;  // as good as fresh
   Functions holds_, observable_;
   int generation_ = -1;
 };
