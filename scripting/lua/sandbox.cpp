@@ -382,12 +382,4 @@ bool is_environment(lua_State* state, int index) {
   return same;
 }
 
-bool has_modules(lua_State* state) {
-  lua_getfield(state, LUA_REGISTRYINDEX, kModulesKey);
-  lua_pushnil(state);
-  const bool any = lua_next(state, -2) != 0;
-  lua_pop(state, any ? 3 : 1);
-  return any;
-}
-
 }  // namespace stampede

@@ -51,7 +51,5 @@ class Sandbox {
 
 // Is the value at `index` the environment of all chunks, which refuses writes?
 bool is_environment(lua_State* state, int index);
-// Has `require` loaded anything in this state?
-bool has_modules(lua_State* state);
 
 }  // namespace stampede

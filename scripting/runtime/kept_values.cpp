@@ -50,7 +50,6 @@ bool follow(lua_State* state, int function, int depth, std::set<const void*>& se
 }  // namespace
 
 std::optional<std::vector<KeptValue>> kept_values(lua_State* state) {
-  if (has_modules(state)) return std::nullopt;
   std::set<const void*> seen = {lua_topointer(state, -1)};
   std::vector<KeptValue> values;
   if (!follow(state, lua_gettop(state), 0, seen, values)) return std::nullopt;

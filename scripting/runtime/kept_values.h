@@ -17,8 +17,8 @@ struct KeptValue {
 };
 
 // The variables outside the function on top of the stack that it and the functions it calls by them can assign to, in
-// order. Nothing where one of them is a table or the like, which might change in itself, or where a module was loaded,
-// which any function can reach. Equal before and after a call: the call has left no trace.
+// order. Nothing where one of them is a table or the like, which might change in itself. Equal before and after a call
+// of a function that requires no modules: the call has left no trace.
 std::optional<std::vector<KeptValue>> kept_values(lua_State* state);
 
 }  // namespace stampede
