@@ -40,9 +40,8 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
-  const auto candidates =
-      grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
-                       context.key.with(info.name), wanted + 1);
+  const auto candidates = grasp_candidates(*space, rollout.world(), rollout.view().object(name),
+                                           planning_start(rollout.world()), context.key.with(info.name), wanted + 1);
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
     return Reason::no_grasp;

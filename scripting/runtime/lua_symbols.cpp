@@ -113,8 +113,7 @@ LuaSymbols::Sampler LuaSymbols::sampler(const std::string& predicate) {
   fresh.function = fresh.scripts->function_of(DefinitionKind::predicate, predicate, "sample");
   // Modules can be reached by name, and keep what they like. The name is a constant of the file, behind its length.
   const std::string& bytecode = tests_.library()->file(DefinitionKind::predicate, predicate)->bytecode;
-  if (bytecode.find("\x88require") == std::string::npos)
-    fresh.kept = kept_by(*fresh.scripts, fresh.function);
+  if (bytecode.find("\x88require") == std::string::npos) fresh.kept = kept_by(*fresh.scripts, fresh.function);
   return fresh;
 }
 
