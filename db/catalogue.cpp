@@ -69,6 +69,14 @@ std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, 
   }
 }
 
+// Not by query(): what limits that to reading has SQLite compile all kept statements anew, an episode's fifty.
+std::vector<std::string> Catalogue::keys_after(std::int64_t& last_id) const {
+  sql::Statement statement(impl_->database, "SELECT id, key FROM episode WHERE id > ?1 ORDER BY id");
+  std::vector<std::string> keys;
+  for (statement.start(last_id); statement.step();) statement.read(last_id, keys.emplace_back());
+  return keys;
+}
+
 std::optional<std::int64_t> Catalogue::find(std::string_view key) const {
   sql::Statement statement(impl_->database, "SELECT id FROM episode WHERE key = ?1");
   if (!statement.start(key).step()) return std::nullopt;

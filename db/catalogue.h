@@ -116,6 +116,9 @@ class Catalogue {
 
   struct Impl;
 
+  // Keys of the episodes after the one of this number, another run's too; sets it to the last one's.
+  std::vector<std::string> keys_after(std::int64_t& last_id) const;
+
  private:
   explicit Catalogue(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

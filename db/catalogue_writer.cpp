@@ -1,32 +1,15 @@
 #include "db/catalogue_writer.h"
 
-#include <algorithm>
 #include <exception>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "db/episode_writer.h"
 
 namespace stampede {
-namespace {
-
-// Of episodes stored since the last call, another run's too: it may write to the same file.
-std::vector<std::string> keys_after(const Catalogue& catalogue, std::int64_t& last_id) {
-  std::vector<std::string> keys;
-  for (const auto& row : catalogue.query("SELECT id, key FROM episode WHERE id > ?1", {{last_id}, 0}).rows) {
-    last_id = std::max(last_id, std::get<std::int64_t>(row[0]));
-    keys.push_back(std::get<std::string>(row[1]));
-  }
-  return keys;
-}
-
-}  // namespace
-
 struct CatalogueWriter::Impl {
   Impl(const std::filesystem::path& path, CatalogueWriterOptions chosen)
       : options(std::move(chosen)), catalogue(Catalogue::write(path)), queue(options.queue_bytes) {
-    queue.know(keys_after(catalogue, last_seen));
+    queue.know(catalogue.keys_after(last_seen));
   }
 
   void write_all();
@@ -44,7 +27,7 @@ void CatalogueWriter::Impl::write_all() {
     while (const auto next = queue.next()) {
       const std::optional<std::int64_t> id = catalogue.add_if_new(next->episode, options.engine);
       if (id && options.committed) options.committed(*id, next->episode);
-      queue.know(keys_after(catalogue, last_seen));
+      queue.know(catalogue.keys_after(last_seen));
     }
   } catch (...) {
     failure = std::current_exception();

@@ -140,7 +140,8 @@ void use_log(const sql::Database& database) {
     if (((code & 0xff) != SQLITE_BUSY && (code & 0xff) != SQLITE_LOCKED) || tries == 200) database.fail(code);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  database.run("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536;");
+  // Checkpoints are for others to read quickly, and copy what has changed often only once when they are rare.
+  database.run("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536; PRAGMA wal_autocheckpoint = 4000;");
 }
 
 void add_reasons(const sql::Database& database) {

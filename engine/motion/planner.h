@@ -17,7 +17,7 @@ struct MotionLimits {
   double speed = 1.0;            // share of the joint velocity limits, (0, 1]
   double acceleration = 0.5;     // share of the joint acceleration limits; jerk limits always hold in full
   double resolution_rad = 0.01;  // spacing that is promised; certification samples four times as densely
-  int iterations = 40000;        // tree extensions before no_path
+  int iterations = 40000;        // tree extensions before no_path: half of them with padding, half with less
   int rounds = 5;                // of shortening, at most
   double tool_speed = 1.65;      // m/s of the tip, a little less than the 1.7 of a Panda: smoothing adds some
   double padding_m = 0.005;      // obstacles grow by this while planning; certification is without

@@ -46,7 +46,8 @@ struct PlanOutcome {
 // Grounds by relaxed reachability, then lazy greedy best-first search with h_FF, open goals, landmarks and preferred
 // operators (Hoffmann, Nebel, JAIR 2001, doi:10.1613/jair.855; Helmert, JAIR 2006, doi:10.1613/jair.1705; Richter,
 // Westphal, JAIR 2010, doi:10.1613/jair.2972); where that is long without a plan, best-first width search (Lipovetzky,
-// Geffner, AAAI 2017); then improves the plan's cost. A goal that already holds has the empty plan. `forbidden`: ground
+// Geffner, AAAI 2017); then improves the plan's cost. Of crowds of objects that nothing tells apart a few are tried
+// first; such a plan is validated with all. A goal that already holds has the empty plan. `forbidden`: ground
 // actions not to be used. Repeatable: a pure function of its arguments.
 PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits& limits = {},
                   const std::set<PlanStep>& forbidden = {});

@@ -358,7 +358,7 @@ def checks(bench: Bench) -> None:
 
 def workers(bench: Bench) -> None:
     pictures = ["--images", "all", "--size", "128x128"]
-    for what, episodes, words in (("state only", 40, []), ("five cameras", 12, pictures)):
+    for what, episodes, words in (("state only", 200, []), ("five cameras", 24, pictures)):
         count = bench.episodes(episodes)
 
         def rate(number: int, count: int = count, words: list[str] = words) -> float:
@@ -483,6 +483,15 @@ def all_tasks(bench: Bench) -> None:
     bench.keep(10, "all tasks", "demonstrations an hour", values, ratios, {task: "skipped" for task in missing})
 
 
+def growth(bench: Bench) -> None:
+    def ours(objects: int) -> float:
+        answer = bench.run_task(f"pick_and_lift_{objects}", bench.episodes(60), "--path", str(HERE))
+        return answer["wall"] / answer["simulated_s"]
+
+    sides = {"10 objects": lambda: ours(10), "30": lambda: ours(30)}
+    bench.row(11, "pick-and-lift, state only, one moves", "wall s per simulated s", sides)
+
+
 ROWS: dict[int, tuple[str, Callable[[Bench], None]]] = {
     1: ("physics steps, beside MuJoCo and PyBullet", physics),
     2: ("the engine's step beside a bare Bullet loop", bare),
@@ -494,6 +503,7 @@ ROWS: dict[int, tuple[str, Callable[[Bench], None]]] = {
     8: ("two workers beside one", workers),
     9: ("task planning, beside Fast Downward", classical),
     10: ("all tasks, and beside another build of Stampede", all_tasks),
+    11: ("a scene with 30 objects beside one with 10", growth),
 }
 
 
