@@ -75,11 +75,19 @@ class Bench:
             raise Skipped(f"{name} has no {only}")
         return {one["name"].split("/min_time")[0]: one for one in answer["benchmarks"]}
 
-    def run_task(self, task: str, episodes: int, *words: str, program: Path | None = None, seed: int = 0) -> dict:
+    def run_task(
+        self,
+        task: str,
+        episodes: int,
+        *words: str,
+        program: Path | None = None,
+        seed: int = 0,
+        before: tuple[str, ...] = (),
+    ) -> dict:
         """What `stampede run` says, and how long it took, its start included."""
         self.catalogues += 1
         out = self.folder / f"run{self.catalogues}.db"
-        command = [program or self.options.stampede, "run", task, "--episodes", episodes, "--seed", seed]
+        command = [*before, program or self.options.stampede, "run", task, "--episodes", episodes, "--seed", seed]
         begin = time.perf_counter()
         answer = self.call([*command, "--out", out, "--json", *words])
         wall = time.perf_counter() - begin
@@ -358,13 +366,20 @@ def checks(bench: Bench) -> None:
 
 def workers(bench: Bench) -> None:
     pictures = ["--images", "all", "--size", "128x128"]
-    for what, episodes, words in (("state only", 200, []), ("five cameras", 24, pictures)):
+    for what, episodes, words in (("state only", 400, []), ("five cameras", 24, pictures)):
         count = bench.episodes(episodes)
 
-        def rate(number: int, count: int = count, words: list[str] = words) -> float:
-            return 3600 * count / bench.run_task("pick_and_lift", count, "--workers", str(number), *words)["wall"]
+        def rate(
+            number: int, on: tuple[str, ...] = (), count: int = count, words: list[str] = words
+        ) -> float:
+            more = ("--workers", str(number), *words)
+            return 3600 * count / bench.run_task("pick_and_lift", count, *more, before=on)["wall"]
 
-        sides = {"two workers": lambda r=rate: r(2), "one": lambda r=rate: r(1)}
+        sides = {
+            "two workers": lambda r=rate: r(2),
+            "one": lambda r=rate: r(1),
+            "one on one core": lambda r=rate: r(1, ("taskset", "-c", "0")),
+        }
         bench.row(8, f"pick_and_lift, {what}", "episodes an hour", sides)
 
 
