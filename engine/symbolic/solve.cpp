@@ -12,6 +12,7 @@ namespace stampede {
 
 namespace {
 
+constexpr std::int64_t kCrowdPatience = 20'000;   // expansions of the search without crowds
 constexpr std::int64_t kPatience = 30'000;        // expansions of the greedy search before width search is tried
 constexpr std::int64_t kWidthPatience = 400'000;  // states of that, before greedy search goes on to the limit
 constexpr std::int64_t kSecondShare = 2;          // expansions of the second search, as a multiple of the first's
@@ -126,7 +127,9 @@ PlanOutcome solve(const Domain& domain, const Problem& problem, const PlanLimits
                   const std::set<PlanStep>& forbidden) {
   std::int64_t spent = 0;
   if (const std::optional<Problem> fewer = symbolic::without_crowds(domain, problem, forbidden)) {
-    PlanOutcome outcome = solve_whole(domain, *fewer, limits, forbidden);
+    PlanLimits part = limits;
+    part.expansions = std::min(limits.expansions, kCrowdPatience);
+    PlanOutcome outcome = solve_whole(domain, *fewer, part, forbidden);
     if (outcome.solved && validate(domain, problem, outcome.plan).valid) return outcome;
     spent = outcome.evaluated;
   }

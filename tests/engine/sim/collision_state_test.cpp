@@ -381,6 +381,33 @@ TEST_CASE("eight at once are answered as each alone, with AVX2 and without, each
   ::unsetenv("STAMPEDE_NO_AVX2");
 }
 
+TEST_CASE("the hand alone touches what it touches with the arm behind it", "[sim]") {
+  Random random(RandomKey("hand"));
+  int touching = 0, free = 0;
+  for (int round = 0; round < 6; ++round) {
+    World world(shared(all_kinds(14, random)));
+    CollisionState state = world.collision_state();
+    state.set_opening(0.01 * round);
+    if (round % 2 == 1) state.allow({2, 0});
+    const Robot& robot = world.scene().robot;
+    const auto of_hand = [&](int part) {
+      while (part >= 0 && part != robot.arm.back()) part = robot.body.parts[static_cast<std::size_t>(part)].parent;
+      return part == robot.arm.back();
+    };
+    for (int k = 0; k < 200; ++k) {
+      const JointVector q = random_configuration(world.arm(), random);
+      const auto contacts = state.contacts(q, 0.004);
+      const bool touches = std::any_of(contacts.begin(), contacts.end(), [&](const CollisionPair& pair) {
+        return pair.other.body >= 0 && pair.robot_part.part != robot.arm.back() && of_hand(pair.robot_part.part);
+      });
+      REQUIRE(state.hand_free(world.arm().world_from_tip(q), 0.004) == !touches);
+      (touches ? touching : free) += 1;
+    }
+  }
+  CHECK(touching > 30);
+  CHECK(free > 30);
+}
+
 TEST_CASE("what is held may be larger than the arm", "[sim]") {
   Scene scene = table_scene(0);
   add_body(scene, box_body("plank", {2.4, 0.2, 0.02}, {0, 1.5, 0.5}, 1));

@@ -67,3 +67,33 @@ TEST_CASE("a goal for the whole crowd is planned with all of it") {
   CHECK(validate(domain, problem, outcome.plan).valid);
   CHECK(outcome.plan.size() == 80);
 }
+
+TEST_CASE("where few of a crowd do not do, the search among them ends soon") {
+  // Three unnamed books must be held at once by three hands: no plan with two books.
+  const Domain domain = domain_from_pddl(R"((define (domain hands)
+    (:requirements :strips :typing :equality :existential-preconditions)
+    (:types book hand)
+    (:predicates (held ?b - book ?h - hand) (lies ?b - book) (empty ?h - hand))
+    (:action take :parameters (?b - book ?h - hand)
+      :precondition (and (lies ?b) (empty ?h))
+      :effect (and (held ?b ?h) (not (lies ?b)) (not (empty ?h))))
+    (:action put :parameters (?b - book ?h - hand)
+      :precondition (held ?b ?h) :effect (and (lies ?b) (empty ?h) (not (held ?b ?h))))))",
+                                         "d.pddl");
+  std::string books, lying;
+  for (int i = 0; i < 12; ++i) {
+    books += "b" + std::to_string(i) + " ";
+    lying += "(lies b" + std::to_string(i) + ") ";
+  }
+  const Problem problem = problem_from_pddl("(define (problem p) (:domain hands) (:objects " + books +
+                                                "- book l m r - hand) (:init " + lying +
+                                                "(empty l) (empty m) (empty r)) (:goal (exists (?x ?y ?z - book) (and "
+                                                "(held ?x l) (held ?y m) (held ?z r)))))",
+                                            "p.pddl", domain);
+  const auto fewer = symbolic::without_crowds(domain, problem, {});
+  REQUIRE(fewer);
+  CHECK_FALSE(solve(domain, *fewer).solved);
+  const PlanOutcome outcome = solve(domain, problem);
+  REQUIRE(outcome.solved);
+  CHECK(outcome.plan.size() == 3);
+}
