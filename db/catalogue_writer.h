@@ -14,7 +14,7 @@ namespace stampede {
 
 struct CatalogueWriterOptions {
   EngineInfo engine;
-  std::int64_t queue_bytes = 512'000'000;  // of finished episodes that wait; a full queue makes finished() wait
+  std::int64_t queue_bytes = EpisodeQueue::kBytes;  // of finished episodes that wait: see EpisodeQueue
   // Called by the writing thread after each commit.
   std::function<void(std::int64_t id, const EpisodeRecord& episode)> committed;
 };

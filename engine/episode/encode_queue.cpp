@@ -1,7 +1,6 @@
 #include "engine/episode/encode_queue.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "engine/render/point_cloud.h"
@@ -11,13 +10,6 @@ namespace {
 
 constexpr std::size_t kMostFrames = 6;  // that wait, so that the one who draws need not stop for one slow picture
 constexpr int kMostEncoders = 2;        // two of them are faster than any drawing
-
-std::atomic<int> asking_threads = 0;
-
-struct AskingThread {
-  AskingThread() { ++asking_threads; }
-  ~AskingThread() { --asking_threads; }
-};
 
 bool same_pixels(const Picture& a, const Picture& b, PictureKind kind) {
   switch (kind) {
@@ -37,16 +29,10 @@ Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 }  // namespace
 
-int idle_encoders() {
-  thread_local const AskingThread this_thread;  // until it ends: a worker draws again after its next simulation
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return std::clamp(cores - asking_threads, 0, kMostEncoders);
-}
-
 EncodeQueue::EncodeQueue(const Observation& observation, const std::vector<int>& cameras, ImageStore& images,
                          int encoders)
     : observation_(observation), cameras_(cameras), images_(images) {
-  for (int i = 0; i < encoders; ++i) encoders_.emplace_back([this] { work(); });
+  for (int i = 0; i < std::min(encoders, kMostEncoders); ++i) encoders_.emplace_back([this] { work(); });
 }
 
 EncodeQueue::~EncodeQueue() {

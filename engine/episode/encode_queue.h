@@ -1,4 +1,4 @@
-// Pictures on their way into an image store: encoded beside the drawing where cores are idle, stored in order.
+// Pictures on their way into an image store: encoded beside the drawing where cores are spare, stored in order.
 #pragma once
 
 #include <condition_variable>
@@ -13,9 +13,6 @@
 #include "engine/render/png.h"
 
 namespace stampede {
-
-// How many threads could encode for this one: cores that no other thread which asked is using, at most 2.
-int idle_encoders();
 
 // The bytes are the same for any number of threads; with none, pictures are encoded where they are added. Lifetime: one
 // thread, and what it refers to outlives it. Bounded: whoever adds helps when others fall behind. Errors of an encoder

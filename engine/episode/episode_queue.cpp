@@ -65,6 +65,7 @@ void EpisodeQueue::finished(std::int64_t place, EpisodeRecord episode) {
   queued_ += bytes;
   waiting_.emplace(place, Waiting{std::move(episode), bytes});
   changed_.notify_all();
+  if (bytes_ == 0) changed_.wait(lock, [&] { return failure_ || queued_ == 0; });
   if (failure_) std::rethrow_exception(failure_);
 }
 

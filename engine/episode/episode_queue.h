@@ -31,7 +31,11 @@ class EpisodeSink {
 // One that hands them to a thread of its owner's.
 class EpisodeQueue final : public EpisodeSink {
  public:
-  explicit EpisodeQueue(std::int64_t bytes = 512'000'000);  // of episodes that wait; a full queue makes finished() wait
+  // `bytes`: of episodes that wait. A full queue makes finished() wait; one of no bytes lets it return once the episode
+  // has been kept.
+  explicit EpisodeQueue(std::int64_t bytes = kBytes);
+
+  static constexpr std::int64_t kBytes = 512'000'000;
 
   bool has(std::string_view key) const override;
   void finished(std::int64_t place, EpisodeRecord episode) override;

@@ -102,11 +102,12 @@ class EpisodePainter {
 // the first of each skill segment.
 std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrames which);
 
-// Pictures of these frames, encoded. The image's camera is an index into the scene's cameras.
+// Pictures of these frames, encoded. The image's camera is an index into the scene's cameras. `encoders`: threads that
+// encode beside the drawing; they do not change the bytes.
 void paint_frames(EpisodePainter& painter, const Observation& observation, const std::vector<std::int64_t>& frames,
-                  ImageStore& images);
+                  ImageStore& images, int encoders = 0);
 
 // All that the episode's own options want, into episode.images; nothing when they want none or no start was made.
-void paint_episode(Renderer& renderer, EpisodeRecord& episode);
+void paint_episode(Renderer& renderer, EpisodeRecord& episode, int encoders = 0);
 
 }  // namespace stampede

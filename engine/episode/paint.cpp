@@ -132,8 +132,8 @@ std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrame
 }
 
 void paint_frames(EpisodePainter& painter, const Observation& observation, const std::vector<std::int64_t>& frames,
-                  ImageStore& images) {
-  EncodeQueue queue(observation, painter.cameras(), images, frames.size() > 1 ? idle_encoders() : 0);
+                  ImageStore& images, int encoders) {
+  EncodeQueue queue(observation, painter.cameras(), images, frames.size() > 1 ? encoders : 0);
   std::vector<Picture> pictures;
   for (const std::int64_t frame : frames) {
     painter.paint(frame, pictures);
@@ -142,13 +142,13 @@ void paint_frames(EpisodePainter& painter, const Observation& observation, const
   queue.finish();
 }
 
-void paint_episode(Renderer& renderer, EpisodeRecord& episode) {
+void paint_episode(Renderer& renderer, EpisodeRecord& episode, int encoders) {
   const Observation observation = chosen(observation_of(episode));
   if (observation.images == WhichFrames::none || episode.frames.empty()) return;
   EpisodePainter painter(renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene_document)),
                          observation);
   const auto images = std::make_shared<ImageStore>();
-  paint_frames(painter, observation, wanted_frames(episode, observation.images), *images);
+  paint_frames(painter, observation, wanted_frames(episode, observation.images), *images, encoders);
   episode.images = images;
 }
 

@@ -50,10 +50,10 @@ void check_all_settings(const std::map<std::string, CallSettings>& all, const Sk
 }
 
 // From what was recorded, as anybody could later.
-void paint(Renderer* renderer, EpisodeRecord& record) {
+void paint(const RunOptions& options, EpisodeRecord& record) {
   if (chosen(observation_of(record)).images == WhichFrames::none) return;
-  const std::unique_ptr<Renderer> own = renderer == nullptr ? make_renderer() : nullptr;
-  paint_episode(own ? *own : *renderer, record);
+  const std::unique_ptr<Renderer> own = options.renderer == nullptr ? make_renderer() : nullptr;
+  paint_episode(own ? *own : *options.renderer, record, options.encoders);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& 
   if (start.reason != Reason::none) return record;
   Rollout rollout(symbols, start, sensors_of(*start.scene, record, options.sensors), stop);
   execute(rollout, symbols, skills, options, record);
-  paint(options.renderer, record);
+  paint(options, record);
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return record;
 }

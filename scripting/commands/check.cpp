@@ -132,7 +132,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   JobRequest request{tasks, in_range(arguments, "--episodes", 1, kMostEpisodes),
                      in_range(arguments, "--seed", 0, kLargestSeed), ""};
   RunSettings settings;
-  settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
+  settings.workers = workers_of(arguments);
   settings.stop = console.stop;
   if (arguments.flag("--randomise")) settings.options.randomise = default_randomisation();
   settings.options.observation.images = WhichFrames::none;  // nobody would see them
@@ -185,7 +185,7 @@ CommandRow check_command() {
        {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
        {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
        {"--randomise", "", "with drawn looks, light and dynamics, as `run --randomise`", Takes::flag, "", {}, false},
-       {"--workers", "W", "threads", Takes::integer, "1", {}, false}},
+       {"--workers", "W", "cores to use, default: all", Takes::integer, "", {}, false}},
       {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
       do_check};
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/base/processor.h"
 #include "scripting/session/roots.h"
 
 namespace stampede::program {
@@ -33,6 +36,11 @@ std::int64_t in_range(const Arguments& arguments, const char* option, std::int64
   if (value < least) throw UsageError(fmt::format("{} is at least {}, not {}", option, least, value));
   if (value > most) throw UsageError(fmt::format("{} is at most {}, not {}", option, most, value));
   return value;
+}
+
+int workers_of(const Arguments& arguments) {
+  if (arguments.has("--workers")) return static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
+  return std::min(usable_cores(), static_cast<int>(kMostWorkers));
 }
 
 std::shared_ptr<const Library> words_of(const Arguments& arguments) {

@@ -41,6 +41,8 @@ void make_own_folder(const Arguments& arguments);
 
 // The number that an option was given. Throws UsageError outside [least, most].
 std::int64_t in_range(const Arguments& arguments, const char* option, std::int64_t least, std::int64_t most);
+// What --workers says, or a core each.
+int workers_of(const Arguments& arguments);
 constexpr std::int64_t kMostEpisodes = 1'000'000, kMostWorkers = 256, kLargestSeed = 1'000'000'000'000;
 
 }  // namespace stampede::program

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 #include "db/catalogue_writer.h"
 #include "db/table_text.h"
@@ -106,7 +107,7 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   options.observation = picture_choice(arguments, PictureUse::run);
   settings.perturb = trials(arguments);
   const JobRequest request = job_request(arguments, options.split);
-  settings.run.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
+  settings.run.workers = workers_of(arguments);
   settings.run.stop = console.stop;
   const std::optional<PolicySettings> acting = policy_settings(arguments, options.observation);
   const auto library = load_usable_library(arguments);
@@ -121,12 +122,14 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   };
   std::optional<PolicyRun> policy;
   if (acting) {
+    settings.run.helpers = std::exchange(settings.run.workers, 1) - 1;  // one program acts
     policy.emplace(*acting, console.stop);
     settings.run.act = [&](PreparedEpisode& prepared) { return policy->act(prepared); };
   }
   const Evaluation evaluation = evaluate(library, jobs, settings, [&] {
     CatalogueWriterOptions writing;
     writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+    writing.queue_bytes = queue_bytes(settings.run);
     return std::make_unique<CatalogueWriter>(out, std::move(writing));
   });
   policy.reset();
@@ -174,7 +177,7 @@ CommandRow evaluate_command() {
        {"--variation", "TEXT", "only this variation, or those with some axes: colour=red", Takes::text, "", {}, false},
        {"--seed", "S", "the first seed; default: 1000000, or 0 in the train split", Takes::integer, "", {}, false},
        {"--split", "NAME", "seeds from 1000000 up are the test split's", Takes::text, "test", {"train", "test"}, false},
-       {"--workers", "W", "threads; they do not change the answer", Takes::integer, "1", {}, false},
+       {"--workers", "W", "cores to use, default: all; they do not change the answer", Takes::integer, "", {}, false},
        {"--out", "FILE", "the catalogue", Takes::path, "evaluation.db", {}, false}},
       {"stampede evaluate reach_target --policy \"sh policy.sh\" --observe gripper_pose,object_pose",
        "stampede evaluate pick_and_lift stack_blocks --episodes 50 --workers 2",

@@ -130,7 +130,7 @@ class Rendering {
     };
     request_.stop = console.stop;
     if (place_ == "--video") film_.emplace(target_);
-    workers_ = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
+    workers_ = workers_of(arguments);
   }
 
   ExitCode run() {
@@ -280,7 +280,8 @@ CommandRow render_command() {
        "stampede render demos.db 1 2 3 --sheet sheet.png"},
       do_render};
   for (OptionRow& option : picture_options(PictureUse::render)) row.options.push_back(std::move(option));
-  row.options.push_back({"--workers", "W", "threads; they do not change the pictures", Takes::integer, "1", {}, false});
+  row.options.push_back(
+      {"--workers", "W", "cores to use, default: all; they do not change the pictures", Takes::integer, "", {}, false});
   return row;
 }
 

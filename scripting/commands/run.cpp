@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <utility>
 
 #include "db/catalogue_writer.h"
 #include "scripting/commands/commands.h"
@@ -72,7 +73,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   RunSettings settings;
   settings.options = run_options(arguments);
   JobRequest request = job_request(arguments, settings.options.split);
-  settings.workers = static_cast<int>(in_range(arguments, "--workers", 1, kMostWorkers));
+  settings.workers = workers_of(arguments);
   settings.stop = console.stop;
   const std::optional<PolicySettings> acting = policy_settings(arguments, settings.options.observation);
   const auto library = load_usable_library(arguments);
@@ -83,6 +84,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
   writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  writing.queue_bytes = queue_bytes(settings);
   CatalogueWriter writer(out, std::move(writing));
   Progress progress(console);
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
@@ -90,6 +92,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   };
   std::optional<PolicyRun> policy;
   if (acting) {
+    settings.helpers = std::exchange(settings.workers, 1) - 1;  // one program acts
     policy.emplace(*acting, settings.stop);
     settings.act = [&](PreparedEpisode& prepared) { return policy->act(prepared); };
   }
@@ -134,7 +137,7 @@ CommandRow run_command() {
         "train",
         {"train", "test"},
         false},
-       {"--workers", "W", "threads; they do not change the data", Takes::integer, "1", {}, false},
+       {"--workers", "W", "cores to use, default: all; they do not change the data", Takes::integer, "", {}, false},
        {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
        {"--shard",
         "I/N",

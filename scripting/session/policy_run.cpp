@@ -62,7 +62,8 @@ EpisodeRecord PolicyRun::act(PreparedEpisode& prepared) {
     }
     world.episode();
     EpisodeRecord record = source->take();
-    if (chosen(observation_of(record)).images != WhichFrames::none) paint_episode(*prepared.options().renderer, record);
+    if (chosen(observation_of(record)).images != WhichFrames::none)
+      paint_episode(*prepared.options().renderer, record, prepared.options().encoders);
     return record;
   } catch (const NoStart& error) {
     return source->failed(error.reason(), error.detail());

@@ -88,9 +88,12 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
   RunTally tally;
   tally.total = jobs.size();
   const std::atomic<bool>* stop = settings.stop;
+  const auto busy = static_cast<int>(std::clamp<std::int64_t>(jobs.size(), 1, settings.workers));
+  const int encoders = settings.helpers + settings.workers - busy;
   const auto options_for = [&](const std::string& task, Renderer& renderer) {
     RunOptions options = settings.options;
     options.renderer = &renderer;
+    options.encoders = encoders;
     if (const auto found = settings.cameras.find(task); found != settings.cameras.end())
       options.cameras = found->second;
     return options;

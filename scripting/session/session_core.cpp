@@ -5,6 +5,7 @@
 #include <exception>
 #include <thread>
 
+#include "engine/base/processor.h"
 #include "engine/episode/arrays.h"
 #include "engine/episode/episode_source.h"
 #include "engine/symbolic/pddl.h"
@@ -147,6 +148,7 @@ RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
   options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
   options.policies = policies_;
   options.sensors = sensors_;
+  options.encoders = usable_cores() - 1;  // of an episode alone
   return options;
 }
 
@@ -196,7 +198,7 @@ RunTally SessionCore::run_all(const RunRequest& request) {
   settings.workers = request.workers;
   settings.stop = request.stop;
   const JobList jobs = jobs_of(library_, "RunRequest", request, settings.options);
-  EpisodeQueue queue;
+  EpisodeQueue queue(queue_bytes(settings));
   if (!request.sink) {
     if (path_.empty())
       throw Error("RunRequest", "nobody would keep the episodes", "set SessionOptions::catalogue, or RunRequest::sink");
@@ -325,9 +327,10 @@ Evaluation SessionCore::evaluate(const std::vector<std::string>& tasks, const Ev
   if (path_.empty()) return stampede::evaluate(library_, jobs, settings, nullptr);
   catalogue_.reset();  // one writer at a time
   writable_ = false;
-  return stampede::evaluate(library_, jobs, settings, [this] {
+  return stampede::evaluate(library_, jobs, settings, [&] {
     CatalogueWriterOptions writing;
     writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+    writing.queue_bytes = queue_bytes(settings.run);
     return std::make_unique<CatalogueWriter>(path_, std::move(writing));
   });
 }

@@ -71,6 +71,21 @@ TEST_CASE("a full queue holds up all but the next in line") {
   CHECK(stored_keys(folder / "a.db") == keys_of(episodes));
 }
 
+TEST_CASE("a queue of no bytes: what was handed over is stored") {
+  const Folder folder;
+  const std::vector<EpisodeRecord> episodes = eight();
+  std::atomic<int> commits = 0;
+  CatalogueWriterOptions chosen = options(0);
+  chosen.committed = [&](std::int64_t, const EpisodeRecord&) { ++commits; };
+  CatalogueWriter writer(folder / "a.db", chosen);
+  for (int place = 0; place < 8; ++place) {
+    writer.finished(place, episodes[static_cast<std::size_t>(place)]);
+    CHECK(commits == place + 1);
+  }
+  writer.finish();
+  CHECK(stored_keys(folder / "a.db") == keys_of(episodes));
+}
+
 TEST_CASE("nobody waits for the abandoned, at the end gaps are stepped over") {
   const Folder folder;
   const std::vector<EpisodeRecord> episodes = eight();

@@ -72,7 +72,7 @@ struct RunProgress {
 struct RunRequest {
   std::vector<std::string> tasks = {};
   std::int64_t episodes = 1;  // of each task, good or bad
-  int workers = 1;            // threads; neither the episodes nor their order depend on them
+  int workers = 1;            // cores to use; neither the episodes nor their order depend on them
   EpisodeRequest each = {};   // `seed`: the first one's; `variation`: which are used, empty: all
   // Both are called by the thread that called run_all, one at a time, and may use the session. What they throw ends the
   // run and comes out of it. What is finished or under way by then is kept all the same, unless it was the sink that

@@ -1,9 +1,7 @@
 // Pictures on their way into a store: the same bytes in the same order for any number of encoders.
 #include "engine/episode/encode_queue.h"
 
-#include <barrier>
 #include <catch2/catch.hpp>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
@@ -95,22 +93,4 @@ TEST_CASE("what an encoder refuses reaches whoever added it, with what came befo
     CHECK_THROWS_AS(add_and_finish(), Error);
     CHECK(store.count() == 4);
   }
-}
-
-TEST_CASE("threads that use all cores leave none for encoders, and free them when they end") {
-  const int before = idle_encoders();
-  const auto cores = static_cast<std::ptrdiff_t>(std::thread::hardware_concurrency());
-  std::vector<int> idle(static_cast<std::size_t>(cores), -1);
-  std::barrier asked(cores);
-  std::vector<std::thread> threads;
-  for (int& answer : idle)
-    threads.emplace_back([&] {
-      idle_encoders();
-      asked.arrive_and_wait();
-      answer = idle_encoders();
-      asked.arrive_and_wait();
-    });
-  for (std::thread& thread : threads) thread.join();
-  CHECK(std::count(idle.begin(), idle.end(), 0) == cores);
-  CHECK(idle_encoders() == before);
 }
