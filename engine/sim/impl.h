@@ -7,6 +7,7 @@
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
 #include "engine/sim/collision_model.h"
+#include "engine/sim/command_log.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/dynamics.h"
 #include "engine/sim/shapes.h"
@@ -142,7 +143,7 @@ struct World::Impl {
   JointVector arm_torque;                    // given by the controller in the last step
   std::vector<std::vector<double>> efforts;  // body + 1, part
   bool canonical = false;                    // nothing moved since the last boundary
-  std::vector<Command> log;
+  CommandLog log;
   bool keeps_log = true;
 
   mutable std::shared_ptr<const CollisionModel> collision_model;  // made when first asked for

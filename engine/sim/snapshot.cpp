@@ -19,7 +19,7 @@ struct Snapshot::Data {
   ContactWindow::State contacts;
   JointVector arm_torque;
   std::vector<std::vector<double>> efforts;
-  std::vector<Command> log;
+  CommandLog log;
 };
 
 namespace {
@@ -138,6 +138,7 @@ Snapshot World::snapshot() const {
   data->contacts = w.contacts.state();
   data->arm_torque = w.arm_torque;
   data->efforts = w.efforts;
+  impl_->log.mark();
   data->log = w.log;
   return {data};
 }

@@ -147,13 +147,13 @@ const Arm& World::arm(int robot) const {
 }
 std::int64_t World::step_count() const { return impl_->steps; }
 double World::dt() const { return impl_->dt; }
-const std::vector<Command>& World::log() const { return impl_->log; }
+std::vector<Command> World::log() const { return impl_->log.commands(); }
 
 void World::let_sleep(bool sleep) { impl_->dynamics.let_sleep(sleep); }
 
 void World::keep_log(bool keep) {
   impl_->keeps_log = keep;
-  if (!keep) impl_->log.clear();
+  if (!keep) impl_->log = {};
 }
 
 // Something presses a joint against its stop. A function of joint positions alone: snapshots know nothing of it.
@@ -255,7 +255,7 @@ void World::apply(const Operation& operation) {
   } else if (const auto* place = std::get_if<operation::Place>(&operation)) {
     w.place(place->body, place->world_from_body);
   }
-  if (w.keeps_log) w.log.push_back({w.steps, operation});
+  if (w.keeps_log) w.log.add({w.steps, operation});
 }
 
 const Transform& World::world_from_part(PartRef part) const { return impl_->world_from_part(part); }

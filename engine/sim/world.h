@@ -112,10 +112,10 @@ class World {
   std::int64_t step_count() const;
   double dt() const;
 
-  void apply(const Operation& operation);   // also appends to the log
-  void step();                              // one physics step of 1/physics_hz
-  const std::vector<Command>& log() const;  // since construction, or as restore left it
-  void keep_log(bool keep);                 // false: it is emptied, and stays so
+  void apply(const Operation& operation);  // also appends to the log
+  void step();                             // one physics step of 1/physics_hz
+  std::vector<Command> log() const;        // since construction, or as restore left it
+  void keep_log(bool keep);                // false: it is emptied, and stays so
   // What has come to rest and touches nothing that moves is not simulated until something meets it; facts, forces and
   // replay are the same. false: all is simulated all the time, for measurements.
   void let_sleep(bool sleep);
