@@ -4,31 +4,37 @@
 
 namespace stampede {
 
-CommandLog::Part::Part(std::shared_ptr<Part> earlier, std::vector<Command> own)
+CommandLog::Part::Part(Mark earlier, std::vector<Command> own)
     : before(std::move(earlier)), commands(std::move(own)), size((before ? before->size : 0) + commands.size()) {}
 
 CommandLog::Part::~Part() {
-  std::shared_ptr<Part> next = std::move(before);
-  while (next && next.use_count() == 1) {
-    std::shared_ptr<Part> further = std::move(next->before);
-    next = std::move(further);
-  }
+  Mark next = std::move(before);
+  while (next && next.use_count() == 1) next = Mark(std::move(next->before));
 }
 
-void CommandLog::mark() {
-  if (recent_.empty()) return;
-  marked_ = std::make_shared<Part>(std::move(marked_), std::exchange(recent_, {}));
-}
+std::size_t CommandLog::size() const { return (marked_ ? marked_->size : 0) + recent_.size(); }
 
 std::vector<Command> CommandLog::commands() const {
   std::vector<const Part*> parts;
   for (const Part* part = marked_.get(); part != nullptr; part = part->before.get()) parts.push_back(part);
   std::vector<Command> all;
   all.reserve(size());
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
-    all.insert(all.end(), (*part)->commands.begin(), (*part)->commands.end());
-  all.insert(all.end(), recent_.begin(), recent_.end());
+  const auto add = [&all](const std::vector<Command>& commands) {
+    for (const Command& command : commands) all.push_back(command);
+  };
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) add((*part)->commands);
+  add(recent_);
   return all;
+}
+
+CommandLog::Mark CommandLog::mark() {
+  if (!recent_.empty()) marked_ = std::make_shared<const Part>(std::move(marked_), std::exchange(recent_, {}));
+  return marked_;
+}
+
+void CommandLog::back_to(Mark mark) {
+  marked_ = std::move(mark);
+  recent_.clear();
 }
 
 }  // namespace stampede

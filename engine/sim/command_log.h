@@ -1,6 +1,7 @@
 // The operations that a world has been given, so kept that a snapshot need not copy them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -8,27 +9,33 @@
 
 namespace stampede {
 
-// A value: copies share what was added before, and what is added to one is not in the others. mark() makes copying
-// cheap whatever the length; without it what was added since the last mark is copied.
 class CommandLog {
+  struct Part;
+
  public:
   void add(Command command) { recent_.push_back(std::move(command)); }
-  void mark();
-  std::size_t size() const { return (marked_ ? marked_->size : 0) + recent_.size(); }
+  void clear() { back_to(nullptr); }
+  std::size_t size() const;
   std::vector<Command> commands() const;
+
+  // All that has been added, whatever comes later; null: nothing. Made and gone back to in a time that does not depend
+  // on how much that is. Lifetime: its own; worlds share it.
+  using Mark = std::shared_ptr<const Part>;
+  Mark mark();
+  void back_to(Mark mark);
 
  private:
   struct Part {
-    Part(std::shared_ptr<Part> before, std::vector<Command> commands);
+    Part(Mark before, std::vector<Command> commands);
     ~Part();  // of any number of parts, without recursion
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
-    std::shared_ptr<Part> before;
+    mutable Mark before;
     std::vector<Command> commands;
     std::size_t size = 0;  // with all before
   };
-  std::shared_ptr<Part> marked_;
-  std::vector<Command> recent_;
+  Mark marked_;
+  std::vector<Command> recent_;  // added since
 };
 
 }  // namespace stampede

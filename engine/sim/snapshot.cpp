@@ -19,7 +19,7 @@ struct Snapshot::Data {
   ContactWindow::State contacts;
   JointVector arm_torque;
   std::vector<std::vector<double>> efforts;
-  CommandLog log;
+  CommandLog::Mark log;
 };
 
 namespace {
@@ -138,8 +138,7 @@ Snapshot World::snapshot() const {
   data->contacts = w.contacts.state();
   data->arm_torque = w.arm_torque;
   data->efforts = w.efforts;
-  impl_->log.mark();
-  data->log = w.log;
+  data->log = impl_->log.mark();
   return {data};
 }
 
@@ -162,7 +161,7 @@ void World::restore(const Snapshot& snapshot) {
   w.contacts.set_state(data.contacts);
   w.arm_torque = data.arm_torque;
   w.efforts = data.efforts;
-  w.log = data.log;
+  w.log.back_to(data.log);
   w.canonical = true;
   ++w.stamp;
 }

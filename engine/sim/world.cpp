@@ -153,7 +153,7 @@ void World::let_sleep(bool sleep) { impl_->dynamics.let_sleep(sleep); }
 
 void World::keep_log(bool keep) {
   impl_->keeps_log = keep;
-  if (!keep) impl_->log = {};
+  if (!keep) impl_->log.clear();
 }
 
 // Something presses a joint against its stop. A function of joint positions alone: snapshots know nothing of it.

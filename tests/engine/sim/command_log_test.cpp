@@ -17,27 +17,27 @@ std::vector<std::int64_t> steps_of(const CommandLog& log) {
 
 }  // namespace
 
-TEST_CASE("copies of a log share what was before and part from there", "[sim]") {
-  CommandLog log;
-  CHECK(steps_of(log).empty());
+TEST_CASE("a log goes back to what it was, and other logs to the same", "[sim]") {
+  CommandLog log, other;
+  CHECK(log.mark() == nullptr);
   log.add(command(1));
   log.add(command(2));
-  log.mark();
-  CommandLog early = log;
+  const CommandLog::Mark early = log.mark();
   log.add(command(3));
-  log.mark();
-  const CommandLog late = log;
+  const CommandLog::Mark late = log.mark();
+  CHECK(log.mark() == late);  // nothing was added
   log.add(command(4));
-  early.add(command(9));
   CHECK(steps_of(log) == std::vector<std::int64_t>{1, 2, 3, 4});
-  CHECK(steps_of(late) == std::vector<std::int64_t>{1, 2, 3});
-  CHECK(steps_of(early) == std::vector<std::int64_t>{1, 2, 9});
-  early = late;
-  early.add(command(5));
-  early.mark();
-  early.mark();  // nothing was added
-  CHECK(steps_of(early) == std::vector<std::int64_t>{1, 2, 3, 5});
-  CHECK(steps_of(late) == std::vector<std::int64_t>{1, 2, 3});
+  log.back_to(early);
+  CHECK(steps_of(log) == std::vector<std::int64_t>{1, 2});
+  log.add(command(9));
+  other.add(command(8));
+  other.back_to(late);
+  other.add(command(5));
+  CHECK(steps_of(log) == std::vector<std::int64_t>{1, 2, 9});
+  CHECK(steps_of(other) == std::vector<std::int64_t>{1, 2, 3, 5});
+  other.clear();
+  CHECK(steps_of(other).empty());
 }
 
 TEST_CASE("a log of half a million marks is given back without running out of stack", "[sim]") {
@@ -46,7 +46,6 @@ TEST_CASE("a log of half a million marks is given back without running out of st
     log.add(command(i));
     log.mark();
   }
-  const CommandLog kept = log;
-  log = {};
-  CHECK(kept.size() == 500'000);
+  CHECK(log.size() == 500'000);
+  log.clear();
 }
