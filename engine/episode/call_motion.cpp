@@ -30,22 +30,40 @@ PlannedCall from(PlannedMotion planned, FollowOptions options) {
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
+const Joint& joint_of(const Scene& scene, PartRef ref) {
+  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(ref.body)];
+  return body.parts[static_cast<std::size_t>(ref.part)].joint;
+}
+
 PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
                            const JointVector& start, FollowOptions options, RandomKey key) {
   const World& world = rollout.world();
   const PartRef ref = rollout.view().part_of(call.object);
   const double from_position = world.joint_position(ref);
   const Transform part_from_tip = world.world_from_part(ref).inverse() * world.arm(call.robot).world_from_tip(start);
-  const auto path = [&](double s) {
-    return Transform(rollout.view().part_at(call.object, from_position + s * (call.position - from_position)) *
-                     part_from_tip);
+  const Transform first = world.world_from_part(ref) * part_from_tip;
+  const Joint& joint = joint_of(world.scene(), ref);
+  const Vector3 axis = world.world_from_part(ref).linear() * joint.axis.normalized();
+  const double travel = call.position - from_position;
+  const auto path_with = [&](double share) {  // of the part's turn that the hand makes
+    return [&, share](double s) {
+      Transform tip = rollout.view().part_at(call.object, from_position + s * travel) * part_from_tip;
+      if (share < 1) tip.linear() = Eigen::AngleAxisd(share * s * travel, axis) * first.linear();
+      return tip;
+    };
   };
   LineOptions line;
   line.tool_speed = call.speed;
   options.kind = "move_part";
   options.most_force = call.most_force;
   options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
-  return from(plan_tool_path(state, start, path, line, {}, key), std::move(options));
+  PlannedMotion motion = plan_tool_path(state, start, path_with(1), line, {}, key);
+  if (call.pivot && joint.kind == JointKind::hinge)
+    for (int quarters = 3; quarters >= 0 && motion.reason != Reason::none; --quarters) {
+      PlannedMotion other = plan_tool_path(state, start, path_with(quarters / 4.0), line, {}, key);
+      if (other.reason == Reason::none) motion = std::move(other);
+    }
+  return from(std::move(motion), std::move(options));
 }
 
 // The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.

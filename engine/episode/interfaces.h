@@ -188,6 +188,7 @@ struct MovePart {
   double speed = 0.1;
   int robot = 0;
   double most_force = 0;  // as of MoveLine
+  bool pivot = false;     // the handle may turn in the hand: a hand that cannot turn with the part turns less than it
 };                        // the held handle's joint; arcs too
 struct Wait {
   double seconds = 0;

@@ -143,6 +143,8 @@ Scene settled(const WorldView& view) {
   return scene;
 }
 
+constexpr const char* kGoalHolds = "the goal not holding at the start";
+
 class StartMaker {
  public:
   StartMaker(const TaskDraw& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
@@ -162,15 +164,28 @@ class StartMaker {
         start.task = std::move(task_);
         return start;
       }
+      if (nothing_to_do()) break;
     }
     start.task = std::move(task_);
     start.reason = Reason::init_impossible;
+    if (nothing_to_do()) {
+      start.detail = "the goal holds at the start already, in each of " + std::to_string(start.draws) +
+                     " draws: init, or the goal, must leave something to do";
+      return start;
+    }
     for (const auto& [text, count] : failures_)
       start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
     return start;
   }
 
  private:
+  // Every start that was drawn so far is the end too.
+  bool nothing_to_do() const {
+    constexpr int kEnough = 10;
+    const auto goal = failures_.find(kGoalHolds);
+    return goal != failures_.end() && failures_.size() == 1 && goal->second >= std::min(kEnough, options_.draws);
+  }
+
   bool refuse(const std::string& what) {
     ++failures_[what];
     return false;
@@ -364,7 +379,7 @@ class StartMaker {
     with_facts.set_facts(&tracker);
     if (holds(task_.goal, tracker.facts(), symbols_.domain(), tracker.objects()) &&
         (!task_.also || task_.also(with_facts)))
-      return refuse("the goal not holding at the start");
+      return refuse(kGoalHolds);
     start.scene = std::make_shared<const Scene>(settled(view));
     start.values = std::move(values);
     start.history = view.history();

@@ -20,12 +20,22 @@ namespace {
 void build_scenes(const std::shared_ptr<const Library>& library, std::vector<Error>& complaints) {
   std::set<std::string> said;
   for (const ScriptFile* file : library->files(DefinitionKind::task)) {
-    const Library::TaskInfo& task = task_info(*library, file->name);
     try {
+      const Library::TaskInfo& task = task_info(*library, file->name);
       EpisodeScripts(library, task.name, task.variation_texts.empty() ? "" : task.variation_texts.front(), 0).task()(0);
+    } catch (const LibraryError&) {  // said already
     } catch (const Error& error) {
       if (said.insert(error.what()).second) complaints.push_back(error);
     }
+  }
+}
+
+// The tasks without mistakes, where what all of them share has none; else nothing.
+std::shared_ptr<const Library> usable_part(const Arguments& arguments) {
+  try {
+    return load_usable_library(arguments);
+  } catch (const LibraryError&) {
+    return nullptr;
   }
 }
 
@@ -157,7 +167,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
 ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const auto library = Library::load(roots_of(arguments), all);
-  if (all.empty()) build_scenes(library, all);
+  if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) build_scenes(usable, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
   check_names(*library, names, all);
   const std::vector<Error> complaints = wanted_complaints(all, names);

@@ -39,24 +39,49 @@ void check_unused(const Library& library, const std::string& name) {
   if (library.domain().types.contains(name)) {
     throw UsageError("the name '" + name + "' is taken by a type", "take " + name + "_2");
   }
+  const std::vector<std::string>& traits = library.domain().traits;
+  if (std::binary_search(traits.begin(), traits.end(), name)) {
+    throw UsageError("the name '" + name + "' is taken by a trait", "take " + name + "_2");
+  }
+}
+
+// A line more in the worlds/types.lua of that root; it adds to the types and traits of the roots before it.
+void add_word(const fs::path& path, const std::string& kind, const std::string& name) {
+  const std::string table = kind + "s = {";
+  std::string text =
+      "-- Types and traits of our own: they add to the library's.\nreturn {\n  types = {\n  },\n  traits = {\n  "
+      "},\n}\n";
+  if (fs::exists(path)) text = read_text_file(path);
+  const std::size_t at = text.find(table);
+  const std::string line =
+      kind == "type" ? name + " = { parent = \"thing\" }," : name + " = \"what can be done with it\",";
+  if (at == std::string::npos)
+    throw UsageError("'" + path.string() + "' has no '" + table + "'", "add the line yourself: " + line);
+  text.insert(at + table.size(), "\n    " + line);
+  write_text_file(path, text);
 }
 
 ExitCode do_new(const Arguments& arguments, Console& console) {
   const std::string kind_name = arguments.text("KIND"), name = arguments.text("NAME");
   const auto* kind =
       std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.name == kind_name; });
-  if (kind == std::end(kKinds)) {
+  const bool word = kind_name == "type" || kind_name == "trait";
+  if (kind == std::end(kKinds) && !word) {
     throw UsageError("there is no kind of file '" + kind_name + "'",
-                     "it is one of task, skill, predicate, object, world");
+                     "it is one of task, skill, predicate, object, world, type, trait");
   }
   check_name(name);
   make_own_folder(arguments);
   std::vector<Error> complaints;  // of other files: no reason not to write this one
   check_unused(*Library::load(roots_of(arguments), complaints), name);
   const fs::path root = roots_of(arguments).folders.back();
-  const fs::path path = root / kind->folder / (name + ".lua");
-  if (fs::exists(path)) throw UsageError("'" + path.string() + "' exists already", "take another name");
-  write_text_file(path, new_file(kind->kind, name));
+  const fs::path path = word ? root / "worlds" / "types.lua" : root / kind->folder / (name + ".lua");
+  if (word) {
+    add_word(path, kind_name, name);
+  } else {
+    if (fs::exists(path)) throw UsageError("'" + path.string() + "' exists already", "take another name");
+    write_text_file(path, new_file(kind->kind, name));
+  }
   if (!arguments.list("--path").empty()) {
     write_editor_files(root, *Library::load(roots_of(arguments), complaints));
   }
@@ -74,10 +99,13 @@ CommandRow new_command() {
   return {
       "new",
       "Write the smallest file of a kind that passes `stampede check`",
-      "The file goes to its place under the last --path, or under --root where there is none. Names that are "
+      "The file goes to its place under the last --path, or under --root where there is none. A type or trait becomes "
+      "a "
+      "line of worlds/types.lua there, which adds to the library's. Names that are "
       "taken, are words of Lua or PDDL, or do not match [a-z][a-z0-9_]* are refused, with a proposal. Under a --path, "
       "what editors read (LuaLS: .luarc.json, .stampede/) is kept current as `stampede doc --path` does.",
-      {{"KIND", "task, skill, predicate, object or world", true, false}, {"NAME", "its name", true, false}},
+      {{"KIND", "task, skill, predicate, object, world, type or trait", true, false},
+       {"NAME", "its name", true, false}},
       {},
       {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks"},
       do_new};

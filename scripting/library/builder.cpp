@@ -27,8 +27,8 @@ LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaint
 std::shared_ptr<Library> LibraryBuilder::build() {
   library_->files_ = find_files(library_->roots_, complaints_);
   check_names();
-  read_types();
   read_definitions();
+  read_types();
   declare_predicates();
   declare_attributes();
   define_predicates();
@@ -72,6 +72,10 @@ void LibraryBuilder::read_definitions() {
       of(file.kind).emplace(file.name, std::move(definition));
     });
   }
+  auto& colours = of(DefinitionKind::colours);
+  if (const auto all = colours.find("colours"); all != colours.end())
+    for (const auto& [name, other] : colours)
+      if (name != all->first) all->second.node.fields.insert(other.node.fields.begin(), other.node.fields.end());
 }
 
 Error LibraryBuilder::error_at(const Definition& definition, const std::string& path, const std::string& what,

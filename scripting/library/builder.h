@@ -68,6 +68,9 @@ class LibraryBuilder {
 
   // check_predicates.cpp
   void read_types();
+  using TypeOrigins = std::map<std::string, std::pair<const Definition*, std::string>>;  // file and field
+  void declare_types(const Definition& definition, const std::string& prefix, const Value& node, TypeOrigins& origins);
+  void check_type_tree(const TypeOrigins& origins);
   void declare_predicates();  // names and parameters
   void define_predicates();   // traits, derived formulas
   void read_exclusions(const Definition& definition, const Predicate& predicate, PredicateTraits& traits);
@@ -90,6 +93,7 @@ class LibraryBuilder {
   void add_object(SceneObjects& objects, const std::string& name, const Value& entry) const;
   SceneObjects world_objects(const std::string& world) const;
   void check_body(const Definition& definition, const Value& body, const std::string& path);
+  void check_sizes(const Definition& definition, const Value& body, const std::string& path);
   std::string hand_of(const std::string& world) const;
 
   // check_assets.cpp

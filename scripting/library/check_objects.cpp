@@ -17,6 +17,8 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+constexpr double kOpening = 0.08;  // m, of a robot that says nothing else
+
 std::string type_or(const Value& node, const std::string& otherwise) {
   return node["type"].is_text() ? node["type"].text : otherwise;
 }
@@ -49,6 +51,7 @@ void LibraryBuilder::check_body(const Definition& definition, const Value& body,
   for (const char* number : {"mass", "friction", "restitution"}) {
     if (body[number].is_number() && body[number].number < 0) complain(definition, prefix + number, "is negative");
   }
+  check_sizes(definition, body, path);
   if (body["colour"].is_text()) {
     const auto colours = of(DefinitionKind::colours).find("colours");
     if (colours == of(DefinitionKind::colours).end() || colours->second.node[body["colour"].text].present()) return;
@@ -56,6 +59,47 @@ void LibraryBuilder::check_body(const Definition& definition, const Value& body,
     for (const auto& [name, rgb] : colours->second.node.fields) known.push_back(name);
     complain(definition, prefix + "colour", "there is no colour '" + body["colour"].text + "'",
              did_you_mean(body["colour"].text, known));
+  }
+}
+
+// Numbers that no scene can be built with, and grasps that no hand can make.
+void LibraryBuilder::check_sizes(const Definition& definition, const Value& body, const std::string& path) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  for (const char* kind : {"slider", "hinge"}) {
+    const Value& joint = body[kind];
+    const std::vector<Value>& range = joint["range"].items;
+    const std::string where = prefix + kind;
+    if (range.size() == 2 && range[0].is_number() && range[1].is_number()) {
+      const double low = range[0].number, high = range[1].number, initial = joint.number_or("initial", 0);
+      if (low >= high) complain(definition, where + ".range", "ends before it begins", "range = { lower, upper }");
+      if (low < high && (initial < low || initial > high))
+        complain(definition, where + ".initial", "the position at the start is outside range", "move one of them");
+    }
+    for (const char* number : {"damping", "friction", "spring", "detent"})
+      if (joint[number].is_number() && joint[number].number < 0)
+        complain(definition, where + "." + number, "is negative");
+  }
+  std::vector<const Value*> shapes;
+  if (body["shape"].is_table()) shapes.push_back(&body["shape"]);
+  for (const Value& shape : body["shapes"].items) shapes.push_back(&shape);
+  for (const Value* shape : shapes) {
+    const std::string& kind = (*shape)["shape"].text;
+    if (kind != "box" && kind != "sphere" && kind != "cylinder" && kind != "capsule" && kind != "cone") continue;
+    for (const Value& length : shape->items)
+      if (length.is_number() && length.number <= 0)
+        add(Error(definition.file->shown_path + ":" + std::to_string(shape->line()),
+                  "a " + kind + " has an edge of " + plain_text(length), "lengths are positive, in metres"));
+  }
+  double widest = 0;
+  for (const auto& [name, robot] : of(DefinitionKind::robot))
+    widest = std::max(widest, robot.node.number_or("opening", kOpening));
+  for (std::size_t i = 0; widest > 0 && i < body["grasps"].items.size(); ++i) {
+    const Value& width = body["grasps"].items[i]["width"];
+    if (width.is_number() && width.number > widest)
+      complain(definition, prefix + "grasps",
+               "grasp " + std::to_string(i + 1) + " is " + plain_text(width) + " m wide, no hand opens further than " +
+                   std::to_string(widest).substr(0, 5) + " m",
+               "grasp it where it is narrower");
   }
 }
 
@@ -116,6 +160,11 @@ void LibraryBuilder::check_entry(const Definition& definition, const Value& entr
     for (const auto& [name, unused] : found->second.node[table].fields) known.push_back(name);
   }
   check_record(*record("entry"), entry, path, complainer(definition), known);
+  Value replaced;  // fields of its file
+  replaced.kind = Value::Kind::table;
+  for (const std::string& name : field_names(*record("object")))
+    if (const Value& value = entry[name]; value.present()) replaced.fields[name] = value;
+  if (!robot) check_record(*record("object"), replaced, path, complainer(definition));
   check_body(definition, entry, path);
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
   if (robot) return check_start(definition, entry["joints"], found->second.node["arm"], path + ".joints");

@@ -1,6 +1,7 @@
 // Types, traits, predicates, attributes.
 #include <algorithm>
 #include <functional>
+#include <list>
 
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
@@ -22,33 +23,67 @@ void predicates_in(const Formula& formula, bool negated, const std::function<voi
 
 }  // namespace
 
-// worlds/types.lua: types = { cube = { parent = "block" } } or { cube = "block" }; traits by name or as a list.
+// worlds/types.lua of each root, and what objects declare for themselves: types = { cube = { parent = "block" } } or
+// { cube = "block" }; traits by name or as a list.
 void LibraryBuilder::read_types() {
-  Domain& domain = library_->domain_;
-  domain.types = {{"hand", kRoot}, {"region", kRoot}};
-  const ScriptFile* file = library_->file(DefinitionKind::types, "types");
-  if (file == nullptr || file->bytecode.empty()) return;
-  Definition definition{file, {}, field_lines(file->source)};
-  if (!guarded([&] {
-        DefinitionState state(library_);
-        state.push(DefinitionKind::types, "types");
-        definition.node = value_as_written(state.state(), -1, file->shown_path);
-      })) {
-    return;
+  library_->domain_.types = {{"hand", kRoot}, {"region", kRoot}};
+  std::list<Definition> files;
+  TypeOrigins origins;
+  for (const ScriptFile* file : library_->files(DefinitionKind::types)) {
+    if (file->bytecode.empty()) continue;
+    Definition& definition = files.emplace_back(Definition{file, {}, field_lines(file->source)});
+    const bool read = guarded([&] {
+      DefinitionState state(library_);
+      state.push(DefinitionKind::types, file->name);
+      definition.node = value_as_written(state.state(), -1, file->shown_path);
+    });
+    if (read) declare_types(definition, "", definition.node, origins);
   }
-  for (const auto& [name, entry] : definition.node["types"].fields) {
+  for (const auto& [name, definition] : of(DefinitionKind::object))
+    if (const Value& declared = definition.node["declares"]; declared.is_table())
+      declare_types(definition, "declares.", declared, origins);
+  check_type_tree(origins);
+}
+
+void LibraryBuilder::declare_types(const Definition& definition, const std::string& prefix, const Value& node,
+                                   TypeOrigins& origins) {
+  Domain& domain = library_->domain_;
+  for (const auto& [name, entry] : node["types"].fields) {
     const Value& parent = entry.is_table() ? entry["parent"] : entry;
     domain.types[name] = parent.is_text() ? parent.text : kRoot;
-    if (const auto fault = name_fault(name)) {
-      complain(definition, "types." + name, "the type name '" + name + "' " + *fault,
+    origins[name] = {&definition, prefix + "types." + name};
+    if (const auto fault = name_fault(name))
+      complain(definition, prefix + "types." + name, "the type name '" + name + "' " + *fault,
                "such as '" + proposed_name(name) + "'");
-    }
   }
+  std::vector<std::string> traits;
+  for (const Value& item : node["traits"].items) traits.push_back(item.text);
+  for (const auto& [name, description] : node["traits"].fields) traits.push_back(name);
+  for (const std::string& name : traits) {
+    const auto place = std::lower_bound(domain.traits.begin(), domain.traits.end(), name);
+    if (place == domain.traits.end() || *place != name) domain.traits.insert(place, name);
+    origins["trait " + name] = {&definition, prefix + "traits." + name};
+    if (const auto fault = name_fault(name))
+      complain(definition, prefix + "traits." + name, "the trait name '" + name + "' " + *fault,
+               "such as '" + proposed_name(name) + "'");
+  }
+  for (const auto& [key, value] : node.fields)
+    if (key != "types" && key != "traits")
+      complain(definition, prefix + key, "there is no field '" + key + "' beside types and traits",
+               did_you_mean(key, {"types", "traits"}));
+}
+
+void LibraryBuilder::check_type_tree(const TypeOrigins& origins) {
+  Domain& domain = library_->domain_;
+  const auto complain_of = [&](const std::string& name, const std::string& what, const std::string& hint) {
+    const auto found = origins.find(name);
+    if (found != origins.end()) complain(*found->second.first, found->second.second, what, hint);
+  };
   std::vector<std::string> known;
   for (const auto& [name, parent] : domain.types) known.push_back(name);
   for (auto& [name, parent] : domain.types) {
     if (parent != kRoot && !domain.types.contains(parent)) {
-      complain(definition, "types." + name, "its parent '" + parent + "' is not a type", did_you_mean(parent, known));
+      complain_of(name, "its parent '" + parent + "' is not a type", did_you_mean(parent, known));
       parent = kRoot;
     }
   }
@@ -58,29 +93,14 @@ void LibraryBuilder::read_types() {
       at = domain.types.at(at);
       chain += " < " + at;
       if (at != name) continue;
-      complain(definition, "types." + name, "a cycle of types: " + chain, "every type ends at object");
+      complain_of(name, "a cycle of types: " + chain, "every type ends at object");
       parent = kRoot;
       break;
     }
   }
-  const Value& traits = definition.node["traits"];
-  for (const Value& item : traits.items) domain.traits.push_back(item.text);
-  for (const auto& [name, description] : traits.fields) domain.traits.push_back(name);
-  std::sort(domain.traits.begin(), domain.traits.end());
-  for (const std::string& name : domain.traits) {
-    if (const auto fault = name_fault(name)) {
-      complain(definition, "traits." + name, "the trait name '" + name + "' " + *fault,
-               "such as '" + proposed_name(name) + "'");
-    } else if (domain.types.contains(name)) {
-      complain(definition, "traits." + name, "'" + name + "' is a type too",
-               "call the trait " + proposed_name(name, {name}));
-    }
-  }
-  for (const auto& [key, value] : definition.node.fields) {
-    if (key != "types" && key != "traits") {
-      complain(definition, key, "types.lua has no field '" + key + "'", did_you_mean(key, {"types", "traits"}));
-    }
-  }
+  for (const std::string& name : domain.traits)
+    if (domain.types.contains(name))
+      complain_of("trait " + name, "'" + name + "' is a type too", "call the trait " + proposed_name(name, {name}));
 }
 
 std::vector<Parameter> LibraryBuilder::parameters_of(const Definition& definition, bool add_hand) {

@@ -47,27 +47,33 @@ int set_metatable(lua_State* state) {
   return 1;
 }
 
-// Arguments: bytecode, has worlds/colours.lua.
+// Arguments: bytecode, then the modules of colours.
 int run_prelude(lua_State* state) {
   const auto* bytecode = static_cast<const std::string*>(lua_touserdata(state, 1));
-  const bool colours = lua_toboolean(state, 2) != 0;
-  lua_settop(state, 0);
+  const int modules = lua_gettop(state);
+  lua_newtable(state);
+  const int colours = modules + 1;
+  for (int module = 2; module <= modules; ++module) {
+    lua_getglobal(state, "require");
+    lua_pushvalue(state, module);
+    lua_call(state, 1, 1);
+    luaL_argexpected(state, lua_istable(state, -1), 1, "worlds/colours.lua returns a table of colours by name");
+    for (lua_pushnil(state); lua_next(state, -2) != 0;) {
+      lua_pushvalue(state, -2);
+      lua_insert(state, -2);
+      lua_settable(state, colours);
+    }
+    lua_pop(state, 1);
+  }
   if (luaL_loadbufferx(state, bytecode->data(), bytecode->size(), "=prelude", "b") != LUA_OK) return lua_error(state);
   lua_newtable(state);
   const LuaFunction own[] = {
       {"here", lua_function<here>}, {"fail", lua_function<fail>}, {"setmetatable", lua_function<set_metatable>}};
   set_functions(state, own);
   lua_pushglobaltable(state);
-  lua_setfield(state, 2, "words");
-  if (colours) {
-    lua_getglobal(state, "require");
-    lua_pushliteral(state, "worlds.colours");
-    lua_call(state, 1, 1);
-    luaL_argexpected(state, lua_istable(state, -1), 1, "worlds/colours.lua returns a table of colours by name");
-  } else {
-    lua_newtable(state);
-  }
-  lua_setfield(state, 2, "colours");
+  lua_setfield(state, -2, "words");
+  lua_pushvalue(state, colours);
+  lua_setfield(state, -2, "colours");
   lua_call(state, 1, 0);
   lua_newtable(state);
   lua_setfield(state, LUA_REGISTRYINDEX, kDefinitionsKey);
@@ -101,8 +107,14 @@ DefinitionState::DefinitionState(std::shared_ptr<const Library> library, const S
   lua_State* lua = state();
   lua_pushcfunction(lua, lua_function<run_prelude>);
   lua_pushlightuserdata(lua, const_cast<std::string*>(&prelude_bytecode()));
-  lua_pushboolean(lua, impl_->library->module("worlds.colours") != nullptr);
-  sandbox().call(2, 0);
+  int modules = 0;
+  for (const ScriptFile* file : impl_->library->files(DefinitionKind::colours)) {
+    std::string name = file->shown_path.substr(0, file->shown_path.rfind('.'));
+    std::replace(name.begin(), name.end(), '/', '.');
+    lua_pushlstring(lua, name.data(), name.size());
+    ++modules;
+  }
+  sandbox().call(1 + modules, 0);
 }
 
 DefinitionState::~DefinitionState() = default;

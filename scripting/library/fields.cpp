@@ -148,7 +148,9 @@ const Record kObject{
     body_fields_and({{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
                      {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
                      {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
-                     {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"}})};
+                     {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"},
+                     {"declares", "table", false, "{}", "",
+                      "types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} }"}})};
 
 const Record kPart{
     "part", "A moving part of an object",

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -64,6 +65,17 @@ std::vector<fs::path> lua_files(const fs::path& root, const char* folder, std::v
   return found;
 }
 
+// A file of a later root replaces one of the same name, but its types and colours add to those of the roots before it.
+void stand_beside(const fs::path& root, const std::map<std::string, ScriptFile>& files, ScriptFile& file) {
+  const std::string folder = fs::weakly_canonical(root).filename().string(), stem = file.name;
+  std::string plain;
+  for (const char c : folder) plain += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  for (int n = 2; files.contains(file.shown_path); ++n) {
+    file.name = stem + std::to_string(n);
+    file.shown_path = plain + (n > 2 ? std::to_string(n) : "") + "/worlds/" + stem + ".lua";
+  }
+}
+
 void read_file(const fs::path& root, const fs::path& path, std::map<std::string, ScriptFile>& files,
                std::vector<Error>& complaints) {
   ScriptFile file;
@@ -71,6 +83,7 @@ void read_file(const fs::path& root, const fs::path& path, std::map<std::string,
   file.shown_path = path.lexically_relative(root).generic_string();
   file.kind = kind_of(file.shown_path);
   file.name = path.stem().string();
+  if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours) stand_beside(root, files, file);
   std::error_code code;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || fs::file_size(path, code) > kLargest) {

@@ -1,6 +1,7 @@
 #include "scripting/library/formula_reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/naming.h"
@@ -30,11 +31,17 @@ class Reader {
   explicit Reader(const FormulaContext& context) : context_(context), domain_(*context.domain) {}
 
   Formula formula(const Value& node) {
-    if (node.is_table() && node.tag().empty() && node.fields.empty()) return list(node, Formula::Kind::conjunction);
+    if (node.is_table() && node.tag().empty() && node.fields.empty()) {
+      if (node.items.size() == 1 && whole_) return formula(node.items[0]);
+      const Part part(*this);
+      return list(node, Formula::Kind::conjunction);
+    }
     const std::string tag = node.tag();
     const Line line(*this, node);
+    if (tag == "in_order") return in_order(node);
+    const Part part(*this);
     if (tag == "literal") return literal_formula(node);
-    if (tag == "all_of" || tag == "in_order") return list(node, Formula::Kind::conjunction);
+    if (tag == "all_of") return list(node, Formula::Kind::conjunction);
     if (tag == "any_of") {
       ++narrow_;
       Formula result = list(node, Formula::Kind::disjunction);
@@ -103,6 +110,40 @@ class Reader {
   }
 
  private:
+  // While it lives, what is read is a part of the formula.
+  class Part {
+   public:
+    explicit Part(Reader& reader) : reader_(reader), before_(std::exchange(reader.whole_, false)) {}
+    ~Part() { reader_.whole_ = before_; }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    Reader& reader_;
+    bool before_;
+  };
+
+  // A goal's stages, all of which have come true at its end.
+  Formula in_order(const Value& node) {
+    if (!whole_ || context_.field != "goal")
+      fail("in_order stands inside another formula, or not in a goal",
+           "it is a whole goal: goal = in_order { first, second }; what comes in no order goes into its last part");
+    const Part part(*this);
+    for (const Value& stage : node.items) {
+      const Line line(*this, stage);
+      if (!only_literals(formula(stage)))
+        fail("a part of in_order is more than literals", "write it without any_of, exists, forall and is_not(all_of)");
+    }
+    return list(node, Formula::Kind::conjunction);
+  }
+
+  static bool only_literals(const Formula& formula) {
+    if (formula.kind == Formula::Kind::conjunction)
+      return std::all_of(formula.parts.begin(), formula.parts.end(), only_literals);
+    return formula.kind == Formula::Kind::atom || formula.kind == Formula::Kind::always ||
+           (formula.kind == Formula::Kind::negation && formula.parts[0].kind == Formula::Kind::atom);
+  }
+
   // The line of the innermost value that knows its own.
   class Line {
    public:
@@ -391,7 +432,8 @@ class Reader {
   const Domain& domain_;
   std::vector<std::string> scope_;  // quantified variables, outermost first
   int line_ = 0;
-  int narrow_ = 0;  // inside any_of or exists
+  int narrow_ = 0;     // inside any_of or exists
+  bool whole_ = true;  // what is read is the whole formula
 };
 
 }  // namespace

@@ -84,6 +84,7 @@
 ---@field region? stampede.region  the whole object is a region: no mass, no contact
 ---@field parts? table<string, stampede.part>  articulated parts, addressed object.part (default {})
 ---@field urdf? string  a URDF file beside this one, instead of shapes
+---@field declares? table  types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} } (default {})
 
 -- Where tasks take place: robot, fixtures, cameras, sensors, light
 ---@class stampede.world

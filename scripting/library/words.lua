@@ -436,10 +436,11 @@ function stampede_robot_view:retreat(distance, options) end
 function stampede_robot_view:move_home() end
 ---@param positions number[]
 function stampede_robot_view:move_joints(positions) end
--- The held handle along its joint
+-- The held handle along its joint. `pivot`: the handle may turn in the hand, which then turns with the part as far as it
+-- can, or not at all
 ---@param part string
 ---@param position number
----@param options? { speed: number, most_force: number }
+---@param options? { speed: number, most_force: number, pivot: boolean }
 function stampede_robot_view:move_part(part, position, options) end
 ---@param seconds number
 function stampede_robot_view:wait(seconds) end

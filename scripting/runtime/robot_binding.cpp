@@ -239,11 +239,12 @@ int move_joints(lua_State* state) {
 
 // The held or touched part's joint to a position, along its line or arc.
 int move_part(lua_State* state) {
-  only_fields(state, 4, {"speed", "most_force"});
+  only_fields(state, 4, {"speed", "most_force", "pivot"});
   robot_call::MovePart call;
   call.speed = number_field(state, 4, "speed", call.speed);
   call.most_force = number_field(state, 4, "most_force", call.most_force);
   luaL_argcheck(state, call.most_force >= 0, 4, "most_force must not be negative");
+  call.pivot = flag_field(state, 4, "pivot");
   call.position = finite(state, 3);
   const std::string_view part = check_text(state, 2);
   view_of(state).joint_range(part);

@@ -189,6 +189,78 @@ TEST_CASE("a mistake in a file stops the tasks that use it, and no other, check 
   CHECK(with_mine({"run", "reach_target", "--out", mine / "d.db"}).code == kBadInput);
 }
 
+TEST_CASE("one run of check finds what five files have wrong, each with its line") {
+  const Folder mine;
+  std::filesystem::create_directories(mine / "worlds/objects");
+  std::filesystem::create_directories(mine / "tasks");
+  std::ofstream(mine / "worlds/objects/brick.lua")
+      << "-- A brick.\nreturn object {\n  type = \"block\", traits = { \"movable\", \"graspable\" },\n"
+         "  shape = box { 0.1, 0.1, 0.04 }, mass = \"heavy\", friction = -1,\n  grasps = { { width = 0.10 } },\n"
+         "  parts = { lid = { hinge = { range = { 1, 0 }, damping = -1 },\n    shape = box { 0.1, 0, 0.01 } } },\n}\n";
+  const auto task = [&](const char* name, const std::string& entry, const std::string& goal) {
+    std::ofstream(mine / ("tasks/" + std::string(name) + ".lua"))
+        << "-- A task.\nreturn task {\n  world = \"tabletop\",\n  objects = { a = { " + entry +
+               " }, b = { \"cube\" } },\n  init = { is.on(\"a\", \"table\"), is.on(\"b\", \"table\") },\n  goal = " +
+               goal + ",\n  instructions = { \"do it\" },\n}\n";
+  };
+  task("light", "\"cube\", mass = \"light\"", "is.lifted(\"a\")");
+  task("nested", "\"cube\"", "any_of { in_order { is.lifted(\"a\"), is.on(\"a\", \"b\") }, is.lifted(\"b\") }");
+  task("choice", "\"cube\"", "in_order { any_of { is.lifted(\"a\"), is.lifted(\"b\") }, is.lifted(\"a\") }");
+  const Said all = say({"check", "--root", kRoot, "--path", mine.text()});
+  CHECK(all.code == kBadInput);
+  INFO(all.out);
+  for (const char* complaint :
+       {"worlds/objects/brick.lua:4: mass: expects number", "worlds/objects/brick.lua:4: friction: is negative",
+        "worlds/objects/brick.lua:5: grasps: grasp 1 is 0.1 m wide, no hand opens further than 0.080 m",
+        "worlds/objects/brick.lua:6: parts.lid.hinge.range: ends before it begins",
+        "worlds/objects/brick.lua:6: parts.lid.hinge.damping: is negative",
+        "worlds/objects/brick.lua:7: a box has an edge of 0", "tasks/light.lua:4: objects.a.mass: expects number",
+        "tasks/nested.lua:6: goal: in_order stands inside another formula",
+        "tasks/choice.lua:6: goal: a part of in_order is more than literals"})
+    CHECK(says(all.out, complaint));
+}
+
+TEST_CASE("own types, traits and colours add to the library's, and objects may declare theirs") {
+  const Folder mine;
+  const auto with_mine = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--root", kRoot, "--path", mine.text()});
+    return say(words);
+  };
+  for (const char* name : {"sponge", "cloth"}) REQUIRE(with_mine({"new", "type", name}).code == kDone);
+  REQUIRE(with_mine({"new", "trait", "wipeable"}).code == kDone);
+  const std::string types = file_text(mine / "worlds/types.lua");
+  CHECK(says(types, "sponge = { parent = \"thing\" }"));
+  CHECK(says(types, "wipeable = \""));
+  for (const char* taken : {"sponge", "wipeable", "movable", "cube"})
+    CHECK(with_mine({"new", "trait", taken}).code == kUsage);
+  std::filesystem::create_directories(mine / "worlds/objects");
+  std::ofstream(mine / "worlds/colours.lua") << "return { mine = { 0.1, 0.2, 0.3 } }\n";
+  std::ofstream(mine / "worlds/objects/soap.lua")
+      << "-- A bar of soap.\nreturn object {\n  type = \"soap_bar\", traits = { \"movable\", \"graspable\", "
+         "\"wipeable\", "
+         "\"slippery\" },\n  declares = { types = { soap_bar = { parent = \"sponge\" } }, traits = { slippery = "
+         "\"slips\" } },\n"
+         "  shape = box { 0.04, 0.04, 0.04 }, mass = 0.1, colour = \"mine\",\n}\n";
+  std::filesystem::create_directories(mine / "tasks");
+  std::ofstream(mine / "tasks/lift_soap.lua") << "-- Lift it.\nreturn task {\n  world = \"tabletop\",\n  objects = { a "
+                                                 "= { \"soap\" }, b = { \"cube\", colour = \"red\" } },\n"
+                                                 "  init = { is.on(\"a\", \"table\"), is.on(\"b\", \"table\") },\n  "
+                                                 "goal = exists(\"?x: sponge & slippery\", is.lifted(\"?x\")),\n"
+                                                 "  instructions = { \"lift it\" },\n}\n";
+  const Said sound = with_mine({"check"});
+  INFO(sound.out);
+  CHECK(sound.code == kDone);
+  CHECK(with_mine({"plan", "lift_soap"}).code == kDone);
+
+  std::ofstream(mine / "worlds/objects/soap.lua")
+      << "-- A bar of soap.\nreturn object {\n  type = \"soap_bar\", traits = {},\n"
+         "  declares = { types = { soap_bar = \"spong\" } },\n  shape = box { 0.04, 0.04, 0.04 },\n}\n";
+  const Said wrong = with_mine({"check"});
+  CHECK(wrong.code == kBadInput);
+  CHECK(says(wrong.out, "worlds/objects/soap.lua:4: declares.types.soap_bar: its parent 'spong' is not a type"));
+  CHECK(says(wrong.out, "did you mean 'sponge'?"));
+}
+
 TEST_CASE("new keeps what editors read in an own folder current, and leaves their settings alone") {
   const Folder mine;
   const auto make = [&](const char* name) {

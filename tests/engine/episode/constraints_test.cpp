@@ -128,6 +128,17 @@ TEST_CASE("a constraint that cannot be met says which part failed how often") {
   CHECK(start.detail.find("20 times") != std::string::npos);
 }
 
+TEST_CASE("a goal that every start meets is said after ten draws") {
+  const TaskDraw task = stack_draw();
+  PlainSymbols symbols;
+  RunOptions options;
+  options.goal = formula("(on cube1 table)");
+  options.where = formula("(on cube1 table)");
+  const Start start = make_start(task, symbols, options);
+  CHECK(start.reason == Reason::init_impossible);
+  CHECK(start.detail.find("the goal holds at the start already, in each of 10 draws") == 0);
+}
+
 TEST_CASE("any goal over the predicates makes a task: planned, executed and said in words") {
   const TaskDraw task = stack_draw();
   PlainSymbols symbols;

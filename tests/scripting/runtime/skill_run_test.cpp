@@ -84,7 +84,7 @@ TEST_CASE("each robot method yields its call, one at a time") {
   const Quaternion turned(to[0].world_from_tip.linear()), before(view.world_from("mini.hand").linear());
   CHECK(angle_between(turned, before) == Approx(std::acos(0.0)));
   const auto part = next<robot_call::MovePart>(*run, view);
-  CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2));
+  CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2 && part.pivot));
   CHECK(next<robot_call::Wait>(*run, view).seconds == 0.5);
   CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
   const AskedCall child = next<robot_call::RunSkill>(*run, view).call;
