@@ -59,12 +59,17 @@ struct Joint {
   double velocity = 0;      // greatest speed (robots), 0: none
   double spring_force = 0;  // constant return force towards spring_target (buttons); 0: none
   double spring_target = 0;
-  double detent = 0;  // holds the joint at its lower or upper limit until this force is exceeded; 0: none
+  double stiffness = 0;  // beside it, a force per way from spring_target, N/m or N m/rad (scales)
+  double detent = 0;     // holds the joint at its lower or upper limit until this force is exceeded; 0: none
   // Latch: while locked, this joint is held at `lower`. It unlocks when joint `latch_key` passes `latch_open`
   // and locks again when this joint is back below latch_close and the key is back. Empty key: no latch.
   std::string latch_key;
   double latch_open = 0;
   double latch_close = 0;
+  // Coupling: q = follow_ratio * (q of joint `follows`) + follow_offset, each moves the other. Empty: moves by itself.
+  std::string follows;
+  double follow_ratio = 1;
+  double follow_offset = 0;
 };
 
 struct Part {

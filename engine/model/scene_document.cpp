@@ -48,6 +48,8 @@ void fields(Archive& a, Joint& j) {
   a("damping", j.damping), a("friction", j.friction), a("effort", j.effort), a("velocity", j.velocity);
   a("spring_force", j.spring_force), a("spring_target", j.spring_target), a("detent", j.detent);
   a("latch_key", j.latch_key), a("latch_open", j.latch_open), a("latch_close", j.latch_close);
+  a.optional("stiffness", j.stiffness, 0.0), a.optional("follows", j.follows, std::string());
+  a.optional("follow_ratio", j.follow_ratio, 1.0), a.optional("follow_offset", j.follow_offset, 0.0);
 }
 
 template <typename Archive>
@@ -135,6 +137,11 @@ class Writer {
   void operator()(const char* key, Value& value) {
     json_[key] = write(value, path_ + "." + key);
   }
+  // Left out where it is as it was before there was such a field: documents of earlier releases lack it.
+  template <typename Value>
+  void optional(const char* key, Value& value, const Value& before) {
+    if (value != before) (*this)(key, value);
+  }
   template <typename Choice, std::size_t N>
   void choice(const char* key, Choice& value, const std::array<const char*, N>& names) {
     json_[key] = names.at(static_cast<std::size_t>(value));
@@ -210,6 +217,11 @@ class Reader {
   template <typename Value>
   void operator()(const char* key, Value& value) {
     read(at(key), value, path_ + "." + key);
+  }
+  template <typename Value>
+  void optional(const char* key, Value& value, const Value& before) {
+    value = before;
+    if (json_.contains(key)) (*this)(key, value);
   }
   template <typename Choice, std::size_t N>
   void choice(const char* key, Choice& value, const std::array<const char*, N>& names) {

@@ -81,7 +81,7 @@ void World::Impl::build_robot_motors() {
   }
   if (robot.fingers.size() == 2) {
     // Two force-limited motors alone let the pair wander along the closing axis: the gear couples them.
-    dynamics.add_gear(*robot_slot.tree, {finger_motors[0]->dof, finger_motors[1]->dof, kGearErp, kGearForce});
+    dynamics.add_gear(*robot_slot.tree, {finger_motors[0]->dof, finger_motors[1]->dof, kGearErp, kGearForce, 1, 0});
   }
   hand.opening = 0;
   for (const int finger : robot.fingers) hand.opening += part({kRobot, finger}).joint.initial;

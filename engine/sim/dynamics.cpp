@@ -254,7 +254,10 @@ void Dynamics::apply_forces() {
   }
   velocities_.assign(static_cast<std::size_t>(quads), Quad{});
   for (Mover& mover : movers_) {
-    if (mover.asleep) continue;
+    if (mover.asleep) {
+      if (mover.tree) std::fill(mover.tree->torque.begin(), mover.tree->torque.end(), 0.0);  // or it would add up
+      continue;
+    }
     double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
     if (mover.free) {
       FreeBody& body = *mover.free;
@@ -506,11 +509,11 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
 
 void Dynamics::add_joints(const Mover& mover) {
   const Articulation& tree = *mover.tree;
-  const auto add_row = [&](int dof, int other) -> SolverRow& {
+  const auto add_row = [&](int dof, int other, double ratio) -> SolverRow& {
     SolverRow& row = begin_row(joints_);
     double* jacobian = add_side(row, mover);
     jacobian[dof] = 1;
-    if (other >= 0) jacobian[other] = -1;
+    if (other >= 0) jacobian[other] = -ratio;
     respond(tree, jacobian);
     return row;
   };
@@ -518,7 +521,7 @@ void Dynamics::add_joints(const Mover& mover) {
   for (JointMotor* motor : mover.motors) {
     motor->force = 0;
     if (!(motor->most_force > 0)) continue;
-    SolverRow& row = add_row(motor->dof, -1);
+    SolverRow& row = add_row(motor->dof, -1, 0);
     const double error = motor->position - tree.position[static_cast<std::size_t>(motor->dof)];
     const double wanted = motor->velocity + motor->position_gain * motor->erp * error / dt_;
     end_row(row, std::clamp(wanted, -motor->fastest, motor->fastest));
@@ -528,9 +531,9 @@ void Dynamics::add_joints(const Mover& mover) {
   }
   start_motors(mover, first);
   for (const JointGear& gear : mover.gears) {
-    SolverRow& row = add_row(gear.one, gear.other);
-    const double error =
-        tree.position[static_cast<std::size_t>(gear.one)] - tree.position[static_cast<std::size_t>(gear.other)];
+    SolverRow& row = add_row(gear.one, gear.other, gear.ratio);
+    const double error = tree.position[static_cast<std::size_t>(gear.one)] - gear.offset -
+                         gear.ratio * tree.position[static_cast<std::size_t>(gear.other)];
     end_row(row, -gear.erp * error / dt_);
     row.upper = gear.most_force * dt_;
     row.lower = -row.upper;

@@ -43,11 +43,12 @@ struct JointMotor {
   double force = 0;       // of the last step
 };
 
-// Keeps two joints of a tree at equal positions.
+// Keeps joint `one` of a tree at ratio * other + offset.
 struct JointGear {
   int one = 0, other = 0;  // dofs
   double erp = 0.04;
-  double most_force = 0;
+  double most_force = 0;  // on `one`
+  double ratio = 1, offset = 0;
 };
 
 struct JointStop {

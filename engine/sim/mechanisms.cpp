@@ -1,4 +1,4 @@
-// Joints of furniture: friction, damping, return springs, detents and latches.
+// Joints of furniture: friction, damping, return springs, detents, latches and couplings.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,9 @@ constexpr double kSpringErp = 0.1;
 constexpr double kSpringSpeed = 0.3;  // m/s or rad/s at most
 constexpr double kLockForce = 500;    // N or N m
 constexpr double kLockErp = 0.2;
-constexpr double kKeyBack = 0.6;       // of the way from its rest to latch_open: hysteresis of the key
+constexpr double kKeyBack = 0.6;  // of the way from its rest to latch_open: hysteresis of the key
+constexpr double kFollowErp = 0.2;
+constexpr double kStiffest = 0.5;      // of inertia / dt^2: a spring beyond it would shake what it carries
 constexpr double kRelockRange = 0.01;  // of the joint's range, where latch_close says nothing
 
 bool descends_from(const Body& body, int part, int ancestor) {
@@ -66,17 +68,25 @@ void World::Impl::build_mechanisms() {
         mechanism.spring->position_gain = 1;
         mechanism.spring->fastest = kSpringSpeed;
       }
-      if (!joint.latch_key.empty()) {
-        int key = -1;
-        for (int other = 0; other < static_cast<int>(description.parts.size()); ++other) {
+      const auto joint_named = [&](const std::string& name, const std::string& what) {
+        for (int other = static_cast<int>(description.parts.size()) - 1; other >= 0; --other) {
           const Part& candidate = part({index, other});
-          if (slot({index, other}).dof >= 0 &&
-              (candidate.joint.name == joint.latch_key || candidate.name == joint.latch_key))
-            key = other;
+          if (other != p && slot({index, other}).dof >= 0 && (candidate.joint.name == name || candidate.name == name))
+            return other;
         }
-        if (key < 0)
-          throw Error(description.name, "the latch of '" + joint.name + "' names no joint '" + joint.latch_key + "'",
-                      "name a moving joint of the same object");
+        throw Error(description.name, "the " + what + " of '" + joint.name + "' names no joint '" + name + "'",
+                    "name another moving joint of the same object");
+      };
+      if (joint.stiffness * dt * dt > kStiffest * mechanism.inertia)
+        throw Error(description.name, "the stiffness of '" + joint.name + "' is too great for what it moves",
+                    "at most " + std::to_string(kStiffest * mechanism.inertia / (dt * dt)) + ", or more mass");
+      if (!joint.follows.empty()) {
+        const int leader = joint_named(joint.follows, "coupling");
+        dynamics.add_gear(*here.tree, {here.dof, slot({index, leader}).dof, kFollowErp, kLockForce, joint.follow_ratio,
+                                       joint.follow_offset});
+      }
+      if (!joint.latch_key.empty()) {
+        const int key = joint_named(joint.latch_key, "latch");
         mechanism.key_dof = slot({index, key}).dof;
         mechanism.key_initial = part({index, key}).joint.initial;
         mechanism.relock_below = std::max(joint.latch_close, joint.lower + kRelockRange * (joint.upper - joint.lower));
@@ -104,11 +114,10 @@ void World::Impl::move_mechanisms() {
     mechanism.brake->position = joint.lower;
     mechanism.brake->position_gain = mechanism.locked ? 1 : 0;
     mechanism.brake->most_force = mechanism.locked ? kLockForce : joint.friction;
-    mechanism.torque = 0;
-    if (joint.damping > 0) {  // implicit: the speed at the end of the step is what is damped
-      mechanism.torque = -joint.damping * v / (1 + dt * joint.damping / mechanism.inertia);
-      mechanism.tree->torque[mechanism.dof] += mechanism.torque;
-    }
+    mechanism.torque = -joint.stiffness * (q - joint.spring_target);
+    if (joint.damping > 0)  // implicit: the speed at the end of the step is what is damped
+      mechanism.torque -= joint.damping * v / (1 + dt * joint.damping / mechanism.inertia);
+    mechanism.tree->torque[mechanism.dof] += mechanism.torque;
     if (mechanism.spring) {
       const double nearest = q < (joint.lower + joint.upper) / 2 ? joint.lower : joint.upper;
       const bool detent = joint.detent > 0;

@@ -94,6 +94,7 @@ class LibraryBuilder {
   SceneObjects world_objects(const std::string& world) const;
   void check_body(const Definition& definition, const Value& body, const std::string& path);
   void check_sizes(const Definition& definition, const Value& body, const std::string& path);
+  void check_links(const Definition& definition, const Value& parts, const std::string& name);
   std::string hand_of(const std::string& world) const;
 
   // check_assets.cpp

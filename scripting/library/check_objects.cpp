@@ -103,6 +103,33 @@ void LibraryBuilder::check_sizes(const Definition& definition, const Value& body
   }
 }
 
+// Latches and couplings name other moving parts, and couplings come to an end.
+void LibraryBuilder::check_links(const Definition& definition, const Value& parts, const std::string& name) {
+  const auto joint_of = [&](const std::string& part) -> const Value& {
+    return parts[part]["hinge"].present() ? parts[part]["hinge"] : parts[part]["slider"];
+  };
+  const std::string path = "parts." + name + (parts[name]["hinge"].present() ? ".hinge" : ".slider");
+  std::vector<std::string> moving;
+  for (const auto& [other, unused] : parts.fields)
+    if (other != name && joint_of(other).present()) moving.push_back(other);
+  for (const auto& [field, word] : {std::pair{"latch", "key"}, std::pair{"follows", "part"}}) {
+    const Value& target = joint_of(name)[field][word];
+    if (!target.is_text() || std::find(moving.begin(), moving.end(), target.text) != moving.end()) continue;
+    complain(definition, path + "." + field,
+             target.text == name ? "it names its own part" : "there is no other part '" + target.text + "' that moves",
+             target.text == name ? "name another moving part" : did_you_mean(target.text, moving));
+  }
+  std::string chain = name, at = name;
+  for (std::size_t step = 0; step <= parts.fields.size(); ++step) {
+    const Value& next = joint_of(at)["follows"]["part"];
+    if (!next.is_text() || next.text == at) return;
+    at = next.text;
+    chain += " -> " + at;
+    if (at == name)
+      return complain(definition, path + ".follows", "couplings in a circle: " + chain, "one of them moves by itself");
+  }
+}
+
 void LibraryBuilder::check_objects() {
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
     const Value& node = definition.node;
@@ -126,6 +153,7 @@ void LibraryBuilder::check_objects() {
         complain(definition, path + ".parent", "there is no part '" + part["parent"].text + "'",
                  did_you_mean(part["parent"].text, known));
       }
+      check_links(definition, node["parts"], part_name);
       for (const auto& [region_name, region] : part["regions"].fields)
         check_body(definition, region, path + ".regions." + region_name);
     }

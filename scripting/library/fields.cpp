@@ -159,26 +159,35 @@ const Record kPart{
                      {"hinge", "joint", false, "", "", "turns about an axis"},
                      {"fixed", "joint|boolean", false, "", "", "does not move relative to its parent"}})};
 
-const Record kJoint{"joint",
-                    "How a part moves",
-                    {{"axis", "vector", false, "{ 0, 0, 1 }", "", "in the joint's frame"},
-                     {"at", "vector", false, "{ 0, 0, 0 }", "m", "origin in the parent's frame"},
-                     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation in the parent's frame"},
-                     {"yaw", "number", false, "0", "rad", "instead of rpy"},
-                     {"range", "range", false, "", "rad or m", "lower and upper limit", "{ 0, 0.2 }"},
-                     {"initial", "number", false, "0", "rad or m", "position at the start"},
-                     {"damping", "number", false, "0", "N m s or N s/m", "torque or force per speed"},
-                     {"friction", "number", false, "0", "N m or N", "greatest friction"},
-                     {"spring", "number", false, "0", "N m or N", "constant force back to spring_target"},
-                     {"spring_target", "number", false, "0", "rad or m", "where the spring pushes to"},
-                     {"detent", "number", false, "0", "N m or N", "holds at a limit until this is exceeded"},
-                     {"latch", "latch", false, "", "", "locked until another joint is moved"}}};
+const Record kJoint{
+    "joint",
+    "How a part moves",
+    {{"axis", "vector", false, "{ 0, 0, 1 }", "", "in the joint's frame"},
+     {"at", "vector", false, "{ 0, 0, 0 }", "m", "origin in the parent's frame"},
+     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation in the parent's frame"},
+     {"yaw", "number", false, "0", "rad", "instead of rpy"},
+     {"range", "range", false, "", "rad or m", "lower and upper limit", "{ 0, 0.2 }"},
+     {"initial", "number", false, "0", "rad or m", "position at the start"},
+     {"damping", "number", false, "0", "N m s or N s/m", "torque or force per speed"},
+     {"friction", "number", false, "0", "N m or N", "greatest friction"},
+     {"spring", "number", false, "0", "N m or N", "constant force back to spring_target"},
+     {"spring_target", "number", false, "0", "rad or m", "where the spring pushes to"},
+     {"stiffness", "number", false, "0", "N m/rad or N/m", "force per way from spring_target, beside spring"},
+     {"detent", "number", false, "0", "N m or N", "holds at a limit until this is exceeded"},
+     {"follows", "follows", false, "", "", "coupled to another joint; each moves the other"},
+     {"latch", "latch", false, "", "", "locked until another joint is moved"}}};
 
 const Record kLatch{"latch",
                     "A lock that another part opens",
                     {{"key", "string", true, "", "", "the part whose joint unlocks this one"},
                      {"open", "number", true, "", "rad or m", "the key's position that unlocks"},
                      {"close", "number", false, "0", "rad or m", "locks again below this position"}}};
+
+const Record kFollows{"follows",
+                      "A coupling of two joints of an object: position = ratio * the other's + offset",
+                      {{"part", "string", true, "", "", "the part whose joint this one follows"},
+                       {"ratio", "number", false, "1", "", "of both positions, such as rad per m"},
+                       {"offset", "number", false, "0", "rad or m", "this position where the other is 0"}}};
 
 const Record kRegion{"region",
                      "A named box without mass or contact",
@@ -353,10 +362,10 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {kTask,   kProblem, kSkill,     kPredicate, kObject,      kWorld,
-                                               kRobot,  kEntry,   kPlace,     kCase,      kPart,        kJoint,
-                                               kLatch,  kRegion,  kGrasp,     kShape,     kTexture,     kCamera,
-                                               kSensor, kLight,   kRandomise, kObserve,   kObserveNoise};
+  static const std::vector<Record> kRecords = {kTask,   kProblem, kSkill,  kPredicate, kObject,  kWorld,
+                                               kRobot,  kEntry,   kPlace,  kCase,      kPart,    kJoint,
+                                               kLatch,  kFollows, kRegion, kGrasp,     kShape,   kTexture,
+                                               kCamera, kSensor,  kLight,  kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

@@ -187,7 +187,9 @@
 ---@field friction? number  greatest friction [N m or N] (default 0)
 ---@field spring? number  constant force back to spring_target [N m or N] (default 0)
 ---@field spring_target? number  where the spring pushes to [rad or m] (default 0)
+---@field stiffness? number  force per way from spring_target, beside spring [N m/rad or N/m] (default 0)
 ---@field detent? number  holds at a limit until this is exceeded [N m or N] (default 0)
+---@field follows? stampede.follows  coupled to another joint; each moves the other
 ---@field latch? stampede.latch  locked until another joint is moved
 
 -- A lock that another part opens
@@ -195,6 +197,12 @@
 ---@field key string  the part whose joint unlocks this one
 ---@field open number  the key's position that unlocks [rad or m]
 ---@field close? number  locks again below this position [rad or m] (default 0)
+
+-- A coupling of two joints of an object: position = ratio * the other's + offset
+---@class stampede.follows
+---@field part string  the part whose joint this one follows
+---@field ratio? number  of both positions, such as rad per m (default 1)
+---@field offset? number  this position where the other is 0 [rad or m] (default 0)
 
 -- A named box without mass or contact
 ---@class stampede.region

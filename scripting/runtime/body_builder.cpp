@@ -44,11 +44,18 @@ Joint joint_from(const Value& part, const std::string& name) {
   read_range(*value, joint);
   // Never zero: without friction and damping, drawers rebound from their stops.
   const bool slider = kind == JointKind::slider;
-  joint.damping = value->number_or("damping", slider ? 5 : 0.2);
-  joint.friction = value->number_or("friction", slider ? 2 : 0.3);
+  const Value& follows = (*value)["follows"];
+  joint.damping = value->number_or("damping", follows.present() ? 0 : slider ? 5 : 0.2);
+  joint.friction = value->number_or("friction", follows.present() ? 0 : slider ? 2 : 0.3);
   joint.spring_force = value->number_or("spring", 0);
   joint.spring_target = value->number_or("spring_target", joint.lower);
+  joint.stiffness = value->number_or("stiffness", 0);
   joint.detent = value->number_or("detent", 0);
+  if (follows.present()) {
+    joint.follows = follows["part"].as_text();
+    joint.follow_ratio = follows.number_or("ratio", 1);
+    joint.follow_offset = follows.number_or("offset", 0);
+  }
   if (const Value& latch = (*value)["latch"]; latch.present()) {
     joint.latch_key = latch["key"].as_text();
     joint.latch_open = latch["open"].as_number();
@@ -91,6 +98,7 @@ class Builder {
     }
     add_parts(fields, body);
     set_joints(fields["joints"], body);
+    start_followers(body);
     body.free = is_free(fields, body);
     result_.stands_still = !body.free;
     if (body.free && !(body.parts[0].mass > 0)) {
@@ -172,6 +180,18 @@ class Builder {
       throw Error(fields.place, "'" + name + "' moves, so it needs a mass", "mass = 1 (kg)");
     }
     body.parts.push_back(std::move(part));
+  }
+
+  // What follows another joint starts where that puts it; chains are followed to their end.
+  static void start_followers(Body& body) {
+    for (std::size_t links = 1; links < body.parts.size(); ++links)
+      for (Part& part : body.parts) {
+        Joint& joint = part.joint;
+        const int leader = joint.follows.empty() ? -1 : body.part_index(joint.follows);
+        if (leader < 0) continue;
+        const double there = body.parts[static_cast<std::size_t>(leader)].joint.initial;
+        joint.initial = std::clamp(joint.follow_ratio * there + joint.follow_offset, joint.lower, joint.upper);
+      }
   }
 
   // joints = { top_drawer = 0.1 }: where parts are at the start.

@@ -196,7 +196,11 @@ TEST_CASE("one run of check finds what five files have wrong, each with its line
   std::ofstream(mine / "worlds/objects/brick.lua")
       << "-- A brick.\nreturn object {\n  type = \"block\", traits = { \"movable\", \"graspable\" },\n"
          "  shape = box { 0.1, 0.1, 0.04 }, mass = \"heavy\", friction = -1,\n  grasps = { { width = 0.10 } },\n"
-         "  parts = { lid = { hinge = { range = { 1, 0 }, damping = -1 },\n    shape = box { 0.1, 0, 0.01 } } },\n}\n";
+         "  parts = { lid = { hinge = { range = { 1, 0 }, damping = -1 },\n    shape = box { 0.1, 0, 0.01 } },\n"
+         "    tray = { slider = { range = { 0, 1 }, follows = { part = \"needle\" } } },\n"
+         "    needle = { hinge = { range = { 0, 1 }, follows = { part = \"tray\" } } },\n"
+         "    door = { hinge = { range = { 0, 1 }, latch = { key = \"door\", open = 1 } } },\n"
+         "    leaf = { hinge = { range = { 0, 1 }, follows = { part = \"dor\" } } } },\n}\n";
   const auto task = [&](const char* name, const std::string& entry, const std::string& goal) {
     std::ofstream(mine / ("tasks/" + std::string(name) + ".lua"))
         << "-- A task.\nreturn task {\n  world = \"tabletop\",\n  objects = { a = { " + entry +
@@ -214,7 +218,11 @@ TEST_CASE("one run of check finds what five files have wrong, each with its line
         "worlds/objects/brick.lua:5: grasps: grasp 1 is 0.1 m wide, no hand opens further than 0.080 m",
         "worlds/objects/brick.lua:6: parts.lid.hinge.range: ends before it begins",
         "worlds/objects/brick.lua:6: parts.lid.hinge.damping: is negative",
-        "worlds/objects/brick.lua:7: a box has an edge of 0", "tasks/light.lua:4: objects.a.mass: expects number",
+        "worlds/objects/brick.lua:7: a box has an edge of 0",
+        "worlds/objects/brick.lua:8: parts.tray.slider.follows: couplings in a circle: tray -> needle -> tray",
+        "worlds/objects/brick.lua:10: parts.door.hinge.latch: it names its own part",
+        "worlds/objects/brick.lua:11: parts.leaf.hinge.follows: there is no other part 'dor' that moves",
+        "tasks/light.lua:4: objects.a.mass: expects number",
         "tasks/nested.lua:6: goal: in_order stands inside another formula",
         "tasks/choice.lua:6: goal: a part of in_order is more than literals"})
     CHECK(says(all.out, complaint));

@@ -51,10 +51,14 @@ Scene rich_scene() {
                   4,
                   5,
                   0.01,
+                  7,
                   6,
                   "key",
                   0.2,
-                  0.1};
+                  0.1,
+                  "lid",
+                  120,
+                  0.5};
   Shape hull;
   hull.kind = ShapeKind::hull;
   hull.points = {{0, 0, 0}, {1e-300, 0, 0}, {0, 0.1, 0}, {0, 0, 5e-324}};
@@ -78,6 +82,18 @@ Scene rich_scene() {
 
 }  // namespace
 
+TEST_CASE("documents of earlier releases have no couplings") {
+  Scene scene = rich_scene();
+  Joint& joint = scene.bodies[0].parts[1].joint;
+  joint.follows.clear();
+  joint.follow_ratio = 1;
+  joint.follow_offset = joint.stiffness = 0;
+  const std::string document = scene_to_document(scene);
+  CHECK(document.find("follow") == std::string::npos);
+  CHECK(document.find("stiffness") == std::string::npos);
+  CHECK(scene_from_document(document).bodies[0].parts[1].joint.follow_ratio == 1);
+}
+
 TEST_CASE("a scene survives its document, and the document its scene") {
   const std::string document = scene_to_document(rich_scene());
   const Scene back = scene_from_document(document);
@@ -87,6 +103,7 @@ TEST_CASE("a scene survives its document, and the document its scene") {
   CHECK(std::signbit(back.bodies[1].world_from_body.translation().z()));
   CHECK(back.bodies[0].parts[1].shapes[0].points == scene.bodies[0].parts[1].shapes[0].points);
   CHECK(back.bodies[0].parts[1].joint.latch_key == "key");
+  CHECK(back.bodies[0].parts[1].joint.follow_ratio == 120);
   CHECK(back.robot.checked_pairs == scene.robot.checked_pairs);
   CHECK(back.robot.body.parts[3].inertia == scene.robot.body.parts[3].inertia);
   CHECK(back.objects[0].attributes == scene.objects[0].attributes);

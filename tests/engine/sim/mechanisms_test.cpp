@@ -203,3 +203,64 @@ TEST_CASE("parts that are rigidly fixed to each other move as one", "[sim]") {
               .maxCoeff() < 1e-12);
   CHECK(world.linear_velocity({sled_body, 3}).x() == Approx(1.25).epsilon(1e-6));
 }
+
+TEST_CASE("a coupled needle follows a tray on a spring, and both snapshot exactly", "[sim]") {
+  Scene scene = table_scene(0);
+  Body scales = box_body("scales", {0.2, 0.2, 0.04}, {0.9, 0.3, 0.02}, 0);
+  Part tray = moving_part("tray", JointKind::slider, {0, 0, -1}, {0, 0, 0.05}, 0, 0.02);
+  tray.shapes.push_back(box_shape({0.16, 0.16, 0.01}));
+  set_uniform_mass(tray, 0.1);
+  tray.joint.friction = 0;
+  tray.joint.damping = 4;
+  tray.joint.stiffness = 500;
+  Part needle = moving_part("needle", JointKind::hinge, {1, 0, 0}, {-0.11, 0, 0.02}, 0, 2.5);
+  needle.shapes.push_back(box_shape({0.002, 0.04, 0.002}, {0, 0.02, 0}));
+  set_uniform_mass(needle, 0.001);
+  needle.joint.friction = needle.joint.damping = 0;
+  needle.joint.follows = "tray";
+  needle.joint.follow_ratio = 120;
+  scales.parts.push_back(tray);
+  scales.parts.push_back(needle);
+  add_body(scene, std::move(scales));
+  Body load = box_body("load", {0.05, 0.05, 0.05}, {0.9, 0.3, 0.10}, 0.3);
+  add_body(scene, std::move(load));
+  World world(shared(scene));
+  const int body = body_index(world, "scales");
+  run(world, 2);
+  const double sunk = (0.1 + 0.3) * 9.81 / 500;
+  CHECK(world.joint_position({body, 1}) == Approx(sunk).epsilon(0.03));
+  CHECK(world.joint_position({body, 2}) == Approx(120 * world.joint_position({body, 1})).margin(0.02));
+
+  world.apply(operation::Boundary{});
+  const Snapshot snapshot = world.snapshot();
+  world.apply(operation::Place{body_index(world, "load"), translation({0.5, 0.3, 0.2})});
+  run(world, 1);
+  const std::string end = world.state_hash();
+  CHECK(world.joint_position({body, 2}) < 0.4);
+  world.restore(snapshot);
+  world.apply(operation::Place{body_index(world, "load"), translation({0.5, 0.3, 0.2})});
+  run(world, 1);
+  CHECK(world.state_hash() == end);
+}
+
+TEST_CASE("a coupling or latch that names no other joint, and a spring too stiff for its part, are refused", "[sim]") {
+  const auto complaint = [](auto&& change) {
+    Scene scene = table_scene(0);
+    Body body = latched_door({0.9, -0.5, 0.5});
+    change(body.parts[1].joint);
+    add_body(scene, std::move(body));
+    try {
+      World world(shared(scene));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(complaint([](Joint& joint) { joint.follows = "leaf"; }),
+             Catch::Contains("coupling of 'leaf' names no joint"));
+  CHECK_THAT(complaint([](Joint& joint) { joint.latch_key = "leaf"; }),
+             Catch::Contains("latch of 'leaf' names no joint"));
+  CHECK_THAT(complaint([](Joint& joint) { joint.stiffness = 1e7; }),
+             Catch::Contains("stiffness of 'leaf' is too great"));
+  CHECK(complaint([](Joint& joint) { joint.follows = "lever"; }).empty());
+}

@@ -5,8 +5,6 @@
 #include <stdexcept>
 
 namespace stampede::testing {
-namespace {
-
 Part moving_part(const std::string& name, JointKind kind, const Vector3& axis, const Vector3& origin, double lower,
                  double upper) {
   Part part;
@@ -20,8 +18,6 @@ Part moving_part(const std::string& name, JointKind kind, const Vector3& axis, c
   part.joint.upper = upper;
   return part;
 }
-
-}  // namespace
 
 Shape box_shape(const Vector3& size, const Vector3& centre) {
   Shape shape;

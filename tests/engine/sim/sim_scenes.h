@@ -17,6 +17,9 @@ Body chest(const Vector3& centre);
 Body button(const Vector3& centre);
 // A door (part 1, hinge about z) locked until its lever (part 2) is pressed below -30 degrees.
 Body latched_door(const Vector3& origin);
+// On the base part, without shapes or mass.
+Part moving_part(const std::string& name, JointKind kind, const Vector3& axis, const Vector3& origin, double lower,
+                 double upper);
 
 // Puts bodies in the order that Scene asks for: fixed first.
 void add_body(Scene& scene, Body body);
