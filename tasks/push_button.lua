@@ -1,0 +1,20 @@
+-- Press the button, whose cap has one of eighteen colours.
+return task {
+  world = "tabletop",
+  variations = {
+    colour = { "maroon", "green", "blue", "navy", "yellow", "cyan", "magenta", "silver", "grey", "orange", "olive", "purple",
+      "teal", "azure", "violet", "rose", "black", "white" },
+  },
+  objects = function(v)
+    return { button = { "push_button", colour = v.colour, at = { between(0.06, 0.36), between(-0.32, 0.32), 0.75 },
+      yaw = between(-math.pi, math.pi) } }
+  end,
+  init = { is_not.pressed("button.cap") },
+  goal = is.pressed("button.cap"),
+  instructions = {
+    "push the {colour} button",
+    "press down the {colour} button on the table",
+    "let the closed fingers push the {colour} cap down",
+    "there is a {colour} button: operate it",
+  },
+}
