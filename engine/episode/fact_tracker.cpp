@@ -246,6 +246,17 @@ void FactTracker::look(const WorldView& view) {
   }
 }
 
+void FactTracker::tell(const std::vector<Fact>& facts) {
+  for (const Fact& fact : facts) {
+    const int index = index_of(fact);
+    if (index < 0) continue;
+    Atom& atom = state_.atoms[static_cast<std::size_t>(index)];
+    atom.seen = true;
+    atom.known = atom.holds;
+    ++changes_;
+  }
+}
+
 std::set<std::string> FactTracker::out_of_sight(const WorldView& view) const {
   std::set<std::string> things;
   for (const Group& group : groups_)

@@ -32,9 +32,10 @@ class FactTracker {
   // Reads every atom that can hold; for begin() and for tests of init.
   std::map<Fact, Symbols::Value> read_all(const WorldView& view, bool filtered = true) const;
 
-  void look(const WorldView& view);   // what can be seen at the start
-  void step(const WorldView& view);   // momentary predicates; after every physics step
-  void frame(const WorldView& view);  // the others; after every frame
+  void look(const WorldView& view);           // what can be seen at the start
+  void tell(const std::vector<Fact>& facts);  // whether these hold is known, as if it had been seen at the start
+  void step(const WorldView& view);           // momentary predicates; after every physics step
+  void frame(const WorldView& view);          // the others; after every frame
 
   // All that holds now: basic, fixed, traits and attributes, and derived.
   const Facts& facts() const { return state_.facts; }

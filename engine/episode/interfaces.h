@@ -63,6 +63,7 @@ struct Task {
   std::vector<Literal> init;                   // in the order in which they are made true
   // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
   std::optional<Formula> where;
+  std::vector<Fact> told;  // of what nobody can see at the start, that which the instructions tell
   Formula goal;
   std::vector<Formula> stages;  // in_order { … }; goal is their conjunction
   std::optional<std::vector<TaskStep>> steps;

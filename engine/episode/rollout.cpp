@@ -23,6 +23,7 @@ Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sens
   view_.restore(start.history);
   facts_.begin(start.values);
   facts_.look(view_);
+  facts_.tell(start.task.told);
   recorder_.first_frame(view_);
 }
 

@@ -50,6 +50,7 @@ struct RunOptions {
   Perturbation perturb;                    // beside that
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
   Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
+  bool explain = false;                    // every failed try says why, not only the first of its kind. Alters no data.
   int encoders = 0;                        // threads that encode its images beside the drawing. Alters no data.
   std::map<std::string, std::string> as_text() const;
 };

@@ -26,6 +26,7 @@ struct CallMode {
   bool refuse = true;              // a false precondition ends the call; else it is noted and the skill runs
   bool random_parameters = false;  // continuous parameters within their bounds, any of the grasps and placements
   bool find_blockers = false;      // where nothing reaches: look what is in the way
+  bool explain = false;            // the same, and count the causes, for people
 };
 
 struct SkillRequest {

@@ -44,6 +44,9 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
                                            planning_start(rollout.world()), context.key.with(info.name), wanted + 1);
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
+    if (context.mode.explain)
+      detail += ": " + why_no_grasp(*space, rollout.world(), rollout.view().object(name),
+                                    planning_start(rollout.world()), context.key.with(info.name));
     return Reason::no_grasp;
   }
   const GraspCandidate& grasp = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
@@ -67,10 +70,13 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
   const World& world = rollout.world();
   int wanted = context.attempt % 6;
   std::optional<Transform> tight;  // there the fingers have no room to open
+  Causes causes;
+  int tried = 0;
   for (const Placement& placement :
        symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples)) {
     const Transform* pose = std::get_if<Transform>(&placement.value);
     if (pose == nullptr) continue;
+    ++tried;
     if (space->held() && rollout.view().part_of(placement.object).body == *space->held()) {
       const Transform object_from_tip = rollout.view().world_from(placement.object).inverse() * world.world_from_tip();
       const auto ways =  // as many as a grasp is given: the nearest one may touch something
@@ -80,6 +86,7 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
       };
       if (!free_in(letting_go)) {
         if (!tight && free_in(*space)) tight = *pose;
+        if (context.mode.explain) causes.add(ways.empty() ? "out of reach" : touches_in_all(letting_go, ways));
         continue;
       }
     }
@@ -89,6 +96,8 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
   if (!value.pose) value.pose = tight;
   if (!value.pose) {
     detail = "no reachable and free pose makes " + to_text(fact) + " true";
+    if (tried == 0) detail += ": there is no room for any";
+    if (tried > 0 && context.mode.explain) detail += ": of " + std::to_string(tried) + " " + causes.text();
     return Reason::no_placement;
   }
   value.record.values = seven(*value.pose);

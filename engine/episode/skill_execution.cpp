@@ -299,6 +299,7 @@ bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
     return finish({Reason::script_error, "skill '" + call.skill + "' has no case '" + call.case_name + "'"});
   SkillContext context{action, info, call.arguments, key, context_.attempt, -1, {{call.set, ChosenBy::caller}}};
   context.mode.find_blockers = context_.mode.find_blockers;
+  context.mode.explain = context_.mode.explain;
   child_ = std::make_unique<SkillExecution>(rollout_, symbols_, skills_, options_);
   child_->start(std::move(context), context_.segment);
   phase_ = Phase::child;

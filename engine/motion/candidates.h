@@ -1,7 +1,9 @@
 // Streams of grasps and placements: candidate k is a pure function of the key and k.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/motion/planner.h"
@@ -24,6 +26,22 @@ struct GraspCandidate {
 // Before or after: `state` may hold nothing; the object itself is allowed to be touched.
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most);
+
+// Why there are none, for people: of how many grasps each cause keeps the hand. As costly as looking for one.
+std::string why_no_grasp(const CollisionState& state, const World& world, const Object& object,
+                         const JointVector& start, RandomKey key);
+
+// Counts by cause, most frequent first: `12 out of reach, 3 touch chest.top_drawer`.
+class Causes {
+ public:
+  void add(const std::string& cause) { ++counts_[cause]; }
+  std::string text() const;
+
+ private:
+  std::map<std::string, int> counts_;
+};
+// What the arm touches in all of these configurations: `touch NAME` of the first, or nothing where one is free.
+std::string touches_in_all(const CollisionState& state, const std::vector<JointVector>& configurations);
 
 // Places where a free body fits on top of a surface part: uniformly over the upper faces of its shapes, upright with
 // random yaw, `margin` from the edge, free of all other bodies. Poses are of the body. Result: at most `most`.

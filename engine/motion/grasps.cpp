@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/motion/candidate_shapes.h"
 #include "engine/motion/candidates.h"
+#include "engine/motion/checker.h"
 
 namespace stampede {
 namespace {
@@ -81,6 +82,53 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
   return false;
 }
 
+// What keeps the arm from a grasp that is not feasible.
+std::string fault_of(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start,
+                     RandomKey key) {
+  const Arm& arm = state.arm();
+  const auto at_grasp = arm.solutions(grasp.world_from_tip, start, key, 3, 12);
+  if (at_grasp.empty()) return "out of reach";
+  if (const std::string touched = touches_in_all(state, at_grasp); !touched.empty()) return touched;
+  const auto before = arm.solutions(grasp.world_from_approach, start, key, 3, 12);
+  if (before.empty()) return "out of reach on the approach";
+  if (const std::string touched = touches_in_all(state, before); !touched.empty()) return touched + " on the approach";
+  return "without a straight way from the approach";
+}
+
+// All that might be a grasp of one object.
+struct Search {
+  Search(const CollisionState& state, const World& world, const Object& object, const JointVector& start, RandomKey key)
+      : opening_max(world.scene().robot.opening_max), authored(!object.grasps.empty()) {
+    const Part& part = part_of(world.scene(), object, ref.body);
+    ref.part = object.part;
+    world_from_body = world.world_from_part(ref);
+    options = make_options(world.scene(), object, part, world_from_body, state.arm().world_from_tip(start), key);
+    if (options.size() > kMostTested) options.resize(kMostTested);
+  }
+  // Authored grasps may touch what they were authored for; those from geometry start clear of it.
+  CollisionState hand(const CollisionState& state) const {
+    CollisionState hand = state;
+    if (authored) hand.allow(ref);
+    return hand;
+  }
+  GraspCandidate candidate(const Option& option, double room) const {
+    GraspCandidate grasp;
+    grasp.object_from_tip = option.object_from_tip;
+    grasp.world_from_tip = world_from_body * option.object_from_tip;
+    grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -option.approach);
+    grasp.width = option.width;
+    grasp.opening = std::min(opening_max, option.width + room);
+    grasp.force = option.force;
+    return grasp;
+  }
+
+  PartRef ref;
+  double opening_max;
+  bool authored;
+  Transform world_from_body;
+  std::vector<Option> options;
+};
+
 }  // namespace
 
 Transform world_from_object(const World& world, const Object& object) {
@@ -100,35 +148,56 @@ Transform world_from_object(const World& world, const Object& object) {
 
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most) {
-  int body = 0;
-  const Scene& scene = world.scene();
-  const Part& part = part_of(scene, object, body);
-  const Transform world_from_body = world.world_from_part({body, object.part});
-  std::vector<Option> options =
-      make_options(scene, object, part, world_from_body, state.arm().world_from_tip(start), key);
-  if (options.size() > kMostTested) options.resize(kMostTested);
+  const Search search(state, world, object, start, key);
   std::vector<GraspCandidate> found;
-  CollisionState hand = state;
-  // Authored grasps may touch what they were authored for; those from geometry start clear of it.
-  if (!object.grasps.empty()) hand.allow({body, object.part});
+  CollisionState hand = search.hand(state);
   for (const double room :
-       {scene.robot.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
+       {world.scene().robot.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
     if (!found.empty()) break;
-    for (const Option& option : options) {
+    for (const Option& option : search.options) {
       if (static_cast<int>(found.size()) >= most) break;
-      GraspCandidate grasp;
-      grasp.object_from_tip = option.object_from_tip;
-      grasp.world_from_tip = world_from_body * option.object_from_tip;
-      grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -option.approach);
-      grasp.width = option.width;
-      grasp.opening = std::min(scene.robot.opening_max, option.width + room);
-      grasp.force = option.force;
+      GraspCandidate grasp = search.candidate(option, room);
       grasp.index = static_cast<int>(found.size());
       hand.set_opening(grasp.opening);
       if (feasible(hand, grasp, start, key.with("ik"))) found.push_back(grasp);
     }
   }
   return found;
+}
+
+std::string why_no_grasp(const CollisionState& state, const World& world, const Object& object,
+                         const JointVector& start, RandomKey key) {
+  const Search search(state, world, object, start, key);
+  if (search.options.empty()) return "no two sides of it fit between the fingers, and it says no grasps";
+  CollisionState hand = search.hand(state);
+  Causes best, others;  // the best: from above, where there are such
+  for (const Option& option : search.options) {
+    const GraspCandidate grasp = search.candidate(option, kNarrow_m);
+    hand.set_opening(grasp.opening);
+    const bool near_best = option.score < search.options.front().score + 1;
+    (near_best ? best : others).add(fault_of(hand, grasp, start, key.with("ik")));
+  }
+  const std::string rest = others.text();
+  return "of " + std::to_string(search.options.size()) + " grasps the best: " + best.text() +
+         (rest.empty() ? "" : "; others: " + rest);
+}
+
+std::string Causes::text() const {
+  std::vector<std::pair<std::string, int>> sorted(counts_.begin(), counts_.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [cause, count] : sorted) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + cause;
+  return text;
+}
+
+std::string touches_in_all(const CollisionState& state, const std::vector<JointVector>& configurations) {
+  std::string first;
+  for (const JointVector& q : configurations) {
+    const std::string contact = describe_contact(state, q);
+    if (contact.empty()) return {};
+    if (first.empty()) first = "touch " + contact.substr(contact.rfind(' ') + 1);
+  }
+  return first;
 }
 
 }  // namespace stampede

@@ -5,6 +5,7 @@
 #include <map>
 #include <ostream>
 #include <set>
+#include <tuple>
 
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
@@ -137,6 +138,36 @@ QueryResult table_of(const SeenVariations& variations) {
   return table;
 }
 
+// How often each step failed of what, undone tries included: what stands first is the bottleneck.
+class FailedSteps {
+ public:
+  void add(const EpisodeRecord& episode) {
+    for (const AttemptRecord& attempt : episode.attempts) add(episode.task, attempt.segment);
+    for (const SegmentRecord& segment : episode.segments) add(episode.task, segment);
+  }
+  QueryResult table() const {
+    std::vector<std::pair<Row, std::int64_t>> sorted(counts_.begin(), counts_.end());
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    QueryResult table;
+    table.columns = {"times", "task", "step", "reason", "detail"};
+    for (const auto& [row, count] : sorted) {
+      const auto& [task, step, reason, detail] = row;
+      table.rows.push_back({count, task, step, reason, detail});
+    }
+    return table;
+  }
+
+ private:
+  using Row = std::tuple<std::string, std::string, std::string, std::string>;
+  void add(const std::string& task, const SegmentRecord& segment) {
+    if (segment.kind != SegmentKind::skill || segment.reason == Reason::none) return;
+    std::string step = segment.skill;
+    for (const std::string& argument : segment.arguments) step += " " + argument;
+    ++counts_[{task, step, std::string(to_string(segment.reason)), segment.detail}];
+  }
+  std::map<Row, std::int64_t> counts_;
+};
+
 ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& arguments, Console& console) {
   const std::vector<std::string> tasks = tasks_to_run(*library, arguments.list("NAMES"));
   JobRequest request{tasks, in_range(arguments, "--episodes", 1, kMostEpisodes),
@@ -144,22 +175,26 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   RunSettings settings;
   settings.workers = workers_of(arguments);
   settings.stop = console.stop;
+  settings.options.explain = arguments.flag("--why");
   if (arguments.flag("--randomise")) settings.options.randomise = default_randomisation();
   settings.options.observation.images = WhichFrames::none;  // nobody would see them
   Progress progress(console);
   std::vector<std::string> failures;
   SeenVariations seen;
+  FailedSteps failed_steps;
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
     const bool good = episode.outcome == Outcome::success;
     const std::string line = fmt::format("{} {} seed {}: {}", episode.task, episode.variation, episode.seed,
                                          good ? "success" : to_string(episode.reason));
     seen[{episode.task, episode.variation}].add(episode);
+    if (settings.options.explain) failed_steps.add(episode);
     if (!good) failures.push_back(line + (episode.detail.empty() ? "" : ": " + episode.detail));
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, line);
   };
   const RunTally tally = run_jobs(library, JobList(*library, request), settings, nullptr);
   progress.finish();
   for (const std::string& failure : failures) console.err << failure << "\n";
+  if (settings.options.explain) console.err << to_table(failed_steps.table());
   console.out << (arguments.flag("--json") ? to_json(table_of(seen)) : to_table(table_of(seen)));
   return tally.succeeded == tally.total ? kDone : kNo;
 }
@@ -189,9 +224,11 @@ CommandRow check_command() {
       "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
       "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
       "runs, and prints for each variation that was met: the success rate, undone tries, the mean length, the slowest "
-      "step, and the commonest reason why a try or an episode failed.",
+      "step, and the commonest reason why a try or an episode failed. With --why it also tells how often each step "
+      "failed, undone tries included, and of what: how many grasps and placements were out of reach or touched what.",
       {{"NAMES", "names of files; default: all", false, true}},
       {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
+       {"--why", "", "with --physics: of each failed step the causes, counted", Takes::flag, "", {}, false},
        {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
        {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
        {"--randomise", "", "with drawn looks, light and dynamics, as `run --randomise`", Takes::flag, "", {}, false},

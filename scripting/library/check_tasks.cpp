@@ -188,6 +188,16 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
     complain(definition, "init", "nothing places the free object '" + name + "'",
              "name it in init, such as is.on(\"" + name + "\", \"table\"), or give it at = { x, y, z }");
   }
+  if (const auto told = fields.find("told"); told != fields.end()) {
+    where.field = "told";
+    guarded([&] {
+      for (const Literal& literal : beginning_from(told->second, where).literals) {
+        std::vector<Term> terms;
+        for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
+        check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "told"));
+      }
+    });
+  }
   for (const char* field : {"goal", "subgoals"}) {
     const auto found = fields.find(field);
     if (found == fields.end()) continue;

@@ -136,7 +136,12 @@ Value LibraryBuilder::field_for(const Definition& definition, DefinitionState& s
   lua_pushcfunction(lua, lua_function<push_protected>);
   lua_pushlightuserdata(lua, const_cast<Value*>(&variation));
   state.sandbox().call(1, 1);
-  state.sandbox().call(1, 1);
+  try {
+    state.sandbox().call(1, 1);
+  } catch (const Error& error) {
+    if (!error.where().empty()) throw;
+    throw error_at(definition, field, error.message(), error.hint());  // the call that failed was a function's last
+  }
   Value result = value_as_written(lua, -1, definition.file->shown_path);
   lua_settop(lua, 0);
   return result;

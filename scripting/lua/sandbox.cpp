@@ -139,7 +139,8 @@ std::string readable_trace(const char* trace) {
     std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     while (!line.empty() && (line.front() == '\t' || line.front() == ' ')) line.remove_prefix(1);
-    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") || line.starts_with("prelude:"))
+    if (line.empty() || line.starts_with("[C]") || line.starts_with("stack traceback") ||
+        line.starts_with("prelude:") || line.starts_with("(...tail calls...)"))
       continue;
     if (!first) result += "\n    ";
     result += first ? "in " : "from ";

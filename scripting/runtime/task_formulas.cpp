@@ -41,6 +41,14 @@ void TaskReader::read_init() {
   lua_pop(state_, 1);
 }
 
+void TaskReader::read_told() {
+  if (!push_field("told")) return;
+  for (Literal& literal :
+       beginning_from(value_as_written(state_, -1, file_.shown_path + ": told"), context_of("told")).literals)
+    drawn_.task.told.push_back(std::move(literal.fact));
+  lua_pop(state_, 1);
+}
+
 void TaskReader::read_goal() {
   if (!push_field("goal")) throw Error(file_.shown_path, "a task needs a goal");
   const Value goal = value_as_written(state_, -1, file_.shown_path + ": goal");

@@ -78,6 +78,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   if (world["calibration"].present()) read_calibration(world["calibration"], folder);
   forget_absent_classes();
   read_init();
+  read_told();
   place_clutter();
   read_goal();
   read_subgoals();

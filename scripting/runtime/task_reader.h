@@ -27,6 +27,7 @@ class TaskReader {
   void add_clutter();
   void place_clutter();
   void read_init();
+  void read_told();
   void read_goal();
   void read_subgoals();
   void read_steps();

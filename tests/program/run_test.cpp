@@ -209,6 +209,7 @@ TEST_CASE("one run of check finds what five files have wrong, each with its line
   };
   task("light", "\"cube\", mass = \"light\"", "is.lifted(\"a\")");
   task("nested", "\"cube\"", "any_of { in_order { is.lifted(\"a\"), is.on(\"a\", \"b\") }, is.lifted(\"b\") }");
+  task("unclear", "\"cube\"", "function(v) return in_order { is.lifted(\"a\"), { is.lifted(\"b\") } } end");
   task("choice", "\"cube\"", "in_order { any_of { is.lifted(\"a\"), is.lifted(\"b\") }, is.lifted(\"a\") }");
   const Said all = say({"check", "--root", kRoot, "--path", mine.text()});
   CHECK(all.code == kBadInput);
@@ -224,7 +225,8 @@ TEST_CASE("one run of check finds what five files have wrong, each with its line
         "worlds/objects/brick.lua:11: parts.leaf.hinge.follows: there is no other part 'dor' that moves",
         "tasks/light.lua:4: objects.a.mass: expects number",
         "tasks/nested.lua:6: goal: in_order stands inside another formula",
-        "tasks/choice.lua:6: goal: a part of in_order is more than literals"})
+        "tasks/choice.lua:6: goal: a part of in_order is more than literals",
+        "tasks/unclear.lua:6: goal: in_order takes a literal or formula, this is a table"})
     CHECK(says(all.out, complaint));
 }
 

@@ -59,13 +59,19 @@ local function looks_open(w, box)
 end
 
 -- Spots that a hand can get at from above, where the container says which (numbers `hand_back` and `hand_side`: greatest x
--- and |y| in its frame, m).
-local function handy(w, box, spots)
+-- and |y| in its frame, m). What lies in it at the start must be taken out too: it keeps `hand_front` (least x) and is
+-- turned at most `hand_turn` (rad) out of the box's own directions, so that the palm has room.
+local function handy(w, obj, box, spots)
   local back, side = w:number(box, "hand_back", 1), w:number(box, "hand_side", 1)
+  local front, turn = -1, math.pi
+  if not w:grasped(obj) then front, turn = w:number(box, "hand_front", -1), w:number(box, "hand_turn", math.pi) end
   local kept, from = {}, w:pose(box):inverse()
   for _, spot in ipairs(spots) do
-    local x, y = from:times(spot):position()
-    if x <= back and math.abs(y) <= side then kept[#kept + 1] = spot end
+    local inside = from:times(spot)
+    local x, y = inside:position()
+    local _, _, yaw = inside:rpy()
+    local off = math.abs((yaw + math.pi / 4) % (math.pi / 2) - math.pi / 4)
+    if x <= back and x >= front and math.abs(y) <= side and off <= turn then kept[#kept + 1] = spot end
   end
   return kept
 end
@@ -83,6 +89,6 @@ return predicate {
   end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
-    return handy(w, box, w:region_spots(inner(w, box), obj, rng))
+    return handy(w, obj, box, w:region_spots(inner(w, box), obj, rng))
   end,
 }
