@@ -19,6 +19,20 @@ end
 -- The pose of `obj` at which its part `place` lies at `wanted`.
 function seats.with_part_at(w, obj, place, wanted) return wanted * w:pose(place):inverse() * w:pose(obj) end
 
+-- All poses at which it looks the same there: turned about the way in or along the rod as often as its number `turns`
+-- says (1: not at all), and the other way round where its number `ends` is 2.
+function seats.all_with_part_at(w, obj, place, wanted)
+  local poses, turns = {}, w:number(obj, "turns", 1)
+  for turn = 0, turns - 1 do
+    local turned = wanted:rotated(0, 0, 2 * math.pi * turn / turns)
+    poses[#poses + 1] = seats.with_part_at(w, obj, place, turned)
+    if w:number(obj, "ends", 1) == 2 then
+      poses[#poses + 1] = seats.with_part_at(w, obj, place, turned:rotated(math.pi, 0, 0))
+    end
+  end
+  return poses
+end
+
 -- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.
 function seats.way_out(w, region, place, clear)
   local _, _, length = w:size(region)

@@ -19,5 +19,6 @@ return object {
     box { 0.020, 0.006, 0.006, at = { 0.035, -0.010, 0 }, colour = { 0.80, 0.80, 0.82 } },
   },
   regions = { seat = { at = { 0.045, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.006, 0.026, 0.002 } } },
+  numbers = { behind = 0.10 },
   grasps = { leaning(28, 1), leaning(28, -1), leaning(38, 1), leaning(38, -1), leaning(48, 1), leaning(48, -1) },
 }

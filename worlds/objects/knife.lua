@@ -24,5 +24,6 @@ return object {
     cylinder { 0.004, 0.019, at = { 0.085, 0, 0 }, colour = rivet, collides = false },
   },
   regions = { seat = { at = { -0.116, 0, 0 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.002, 0.002, 0.002 } } },
+  numbers = { grip = 0.055 },
   grasps = grasps,
 }

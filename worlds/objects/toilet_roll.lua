@@ -16,5 +16,6 @@ return object {
     lathe { { 0.033, -0.0475 }, { 0.033, 0.0475 }, wall = 0.0115 },
     lathe { { 0.0215, -0.048 }, { 0.0215, 0.048 }, wall = 0.0015, colour = { 0.66, 0.53, 0.38 }, collides = false },
   },
+  numbers = { turns = 16, ends = 2 }, -- how it looks the same on a rod
   grasps = grasps,
 }

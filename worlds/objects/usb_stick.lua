@@ -17,5 +17,6 @@ return object {
     box { 0.012, 0.0202, 0.0122, at = { -0.012, 0, 0 }, colour = { 0.92, 0.92, 0.92 }, collides = false },
   },
   regions = { seat = { at = { 0.0365, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.0048, 0.0125, 0.001 } } },
+  numbers = { behind = 0.06 },
   grasps = grasps,
 }

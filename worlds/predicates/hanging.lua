@@ -11,5 +11,5 @@ return predicate {
     local hangs = distance <= 0 and w:supports(seats.owner(hook), obj)
     return hangs, hangs and -distance or -math.max(distance, 0)
   end,
-  sample = function(w, obj, hook) return seats.with_part_at(w, obj, seats.loop(w, obj), w:pose(hook)) end,
+  sample = function(w, obj, hook) return seats.all_with_part_at(w, obj, seats.loop(w, obj), w:pose(hook)) end,
 }

@@ -13,6 +13,6 @@ return predicate {
   sample = function(w, obj, slot) -- all the way in, but for the slot's `gap`
     local _, _, depth = w:size(slot)
     local bottom = w:pose(slot):along(0, 0, w:number(slot, "gap", 0.001) - depth / 2)
-    return seats.with_part_at(w, obj, seats.seat(w, obj), bottom)
+    return seats.all_with_part_at(w, obj, seats.seat(w, obj), bottom)
   end,
 }

@@ -1,0 +1,16 @@
+-- Hang the picture frame that stands on the table on its hook.
+return task {
+  world = "tabletop",
+  objects = {
+    hanger = { "frame_hanger", at = { between(0.10, 0.28), between(-0.22, 0.22), 0.75 }, yaw = between(-math.pi, math.pi) },
+    frame = { "picture_frame" },
+  },
+  init = { is.on("frame", "table") },
+  goal = { is.hanging("frame", "hanger.hook"), is.hand_empty() },
+  instructions = {
+    "hang the framed picture on its hook",
+    "the hook is bare: put the picture frame on it",
+    "take the picture from the table and hang it up",
+    "let the frame hang from the hook by its bar",
+  },
+}

@@ -1,0 +1,16 @@
+-- Plug the charger that lies on the table into the wall socket.
+return task {
+  world = "tabletop",
+  objects = {
+    outlet = { "outlet", at = { between(0.18, 0.34), between(-0.20, 0.20), 0.75 }, yaw = between(-0.42 * math.pi, 0.42 * math.pi) },
+    charger = { "charger" },
+  },
+  init = { is.on("charger", "table"), is_not.crowds("outlet", "charger") },
+  goal = { is.in_slot("charger", "outlet.socket"), is.hand_empty() },
+  instructions = {
+    "plug the charger into the wall",
+    "give the charger power: its pins belong in the socket",
+    "push both pins of the charger into the outlet",
+    "connect the charger that lies on the table to the socket",
+  },
+}

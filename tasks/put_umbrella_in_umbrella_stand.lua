@@ -1,0 +1,16 @@
+-- Stand the umbrella in the umbrella stand.
+return task {
+  world = "tabletop",
+  objects = {
+    stand = { "umbrella_stand", at = { between(0.06, 0.28), between(-0.28, 0.28), 0.75 }, yaw = between(-math.pi, math.pi) },
+    umbrella = { "umbrella" },
+  },
+  init = { is.on("umbrella", "table") },
+  goal = { is.in_slot("umbrella", "stand.tube"), is.hand_empty() },
+  instructions = {
+    "put the umbrella into its stand",
+    "the umbrella may drip: stand it in the tube",
+    "lower the umbrella into the umbrella stand",
+    "let the tube of the stand hold the umbrella",
+  },
+}
