@@ -1,0 +1,13 @@
+-- Set the desk clock a quarter of an hour on: turn its minute hand to the red mark.
+return task {
+  world = "tabletop",
+  objects = { clock = { "desk_clock", at = { between(0.12, 0.30), between(-0.22, 0.22), 0.75 }, yaw = between(-math.pi, math.pi) } },
+  init = { is_not.turned("clock.minute_hand") },
+  goal = { is.turned("clock.minute_hand"), is.hand_empty() },
+  instructions = {
+    "put the clock forward by a quarter of an hour",
+    "turn the minute hand from the top to the red mark",
+    "the clock is fifteen minutes slow: set it right",
+    "make the desk clock show a quarter past by its knob",
+  },
+}

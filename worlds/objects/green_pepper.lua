@@ -1,0 +1,2 @@
+-- A green bell pepper.
+return require "worlds.lib.pepper" "green"

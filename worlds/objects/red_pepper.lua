@@ -1,0 +1,2 @@
+-- A red bell pepper.
+return require "worlds.lib.pepper" "red"

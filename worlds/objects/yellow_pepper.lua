@@ -1,0 +1,2 @@
+-- A yellow bell pepper.
+return require "worlds.lib.pepper" "yellow"
