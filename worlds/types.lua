@@ -45,6 +45,8 @@ return {
     tap = { parent = "fixture" },
     clock = { parent = "fixture" },
     clock_hand = { parent = "fixture" },
+    door = { parent = "fixture" },
+    switch = { parent = "fixture" },
     region = {},
     hand = {},
     colour_name = {},

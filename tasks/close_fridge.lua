@@ -1,0 +1,18 @@
+-- Shut the door of the fridge, which stands open; the freezer above it stays shut.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    fridge = { "fridge", place = places.round_the_table(0.13, 0.28, 0.75),
+      joints = { door = between(math.rad(32), math.rad(50)) } },
+  },
+  init = { is_not.closed("fridge.door"), is.closed("fridge.freezer_door") },
+  goal = { is.closed("fridge.door"), is.closed("fridge.freezer_door"), is.hand_empty() },
+  instructions = {
+    "close the fridge",
+    "the cold gets out: push the door of the fridge shut",
+    "shut the lower door of the refrigerator",
+    "somebody left the fridge open: close it",
+  },
+}

@@ -1,0 +1,18 @@
+-- Shut the door of the microwave, which stands open.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    microwave = { "microwave", place = places.round_the_table(0.13, 0.28, 0.75),
+      joints = { door = between(math.rad(30), math.rad(50)) } },
+  },
+  init = { is_not.closed("microwave.door") },
+  goal = { is.closed("microwave.door"), is.hand_empty() },
+  instructions = {
+    "close the microwave",
+    "push the door of the microwave shut",
+    "the microwave has been left open: shut it",
+    "see to it that the microwave is closed",
+  },
+}

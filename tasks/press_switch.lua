@@ -1,0 +1,14 @@
+-- Flip the rocker switch to its other side.
+return task {
+  world = "tabletop",
+  objects = { switch = { "rocker_switch", at = { between(0.06, 0.36), between(-0.30, 0.30), 0.75 }, yaw = between(-math.pi, math.pi) } },
+  init = { is_not.pressed("switch.rocker") },
+  goal = { is.pressed("switch.rocker"), is.hand_empty() },
+  also = function(w) return w:joint("switch.rocker") > w:number("switch.rocker", "on_at") end, -- and it stays there
+  instructions = {
+    "flip the switch",
+    "press down the raised end of the rocker switch",
+    "switch it over with a fingertip",
+    "push the end of the switch that bears a red mark down until it stays",
+  },
+}

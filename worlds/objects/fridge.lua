@@ -1,0 +1,33 @@
+-- A small fridge on a cupboard, its freezer on top; both doors open towards -x. Its frame is below it, 0.75 m above the floor.
+local doors = require "worlds.lib.doors"
+local body, steel, inner = { 0.90, 0.91, 0.92 }, { 0.72, 0.74, 0.77 }, { 0.96, 0.97, 0.98 }
+local depth, width, low, high, wall = 0.24, 0.30, 0.30, 0.16, 0.014 -- m; low, high: of the two compartments
+
+local function compartment(z, height)
+  return {
+    box { wall, width, height, at = { depth / 2 - wall / 2, 0, z + height / 2 }, colour = inner },
+    box { depth, wall, height, at = { 0, width / 2 - wall / 2, z + height / 2 } },
+    box { depth, wall, height, at = { 0, -width / 2 + wall / 2, z + height / 2 } },
+    box { depth, width, wall, at = { 0, 0, z + wall / 2 } },
+  }
+end
+
+local shapes = {
+  box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.45, 0.47, 0.50 } }, -- what it stands on
+  box { depth, width, wall, at = { 0, 0, low + high + wall / 2 } },
+  box { depth - 0.03, width - 0.03, 0.006, at = { 0.005, 0, 0.15 }, colour = inner }, -- a shelf
+}
+for _, shape in ipairs(compartment(0, low)) do shapes[#shapes + 1] = shape end
+for _, shape in ipairs(compartment(low, high)) do shapes[#shapes + 1] = shape end
+
+local function door(z, height, handle)
+  return doors.door {
+    at = { -depth / 2 - 0.001, -width / 2, z }, width = width, height = height - 0.004, thick = 0.03, colour = steel, open = 70,
+    mass = 1.5, handle = { z = handle, length = 0.10 },
+  }
+end
+
+return object {
+  type = "furniture", traits = {}, fixed = true, colour = body, shapes = shapes,
+  parts = { door = door(0, low, 0.20), freezer_door = door(low, high + wall, 0.08) },
+}
