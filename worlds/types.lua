@@ -47,6 +47,8 @@ return {
     clock_hand = { parent = "fixture" },
     door = { parent = "fixture" },
     switch = { parent = "fixture" },
+    peg = { parent = "thing" },
+    ring = { parent = "thing" },
     region = {},
     hand = {},
     colour_name = {},

@@ -11,5 +11,8 @@ return predicate {
     local hangs = distance <= 0 and w:supports(seats.owner(hook), obj)
     return hangs, hangs and -distance or -math.max(distance, 0)
   end,
-  sample = function(w, obj, hook) return seats.all_with_part_at(w, obj, seats.loop(w, obj), w:pose(hook)) end,
+  sample = function(w, obj, hook) -- in the middle of the hook, or as far down it as its number `down` says
+    local there = w:pose(hook):along(0, 0, -w:number(hook, "down", 0))
+    return seats.all_with_part_at(w, obj, seats.loop(w, obj), there)
+  end,
 }
