@@ -242,17 +242,17 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   object.positioned = entry["at"].present() || entry["place"].present();
   const bool fixed =
       either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
-  object.free = found != nullptr && !fixed && !region && node["parts"].fields.empty();
+  object.free = found != nullptr && !fixed && !region && either("parts").fields.empty();
   objects[name] = object;
-  const auto add_regions = [&](const std::string& owner, const Value& body) {
-    for (const auto& [region_name, one] : body["regions"].fields) {
+  const auto add_regions = [&](const std::string& owner, const Value& regions) {
+    for (const auto& [region_name, one] : regions.fields) {
       objects[owner + "." + region_name] = {type_or(one, "region"), texts(one["traits"]), false, false};
     }
   };
-  add_regions(name, node);
-  for (const auto& [part_name, part] : node["parts"].fields) {
+  add_regions(name, either("regions"));
+  for (const auto& [part_name, part] : either("parts").fields) {
     objects[name + "." + part_name] = {type_or(part, ""), texts(part["traits"]), false, false};
-    add_regions(name + "." + part_name, part);
+    add_regions(name + "." + part_name, part["regions"]);
   }
 }
 

@@ -1,5 +1,5 @@
 -- The object's centre is in the container's inner region, or in the region itself.
-local function inner(w, box) return w:type(box) == "region" and box or box .. ".inside" end
+local function inner(w, box) return w:exists(box .. ".inside") and box .. ".inside" or box end
 
 -- Near the front of a shelf, where the hand need not go deep: anywhere across it; upright; as the object points into the
 -- shelf, or as the hand does that holds it, give or take a turn.
@@ -44,7 +44,7 @@ end
 
 -- A drawer is looked into when it is open; a box or a shelf of it when one of its doors or lids is.
 local function looks_open(w, box)
-  if w:type(box) == "region" then return true end
+  if not w:exists(box .. ".inside") then return true end
   if w:has_trait(box, "openable") then return w:joint(box) >= w:number(box, "open_at") end
   local dot = string.find(box, ".")
   local whole = dot and string.sub(box, 1, dot) or box .. "."

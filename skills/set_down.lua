@@ -1,0 +1,15 @@
+-- Put the held object down on its marked spot of a surface: a square of a board, a place at a table.
+return skill {
+  params = { "obj: movable", "spot: spot" },
+  precondition = { is.holding("obj"), is_not(exists("?y: movable", is.inside("?y", "spot"))) },
+  effect = { is.inside("obj", "spot"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
+  continuous = { at = stream(is.inside("obj", "spot")) },               -- pose of the object
+  label = "put the {obj} on the {spot}",
+  run = function(robot, p, c)
+    local down = robot:tip_for(p.obj, c.at:offset(0, 0, 0.001))
+    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
+    robot:wait(0.1)
+    robot:open_hand(robot:view():opening() + 0.02)                      -- no wider: there may be neighbours
+    robot:lift(0.08)
+  end,
+}

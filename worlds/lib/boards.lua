@@ -1,0 +1,60 @@
+-- Boards of eight by eight squares for games; their pieces stand on the squares' middles.
+local boards = {}
+boards.pitch, boards.high = 0.042, 0.014 -- m: of a square; of the board
+
+-- From the middle of the board to that of a square; file and rank 1 … 8.
+function boards.square(file, rank) return (rank - 4.5) * boards.pitch, (file - 4.5) * boards.pitch end
+
+-- The shapes of a board: a frame and its dark squares.
+function boards.shapes(light, dark)
+  local whole = 8 * boards.pitch
+  local shapes = {
+    box { whole + 0.03, whole + 0.03, boards.high, at = { 0, 0, -boards.high / 2 }, colour = dark },
+    box { whole, whole, 0.0004, colour = light, collides = false },
+  }
+  for file = 1, 8 do
+    for rank = 1, 8 do
+      local x, y = boards.square(file, rank)
+      if (file + rank) % 2 == 0 then
+        shapes[#shapes + 1] = box { boards.pitch, boards.pitch, 0.0004, at = { x, y, 0.0003 }, colour = dark, collides = false }
+      end
+    end
+  end
+  return shapes
+end
+
+-- A region on a square for one piece: its middle must be within 11 mm of the square's.
+function boards.spot(file, rank, high)
+  local x, y = boards.square(file, rank)
+  return { at = { x, y, high / 2 }, size = { 0.022, 0.022, high + 0.004 }, traits = { "container", "spot" } }
+end
+
+-- A game of checkers at { x, y, z }: where its 24 men are in the world by colour, and the regions of their squares.
+function boards.checkers(at)
+  local half = 0.008 -- m: of a man's height
+  local game = { at = { at.x, at.y, at.z }, squares = { red = {}, black = {} }, regions = {} }
+  for _, rank in ipairs { 1, 2, 3, 6, 7, 8 } do
+    for file = 1, 8 do
+      if (file + rank) % 2 == 0 then
+        local colour = rank < 4 and "red" or "black"
+        local x, y = boards.square(file, rank)
+        local of_colour = game.squares[colour]
+        of_colour[#of_colour + 1] = { at.x + x, at.y + y, at.z + half + 0.0005 }
+        local spot = boards.spot(file, rank, 2 * half)
+        spot.type = colour .. "_square"
+        game.regions[colour .. "_square" .. #of_colour] = spot
+      end
+    end
+  end
+  function game.full(w)
+    for name in pairs(game.regions) do
+      local taken = false
+      for _, man in ipairs(w:objects("graspable")) do taken = taken or w:inside("board." .. name, man) end
+      if not taken then return false end
+    end
+    return true
+  end
+  return game
+end
+
+return boards
