@@ -47,6 +47,7 @@ return {
     clock_hand = { parent = "fixture" },
     door = { parent = "fixture" },
     switch = { parent = "fixture" },
+    knob = { parent = "fixture" },
     peg = { parent = "thing" },
     board = { parent = "fixture" },
     checker = { parent = "thing" },

@@ -1,0 +1,15 @@
+-- Turn the oven on: the knob in the middle of the cooker's panel, by a quarter turn.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { cooker = { "cooker", place = places.round_the_table(0.13, 0.4, 0.75) } },
+  init = { is_not.turned("cooker.oven_knob") },
+  goal = { is.turned("cooker.oven_knob"), is.hand_empty() },
+  instructions = {
+    "turn the oven on",
+    "switch on the oven with the knob in the middle",
+    "the oven has to heat up: turn its knob by a quarter",
+    "turn the middle knob of the cooker, the one with the red mark",
+  },
+}
