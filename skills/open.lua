@@ -4,7 +4,7 @@ return skill {
   precondition = { is.hand_empty(), is_not.open("part") },
   effect = { is.open("part"), is_not.closed("part") },
   continuous = {
-    grasp = stream("grasps", "part"),                                   -- of the handle
+    grasp = stream("grasps", "part", "pull"),                           -- of the handle, from which it can be pulled
     speed = { 0.12, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "open the {part}",

@@ -4,7 +4,7 @@ return skill {
   precondition = { is.hand_empty(), is_not.turned("part") },
   effect = { is.turned("part") },
   continuous = {
-    grasp = stream("grasps", "part"),                                   -- from which the wrist can turn far enough
+    grasp = stream("grasps", "part", "turn_to"),                        -- from which the wrist can turn far enough
     speed = { 0.08, min = 0.02, max = 0.2, unit = "m/s" },
   },
   label = "turn the {part}",

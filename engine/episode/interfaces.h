@@ -120,8 +120,9 @@ struct ContinuousInfo {
   Source source = Source::value;
   std::vector<double> initial, lower, upper;  // value: equal lengths (lower, upper may be infinite)
   std::string unit, frame;
-  std::string object;  // grasps: the parameter that names the object
-  Fact literal;        // sample: predicate and parameter names whose sample gives poses of its first argument
+  std::string object;   // grasps: the parameter that names the object
+  Fact literal;         // sample: predicate and parameter names whose sample gives poses of its first argument
+  std::string to = {};  // grasps: the number of the object that says up to where it must be taken; or empty
 };
 
 struct SkillInfo {

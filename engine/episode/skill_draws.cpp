@@ -35,13 +35,31 @@ void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& rec
   }
 }
 
+// How the tip moves with a part from where its joint is to where the part's number `to` says.
+TipPath way_of_part(const Rollout& rollout, const std::string& name, const std::string& to) {
+  const WorldView& view = rollout.view();
+  const auto& numbers = view.object(name).numbers;
+  const auto found = numbers.find(to);
+  if (found == numbers.end()) return {};
+  const double here = rollout.world().joint_position(view.part_of(name));
+  const double there = found->second;
+  const Transform part_from_world = view.world_from(name).inverse();
+  return [&view, name, here, there, part_from_world](const Transform& world_from_tip, double way) {
+    return Transform(view.part_at(name, here + way * (there - here)) * part_from_world * world_from_tip);
+  };
+}
+
 Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
                   std::string& detail) {
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
-  const auto candidates = grasp_candidates(*space, rollout.world(), rollout.view().object(name),
-                                           planning_start(rollout.world()), context.key.with(info.name), wanted + 1);
+  const auto grasps = [&](const TipPath& follow) {
+    return grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
+                            context.key.with(info.name), wanted + 1, follow);
+  };
+  auto candidates = grasps(way_of_part(rollout, name, info.to));
+  if (candidates.empty() && !info.to.empty()) candidates = grasps({});  // perhaps it can be taken some of the way
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
     if (context.mode.explain)

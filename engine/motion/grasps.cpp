@@ -60,24 +60,36 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
   return options;
 }
 
+// Where the arm ends that follows a path of the tip in so many steps, without a jump; nothing: it cannot.
+template <typename Path>
+std::optional<JointVector> followed(const Arm& arm, JointVector q, int steps, const Path& path, RandomKey key) {
+  constexpr double kMostJump = 0.6;  // rad
+  for (int i = 1; i <= steps; ++i) {
+    const std::optional<JointVector> next = arm.solve(path(static_cast<double>(i) / steps), q, key, 0);
+    if (!next || (*next - q).cwiseAbs().maxCoeff() > kMostJump) return std::nullopt;
+    q = *next;
+  }
+  return q;
+}
+
 // Reachable and free at both poses, and the arm can go straight from one to the other.
-bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key) {
+bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key,
+              const TipPath& follow) {
   const Arm& arm = state.arm();
   // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
   if (!state.hand_free(grasp.world_from_tip) || !state.hand_free(grasp.world_from_approach)) return false;
   for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, 3, 12)) {
     if (!state.free(q)) continue;
-    constexpr int kSteps = 4;
-    std::optional<JointVector> last = q;
-    for (int i = 1; i <= kSteps && last; ++i) {
+    const auto approach = [&](double way) {
       Transform tip = grasp.world_from_approach;
-      tip.translation() += (static_cast<double>(i) / kSteps) *
-                           (grasp.world_from_tip.translation() - grasp.world_from_approach.translation());
-      const JointVector before = *last;
-      last = arm.solve(tip, before, key, 0);
-      if (last && (*last - before).cwiseAbs().maxCoeff() > 0.6) last.reset();
-    }
-    if (last && state.free(*last)) return true;
+      tip.translation() += way * (grasp.world_from_tip.translation() - grasp.world_from_approach.translation());
+      return tip;
+    };
+    const std::optional<JointVector> there = followed(arm, q, 4, approach, key);
+    if (!there || !state.free(*there)) continue;
+    if (!follow || followed(
+                       arm, *there, 16, [&](double way) { return follow(grasp.world_from_tip, way); }, key))
+      return true;
   }
   return false;
 }
@@ -147,7 +159,7 @@ Transform world_from_object(const World& world, const Object& object) {
 }
 
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
-                                             const JointVector& start, RandomKey key, int most) {
+                                             const JointVector& start, RandomKey key, int most, const TipPath& follow) {
   const Search search(state, world, object, start, key);
   std::vector<GraspCandidate> found;
   CollisionState hand = search.hand(state);
@@ -159,7 +171,7 @@ std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const 
       GraspCandidate grasp = search.candidate(option, room);
       grasp.index = static_cast<int>(found.size());
       hand.set_opening(grasp.opening);
-      if (feasible(hand, grasp, start, key.with("ik"))) found.push_back(grasp);
+      if (feasible(hand, grasp, start, key.with("ik"), follow)) found.push_back(grasp);
     }
   }
   return found;

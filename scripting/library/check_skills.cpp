@@ -137,6 +137,7 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
       if (!listed(names, one.object))
         complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
+      if (node["to"].is_text()) one.to = node["to"].text;
     } else if (node.tag() == "stream") {
       one.source = ContinuousInfo::Source::sample;
       FormulaContext where = context(definition, path);

@@ -7,7 +7,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
----@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: movable, obj: movable)
+---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
 ---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
@@ -22,6 +22,7 @@
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
+---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
@@ -29,7 +30,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
----@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: movable, obj: movable)
+---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
 ---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
@@ -44,11 +45,13 @@
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
+---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
 ---@field drop fun(obj: string|table, box?: string): stampede.call  drop the {obj} into the {box} (obj: movable, box: container & hollow)
 ---@field extract fun(obj: string|table, slot?: string): stampede.call  pull the {obj} out of the {slot} (obj: movable & graspable, slot: slot)
+---@field hang fun(obj: string|table, hook?: string): stampede.call  hang the {obj} on the {hook} (obj: movable, hook: hook)
 ---@field insert fun(obj: string|table, slot?: string): stampede.call  put the {obj} into the {slot} (obj: movable, slot: slot)
 ---@field lay fun(obj: string|table, to?: string): stampede.call  lay the {obj} on the {to} (obj: movable & flat, to: surface)
 ---@field lift fun(obj: string|table, zone?: string): stampede.call  lift the {obj} into the {zone} (obj: movable, zone: floating)
@@ -60,9 +63,11 @@
 ---@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & openable)
 ---@field put_on_shelf fun(obj: string|table, shelf?: string): stampede.call  put the {obj} on the {shelf} (obj: movable, shelf: container & shelf)
 ---@field reach fun(place: string|table): stampede.call  reach the {place} (place: target)
+---@field set_down fun(obj: string|table, spot?: string): stampede.call  put the {obj} on the {spot} (obj: movable, spot: spot)
 ---@field stack fun(obj: string|table, below?: string): stampede.call  stack the {obj} on the {below} (obj: movable, below: stackable)
 ---@field take_from_shelf fun(obj: string|table, shelf?: string): stampede.call  take the {obj} off the {shelf} (obj: movable & graspable, shelf: container & shelf)
 ---@field take_out fun(obj: string|table, box?: string): stampede.call  take the {obj} out of the {box} (obj: movable & graspable, box: container & openable)
+---@field turn fun(part: string|table): stampede.call  turn the {part} (part: turnable)
 ---@field unhang fun(obj: string|table, hook?: string): stampede.call  take the {obj} off the {hook} (obj: movable & graspable, hook: hook)
 
 ---@alias stampede.predicate_name
@@ -86,21 +91,28 @@
 ---| "over"
 ---| "pressed"
 ---| "spaced"
+---| "turned"
 
 ---@alias stampede.type_name
 ---| "area"
 ---| "ball"
 ---| "bin"
+---| "black_square"
 ---| "block"
+---| "board"
 ---| "button"
 ---| "charger"
+---| "checker"
 ---| "chopping_board"
+---| "clock"
+---| "clock_hand"
 ---| "colour_name"
 ---| "computer"
 ---| "cube"
 ---| "cup"
 ---| "cylinder"
 ---| "dish_rack"
+---| "door"
 ---| "drawer"
 ---| "fixture"
 ---| "food"
@@ -109,6 +121,7 @@
 ---| "hand"
 ---| "knife"
 ---| "knife_block"
+---| "knob"
 ---| "level"
 ---| "lid"
 ---| "meat"
@@ -116,14 +129,21 @@
 ---| "moon"
 ---| "outlet"
 ---| "pan"
+---| "peg"
+---| "pepper"
 ---| "phone"
 ---| "phone_cradle"
 ---| "picture"
 ---| "plate"
 ---| "prism"
+---| "red_square"
 ---| "region"
+---| "ring"
+---| "scales"
 ---| "stand"
 ---| "star"
+---| "switch"
+---| "tap"
 ---| "thing"
 ---| "tin"
 ---| "toilet_roll"
@@ -145,37 +165,48 @@
 ---| "pressable"
 ---| "shelf"
 ---| "slot"
+---| "spot"
 ---| "stackable"
 ---| "support"
 ---| "surface"
 ---| "target"
+---| "turnable"
 
 ---@alias stampede.world_name
 ---| "tabletop"
 
 ---@alias stampede.object_name
 ---| "air_zone"
+---| "basin_tap"
 ---| "basketball"
 ---| "basketball_hoop"
 ---| "bin"
+---| "black_checker"
 ---| "charger"
+---| "checkers_board"
 ---| "chest"
 ---| "chicken"
 ---| "chocolate_jelly"
 ---| "chopping_board"
 ---| "coffee"
+---| "cooker"
 ---| "crackers_box"
 ---| "cube"
 ---| "cup"
 ---| "cupboard"
+---| "desk_clock"
 ---| "desktop_computer"
 ---| "dish_rack"
 ---| "floating_target"
 ---| "floor"
 ---| "frame_hanger"
+---| "fridge"
+---| "green_pepper"
 ---| "grill"
+---| "kitchen_scales"
 ---| "knife"
 ---| "knife_block"
+---| "microwave"
 ---| "money"
 ---| "mug"
 ---| "mustard"
@@ -188,12 +219,17 @@
 ---| "phone_cradle"
 ---| "picture_frame"
 ---| "plate"
+---| "plate_stand"
 ---| "push_button"
 ---| "raised_space"
+---| "red_checker"
+---| "red_pepper"
+---| "rocker_switch"
 ---| "rubbish"
 ---| "safe"
 ---| "saucepan"
 ---| "saucepan_lid"
+---| "sliding_cabinet"
 ---| "small_cube"
 ---| "small_cylinder"
 ---| "small_moon"
@@ -202,6 +238,9 @@
 ---| "sorting_block"
 ---| "soup_can"
 ---| "spam_can"
+---| "square_peg"
+---| "square_ring"
+---| "stacking_cup"
 ---| "steak"
 ---| "strawberry_jelly"
 ---| "sugar_box"
@@ -217,3 +256,4 @@
 ---| "usb_stick"
 ---| "wide_block"
 ---| "work_table"
+---| "yellow_pepper"

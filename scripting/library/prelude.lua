@@ -165,10 +165,11 @@ function words.when(condition, effects)
   return { tag = "when", condition = one_part("when", condition), effects = effects, line = here() }
 end
 
--- stream("grasps") or stream("grasps", "obj"); stream(is.on("obj", "to")): the predicate's sample.
-function words.stream(source, object)
+-- stream("grasps") or stream("grasps", "obj"); stream("grasps", "part", "pull"): with which the hand can take the part to
+-- the joint position that its number `pull` says; stream(is.on("obj", "to")): the predicate's sample.
+function words.stream(source, object, to)
   if source == "sample" then source = object end -- stream("sample", is.on("obj", "to"))
-  if source == "grasps" then return { tag = "stream", source = "grasps", object = object, line = here() } end
+  if source == "grasps" then return { tag = "stream", source = "grasps", object = object, to = to, line = here() } end
   if is_value(source) and source.tag == "literal" then
     return { tag = "stream", source = "sample", literal = source, line = here() }
   end

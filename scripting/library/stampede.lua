@@ -8,6 +8,7 @@
 ---@field where? (fun(v: table<string, any>): any)  function(v): false leaves a combination of the axes out
 ---@field objects? table<string, stampede.entry>|fun(v: table<string, any>): any  the objects by name; count = n makes name1 … namen (default {})
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
+---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
 ---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal

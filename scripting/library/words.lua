@@ -70,10 +70,12 @@ function pddl(text) end
 ---@return stampede.effect
 function when(condition, effects) end
 
--- Candidates of a continuous parameter: stream("grasps"), stream("grasps", "part") or stream(is.on("obj", "to"))
+-- Candidates of a continuous parameter: stream("grasps"), stream("grasps", "part") or stream(is.on("obj", "to"));
+-- stream("grasps", "part", "pull"): with which the arm can take the part to the joint position of its number `pull`
 ---@param source "grasps"|stampede.literal
 ---@param object? string  the parameter that is grasped
-function stream(source, object) end
+---@param to? string  a number of the part
+function stream(source, object, to) end
 
 -- A skill's whole run: run = policy("grasp_net", { seconds = 5 })
 ---@param name string
