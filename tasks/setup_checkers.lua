@@ -1,30 +1,52 @@
 -- Put the one to three checkers that lie beside the board back on squares of their side that lack one.
 local boards = require "worlds.lib.boards"
-local sides = boards.checkers { x = 0.19, y = 0, z = 0.75 + boards.high }
-local lost = { { red = 1, black = 0 }, { red = 1, black = 1 }, { red = 2, black = 1 } }
+local squares = boards.checkers.squares
+
+local lost = {} -- which men are missing: by number
+for start = 1, 6 do
+  lost[#lost + 1] = { count = 1, red = { 2 * start }, black = {} }
+  lost[#lost + 1] = { count = 2, red = { start }, black = { 13 - start } }
+  lost[#lost + 1] = { count = 3, red = { start }, black = { start + 2, 2 * start % 3 + 9 } }
+end
+
+local function is_lost(v, colour, number)
+  for _, one in ipairs(lost[v.case][colour]) do
+    if one == number then return true end
+  end
+  return false
+end
 
 return task {
   world = "tabletop",
-  variations = { count = { 1, 2, 3 } },
+  variations = each(range(1, #lost), function(case) return { count = lost[case].count, case = case } end),
   objects = function(v)
-    local objects = { board = { "checkers_board", at = sides.at, regions = sides.regions } }
-    for colour, missing in pairs(lost[v.count]) do
-      objects[colour .. "_man"] = { colour .. "_checker", count = 12 - missing, at = sample_of(sides.squares[colour], 12 - missing) }
-      objects["lost_" .. colour] = { colour .. "_checker", count = missing }
+    local objects = { board = { "checkers_board", at = { between(0.17, 0.21), between(-0.03, 0.03), 0.75 + boards.high },
+      yaw = between(-0.12, 0.12) } }
+    for colour in pairs(squares) do
+      for i = 1, 12 do objects[colour .. i] = { colour .. "_checker" } end
     end
     return objects
   end,
-  init = { is.on("lost_red*", "table"), is.on("lost_black*", "table") },
+  init = function(v)
+    local init = {}
+    for colour, names in pairs(squares) do
+      for i = 1, 12 do
+        local at_home = is.inside(colour .. i, "board." .. names[i])
+        init[#init + 1] = is_lost(v, colour, i) and is.on(colour .. i, "table") or at_home
+      end
+    end
+    return init
+  end,
   goal = function(v)
     local goal = { is.hand_empty() }
-    for colour, missing in pairs(lost[v.count]) do
-      for i = 1, missing do
-        goal[#goal + 1] = exists("?s: " .. colour .. "_square", is.inside("lost_" .. colour .. i, "?s"))
+    for colour, names in pairs(squares) do
+      for i = 1, 12 do
+        local home = is.inside(colour .. i, "board." .. names[i])
+        goal[#goal + 1] = is_lost(v, colour, i) and exists("?s: " .. colour .. "_square", is.inside(colour .. i, "?s")) or home
       end
     end
     return goal
   end,
-  also = function(w) return sides.full(w) end, -- no other man has been pushed off its square
   instructions = {
     "complete the board: put what lies beside it back on its squares",
     "set up the game of checkers; {count} of the men still lie on the table",

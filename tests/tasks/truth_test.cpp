@@ -71,7 +71,7 @@ void check_margins(const Values& values) {
 }
 
 const std::set<std::string> kMeasured = {"at",     "closed", "hanging", "holding", "in_slot", "inside",
-                                         "lifted", "on",     "open",    "over",    "pressed"};
+                                         "lifted", "on",     "open",    "over",    "pressed", "turned"};
 
 void check_stored_margins(const EpisodeRecord& episode) {
   for (const FactRecord& record : episode.facts) {

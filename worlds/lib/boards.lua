@@ -29,32 +29,17 @@ function boards.spot(file, rank, high)
   return { at = { x, y, high / 2 }, size = { 0.022, 0.022, high + 0.004 }, traits = { "container", "spot" } }
 end
 
--- A game of checkers at { x, y, z }: where its 24 men are in the world by colour, and the regions of their squares.
-function boards.checkers(at)
-  local half = 0.008 -- m: of a man's height
-  local game = { at = { at.x, at.y, at.z }, squares = { red = {}, black = {} }, regions = {} }
-  for _, rank in ipairs { 1, 2, 3, 6, 7, 8 } do
-    for file = 1, 8 do
-      if (file + rank) % 2 == 0 then
-        local colour = rank < 4 and "red" or "black"
-        local x, y = boards.square(file, rank)
-        local of_colour = game.squares[colour]
-        of_colour[#of_colour + 1] = { at.x + x, at.y + y, at.z + half + 0.0005 }
-        local spot = boards.spot(file, rank, 2 * half)
-        spot.type = colour .. "_square"
-        game.regions[colour .. "_square" .. #of_colour] = spot
-      end
+boards.checkers = { regions = {}, squares = { red = {}, black = {} } } -- the squares of each side's men, by name
+for _, rank in ipairs { 1, 2, 3, 6, 7, 8 } do
+  for file = 1, 8 do
+    if (file + rank) % 2 == 0 then
+      local colour = rank < 4 and "red" or "black"
+      local of_colour = boards.checkers.squares[colour]
+      local name, spot = colour .. "_square" .. #of_colour + 1, boards.spot(file, rank, 0.016)
+      of_colour[#of_colour + 1], spot.type = name, colour .. "_square"
+      boards.checkers.regions[name] = spot
     end
   end
-  function game.full(w)
-    for name in pairs(game.regions) do
-      local taken = false
-      for _, man in ipairs(w:objects("graspable")) do taken = taken or w:inside("board." .. name, man) end
-      if not taken then return false end
-    end
-    return true
-  end
-  return game
 end
 
 return boards
