@@ -52,6 +52,7 @@ return {
     book = { parent = "thing" },
     puzzle = { parent = "thing" },
     puzzle_piece = { parent = "thing" },
+    sorter = { parent = "thing" },
     region = {},
     hand = {},
     colour_name = {},
