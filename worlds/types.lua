@@ -53,6 +53,8 @@ return {
     puzzle = { parent = "thing" },
     puzzle_piece = { parent = "thing" },
     sorter = { parent = "thing" },
+    bottle = { parent = "thing" },
+    wine_rack = { parent = "fixture" },
     region = {},
     hand = {},
     colour_name = {},
