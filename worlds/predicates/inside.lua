@@ -34,7 +34,11 @@ local function shelf_spots(w, obj, shelf, rng)
         local other_x, other_y = w:position(other)
         local other_length, other_width = w:size(other)
         local apart = (math.max(length, width) + math.max(other_length, other_width)) / 2 + 0.02
-        if (other_x - x) ^ 2 + (other_y - y) ^ 2 < apart ^ 2 then free = false end
+        local _, _, other_yaw = w:pose(other):rpy()
+        local oc, os = math.abs(math.cos(other_yaw - into)), math.abs(math.sin(other_yaw - into))
+        local beside = math.abs(math.cos(into) * (other_y - y) - math.sin(into) * (other_x - x)) -- along the shelf
+        local near = beside < half_y + (os * other_length + oc * other_width) / 2 + 0.03         -- a finger between both
+        if near and (other_x - x) ^ 2 + (other_y - y) ^ 2 < apart ^ 2 then free = false end
       end
     end
     if free then poses[#poses + 1] = pose(x, y, z, 0, 0, into + relative) end

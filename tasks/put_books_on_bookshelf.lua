@@ -1,0 +1,26 @@
+-- Put one, two or all three books that stand on the table on the shelf beside it.
+local places = require "worlds.lib.places"
+
+local names = { "red_book", "green_book", "blue_book" }
+local words = { "red book", "red book and the green one", "red, the green and the blue book" }
+
+return task {
+  world = "tabletop",
+  variations = { count = { 1, 2, 3 } },
+  objects = {
+    bookshelf = { "bookshelf", place = places.beside_the_table(0.185, 0.2, 0.95) },
+    red_book = { "book", colour = "red" }, green_book = { "book", colour = "green" }, blue_book = { "book", colour = "blue" },
+  },
+  init = { is.on("red_book", "table"), is.apart("green_book", "red_book"), is.on("green_book", "table"),
+    is.apart("blue_book", "red_book"), is.apart("blue_book", "green_book"), is.on("blue_book", "table") },
+  goal = function(v)
+    local parts = { is.hand_empty() }
+    for i = 1, v.count do parts[#parts + 1] = is.inside(names[i], "bookshelf.shelf") end
+    return parts
+  end,
+  instructions = function(v)
+    local what = words[v.count]
+    return { "put the " .. what .. " on the bookshelf", "the " .. what .. " must go back to the bookshelf",
+      "clear the " .. what .. " off the table, onto the shelf for books", "shelve the " .. what }
+  end,
+}

@@ -1,0 +1,16 @@
+-- Lay the bottle of wine that stands on the table into the rack, foot first.
+return task {
+  world = "tabletop",
+  objects = {
+    rack = { "wine_rack", at = { between(0.20, 0.30), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi / 4, math.pi / 4) },
+    bottle = { "wine_bottle" },
+  },
+  init = { is.on("bottle", "table"), is_not.crowds("rack", "bottle") },
+  goal = { is.in_slot("bottle", "rack.compartment"), is.hand_empty() },
+  instructions = {
+    "put the wine into the rack",
+    "the bottle belongs in the free compartment of the wine rack",
+    "lay the bottle into the rack, foot first",
+    "store the bottle of wine that stands on the table in its rack",
+  },
+}
