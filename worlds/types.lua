@@ -54,6 +54,7 @@ return {
     red_square = { parent = "region" },
     black_square = { parent = "region" },
     ring = { parent = "thing" },
+    lamp = { parent = "fixture" },
     region = {},
     hand = {},
     colour_name = {},
