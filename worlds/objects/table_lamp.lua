@@ -13,7 +13,8 @@ return object {
   parts = {
     button = {
       type = "button", traits = { "pressable" }, mass = 0.04, colour = { 0.92, 0.92, 0.90 },
-      slider = { axis = { 0, 0, -1 }, at = { -0.10, 0, 0.018 }, range = { 0, 0.005 }, spring = 4, damping = 1, friction = 0.2 },
+      slider = { axis = { 0, 0, -1 }, at = { -0.10, 0, 0.018 }, range = { 0, 0.005 }, spring = 4, damping = 1,
+        friction = 0.2 },
       shapes = { cylinder { 0.018, 0.014, at = { 0, 0, 0.007 } } },
       numbers = { on_at = 0.0035 },
     },
