@@ -60,6 +60,7 @@ return {
     sorter = { parent = "thing" },
     bottle = { parent = "thing" },
     wine_rack = { parent = "fixture" },
+    lamp = { parent = "fixture" },
     region = {},
     hand = {},
     colour_name = {},
