@@ -19,9 +19,10 @@ return skill {
     local over = hung:offset(0, 0, up)
     local x, y, z = w:position(p.hook)
     local ox, oy, oz = w:pose(p.hook):along(0, 0, length / 2 + c.clear):position()
+    local away = 0.03 / (length / 2 + c.clear)                          -- and a little further at first
     local before = over:offset(ox - x, oy - y, oz - z)
     robot:move_through {
-      { "approach", before:offset(0, 0, 0.04) }, { "goal", before }, { "ahead", over }, { "ahead", hung },
+      { "approach", before:offset(away * (ox - x), away * (oy - y), away * (oz - z) + 0.03) }, { "goal", before }, { "ahead", over }, { "ahead", hung },
     }
     robot:move_line(over, { speed = c.speed, collide = true })          -- it may touch the hook
     robot:move_line(hung, { speed = 0.5 * c.speed, collide = true, tolerate = true })

@@ -20,7 +20,7 @@ return task {
   world = "tabletop",
   variations = each(range(1, #lost), function(case) return { count = lost[case].count, case = case } end),
   objects = function(v)
-    local objects = { board = { "checkers_board", at = { between(0.17, 0.21), between(-0.03, 0.03), 0.75 + boards.high },
+    local objects = { board = { "checkers_board", at = { between(0.16, 0.21), between(-0.07, 0.07), 0.75 + boards.high },
       yaw = between(-0.12, 0.12) } }
     for colour in pairs(squares) do
       for i = 1, 12 do objects[colour .. i] = { colour .. "_checker" } end

@@ -189,6 +189,30 @@ TEST_CASE("a mistake in a file stops the tasks that use it, and no other, check 
   CHECK(with_mine({"run", "reach_target", "--out", mine / "d.db"}).code == kBadInput);
 }
 
+TEST_CASE("what a task tells is known: the drawer that is named is opened, and no other") {
+  for (const std::string level : {"bottom", "middle", "top"}) {
+    const Said plan = say({"plan", "take_item_out_of_drawer", "--variation", "level=" + level, "--root", kRoot});
+    INFO(plan.out << plan.err);
+    CHECK(plan.code == kDone);
+    CHECK(says(plan.out, "(open chest." + level + "_drawer"));
+    CHECK(plan.out.find("(open ") == plan.out.rfind("(open "));
+  }
+}
+
+TEST_CASE("a failed step says how many of its grasps failed of what") {
+  const Folder mine;
+  std::filesystem::create_directories(mine / "tasks");
+  std::ofstream(mine / "tasks/too_far.lua") << "-- Nobody reaches it.\nreturn task {\n  world = \"tabletop\",\n  "
+                                               "objects = { a = { \"cube\", at = { 0.56, 0.36, 0.77 } } },\n"
+                                               "  goal = is.lifted(\"a\"),\n  instructions = { \"lift it\" },\n}\n";
+  const Said said =
+      say({"check", "too_far", "--physics", "--why", "--episodes", "1", "--root", kRoot, "--path", mine.text()});
+  INFO(said.out << said.err);
+  CHECK(said.code == kNo);
+  CHECK(says(said.err, "no grasp of a is reachable and free: of "));
+  CHECK(says(said.err, "out of reach"));
+}
+
 TEST_CASE("one run of check finds what five files have wrong, each with its line") {
   const Folder mine;
   std::filesystem::create_directories(mine / "worlds/objects");

@@ -15,7 +15,7 @@ local function drawer(z)
     slider = { axis = { -1, 0, 0 }, at = { 0, 0, z }, range = { 0, 0.20 }, damping = 5, friction = 2 },
     mass = 0.6, colour = { 0.80, 0.68, 0.50 },
     numbers = { open_at = 0.15, closed_at = 0.004, pull = 0.18, hand_back = -0.02, hand_side = 0.045,
-      hand_front = -0.056, hand_turn = 0.12 },
+      hand_front = -0.065, hand_turn = 0.05 },
     shapes = {
       box { 0.012, 0.236, 0.076, at = { -0.106, 0, 0 } }, -- front
       box { 0.20, 0.22, 0.006, at = { 0, 0, -0.032 } }, -- floor

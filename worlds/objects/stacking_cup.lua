@@ -1,6 +1,6 @@
 -- A cup without a handle, 7.6 cm across at the rim and 9 cm high, that another one like it goes into; its frame is in the
 -- middle of its foot. Its floor is thick, so that cups in each other do not jam.
-local height, rim, foot, wall, floor = 0.090, 0.038, 0.026, 0.003, 0.028 -- m
+local height, rim, foot, wall, floor = 0.090, 0.038, 0.026, 0.004, 0.041 -- m
 local slope = math.atan(rim - foot, height)                              -- of the wall, outwards
 
 local grasps = {} -- the rim between the fingers, one of them inside, flat on the wall
@@ -15,7 +15,7 @@ for k = 0, 11 do
 end
 
 return object {
-  type = "cup", traits = { "movable", "graspable", "support", "stackable" }, colour = "red", mass = 0.12, friction = 0.5,
+  type = "cup", traits = { "movable", "graspable", "support", "stackable" }, colour = "red", mass = 0.14, friction = 0.5,
   shapes = {
     lathe { { foot, 0 }, { rim, height }, wall = wall },
     cylinder { foot - 0.001, floor, at = { 0, 0, floor / 2 } },

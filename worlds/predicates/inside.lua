@@ -74,8 +74,9 @@ local function handy(w, obj, box, spots)
     local inside = from:times(spot)
     local x, y = inside:position()
     local _, _, yaw = inside:rpy()
-    local off = math.abs((yaw + math.pi / 4) % (math.pi / 2) - math.pi / 4)
-    if x <= back and x >= front and math.abs(y) <= side and off <= turn then kept[#kept + 1] = spot end
+    local off = (yaw + math.pi / 4) % (math.pi / 2) - math.pi / 4
+    local less = math.max(1 - turn / (math.pi / 4), 0)
+    if x <= back and x >= front and math.abs(y) <= side then kept[#kept + 1] = spot:rotated(0, 0, -less * off) end
   end
   return kept
 end
