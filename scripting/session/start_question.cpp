@@ -37,6 +37,7 @@ StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& optio
   FactTracker facts(scripts.symbols(), view);
   facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
   facts.look(view);
+  facts.tell(task.told);
   ask_what_is_known(task, facts, options.seed, question);
   question.state.facts = facts.facts();
   question.state.observed = facts.observed();

@@ -202,9 +202,10 @@ TEST_CASE("what a task tells is known: the drawer that is named is opened, and n
 TEST_CASE("a failed step says how many of its grasps failed of what") {
   const Folder mine;
   std::filesystem::create_directories(mine / "tasks");
-  std::ofstream(mine / "tasks/too_far.lua") << "-- Nobody reaches it.\nreturn task {\n  world = \"tabletop\",\n  "
-                                               "objects = { a = { \"cube\", at = { 0.56, 0.36, 0.77 } } },\n"
-                                               "  goal = is.lifted(\"a\"),\n  instructions = { \"lift it\" },\n}\n";
+  std::ofstream(mine / "tasks/too_far.lua")
+      << "-- Nobody reaches it.\nreturn task {\n  world = \"tabletop\",\n  "
+         "objects = { far = { \"tray\", at = { 1.2, 0, 0.75 } }, a = { \"cube\", at = { 1.2, 0, 0.7702 } } },\n"
+         "  goal = is.lifted(\"a\"),\n  instructions = { \"lift it\" },\n}\n";
   const Said said =
       say({"check", "too_far", "--physics", "--why", "--episodes", "1", "--root", kRoot, "--path", mine.text()});
   INFO(said.out << said.err);
