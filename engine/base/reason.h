@@ -32,7 +32,8 @@ namespace stampede {
   X(budget, "the tries allowed were used up")                                 \
   X(interrupted, "the run was interrupted")                                   \
   X(policy_error, "a policy failed, or asked for what cannot be done")        \
-  X(sensor_error, "a sensor of the program failed")
+  X(sensor_error, "a sensor of the program failed")                           \
+  X(failed_by_skill, "the skill gave up")
 
 enum class Reason {
 #define X(name, text) name,

@@ -30,40 +30,24 @@ PlannedCall from(PlannedMotion planned, FollowOptions options) {
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
-const Joint& joint_of(const Scene& scene, PartRef ref) {
-  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(ref.body)];
-  return body.parts[static_cast<std::size_t>(ref.part)].joint;
-}
-
 PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
                            const JointVector& start, FollowOptions options, RandomKey key) {
-  const World& world = rollout.world();
-  const PartRef ref = rollout.view().part_of(call.object);
-  const double from_position = world.joint_position(ref);
-  const Transform part_from_tip = world.world_from_part(ref).inverse() * world.arm(call.robot).world_from_tip(start);
-  const Transform first = world.world_from_part(ref) * part_from_tip;
-  const Joint& joint = joint_of(world.scene(), ref);
-  const Vector3 axis = world.world_from_part(ref).linear() * joint.axis.normalized();
-  const double travel = call.position - from_position;
-  const auto path_with = [&](double share) {  // of the part's turn that the hand makes
-    return [&, share](double s) {
-      Transform tip = rollout.view().part_at(call.object, from_position + s * travel) * part_from_tip;
-      if (share < 1) tip.linear() = Eigen::AngleAxisd(share * s * travel, axis) * first.linear();
-      return tip;
-    };
-  };
+  PartWay way = way_of_part(rollout, call.object, call.position, call.pivot);
+  way.retreat = call.retreat;
+  const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
   LineOptions line;
   line.tool_speed = call.speed;
   options.kind = "move_part";
   options.most_force = call.most_force;
   options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
-  PlannedMotion motion = plan_tool_path(state, start, path_with(1), line, {}, key);
-  if (call.pivot && joint.kind == JointKind::hinge)
-    for (int quarters = 3; quarters >= 0 && motion.reason != Reason::none; --quarters) {
-      PlannedMotion other = plan_tool_path(state, start, path_with(quarters / 4.0), line, {}, key);
-      if (other.reason == Reason::none) motion = std::move(other);
-    }
-  return from(std::move(motion), std::move(options));
+  if (const std::optional<ArmWay> found = way_with_part(state, start, way, key)) {
+    LineOptions guided = line;
+    guided.near = found->arm;
+    PlannedMotion motion = plan_tool_path(state, start, found->world_from_tip, guided, {}, key);
+    if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
+  }
+  const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
+  return from(plan_tool_path(state, start, rigid, line, {}, key), std::move(options));
 }
 
 // The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
@@ -86,6 +70,28 @@ PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const Coll
 JointVector planning_start(const World& world, int robot) {
   const JointVector reference = world.reference(robot).position, actual = world.arm_position(robot);
   return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
+}
+
+PartWay way_of_part(const Rollout& rollout, const std::string& name, double position, double pivot) {
+  const WorldView& view = rollout.view();
+  const PartRef part = view.part_of(name);
+  const Scene& scene = view.scene();
+  const Body& body = part.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(part.body)];
+  const Joint& joint = body.parts[static_cast<std::size_t>(part.part)].joint;
+  const double here = rollout.world().joint_position(part);
+  const Transform part_from_world = view.world_from(name).inverse();
+  PartWay way;
+  way.part = part;
+  way.pivot = pivot;
+  way.opening = rollout.world().opening();
+  way.moved = [&view, name, here, position, part_from_world](double share) {
+    return Transform(view.part_at(name, here + share * (position - here)) * part_from_world);
+  };
+  way.axis = view.world_from(name).linear() * joint.axis.normalized();
+  if (joint.kind == JointKind::hinge) way.turn = position - here;
+  const double last = std::clamp(position, joint.lower, joint.upper);
+  if (last != position) way.stop = std::clamp((last - here) / (position - here), 0.0, 1.0);
+  return way;
 }
 
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
@@ -121,7 +127,12 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
   return std::visit(
       Overloaded{[&](const robot_call::MoveThrough& move) {
                    options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
-                   return from(plan_through(*free_space(), start, move.targets, {}, key), options);
+                   if (move.then_part.empty())
+                     return from(plan_through(*free_space(), start, move.targets, {}, key), options);
+                   PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
+                   then.opening = move.opening;
+                   then.retreat = move.retreat;
+                   return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
                  },
                  [&](const robot_call::MoveLine& move) {
                    options.kind = move.kind;
@@ -131,7 +142,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                    options.most_force = move.most_force;
                    LineOptions line;
                    line.tool_speed = move.speed;
-                   line.collide = move.collide;
+                   line.keep_clear = move.keep_clear;
                    return from(plan_line(*space(), start, move.target, line, {}, key), options);
                  },
                  [&](const robot_call::MoveJoints& move) {

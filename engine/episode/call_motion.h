@@ -7,6 +7,7 @@
 
 #include "engine/episode/interfaces.h"
 #include "engine/episode/rollout.h"
+#include "engine/motion/part_way.h"
 
 namespace stampede {
 
@@ -25,6 +26,9 @@ bool yields(const RobotCall& call);
 
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
+
+// How a part goes from where its joint is to `position`, its handle free to turn in the hand by `pivot` rad.
+PartWay way_of_part(const Rollout& rollout, const std::string& name, double position, double pivot);
 
 // Where plans start: the reference, or the arm itself where contact keeps it away from its reference.
 JointVector planning_start(const World& world, int robot = 0);

@@ -215,7 +215,7 @@ StaticFacts static_facts(const Scene& scene, const Domain& domain) {
   std::set<std::string> values;
   for (const auto& [fact, type] : attribute_facts(scene, domain)) {
     known.facts.insert(fact);
-    if (values.insert(fact.arguments[1]).second) known.objects.push_back({fact.arguments[1], type});
+    if (!type.empty() && values.insert(fact.arguments[1]).second) known.objects.push_back({fact.arguments[1], type});
   }
   std::sort(known.objects.begin(), known.objects.end());
   return known;

@@ -56,7 +56,8 @@ std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& dom
     for (const auto& [key, value] : thing.attributes) {
       const Predicate* predicate = domain.predicate(key);
       if (predicate == nullptr || predicate->parameters.size() != 2 || !symbolic::is_pddl_name(value)) continue;
-      facts.push_back({{key, {thing.name, value}}, predicate->parameters[1].type});
+      const bool named = scene.object(value) != nullptr;
+      facts.push_back({{key, {thing.name, value}}, named ? std::string() : predicate->parameters[1].type});
     }
   return facts;
 }
@@ -103,7 +104,7 @@ void FactTracker::add_static(const WorldView& view) {
   std::set<std::string> values;
   for (const auto& [fact, type] : attribute_facts(view.scene(), symbols_.domain())) {
     static_.insert(fact);
-    if (values.insert(fact.arguments[1]).second) objects_.push_back({fact.arguments[1], type});
+    if (!type.empty() && values.insert(fact.arguments[1]).second) objects_.push_back({fact.arguments[1], type});
   }
   std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }

@@ -12,8 +12,9 @@
 
 namespace stampede {
 
-// An attribute that a predicate of two arguments speaks of, such as (colour block1 red), and the type of its value.
-// Values that are no names in PDDL are left out.
+// An attribute that a predicate of two arguments speaks of, such as (colour block1 red), and the type of its value;
+// empty where that is an object of the scene, as in (part_of chest.top_drawer chest). Values that are no names in PDDL
+// are left out.
 struct AttributeFact {
   Fact fact;
   std::string value_type;

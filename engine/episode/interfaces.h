@@ -86,9 +86,10 @@ using TaskDraw = std::function<Task(int draw)>;
 enum class Pairs { all, touching, near, held };
 
 struct PredicateTraits {
-  double settle_s = 0;     // a shorter change is noise
-  bool momentary = false;  // read at every physics step, no settle time
-  bool remember = false;   // stays true once true
+  double settle_s = 0;           // a shorter change is noise
+  bool momentary = false;        // read at every physics step, no settle time
+  bool remember = false;         // stays true once true
+  bool ends_when_moved = false;  // every action that moves one of its things deletes it
   Pairs requires_pairs = Pairs::all;
   int functional = -1;             // index of the parameter that has at most one value for given others; -1: none
   std::vector<std::string> mutex;  // predicates that cannot hold of the same first argument
@@ -134,6 +135,7 @@ struct SkillInfo {
   std::string label;                 // "pick up the {obj}"
   std::vector<std::string> forgets;  // predicates whose facts contact leaves uncertain
   std::vector<std::string> actions;  // names in the domain, one per case
+  std::string replaces = {};         // the skill whose place it takes where a task or world asks for it; empty: none
 };
 
 struct ContinuousValue {
@@ -162,15 +164,18 @@ namespace robot_call {
 struct MoveThrough {
   std::vector<ToolTarget> targets;
   int robot = 0;
+  // From the last target the arm must be able to take this part to `position`, its hand as wide as `opening`, m.
+  std::string then_part = {};
+  double position = 0, pivot = 0, opening = 0, retreat = 0;
 };  // planned; stops at the last only
 struct MoveLine {
   Transform target;
   double speed = 0.25;  // m/s
   bool stop_on_contact = false;
-  double force = 3;       // N, that stops it
-  bool tolerate = false;  // falling short is no failure
-  bool collide = false;   // plan around nothing, but refuse a line that touches
-  double most_force = 0;  // N: the arm gives way, and stops where contact asks for more; 0: it does not
+  double force = 3;         // N, that stops it
+  bool tolerate = false;    // falling short is no failure
+  bool keep_clear = false;  // refused where anything is touched but the skill's own objects
+  double most_force = 0;    // N: the arm gives way, and stops where contact asks for more; 0: it does not
   std::string kind = "move_line";
   int robot = 0;
 };
@@ -190,7 +195,8 @@ struct MovePart {
   double speed = 0.1;
   int robot = 0;
   double most_force = 0;  // as of MoveLine
-  bool pivot = false;     // the handle may turn in the hand: a hand that cannot turn with the part turns less than it
+  double retreat = 0;     // m that the hand must be able to go straight back at the end
+  double pivot = 0;       // rad either way that the handle may turn in the hand, about the joint's axis
 };                        // the held handle's joint; arcs too
 struct Wait {
   double seconds = 0;

@@ -13,7 +13,7 @@ std::string spaced(std::string text) {
 
 std::string words(const Scene& scene, const Object& thing) {
   if (thing.kind == ObjectKind::hand) return "hand";
-  const std::size_t dot = thing.name.find('.');
+  const std::size_t dot = thing.name.rfind('.');  // a region of a part is the part's, and that the thing's
   if (dot != std::string::npos) {
     const Object* whole = scene.object(thing.name.substr(0, dot));
     const std::string part = spaced(thing.name.substr(dot + 1));

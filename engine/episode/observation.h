@@ -78,7 +78,8 @@ class ImageStore {
   std::unique_ptr<Impl> impl_;
 };
 
-// Where everything was at a frame, from what the record holds.
+// Where everything was at a frame, from what the record holds: its frames, and its facts where shapes are shown by
+// some.
 SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64_t frame);
 
 // Draws frames of one episode: the same pixels while it runs, after it, and from a catalogue. Lifetime: one thread;

@@ -93,6 +93,7 @@ Observer::Observer(Rollout& rollout, std::shared_ptr<const Scene> shared, const 
       settings_(settings),
       now_(std::make_unique<EpisodeRecord>()),
       scene_(std::move(shared)),
+      facts_that_show_(facts_that_show(*scene_)),
       renderer_(renderer) {
   const Scene& scene = *scene_;
   const FrameReader reader(rollout.view());
@@ -123,7 +124,9 @@ EpisodeArrays Observer::columns(const ArrayRequest& request) const {
 
 void Observer::enumerate_atoms() {
   atoms_ = rollout_.facts().atoms();
-  const symbolic::View view{rollout_.facts().facts(), rollout_.domain(), rollout_.facts().objects()};
+  auto things = rollout_.facts().objects();  // not the colours drawn at this start, whose number is another each time
+  std::erase_if(things, [&](const auto& thing) { return scene_->object(thing.name) == nullptr; });
+  const symbolic::View view{rollout_.facts().facts(), rollout_.domain(), things};
   for (const Predicate& predicate : rollout_.domain().predicates) {
     if (predicate.kind != PredicateKind::derived) continue;
     Binding binding;
@@ -312,9 +315,16 @@ std::vector<Picture> Observer::draw(const std::vector<View>& views, const SceneP
   return pictures;
 }
 
+SceneState Observer::state() const {
+  SceneState state = state_at(*scene_, *now_, 0);
+  for (const std::vector<std::string>& words : facts_that_show_)
+    if (rollout_.facts().facts().contains({words[0], {words.begin() + 1, words.end()}})) state.facts.insert(words);
+  return state;
+}
+
 ChannelValue Observer::picture(const std::string& camera, PictureSize size) {
   if (const auto& frames = rollout_.recorder().frames; !frames.empty()) now_->frames.assign(1, frames.back());
-  const ScenePoses poses = scene_poses(*scene_, state_at(*scene_, *now_, 0));
+  const ScenePoses poses = scene_poses(*scene_, state());
   View view = view_from(camera, poses);
   if (size.width > 0 && size.height > 0) view.camera = resized(view.camera, size.width, size.height);
   PictureKinds colours = PictureKinds::none();
@@ -329,7 +339,7 @@ ChannelValue Observer::picture(const std::string& camera, PictureSize size) {
 }
 
 void Observer::look(const std::vector<std::string>& cameras) {
-  const ScenePoses poses = scene_poses(*scene_, state_at(*scene_, *now_, 0));
+  const ScenePoses poses = scene_poses(*scene_, state());
   std::vector<View> views;
   PictureKinds kinds = PictureKinds::none();
   for (const std::string& name : cameras) {

@@ -47,6 +47,7 @@ class Observer {
   void add_pictures(EnvironmentObservation& observation);
   void look(const std::vector<std::string>& cameras);  // for the channels
   std::vector<Picture> draw(const std::vector<View>& views, const ScenePoses& poses, const PictureKinds& kinds);
+  SceneState state() const;  // of the one frame, with the facts of the present
   View view_from(const std::string& camera, const ScenePoses& poses) const;
   ChannelValue abstract(const std::string& name);
   void hide(ChannelValue& value) const;
@@ -73,6 +74,7 @@ class Observer {
   std::map<std::string, Drawn> drawn_;
   std::map<std::string, PictureKinds> kinds_;  // by camera
   std::shared_ptr<const Scene> scene_;
+  ShownFacts facts_that_show_;
   std::unique_ptr<Renderer>& renderer_;
   bool loaded_ = false;  // this scene, into the renderer
   std::vector<Fact> atoms_;

@@ -59,6 +59,12 @@ SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64
         state.world_from_region[static_cast<std::size_t>(region)] = to_transform(recorded.object_pose.at(i));
     }
   }
+  for (const std::vector<std::string>& words : facts_that_show(scene)) {
+    const Fact fact{words[0], {words.begin() + 1, words.end()}};
+    for (const FactRecord& known : episode.facts)
+      if (known.fact == fact && known.first_frame <= frame && (frame < known.end_frame || known.open_end))
+        state.facts.insert(words);
+  }
   return state;
 }
 

@@ -90,6 +90,15 @@ void obstruct(PlanningTask& planning, const Obstruction& obstruction, const std:
   planning.problem.init.insert({name, {}});
 }
 
+// That the literal holds after the action, but for what the action ends.
+Formula true_after(const Action& action, const Literal& literal) {
+  std::vector<Formula> ways = {formula_of(literal)};
+  for (const Effect& effect : action.effects)
+    if (effect.predicate == literal.fact.predicate && effect.negated == literal.negated && effect.forall.empty())
+      ways.push_back(conjunction(matching(effect, literal)));
+  return ways.size() == 1 ? ways.front() : disjunction(std::move(ways));
+}
+
 void advance_stages(Action& action, const std::vector<std::vector<Literal>>& stages) {
   std::vector<Effect> added;
   for (const Effect& effect : action.effects)
@@ -98,7 +107,7 @@ void advance_stages(Action& action, const std::vector<std::vector<Literal>>& sta
         if (effect.predicate != literal.fact.predicate || effect.negated != literal.negated) continue;
         std::vector<Formula> conditions = matching(effect, literal);
         for (const Literal& other : stages[stage])
-          if (other.fact != literal.fact) conditions.push_back(formula_of(other));
+          if (other.fact != literal.fact) conditions.push_back(true_after(action, other));
         const auto with = [&](Formula condition, const std::string& predicate) {
           std::vector<Formula> all = conditions;
           if (condition.kind != Formula::Kind::always) all.push_back(std::move(condition));

@@ -35,18 +35,15 @@ void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& rec
   }
 }
 
-// How the tip moves with a part from where its joint is to where the part's number `to` says.
-TipPath way_of_part(const Rollout& rollout, const std::string& name, const std::string& to) {
-  const WorldView& view = rollout.view();
-  const auto& numbers = view.object(name).numbers;
+// How a part moves from where its joint is to where its number `to` says.
+std::optional<PartWay> way_to(const Rollout& rollout, const std::string& name, const std::string& to) {
+  const auto& numbers = rollout.view().object(name).numbers;
   const auto found = numbers.find(to);
-  if (found == numbers.end()) return {};
-  const double here = rollout.world().joint_position(view.part_of(name));
-  const double there = found->second;
-  const Transform part_from_world = view.world_from(name).inverse();
-  return [&view, name, here, there, part_from_world](const Transform& world_from_tip, double way) {
-    return Transform(view.part_at(name, here + way * (there - here)) * part_from_world * world_from_tip);
-  };
+  if (found == numbers.end()) return std::nullopt;
+  const auto pivot = numbers.find("pivot");
+  PartWay way = way_of_part(rollout, name, found->second, pivot == numbers.end() ? 0 : pivot->second);
+  way.retreat = 0.08;  // m: what is let go is then left
+  return way;
 }
 
 Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
@@ -54,11 +51,11 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
-  const auto grasps = [&](const TipPath& follow) {
+  const auto grasps = [&](const std::optional<PartWay>& follow) {
     return grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
                             context.key.with(info.name), wanted + 1, follow);
   };
-  auto candidates = grasps(way_of_part(rollout, name, info.to));
+  auto candidates = grasps(way_to(rollout, name, info.to));
   if (candidates.empty() && !info.to.empty()) candidates = grasps({});  // perhaps it can be taken some of the way
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
@@ -175,6 +172,22 @@ bool set_value(const Rollout& rollout, const SkillContext& context, const Contin
 
 }  // namespace
 
+namespace {
+
+// The parts whose joints hang on the last of `parts`: the lever on a door.
+void add_mounted(const Scene& scene, std::vector<PartRef>& parts) {
+  const PartRef on = parts.back();
+  if (on.body < 0) return;
+  const std::vector<Part>& all = scene.bodies[static_cast<std::size_t>(on.body)].parts;
+  for (int i = on.part + 1; i < static_cast<int>(all.size()); ++i) {
+    int above = all[static_cast<std::size_t>(i)].parent;
+    while (above > on.part) above = all[static_cast<std::size_t>(above)].parent;
+    if (above == on.part) parts.push_back({on.body, i});
+  }
+}
+
+}  // namespace
+
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context) {
   std::vector<std::string> names;
   if (rollout.keep) {
@@ -191,6 +204,7 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
     const bool region = thing->kind == ObjectKind::region;  // then: the part that it is fixed to
     parts.push_back(region ? PartRef{rollout.view().scene().body_index(thing->body), thing->part}
                            : rollout.view().part_of(name));
+    if (thing->kind == ObjectKind::part) add_mounted(rollout.view().scene(), parts);
   }
   return parts;
 }

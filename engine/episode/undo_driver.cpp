@@ -31,6 +31,7 @@ class Undo {
   bool go_round(const SkillResult& blocked);
   void leave_detour(int most);
   bool other_plan();
+  SkillResult with_bottleneck(SkillResult last, int tries) const;
 
   Drive& drive_;
   CurrentPlan& plan_;
@@ -40,7 +41,7 @@ class Undo {
   std::vector<int> failures_;
   std::map<std::size_t, SkillResult> blocked_;  // what was found in the way of a step
   std::vector<Detour> detours_;                 // the later ones within the earlier ones
-  std::map<PlanStep, int> blame_;               // failures of each ground action
+  std::map<PlanStep, int> blame_, failed_;      // failures of each ground action: since a plan did without it; in all
   std::size_t i_ = 0;
 };
 
@@ -70,10 +71,12 @@ SkillResult Undo::run() {
         step_done();
         continue;
       }
-      const bool hopeless = last.reason == Reason::interrupted || last.reason == Reason::sensor_error;
-      if (hopeless || ++tries >= drive_.options.tries_per_episode) return last;
+      const bool hopeless = last.reason == Reason::interrupted || last.reason == Reason::sensor_error ||
+                            last.reason == Reason::script_error;
+      if (hopeless) return last;
       if (i_ == plan_.size() && i_ > 0) --i_;
-      if (i_ < plan_.size()) ++blame_[plan_.steps[i_]];
+      if (i_ < plan_.size()) ++blame_[plan_.steps[i_]], ++failed_[plan_.steps[i_]];
+      if (++tries >= drive_.options.tries_per_episode) return with_bottleneck(std::move(last), tries);
       if (!try_again(last)) break;
     }
     const CurrentPlan::Course failed = plan_.course();
@@ -84,7 +87,7 @@ SkillResult Undo::run() {
     if (!other_plan()) {
       plan_.take(failed);  // no other way: what failed stays the episode's result
       const SkillResult again = follow_plan(drive_);
-      return again.ok() ? again : last;
+      return again.ok() ? again : with_bottleneck(std::move(last), tries);
     }
   }
   return last;
@@ -159,6 +162,16 @@ bool Undo::other_plan() {
   plan_.obstructions.clear();
   track_.back_to(start_);
   return plan_.again(0).ok();
+}
+
+// Says which step failed most, where that is not the one that failed last.
+SkillResult Undo::with_bottleneck(SkillResult last, int tries) const {
+  const auto worst = std::max_element(failed_.begin(), failed_.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (worst == failed_.end() || (i_ < plan_.size() && worst->first == plan_.steps[i_])) return last;
+  last.detail += "; most of " + std::to_string(tries) + " failures were of " +
+                 to_text(Fact{worst->first.action, worst->first.arguments}) + ": " + std::to_string(worst->second);
+  return last;
 }
 
 }  // namespace

@@ -123,6 +123,12 @@ const Object* Scene::object(std::string_view object_name) const {
   return index < 0 ? nullptr : &objects[static_cast<std::size_t>(index)];
 }
 
+std::string part_name_of(std::string_view name) {
+  std::string result;
+  for (const char c : name) result += c == '.' ? "--" : std::string(1, c);
+  return result;
+}
+
 void set_uniform_mass(Part& part, double mass) {
   if (!std::isfinite(mass) || mass <= 0)
     throw Error(part.name, "a mass must be a finite number above 0", "give it in kg");

@@ -33,6 +33,8 @@ struct Shape {
   std::string texture;  // a key of Scene::textures, its colours multiplied by `colour`; empty: plain
   bool collides = true;
   bool visible = true;
+  std::vector<std::string> shown_by;  // a fact, predicate first: drawn only while it holds; empty: always drawn
+  bool shown_without = false;         // … only while it does not hold
 };
 
 struct Surface {
@@ -220,6 +222,9 @@ struct Scene {
   int region_index(std::string_view name) const;
   const Object* object(std::string_view name) const;
 };
+
+// What the attribute part_name says of `drawer` and, as a word that PDDL can write, of `drawer.space`: drawer--space.
+std::string part_name_of(std::string_view name);
 
 // Solid inertia of convex shapes of uniform density together weighing `mass` (kg): sets centre and inertia.
 void set_uniform_mass(Part& part, double mass);

@@ -33,6 +33,7 @@ void fields(Archive& a, Shape& s) {
   a.choice("kind", s.kind, kShapeNames), a("size", s.size), a("radius", s.radius), a("length", s.length);
   a("points", s.points), a("mesh", s.mesh), a("part_from_shape", s.part_from_shape), a("colour", s.colour);
   a("texture", s.texture), a("collides", s.collides), a("visible", s.visible);
+  a.optional("shown_by", s.shown_by, std::vector<std::string>()), a.optional("shown_without", s.shown_without, false);
 }
 
 template <typename Archive>

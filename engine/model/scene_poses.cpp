@@ -25,8 +25,18 @@ SceneState initial_state(const Scene& scene) {
   return state;
 }
 
+ShownFacts facts_that_show(const Scene& scene) {
+  ShownFacts facts;
+  for (const Body& body : scene.bodies)
+    for (const Part& part : body.parts)
+      for (const Shape& shape : part.shapes)
+        if (!shape.shown_by.empty()) facts.insert(shape.shown_by);
+  return facts;
+}
+
 ScenePoses scene_poses(const Scene& scene, const SceneState& state) {
   ScenePoses poses;
+  poses.facts = state.facts;
   poses.world_from_part.resize(scene.bodies.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     forward_kinematics(scene.bodies[i], state.world_from_body[i], state.joint_position[i], poses.world_from_part[i]);

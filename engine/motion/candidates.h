@@ -1,12 +1,12 @@
 // Streams of grasps and placements: candidate k is a pure function of the key and k.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/motion/part_way.h"
 #include "engine/motion/planner.h"
 
 namespace stampede {
@@ -25,12 +25,10 @@ struct GraspCandidate {
 // or the object's authored ones, in an order shuffled by key but top-down and centred ones first; those with no IK
 // or whose hand touches something at grasp or approach are skipped. Result: at most `most`, empty: no_grasp.
 // Before or after: `state` may hold nothing; the object itself is allowed to be touched.
-// `follow`: where the tip goes with what it holds, from 0 (the grasp) to 1; grasps from which the arm cannot follow
-// that are skipped too. Empty: nowhere.
-using TipPath = std::function<Transform(const Transform& world_from_tip, double way)>;
+// `follow`: how the part that is held moves then; grasps from which the arm cannot go with it are skipped too.
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most,
-                                             const TipPath& follow = {});
+                                             const std::optional<PartWay>& follow = {});
 
 // Why there are none, for people: of how many grasps each cause keeps the hand. As costly as looking for one.
 std::string why_no_grasp(const CollisionState& state, const World& world, const Object& object,

@@ -74,7 +74,7 @@ std::optional<JointVector> followed(const Arm& arm, JointVector q, int steps, co
 
 // Reachable and free at both poses, and the arm can go straight from one to the other.
 bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key,
-              const TipPath& follow) {
+              const std::optional<PartWay>& follow) {
   const Arm& arm = state.arm();
   // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
   if (!state.hand_free(grasp.world_from_tip) || !state.hand_free(grasp.world_from_approach)) return false;
@@ -87,9 +87,10 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
     };
     const std::optional<JointVector> there = followed(arm, q, 4, approach, key);
     if (!there || !state.free(*there)) continue;
-    if (!follow || followed(
-                       arm, *there, 16, [&](double way) { return follow(grasp.world_from_tip, way); }, key))
-      return true;
+    if (!follow) return true;
+    PartWay way = *follow;
+    way.opening = grasp.width;
+    if (way_with_part(state, *there, way, key)) return true;
   }
   return false;
 }
@@ -159,7 +160,8 @@ Transform world_from_object(const World& world, const Object& object) {
 }
 
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
-                                             const JointVector& start, RandomKey key, int most, const TipPath& follow) {
+                                             const JointVector& start, RandomKey key, int most,
+                                             const std::optional<PartWay>& follow) {
   const Search search(state, world, object, start, key);
   std::vector<GraspCandidate> found;
   CollisionState hand = search.hand(state);

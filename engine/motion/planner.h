@@ -9,6 +9,7 @@
 #include "engine/base/random.h"
 #include "engine/base/reason.h"
 #include "engine/motion/motion.h"
+#include "engine/motion/part_way.h"
 #include "engine/sim/collision_state.h"
 
 namespace stampede {
@@ -55,8 +56,10 @@ Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, 
 
 // A planned motion through all targets, stopping only at the last. Free motion up to the first target; between
 // targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
+// `then`: from the last target, the arm must be able to go with this part, the hand `then->opening` wide.
 PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
-                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key);
+                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
+                           const PartWay* then = nullptr);
 
 constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go
 
@@ -69,12 +72,14 @@ PlannedMotion plan_joints(const CollisionState& state, const JointVector& start,
                           const MotionLimits& limits, RandomKey key);
 
 // The tip follows world_from_tip(s), s in [0, 1], by IK at dense samples with joint continuity (no sample more than
-// 0.3 rad from the last). `collide`: check for collisions. Speed limits of the tool, m/s and rad/s, hold as well.
+// 0.3 rad from the last). `keep_clear`: refused where it touches what the state does not allow. Speed limits of the
+// tool, m/s and rad/s, hold as well.
 struct LineOptions {
   double tool_speed = 0.25;  // m/s
   double tool_turn = 1.0;    // rad/s
-  bool collide = false;
-  int samples = 0;  // 0: one each 5 mm or 0.02 rad
+  bool keep_clear = false;
+  int samples = 0;                     // 0: one each 5 mm or 0.02 rad
+  std::vector<JointVector> near = {};  // at equal shares, whence its configurations are sought; empty: the one before
 };
 PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,
                              const std::function<Transform(double)>& world_from_tip, const LineOptions& line,

@@ -17,14 +17,14 @@ constexpr int kMostCare = 2;
 // Nothing wrong with both ends: reason none.
 JointPath check_ends(const CollisionState& state, const JointVector& start, const JointVector& goal);
 
-// Configurations from `start` (left out of the result) along a tool path.
+// Configurations from `start` (left out of the result) along a tool path. `near`: as of LineOptions.
 struct ToolPath {
   Reason reason = Reason::none;
   std::string detail;
   std::vector<JointVector> waypoints;
 };
 ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
-                     int samples, RandomKey key);
+                     int samples, RandomKey key, const std::vector<JointVector>& near = {});
 
 // World pose at a share of the straight way (slerp), and how many samples that way needs.
 Transform between(const Transform& from, const Transform& to, double share);

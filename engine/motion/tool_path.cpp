@@ -53,7 +53,7 @@ struct Tail {
 };
 
 Tail make_tail(const CollisionState& state, const JointVector& first, const std::vector<ToolTarget>& targets,
-               const MotionLimits& limits, RandomKey key) {
+               const PartWay* then, const MotionLimits& limits, RandomKey key) {
   Tail tail;
   tail.waypoints = {first};
   tail.at_target = {first};
@@ -83,7 +83,8 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
     tail.waypoints.insert(tail.waypoints.end(), sparse.begin() + 1, sparse.end());
     tail.at_target.push_back(tail.waypoints.back());
   }
-  for (JointVector from = tail.waypoints.back(); i < targets.size(); ++i) {
+  JointVector from = tail.waypoints.back();
+  for (; i < targets.size(); ++i) {
     const Transform here = targets[i - 1].world_from_tip, there = targets[i].world_from_tip;
     const ToolPath line = follow_tool(
         state.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
@@ -92,6 +93,11 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
     tail.detail = "on from " + targets[i - 1].name + ": " + line.detail;
     if (tail.reason != Reason::none) return tail;
     from = line.waypoints.back();
+  }
+  if (then != nullptr && !way_with_part(state, from, *then, key.with("then"))) {
+    tail.reason = Reason::unreachable;
+    tail.detail = "from " + targets.back().name + " the arm cannot go with what it takes hold of";
+    return tail;
   }
   tail.detail.clear();
   return tail;
@@ -105,6 +111,13 @@ JointPath search_way(const CollisionState& state, const JointVector& start, cons
   CollisionState untouched = state;
   untouched.clear_allowed();
   return search_path(untouched, start, tail.waypoints.front(), limits, key, care);
+}
+
+JointVector between(const std::vector<JointVector>& all, double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(all.size() - 1);
+  const std::size_t i = std::min(all.size() - 1, static_cast<std::size_t>(place));
+  const JointVector& next = all[std::min(all.size() - 1, i + 1)];
+  return all[i] + (place - static_cast<double>(i)) * (next - all[i]);
 }
 
 // Free motion to the tail's start, then the tail.
@@ -157,14 +170,14 @@ int samples_between(const Transform& from, const Transform& to) {
 }
 
 ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
-                     int samples, RandomKey key) {
+                     int samples, RandomKey key, const std::vector<JointVector>& near) {
   ToolPath path;
   JointVector last = start;
   for (int i = 1; i <= samples; ++i) {
     const double share = static_cast<double>(i) / samples;
     const Transform target = world_from_tip(share);
     check_pose(target);
-    const std::optional<JointVector> q = arm.solve(target, last, key.with(i), 0);
+    const std::optional<JointVector> q = arm.solve(target, near.empty() ? last : between(near, share), key.with(i), 0);
     if (!q || joint_gap(*q, last) > kMostJump) {
       path.reason = Reason::unreachable;
       path.detail = "the arm cannot follow beyond " + percent(static_cast<double>(i - 1) / samples) + " of the line";
@@ -177,7 +190,8 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::functi
 }
 
 PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
-                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
+                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
+                           const PartWay* then) {
   if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
   PlannedMotion motion;
@@ -191,7 +205,7 @@ PlannedMotion plan_through(const CollisionState& state, const JointVector& start
   motion.detail = "no joint configuration reaches " + targets[0].name;
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
-    const Tail tail = make_tail(state, solutions[i], targets, limits, query.with("tail"));
+    const Tail tail = make_tail(state, solutions[i], targets, then, limits, query.with("tail"));
     if (tail.reason != Reason::none) {
       motion.reason = tail.reason;
       motion.detail = tail.detail;
@@ -222,20 +236,20 @@ PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& sta
   const ToolPath first = follow_tool(
       state.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
   const JointVector from = first.reason == Reason::none ? first.waypoints.back() : start;
-  const ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"));
+  const ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"), line.near);
   motion.reason = first.reason == Reason::none ? path.reason : first.reason;
   motion.detail = first.reason == Reason::none ? path.detail : "the path's start is out of reach";
   if (motion.reason != Reason::none) return motion;
   if (joint_gap(from, start) > 1e-4) waypoints.push_back(from);
   waypoints.insert(waypoints.end(), path.waypoints.begin(), path.waypoints.end());
-  if (line.collide) {
+  if (line.keep_clear) {
     if (const std::string contact = describe_contact(state, start); !contact.empty()) {
       motion.reason = Reason::start_in_collision;
       motion.detail = "at the start " + contact;
       return motion;
     }
   }
-  return certify(state, decimate(waypoints, kToolError), limits, line.collide ? 0.0 : -1.0,
+  return certify(state, decimate(waypoints, kToolError), limits, line.keep_clear ? 0.0 : -1.0,
                  line_limit(state.arm(), line));
 }
 

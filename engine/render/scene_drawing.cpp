@@ -114,6 +114,8 @@ void SceneDrawing::add(const Scene& scene, const Shape& shape, int body, int par
   thing.two_sided = !thing.entry->closed;
   thing.translucent = shape.colour.alpha < kOpaque;
   thing.texture = shape.texture;
+  thing.shown_by = shape.shown_by;
+  thing.shown_without = shape.shown_without;
   thing.first_corner = static_cast<std::uint32_t>(still_.size());
   thing.first_index = static_cast<std::uint32_t>(corners_of_triangles_.size());
   const DrawnMesh& mesh = thing.entry->mesh;
@@ -141,9 +143,14 @@ Transform SceneDrawing::world_from_shape(const Thing& thing, const ScenePoses& p
   return pose_of(thing, poses) * thing.part_from_shape;
 }
 
+bool SceneDrawing::shows(const Thing& thing, const ScenePoses& poses) {
+  return thing.shown_by.empty() || poses.facts.contains(thing.shown_by) != thing.shown_without;
+}
+
 void SceneDrawing::move(const ScenePoses& poses) {
   for (Thing& thing : things_) {
     const Transform world_from_this = world_from_shape(thing, poses);
+    thing.shown = shows(thing, poses);
     thing.world_centre = world_from_this * thing.entry->centre;
     const Eigen::Matrix3f turn = world_from_this.linear().cast<float>();
     const Eigen::Vector3f shift = world_from_this.translation().cast<float>();
@@ -176,7 +183,7 @@ void SceneDrawing::select(const Eye& eye, bool colours, Selection& selection) {
   std::vector<Seen> seen;
   for (std::size_t i = 0; i < things_.size(); ++i) {
     const Thing& thing = things_[i];
-    if (thing.translucent && !colours) continue;
+    if (!thing.shown || (thing.translucent && !colours)) continue;
     const Eigen::Vector4d centre = thing.world_centre.homogeneous();
     const double radius = thing.entry->radius * (1 + 1e-5) + 1e-5;
     if (std::any_of(planes.begin(), planes.end(),
@@ -254,7 +261,7 @@ void SceneDrawing::take_triangles(const Thing& thing, const Eye& eye, std::vecto
 std::vector<SceneDrawing::Ball> SceneDrawing::balls() const {
   std::vector<Ball> balls;
   for (const Thing& thing : things_)
-    if (!thing.translucent) balls.push_back({thing.world_centre, thing.entry->radius});
+    if (thing.shown && !thing.translucent) balls.push_back({thing.world_centre, thing.entry->radius});
   return balls;
 }
 

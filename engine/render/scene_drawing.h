@@ -81,10 +81,15 @@ class SceneDrawing {
     std::uint32_t first_corner = 0, first_index = 0, index_count = 0;
     bool two_sided = false, translucent = false;
     std::string texture;
+    std::vector<std::string> shown_by;  // as Shape has it
+    bool shown_without = false;
+    bool shown = true;                       // as of the last move
     Vector3 world_centre = Vector3::Zero();  // as of the last move
   };
   const std::vector<Thing>& things() const { return things_; }
   Transform world_from_shape(const Thing& thing, const ScenePoses& poses) const;  // throws Error, as move does
+
+  static bool shows(const Thing& thing, const ScenePoses& poses);
 
   const std::vector<StillCorner>& still() const { return still_; }
   const std::vector<MovedCorner>& moved() const { return moved_; }

@@ -81,6 +81,7 @@ void SoftwareRenderer::load(std::shared_ptr<const Scene> scene) {
   const auto& things = drawing_->things();
   world_from_shape_.assign(things.size(), Transform::Identity());
   pose_number_.assign(things.size(), 0);
+  shown_.assign(things.size(), 1);
   thing_of_triangle_.clear();
   ids_of_triangle_.clear();
   std::size_t most_corners = 0;
@@ -115,7 +116,9 @@ void SoftwareRenderer::place_things(const ScenePoses& poses) {
   const auto& things = drawing_->things();
   for (std::size_t i = 0; i < things.size(); ++i) {
     const Transform now = drawing_->world_from_shape(things[i], poses);
-    if (pose_number_[i] != 0 && now.matrix() == world_from_shape_[i].matrix()) continue;
+    const std::uint8_t shown = SceneDrawing::shows(things[i], poses) ? 1 : 0;
+    if (pose_number_[i] != 0 && shown == shown_[i] && now.matrix() == world_from_shape_[i].matrix()) continue;
+    shown_[i] = shown;
     world_from_shape_[i] = now;
     pose_number_[i] = draws_;
   }
@@ -125,14 +128,14 @@ void SoftwareRenderer::draw_shadows() {
   const auto& things = drawing_->things();
   std::vector<SceneDrawing::Ball> balls;
   for (std::size_t i = 0; i < things.size(); ++i)
-    if (!things[i].translucent)
+    if (!things[i].translucent && shown_[i] != 0)
       balls.push_back({world_from_shape_[i] * things[i].entry->centre, things[i].entry->radius});
   shadow_view_ = shadow_view(scene_->light, balls);
   shadow_nearness_.assign(std::size_t{kBorderedSide} * kBorderedSide + kLanes, 0.0F);
   const SurfaceView map{kBorderedSide, kBorderedSide, shadow_nearness_.data(), nullptr};
   const Eigen::Matrix<double, 3, 4> texels = texels_from_world(shadow_view_, ShadowUse::draw);
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].translucent) continue;
+    if (things[i].translucent || shown_[i] == 0) continue;
     const ThingInEye thing{things[i].entry.get(), rows_of(texels * world_from_shape_[i].matrix()), 0,
                            things[i].two_sided};
     kernels_.fill_shadow(map, thing, corners_);
@@ -264,7 +267,7 @@ void SoftwareRenderer::see_things(const Eye& eye) {
     const auto outside = [&](double focal, double along, double centre) {  // of a plane through the eye
       return (focal * along + centre * at.z()) / std::hypot(focal, centre);
     };
-    seen_[i] = things[i].index_count > 0 && at.z() + reach > near && at.z() - reach < far &&
+    seen_[i] = shown_[i] != 0 && things[i].index_count > 0 && at.z() + reach > near && at.z() - reach < far &&
                        outside(focal_x, at.x(), centre_x) > -reach && outside(focal_x, at.x(), right) < reach &&
                        outside(focal_y, at.y(), centre_y) > -reach && outside(focal_y, at.y(), below) < reach
                    ? 1

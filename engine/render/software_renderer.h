@@ -70,7 +70,7 @@ class SoftwareRenderer : public Renderer {
   std::array<std::vector<float>, 3> corner_places_;
   std::array<std::vector<std::int32_t>, 3> corner_pixels_;
   CornersInEye corners_;
-  Flags seen_, wanted_, repainted_;
+  Flags shown_, seen_, wanted_, repainted_;
   std::vector<ThingPaint> paints_;
   std::vector<NormalPlane> normals_;
   std::uint32_t stamp_ = 0;

@@ -17,6 +17,7 @@ CollisionModel::CollisionModel(std::shared_ptr<const Scene> scene_in) : scene(st
   const auto parts = panda.body.parts.size();
   moved.assign(parts, false);
   hand.assign(parts, false);
+  grips.assign(parts, false);
   joints.assign(parts, 0);
   for (std::size_t p = 0; p < parts; ++p) {
     const Part& part = panda.body.parts[p];
@@ -29,6 +30,12 @@ CollisionModel::CollisionModel(std::shared_ptr<const Scene> scene_in) : scene(st
     hand[p] = part.parent >= 0 && (part.parent == panda.arm.back() || hand[static_cast<std::size_t>(part.parent)]);
   }
   hand[static_cast<std::size_t>(panda.tip_part)] = true;
+  for (std::size_t p = 0; p < parts; ++p) {
+    const bool finger =
+        std::find(panda.fingers.begin(), panda.fingers.end(), static_cast<int>(p)) != panda.fingers.end();
+    const int parent = panda.body.parts[p].parent;
+    grips[p] = finger || (parent >= 0 && grips[static_cast<std::size_t>(parent)]) || (panda.fingers.empty() && hand[p]);
+  }
   for (const auto& [one, two] : panda.checked_pairs) {
     if (hand[static_cast<std::size_t>(two)] && !hand[static_cast<std::size_t>(one)]) held_partners.push_back(one);
     if (hand[static_cast<std::size_t>(one)] && !hand[static_cast<std::size_t>(two)]) held_partners.push_back(two);

@@ -27,6 +27,7 @@ struct CollisionModel {
   std::vector<Piece> robot;         // in part order
   std::vector<Range> robot_parts;   // pieces of each part
   std::vector<bool> moved, hand;    // per robot part: moves with the arm; behind its last joint
+  std::vector<bool> grips;          // per robot part: a finger, or of a hand that has none any part
   std::vector<int> held_partners;   // robot parts that a held body is tested against
   std::vector<int> joints;          // per robot part: how many of the arm's joints move it
   std::vector<Piece> bodies;        // of all bodies but the robot, in body and part order

@@ -143,7 +143,8 @@ bool CollisionQuery::hand_free(const Transform& world_from_tip) {
     const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
     if (!model_.hand[part]) continue;
     place(robot_[i], model_.robot[i], moved * poses_[part]);
-    if (meets_bodies(model_.robot[i], robot_[i], !state_.held_.has_value(), [](const CollisionPair&) { return true; }))
+    if (meets_bodies(model_.robot[i], robot_[i], model_.grips[part] && !state_.held_.has_value(),
+                     [](const CollisionPair&) { return true; }))
       return false;
   }
   return true;

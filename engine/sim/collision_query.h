@@ -95,7 +95,7 @@ bool CollisionQuery::visit_placed(const Visitor& visitor) const {
   const bool holding = state_.held_.has_value();
   for (std::size_t i = 0; i < robot_.size(); ++i) {
     const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
-    if (model_.moved[part] && meets_bodies(model_.robot[i], robot_[i], model_.hand[part] && !holding, visitor))
+    if (model_.moved[part] && meets_bodies(model_.robot[i], robot_[i], model_.grips[part] && !holding, visitor))
       return true;
   }
   for (const auto& [one, two] : robot.checked_pairs) {

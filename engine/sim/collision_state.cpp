@@ -45,14 +45,41 @@ void CollisionState::move_body(int body, const Transform& world_from_body) {
     place(i, world_from_body * body_from_part_[first + static_cast<std::size_t>(model_->bodies[i].part.part)]);
 }
 
-void CollisionState::remove(PartRef part) {
+template <typename Use>
+void CollisionState::each_piece_on(PartRef part, const Use& use) {
   const std::vector<Part>& parts = scene().bodies.at(static_cast<std::size_t>(part.body)).parts;
   const CollisionModel::Range range = model_->body_pieces[static_cast<std::size_t>(part.body)];
   for (std::size_t i = range.begin; i < range.end; ++i) {
     int above = model_->bodies[i].part.part;
     while (above > 0 && above != part.part) above = std::max(0, parts[static_cast<std::size_t>(above)].parent);
-    if (above == part.part) place(i, translation(0, 0, -100));
+    if (above == part.part) use(i);
   }
+}
+
+void CollisionState::move_part(PartRef part, const Transform& motion) {
+  each_piece_on(part, [&](std::size_t i) {
+    place(i, motion * pieces_[i].world_from_shape * model_->bodies[i].part_from_shape.inverse());
+  });
+}
+
+void CollisionState::remove(PartRef part) {
+  each_piece_on(part, [&](std::size_t i) { place(i, translation(0, 0, -100)); });
+}
+
+void CollisionState::allow_touched(PartRef part, const JointVector& q) {
+  constexpr double kNear_m = 0.003;  // fingers about to close
+  CollisionQuery query(*this);
+  query.pose(q);
+  std::vector<std::size_t> touched;
+  each_piece_on(part, [&](std::size_t i) {
+    for (std::size_t piece = 0; piece < model_->robot.size(); ++piece)
+      if (query.meets_body(piece, false, i, kNear_m)) {
+        touched.push_back(i);
+        break;
+      }
+  });
+  for (const std::size_t i : touched) place(i, translation(0, 0, -100));
+  std::erase(allowed_, part);
 }
 
 bool CollisionState::free(const JointVector& q, double padding_m) const {

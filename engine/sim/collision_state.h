@@ -35,14 +35,19 @@ class CollisionState {
   void hold(int body, const Transform& tip_from_body);
   void release() { held_.reset(); }
   std::optional<int> held() const { return held_; }
-  // Contact between the empty hand, or what the hand holds, and this part does not count. clear_allowed() forgets all.
+  // Contact between the fingers of the empty hand, or what the hand holds, and this part does not count.
+  // clear_allowed() forgets all.
   void allow(PartRef part) { allowed_.push_back(part); }
   const std::vector<PartRef>& allowed() const { return allowed_; }
   void clear_allowed() { allowed_.clear(); }
   void set_opening(double opening_m) { opening_ = opening_m; }
   double opening() const { return opening_; }
   void move_body(int body, const Transform& world_from_body);
-  void remove(PartRef part);  // with all that hangs on it; of a base part, the whole body
+  // These two with all that hangs on the part; of a base part, the whole body. `motion`: in the world's frame.
+  void move_part(PartRef part, const Transform& motion);
+  void remove(PartRef part);
+  // Of this part only the shapes do not count that the arm touches at `q`, a handle in the hand: all others do.
+  void allow_touched(PartRef part, const JointVector& q);
 
   // Obstacles grow by `padding_m`; the robot against itself is tested without.
   bool free(const JointVector& q, double padding_m = 0) const;
@@ -69,6 +74,8 @@ class CollisionState {
     Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
   };
   void place(std::size_t piece, const Transform& world_from_part);
+  template <typename Use>
+  void each_piece_on(PartRef part, const Use& use);
 
   std::shared_ptr<const CollisionModel> model_;
   std::vector<Placed> pieces_;             // of all bodies, in the model's order

@@ -174,7 +174,7 @@ void ConfigurationChecker::Impl::add_lumps() {
     lump_of_part[p] = static_cast<int>(lumps.size());
     const auto frame = static_cast<std::size_t>(model.joints[p]);
     add_lump(model.robot_parts[p], false, model.joints[p], frames[frame].inverse() * poses[p],
-             model.hand[p] && !state.held_);
+             model.grips[p] && !state.held_);
   }
 }
 

@@ -134,3 +134,22 @@ TEST_CASE("without undo a failure is the episode, and says why") {
   CHECK(undone.attempts.size() >= 4);  // each undone try is a row
   CHECK(replay_episode(undone) == "");
 }
+
+TEST_CASE("an error in a skill's script ends the episode at once: it would come again") {
+  const TaskDraw task = plain::stack_draw();
+  plain::PlainSymbols symbols;
+  struct Broken : plain::PlainSkills {
+    std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override {
+      if (call.skill == "place")
+        return std::make_unique<plain::CallList>(
+            std::vector<RobotCall>{robot_call::Fail{Reason::script_error, "skills/place.lua:7: no such method"}});
+      return plain::PlainSkills::start(call, view);
+    }
+  } skills;
+  RunOptions options;
+  options.seed = 1;
+  options.on_failure = OnFailure::undo;
+  const EpisodeRecord episode = run_episode(task, symbols, skills, options);
+  CHECK(episode.reason == Reason::script_error);
+  CHECK(episode.attempts.empty());
+}

@@ -119,7 +119,7 @@ TEST_CASE("targets out of reach and lines into the table say so") {
   CHECK(below.detail.find("touches table") != std::string::npos);
 
   LineOptions line;
-  line.collide = true;
+  line.keep_clear = true;
   const PlannedMotion into = plan_line(state, home, above(0.55, 0, -0.05), line, {}, RandomKey("into"));
   CHECK(into.reason == Reason::no_path);
   const PlannedMotion beyond = plan_line(state, home, above(1.6, 0, 0.4), {}, {}, RandomKey("beyond"));

@@ -92,14 +92,33 @@ TEST_CASE("the arm is free at home, and meets what is put in its way", "[sim]") 
   CHECK(pair->other == PartRef{cube, 0});
   CHECK(pair->robot_part.body == -1);
   state.allow({cube, 0});
-  CHECK(state.free(home));
-  state.clear_allowed();
-  CHECK_FALSE(state.free(home));
+  CHECK_FALSE(state.free(home));  // the fingers may touch it, the palm may not
   // Between open fingers there is room for it; between closed ones there is not.
   state.move_body(cube, world.world_from_tip());
   state.set_opening(0.08);
   CHECK(state.free(home));
   state.set_opening(0.02);
+  CHECK(state.free(home));
+  state.clear_allowed();
+  CHECK_FALSE(state.free(home));
+}
+
+TEST_CASE("of a part that the hand holds only the touched shapes do not count, wherever it moves", "[sim]") {
+  Scene scene = table_scene(0);
+  Body door = box_body("door", Vector3::Constant(0.01), {2, 0, 1}, 0);
+  door.parts[0].shapes.push_back(box_shape({0.02, 0.3, 0.3}));
+  door.parts[0].shapes.back().part_from_shape = translation(0.2, 0, 0);
+  add_body(scene, door);
+  World world(shared(scene));
+  CollisionState state = world.collision_state();
+  const JointVector home = world.arm().home();
+  const int body = body_index(world, "door");
+  state.set_opening(0.008);
+  state.move_body(body, world.world_from_tip());
+  CHECK_FALSE(state.free(home));
+  state.allow_touched({body, 0}, home);
+  CHECK(state.free(home));
+  state.move_part({body, 0}, translation(-0.2, 0, 0));  // the panel where the hand is
   CHECK_FALSE(state.free(home));
 }
 
