@@ -40,16 +40,39 @@ std::shared_ptr<const Library> usable_part(const Arguments& arguments) {
   }
 }
 
-// NAMES given: only complaints about files of these names.
-std::vector<Error> wanted_complaints(const std::vector<Error>& all, const std::vector<std::string>& names) {
+bool is_about(const Error& error, const std::string& path) {
+  return error.where() == path || error.where().starts_with(path + ":");
+}
+
+// Files of these names, and the modules that they require.
+std::set<std::string> paths_of(const Library& library, const std::vector<std::string>& names) {
+  std::vector<const ScriptFile*> files;
+  for (const ScriptFile* file : library.all_files())
+    if (std::find(names.begin(), names.end(), file->name) != names.end()) files.push_back(file);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (const ScriptFile* module : library.files(DefinitionKind::module)) {
+      std::string required = module->shown_path.substr(0, module->shown_path.rfind('.'));
+      std::replace(required.begin(), required.end(), '/', '.');
+      const bool named = files[i]->source.find('"' + required + '"') != std::string::npos ||
+                         files[i]->source.find("'" + required + "'") != std::string::npos;
+      if (named && std::find(files.begin(), files.end(), module) == files.end()) files.push_back(module);
+    }
+  std::set<std::string> paths;
+  for (const ScriptFile* file : files) paths.insert(file->shown_path);
+  return paths;
+}
+
+// NAMES given: only complaints about what these files are made of.
+std::vector<Error> wanted_complaints(const Library& library, const std::vector<Error>& all,
+                                     const std::vector<std::string>& names) {
   if (names.empty()) return all;
+  const std::set<std::string> paths = paths_of(library, names);
   std::vector<Error> wanted;
   for (const Error& error : all) {
-    for (const std::string& name : names) {
-      if (error.where().find(name + ".lua") == std::string::npos) continue;
-      wanted.push_back(error);
-      break;
-    }
+    bool meant =
+        std::any_of(paths.begin(), paths.end(), [&](const std::string& path) { return is_about(error, path); });
+    for (const std::string& name : names) meant = meant || error.where().find("/" + name + ".lua") != std::string::npos;
+    if (meant) wanted.push_back(error);
   }
   return wanted;
 }
@@ -58,7 +81,7 @@ void check_names(const Library& library, const std::vector<std::string>& names, 
   for (const std::string& name : names) {
     bool known = false;
     for (const ScriptFile* file : library.all_files()) known = known || file->name == name;
-    for (const Error& error : complaints) known = known || error.where().find(name + ".lua") != std::string::npos;
+    for (const Error& error : complaints) known = known || error.where().find("/" + name + ".lua") != std::string::npos;
     if (!known) throw UsageError("there is no file of the name '" + name + "'", "stampede list names what there is");
   }
 }
@@ -205,7 +228,7 @@ ExitCode do_check(const Arguments& arguments, Console& console) {
   if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) build_scenes(usable, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
   check_names(*library, names, all);
-  const std::vector<Error> complaints = wanted_complaints(all, names);
+  const std::vector<Error> complaints = wanted_complaints(*library, all, names);
   const bool physics = arguments.flag("--physics");
   if (!physics || !complaints.empty()) {
     const std::size_t files = names.empty() ? library->all_files().size() : names.size();

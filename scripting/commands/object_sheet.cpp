@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/model/camera.h"
 #include "engine/render/renderer.h"
@@ -12,7 +13,7 @@
 namespace stampede::program {
 namespace {
 
-constexpr int kSide = 176, kGap = 10, kColumns = 7, kLetters = 12, kCaption = 3 * (kLetters + 4) + 6;
+constexpr int kSide = 176, kGap = 10, kLetters = 12, kCaption = 3 * (kLetters + 4) + 6;
 constexpr std::array<std::uint8_t, 3> kPaper{250, 250, 248}, kInk{30, 32, 36}, kFaint{110, 114, 120};
 
 struct Bounds {
@@ -84,13 +85,15 @@ Picture portrait(Renderer& renderer, Scene& scene, const Bounds& bounds) {
 void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file) {
   const std::vector<const ScriptFile*> objects = library->files(DefinitionKind::object);
   const auto renderer = make_renderer();
-  const int rows = (static_cast<int>(objects.size()) + kColumns - 1) / kColumns;
-  Canvas canvas(kColumns * (kSide + kGap) + kGap, rows * (kSide + kCaption + kGap) + kGap, kPaper);
+  const int count = static_cast<int>(objects.size());
+  const int columns = std::max(7, static_cast<int>(std::ceil(std::sqrt(1.4 * count))));  // about square
+  const int rows = (count + columns - 1) / columns;
+  Canvas canvas(columns * (kSide + kGap) + kGap, rows * (kSide + kCaption + kGap) + kGap, kPaper);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Scene scene = object_scene(library, objects[i]->name);
     const Bounds bounds = bounds_of(scene, scene_poses(scene, initial_state(scene)));
-    const int x = kGap + static_cast<int>(i) % kColumns * (kSide + kGap);
-    const int y = kGap + static_cast<int>(i) / kColumns * (kSide + kCaption + kGap);
+    const int x = kGap + static_cast<int>(i) % columns * (kSide + kGap);
+    const int y = kGap + static_cast<int>(i) / columns * (kSide + kCaption + kGap);
     canvas.put(x, y, portrait(*renderer, scene, bounds));
     canvas.text(x, y + kSide + kLetters + 4, objects[i]->name, kLetters + 2, kInk);
     const Vector3 size = 100 * (bounds.upper - bounds.lower);

@@ -107,7 +107,25 @@ FormulaContext LibraryBuilder::context(const Definition& definition, const std::
   result.file = definition.file->shown_path;
   result.field = field;
   result.domain = &library_->domain_;
+  result.part_fault = [this](const std::string& part) { return part_fault(part); };
   return result;
+}
+
+// Nothing where some object has such a part or region; what comes from a URDF is not known here.
+std::optional<std::string> LibraryBuilder::part_fault(const std::string& name) const {
+  std::vector<std::string> known;
+  const auto objects = definitions_.find(DefinitionKind::object);
+  if (objects == definitions_.end()) return std::nullopt;
+  for (const auto& [object, definition] : objects->second) {
+    if (definition.node["urdf"].present()) return std::nullopt;
+    for (const auto& [region, unused] : definition.node["regions"].fields) known.push_back(region);
+    for (const auto& [part, fields] : definition.node["parts"].fields) {
+      known.push_back(part);
+      for (const auto& [region, unused] : fields["regions"].fields) known.push_back(part + "." + region);
+    }
+  }
+  if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
+  return did_you_mean(name, known);
 }
 
 void LibraryBuilder::finish() {
@@ -115,6 +133,7 @@ void LibraryBuilder::finish() {
   domain.name = "stampede";
   const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
   std::sort(domain.actions.begin(), domain.actions.end(), by_name);
+  make_domains();
   std::stable_sort(complaints_.begin(), complaints_.end(),
                    [](const Error& a, const Error& b) { return place_of(a) < place_of(b); });
 }

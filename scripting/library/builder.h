@@ -46,6 +46,7 @@ class LibraryBuilder {
   void read_definitions();
   void check_names();
   void finish();
+  std::optional<std::string> part_fault(const std::string& name) const;
   Definitions& of(DefinitionKind kind) { return definitions_[kind]; }
   Error error_at(const Definition& definition, const std::string& path, const std::string& what,
                  const std::string& hint) const;
@@ -84,6 +85,10 @@ class LibraryBuilder {
   void read_skill(const Definition& definition);
   void read_action(const Definition& definition, const SkillInfo& info, const Value& fields,
                    const std::string& case_name);
+  void read_replaced(const Definition& definition, SkillInfo& info);
+  void end_moved(const Definition& definition, const SkillInfo& info);
+  std::vector<std::string> chosen_skills(const Definition& task, const std::string& world);
+  void make_domains();
   void read_continuous(const Definition& definition, SkillInfo& info);
 
   // check_objects.cpp
@@ -94,6 +99,7 @@ class LibraryBuilder {
   SceneObjects world_objects(const std::string& world) const;
   void check_body(const Definition& definition, const Value& body, const std::string& path);
   void check_sizes(const Definition& definition, const Value& body, const std::string& path);
+  void check_shows(const Definition& definition, const Value& body);
   void check_links(const Definition& definition, const Value& parts, const std::string& name);
   std::string hand_of(const std::string& world) const;
 

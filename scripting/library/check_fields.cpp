@@ -13,8 +13,9 @@ bool is_draw(const Value& node) {
 }
 
 bool is_formula(const Value& node) {
-  static const std::vector<std::string> kTags = {"literal", "all_of",    "any_of", "in_order", "not",  "forall",
-                                                 "exists",  "any_order", "equal",  "pddl",     "when", "call"};
+  static const std::vector<std::string> kTags = {"literal", "all_of", "any_of",    "in_order", "not",
+                                                 "forall",  "exists", "any_order", "at_least", "equal",
+                                                 "pddl",    "when",   "call"};
   return std::find(kTags.begin(), kTags.end(), node.tag()) != kTags.end();  // which of them: the formula reader says
 }
 

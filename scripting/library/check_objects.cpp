@@ -103,6 +103,43 @@ void LibraryBuilder::check_sizes(const Definition& definition, const Value& body
   }
 }
 
+// A shape follows one fact of one thing of its object.
+void LibraryBuilder::check_shows(const Definition& definition, const Value& body) {
+  std::vector<std::string> known = {"self"};
+  const Value& node = definition.node;
+  for (const auto& [region, unused] : node["regions"].fields) known.push_back(region);
+  for (const auto& [part, fields] : node["parts"].fields) {
+    known.push_back(part);
+    for (const auto& [region, unused] : fields["regions"].fields) known.push_back(part + "." + region);
+  }
+  for (const char* list : {"shapes", "visual"}) {
+    for (const Value& shape : body[list].items) {
+      const Value& shows = shape["shows"];
+      if (!shows.present()) continue;
+      const int line = shows.line() > 0 ? shows.line() : shape.line();
+      const std::string place = definition.file->shown_path + ":" + std::to_string(line);
+      const auto say = [&](const std::string& what, const std::string& hint) {
+        add(Error(place, "shows: " + what, hint));
+      };
+      const std::string example = "such as is.pressed(\"button\") or is_not.open(\"self\")";
+      if (shows.tag() != "literal") {
+        say("what a shape is shown by is one fact, this is " + shows.type_name(), example);
+        continue;
+      }
+      const std::string& name = shows["predicate"].text;
+      const Predicate* predicate = library_->domain_.predicate(name);
+      std::vector<std::string> predicates;
+      for (const Predicate& one : library_->domain_.predicates) predicates.push_back(one.name);
+      if (predicate == nullptr)
+        say("there is no predicate '" + name + "'", did_you_mean(name, predicates));
+      else if (predicate->parameters.size() != 1 || shows.items.size() != 1)
+        say("'" + name + "' is no fact of one thing", example);
+      else if (!contains(known, shows.items[0].text))
+        say("the object has no part or region '" + shows.items[0].text + "'", did_you_mean(shows.items[0].text, known));
+    }
+  }
+}
+
 // Latches and couplings name other moving parts, and couplings come to an end.
 void LibraryBuilder::check_links(const Definition& definition, const Value& parts, const std::string& name) {
   const auto joint_of = [&](const std::string& part) -> const Value& {
@@ -134,6 +171,7 @@ void LibraryBuilder::check_objects() {
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
     const Value& node = definition.node;
     check_body(definition, node, {});
+    check_shows(definition, node);
     check_assets(definition);
     if (!node["region"].present() && !node["type"].is_text()) {
       complain(definition, {}, "an object needs the field 'type'", "one of worlds/types.lua");
@@ -144,6 +182,7 @@ void LibraryBuilder::check_objects() {
     for (const auto& [part_name, part] : node["parts"].fields) {
       const std::string path = "parts." + part_name;
       check_body(definition, part, path);
+      check_shows(definition, part);
       const int joints = part["slider"].present() + part["hinge"].present() + part["fixed"].present();
       if (joints != 1 && !node["urdf"].present())
         complain(definition, path, "a part needs one of slider, hinge and fixed");

@@ -180,7 +180,7 @@ void LibraryBuilder::declare_predicates() {
 // (colour block1 red): a constraint or goal that a run brings along may speak of it, whatever the files do.
 void LibraryBuilder::declare_attributes() {
   Domain& domain = library_->domain_;
-  attributes_ = {"colour"};
+  attributes_ = {"colour", "part_name", "part_of"};
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
     for (const auto& [attribute, value] : definition.node["attributes"].fields) attributes_.insert(attribute);
     for (const auto& [part_name, part] : definition.node["parts"].fields) {
@@ -194,6 +194,10 @@ void LibraryBuilder::declare_attributes() {
     predicate.kind = PredicateKind::fixed;
     predicate.parameters = {{"obj", "", {}}, {"value", "value", {}}};
     predicate.label = "the " + attribute + " of the {obj} is {value}";
+    if (attribute == "part_of") {
+      predicate.parameters = {{"part", "", {}}, {"whole", "", {}}};
+      predicate.label.clear();  // nobody says so of what they see
+    }
     domain.types["value"] = kRoot;
     domain.predicates.push_back(std::move(predicate));
   }
@@ -219,6 +223,12 @@ void LibraryBuilder::define_predicates() {
       complain(definition, "requires", "'" + pairs + "' is not a kind of pairs",
                did_you_mean(pairs, {"all", "held", "near", "touching"}));
     }
+    const std::string& ends = node["ends_when"].text;
+    traits.ends_when_moved = ends == "moved";
+    if (!ends.empty() && ends != "moved")
+      complain(definition, "ends_when", "'" + ends + "' is nothing that ends a fact", "write \"moved\"");
+    if (traits.ends_when_moved && (node["derived"].present() || node["static"].boolean || node["start_only"].boolean))
+      complain(definition, "ends_when", "only what holds by itself can end so", "take it out of this file");
     if (traits.settle_s < 0) complain(definition, "settle", "a settle time is not negative");
     if (traits.momentary && traits.settle_s > 0) {
       complain(definition, "settle", "a momentary predicate has no settle time", "remove one of both");

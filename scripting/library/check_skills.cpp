@@ -65,6 +65,7 @@ void LibraryBuilder::read_skill(const Definition& definition) {
              did_you_mean(forgotten.text, predicates));
   }
   guarded([&] { read_continuous(definition, info); });
+  read_replaced(definition, info);
   const Value& cases = node["cases"];
   if (cases.present()) {
     for (const char* field : {"precondition", "effect"}) {
@@ -75,10 +76,116 @@ void LibraryBuilder::read_skill(const Definition& definition) {
   } else {
     read_action(definition, info, node, {});
   }
+  end_moved(definition, info);
   for (const Action& action : library_->domain_.actions) {
     if (action.skill == info.name) info.actions.push_back(action.name);
   }
   library_->skills_[info.name] = std::move(info);
+}
+
+void LibraryBuilder::read_replaced(const Definition& definition, SkillInfo& info) {
+  const Value& extends = definition.node["extends"];
+  const Value& replaces = definition.node["replaces"];
+  if (extends.present() && replaces.present())
+    complain(definition, "replaces", "what extends a skill replaces that one", "take this field out");
+  info.replaces = extends.is_text() ? extends.text : replaces.text;
+  if (!replaces.present()) return;
+  std::vector<std::string> skills;
+  for (const ScriptFile* file : library_->files(DefinitionKind::skill))
+    if (file->name != info.name) skills.push_back(file->name);
+  if (!listed(skills, info.replaces))
+    complain(definition, "replaces", "there is no other skill '" + info.replaces + "'",
+             did_you_mean(info.replaces, skills));
+}
+
+// What it moves ends the facts that say so of themselves: forall others, when they hold.
+void LibraryBuilder::end_moved(const Definition& definition, const SkillInfo& info) {
+  Domain& domain = library_->domain_;
+  for (const Value& moved : definition.node["moves"].items) {
+    const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
+                                        [&](const Parameter& one) { return one.name == moved.text; });
+    if (parameter == info.parameters.end()) {
+      complain(definition, "moves", "there is no parameter '" + moved.text + "'",
+               did_you_mean(moved.text, names_of(info.parameters)));
+      continue;
+    }
+    for (const Predicate& predicate : domain.predicates) {
+      const auto traits = library_->predicate_traits_.find(predicate.name);
+      if (traits == library_->predicate_traits_.end() || !traits->second.ends_when_moved) continue;
+      for (std::size_t i = 0; i < predicate.parameters.size(); ++i) {
+        const std::string& asked = predicate.parameters[i].type;
+        const std::string& given = parameter->type;
+        if (!asked.empty() && !given.empty() && !domain.is_a(asked, given) && !domain.is_a(given, asked)) continue;
+        Effect effect;
+        effect.predicate = predicate.name;
+        effect.negated = true;
+        for (std::size_t k = 0; k < predicate.parameters.size(); ++k) {
+          Parameter other = predicate.parameters[k];
+          while (k != i && listed(names_of(info.parameters), other.name)) other.name += "_of_it";
+          effect.terms.push_back({true, k == i ? parameter->name : other.name});
+          if (k != i) effect.forall.push_back(other);
+        }
+        effect.when = atom(effect.predicate, effect.terms);
+        for (Action& action : domain.actions)
+          if (action.skill == info.name) action.effects.push_back(effect);
+      }
+    }
+  }
+}
+
+// A task's choices go before its world's, where both take the place of one skill.
+std::vector<std::string> LibraryBuilder::chosen_skills(const Definition& task, const std::string& world) {
+  std::map<std::string, std::string> chosen;  // by what they replace
+  const auto choose = [&](const Definition& definition) {
+    std::vector<std::string> known;
+    for (const auto& [name, info] : library_->skills_)
+      if (!info.replaces.empty()) known.push_back(name);
+    std::set<std::string> taken;
+    for (const Value& item : definition.node["skills"].items) {
+      if (library_->file(DefinitionKind::skill, item.text) == nullptr) {
+        complain(definition, "skills", "there is no skill '" + item.text + "'", did_you_mean(item.text, known));
+        continue;
+      }
+      const SkillInfo* info = library_->skill(item.text);
+      if (info == nullptr) continue;  // its file has its own complaint
+      if (info->replaces.empty()) {
+        complain(definition, "skills", "'" + item.text + "' neither extends nor replaces another skill",
+                 "leave it out: every task has it; or say in its file what it replaces");
+      } else if (!taken.insert(info->replaces).second) {
+        complain(
+            definition, "skills",
+            "'" + item.text + "' and '" + chosen[info->replaces] + "' both take the place of '" + info->replaces + "'",
+            "choose one of them");
+      } else {
+        chosen[info->replaces] = item.text;
+      }
+    }
+  };
+  const Definitions& worlds = of(DefinitionKind::world);
+  if (const auto found = worlds.find(world); found != worlds.end()) choose(found->second);
+  choose(task);
+  std::vector<std::string> names;
+  for (const auto& [replaced, name] : chosen) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void LibraryBuilder::make_domains() {
+  const std::map<std::string, SkillInfo, std::less<>>& skills = library_->skills_;
+  Domain& base = library_->domain_;
+  const Domain all = base;
+  const auto replaces = [&](const Action& action) { return skills.at(action.skill).replaces; };
+  std::erase_if(base.actions, [&](const Action& action) { return !replaces(action).empty(); });
+  for (const auto& [name, task] : library_->tasks_) {
+    if (task.skills.empty()) continue;
+    std::set<std::string> replaced;
+    for (const std::string& chosen : task.skills) replaced.insert(skills.at(chosen).replaces);
+    const auto [made, fresh] = library_->domains_.emplace(task.skills, all);
+    if (!fresh) continue;
+    std::erase_if(made->second.actions, [&](const Action& action) {
+      return replaced.contains(action.skill) || (!replaces(action).empty() && !listed(task.skills, action.skill));
+    });
+  }
 }
 
 void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& info, const Value& fields,

@@ -65,6 +65,7 @@ void LibraryBuilder::read_task(const Definition& definition) {
     check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
   });
   info.hand = hand_of(info.world);
+  info.skills = chosen_skills(definition, info.world);
   const std::vector<Value> variations = variations_of(definition, state);
   for (const Value& variation : variations) {
     std::map<std::string, std::string> axes;
@@ -228,6 +229,12 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
         add(Error(place, "steps: there is no skill '" + name + "'", did_you_mean(name, skills)));
       continue;
     }
+    const std::vector<std::string> chosen = chosen_skills(definition, definition.node["world"].text);
+    for (const std::string& one : chosen)
+      if (library_->skill(one)->replaces == name)
+        add(Error(place, "steps: '" + one + "' takes the place of '" + name + "' here", "write act." + one));
+    if (!skill->replaces.empty() && std::find(chosen.begin(), chosen.end(), name) == chosen.end())
+      add(Error(place, "steps: '" + name + "' is not among this task's skills", "add skills = { \"" + name + "\" }"));
     if (call.items.size() > skill->parameters.size()) {
       add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " +
                            std::to_string(call.items.size())));

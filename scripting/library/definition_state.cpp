@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -12,6 +13,7 @@ namespace stampede {
 namespace {
 
 constexpr const char kDefinitionsKey[] = "stampede.definitions";
+constexpr const char kWordsKey[] = "stampede.words";
 
 // The innermost line that an author wrote: prelude.lua and C++ are passed over. False: a tail call has hidden it.
 bool author_line(lua_State* state, lua_Debug& found) {
@@ -74,6 +76,8 @@ int run_prelude(lua_State* state) {
   lua_setfield(state, -2, "words");
   lua_pushvalue(state, colours);
   lua_setfield(state, -2, "colours");
+  lua_pushvalue(state, -1);
+  lua_setfield(state, LUA_REGISTRYINDEX, kWordsKey);
   lua_call(state, 1, 0);
   lua_newtable(state);
   lua_setfield(state, LUA_REGISTRYINDEX, kDefinitionsKey);
@@ -125,6 +129,7 @@ const Library& DefinitionState::library() const { return *impl_->library; }
 void DefinitionState::push(DefinitionKind kind, std::string_view name) {
   lua_State* lua = state();
   luaL_checkstack(lua, 8, "too many values");
+  const int top = lua_gettop(lua);
   const std::string key = home_of(kind) + "/" + std::string(name);
   lua_getfield(lua, LUA_REGISTRYINDEX, kDefinitionsKey);
   if (lua_getfield(lua, -1, key.c_str()) != LUA_TNIL) {
@@ -161,9 +166,41 @@ void DefinitionState::push(DefinitionKind kind, std::string_view name) {
     lua_pushlstring(lua, name.data(), name.size());
     lua_setfield(lua, -2, "name");
   }
+  if (kind == DefinitionKind::skill) {
+    try {
+      extend_skill(*file);
+    } catch (const Error&) {
+      lua_settop(lua, top);
+      throw;
+    }
+  }
   lua_pushvalue(lua, -1);
   lua_setfield(lua, -3, key.c_str());
   lua_remove(lua, -2);
+}
+
+// The skill on top of the stack gets what it leaves to the one that it extends.
+void DefinitionState::extend_skill(const ScriptFile& file) {
+  lua_State* lua = state();
+  const bool extends = lua_getfield(lua, -1, "extends") == LUA_TSTRING;
+  const std::string base = extends ? lua_tostring(lua, -1) : "";
+  lua_pop(lua, 1);
+  if (!extends) return;
+  std::vector<std::string> known;
+  for (const ScriptFile* other : library().files(DefinitionKind::skill)) known.push_back(other->name);
+  if (library().file(DefinitionKind::skill, base) == nullptr)
+    throw Error(file.shown_path, "extends: there is no skill '" + base + "'", did_you_mean(base, known));
+  if (std::find(extending_.begin(), extending_.end(), file.name) != extending_.end() || base == file.name)
+    throw Error(file.shown_path, "extends: '" + file.name + "' extends itself",
+                "give it a name of its own, and name it in the skills of a task or world");
+  extending_.push_back(file.name);
+  lua_getfield(lua, LUA_REGISTRYINDEX, kWordsKey);
+  lua_getfield(lua, -1, "extend");
+  lua_remove(lua, -2);
+  lua_pushvalue(lua, -2);
+  push(DefinitionKind::skill, base);
+  sandbox().call(2, 0);
+  extending_.pop_back();
 }
 
 Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,

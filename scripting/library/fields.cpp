@@ -20,6 +20,7 @@ const Record kTask{
       "facts of the start that the sentences tell, where nobody can see them: plans need not search",
       "{ is.inside(\"cup\", \"cupboard.top_shelf\") }", true},
      {"goal", "formula|formula[]", true, "", "", "what must hold at the end", "is.on(\"cup\", \"shelf\")", true},
+     {"skills", "string[]", false, "{}", "", "skills that extend or replace others, for this task", "{ \"my_open\" }"},
      {"steps", "call[]|call", false, "", "", "the skills to execute, instead of a plan", "{ act.pick(\"cup\") }", true},
      {"also", "function", false, "", "", "function(w): a further test beside the goal"},
      {"fails", "function", false, "", "", "function(w): true ends the episode as failed"},
@@ -82,6 +83,15 @@ const Record kSkill{
      {"run", "function", true, "", "", "function(robot, p, c): p parameters, c continuous parameters"},
      {"forgets", "string[]", false, "{}", "", "predicates that contact leaves uncertain", "{ \"on\" }"},
      {"cost", "integer", false, "1", "", "of the action in a plan"},
+     {"moves", "string[]", false, "{}", "", "parameters that it moves: what ends_when \"moved\" of them ends",
+      "{ \"obj\" }"},
+     {"extends", "string", false, "", "",
+      "a skill whose fields it has where it gives none itself; conditions and effects add up. It takes that one's "
+      "place "
+      "in tasks and worlds that name it in their skills",
+      "\"pick\""},
+     {"replaces", "string", false, "", "",
+      "a skill whose place it takes in tasks and worlds that name it in their skills", "\"open\""},
      {"may_equal", "string[][]", false, "{}", "", "pairs of parameters that may be one object",
       "{ { \"from\", \"to\" } }"}}};
 
@@ -108,6 +118,8 @@ const Record kPredicate{
      {"settle", "number", false, "0", "s", "a shorter change is noise"},
      {"momentary", "boolean", false, "false", "", "read at every physics step, without settle time"},
      {"remember", "boolean", false, "false", "", "stays true once true"},
+     {"ends_when", "string", false, "", "",
+      "\"moved\": it ends when a skill moves one of its things, also one that knows nothing of it", "\"moved\""},
      {"requires", "string", false, "\"all\"", "",
       "what can hold at all: pairs that are \"touching\" or \"near\"; \"held\": the last is in the hand"},
      {"mutex", "string[]", false, "{}", "",
@@ -215,24 +227,28 @@ const Record kGrasp{"grasp",
                      {"approach", "number", false, "0.08", "m", "way of the straight approach"},
                      {"force", "number", false, "20", "N", "of the fingers"}}};
 
-const Record kShape{"shape",
-                    "box { x, y, z }  sphere { r }  cylinder { r, length }  capsule { r, length }  cone { r, length }  "
-                    "hull { points }  lathe { { r, z }, … }  mesh { \"file\" }",
-                    {{"tag", "string", true, "", "", "set by the words"},
-                     {"shape", "string", true, "", "", "set by the words"},
-                     {"line", "integer", false, "", "", "set by the words"},
-                     {"at", "vector", false, "{ 0, 0, 0 }", "m", "in the part's frame"},
-                     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "in the part's frame"},
-                     {"yaw", "number", false, "0", "rad", "instead of rpy"},
-                     {"quaternion", "numbers", false, "", "", "instead of rpy"},
-                     {"colour", "colour", false, "", "", "of this shape"},
-                     {"texture", "texture", false, "", "", "of this shape; its colour tints it"},
-                     {"collides", "boolean", false, "true", "", "touches others"},
-                     {"visible", "boolean", false, "true", "", "is drawn"},
-                     {"scale", "number|vector", false, "1", "", "of a mesh file"},
-                     {"segments", "integer", false, "16", "", "wedges of a lathe"},
-                     {"wall", "number", false, "", "m", "of a hollow lathe, which collides as wedges"}},
-                    "any"};
+const Record kShape{
+    "shape",
+    "box { x, y, z }  sphere { r }  cylinder { r, length }  capsule { r, length }  cone { r, length }  "
+    "hull { points }  lathe { { r, z }, … }  mesh { \"file\" }",
+    {{"tag", "string", true, "", "", "set by the words"},
+     {"shape", "string", true, "", "", "set by the words"},
+     {"line", "integer", false, "", "", "set by the words"},
+     {"at", "vector", false, "{ 0, 0, 0 }", "m", "in the part's frame"},
+     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "in the part's frame"},
+     {"yaw", "number", false, "0", "rad", "instead of rpy"},
+     {"quaternion", "numbers", false, "", "", "instead of rpy"},
+     {"colour", "colour", false, "", "", "of this shape"},
+     {"texture", "texture", false, "", "", "of this shape; its colour tints it"},
+     {"collides", "boolean", false, "true", "", "touches others"},
+     {"visible", "boolean", false, "true", "", "is drawn"},
+     {"shows", "formula", false, "", "",
+      "drawn only while this fact of the object (\"self\"), a part or a region of it holds, or does not",
+      "is.pressed(\"button\")"},
+     {"scale", "number|vector", false, "1", "", "of a mesh file"},
+     {"segments", "integer", false, "16", "", "wedges of a lathe"},
+     {"wall", "number", false, "", "m", "of a hollow lathe, which collides as wedges"}},
+    "any"};
 
 const Record kTexture{"texture",
                       "texture { \"file.png\" }  checker { colour, colour }  stripes { colour, colour }  "
@@ -248,6 +264,7 @@ const Record kWorld{
     "world",
     "Where tasks take place: robot, fixtures, cameras, sensors, light",
     {{"robot", "entry", true, "", "", "the robot file and where it stands", "{ \"panda\", at = { -0.3, 0, 0.75 } }"},
+     {"skills", "string[]", false, "{}", "", "skills that extend or replace others, for its tasks", "{ \"my_open\" }"},
      {"fixtures", "{entry}", false, "{}", "", "objects that every task has", "{ table = { \"work_table\" } }"},
      {"cameras", "{camera}", false, "{}", "", "by name"},
      {"calibration", "string", false, "", "",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/model/scene.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/naming.h"
 
@@ -51,6 +52,7 @@ class Reader {
     if (tag == "not") return negation(formula(one_item(node)));
     if (tag == "exists" || tag == "forall") return quantified(node, tag == "exists");
     if (tag == "any_order") return any_order(node);
+    if (tag == "at_least") return at_least(node);
     if (tag == "equal") return equal(node);
     if (tag == "pddl") return formula_from_pddl(node["text"].text, place());
     if (tag == "when") fail("when belongs to effects, not to conditions", "any_of and is_not say it in conditions");
@@ -216,7 +218,11 @@ class Reader {
   }
 
   Term term(const std::string& text, const Parameter* parameter) {
-    if (!text.empty() && text[0] == '?') {
+    const std::size_t dot = text.find('.');
+    const std::size_t mark = !text.empty() && text[0] == '?' ? 1 : 0;
+    if (dot != std::string::npos && (mark == 1 || context_.schema) && in_scope(text.substr(mark, dot - mark)))
+      return part_term(text.substr(mark, dot - mark), text.substr(dot + 1));
+    if (mark == 1) {
       const std::string name = text.substr(1);
       if (!in_scope(name)) fail("unknown variable '" + text + "'", did_you_mean(text, names_in_scope()));
       return {true, name};
@@ -230,6 +236,37 @@ class Reader {
       if (const auto fault = context_.object_fault(text)) fail("there is no object '" + text + "'", *fault);
     }
     return {false, text};
+  }
+
+  // A part of what a variable stands for is a variable itself: see with_parts.
+  Term part_term(const std::string& whole, const std::string& part) {
+    if (context_.part_fault) {
+      if (const auto fault = context_.part_fault(part)) fail("nothing has a part or region '" + part + "'", *fault);
+    }
+    std::string name = whole + "_" + part;
+    std::replace(name.begin(), name.end(), '.', '_');
+    while (in_scope(name)) name += "_part";
+    const PartTerm one{{true, name}, {true, whole}, part_name_of(part)};
+    if (std::find(parts_.begin(), parts_.end(), one) == parts_.end()) parts_.push_back(one);
+    return one.term;
+  }
+
+  // The literal, about parts that there are: exists ?x_lid: part_of(?x_lid, ?x), part_name(?x_lid, lid), literal. What
+  // is said of all ?x is said of those that have the part: forall ?x_lid: not part_of(…), or not part_name(…), or
+  // literal.
+  Formula with_parts(Formula literal) {
+    for (const PartTerm& part : std::exchange(parts_, {})) {
+      const bool of_all = std::find(universal_.begin(), universal_.end(), part.whole.name) != universal_.end();
+      Formula of = atom("part_of", {part.term, part.whole});
+      Formula named = atom("part_name", {part.term, {false, part.name}});
+      Formula result;
+      result.kind = of_all ? Formula::Kind::forall : Formula::Kind::exists;
+      result.variables = {{part.term.name, "", {}}};
+      result.parts = {of_all ? disjunction({negation(std::move(of)), negation(std::move(named)), std::move(literal)})
+                             : conjunction({std::move(of), std::move(named), std::move(literal)})};
+      literal = std::move(result);
+    }
+    return literal;
   }
 
   Term hand_term() {
@@ -308,7 +345,7 @@ class Reader {
       Formula one = atom(name, std::move(terms));
       parts.push_back(negated ? negation(std::move(one)) : std::move(one));
     }
-    return conjunction(std::move(parts));
+    return with_parts(conjunction(std::move(parts)));
   }
 
   Formula equal(const Value& node) {
@@ -316,7 +353,7 @@ class Reader {
     Formula result;
     result.kind = Formula::Kind::equal;
     for (const Value& item : node.items) result.terms.push_back(term(item.text, nullptr));
-    return node["negated"].boolean ? negation(std::move(result)) : result;
+    return with_parts(node["negated"].boolean ? negation(std::move(result)) : result);
   }
 
   void open(const std::string& name) {
@@ -355,11 +392,15 @@ class Reader {
     Formula result;
     result.kind = exists ? Formula::Kind::exists : Formula::Kind::forall;
     result.variables = variables(node);
-    for (const Parameter& variable : result.variables) open(variable.name);
+    for (const Parameter& variable : result.variables) {
+      open(variable.name);
+      if (!exists) universal_.push_back(variable.name);
+    }
     narrow_ += exists ? 1 : 0;
     result.parts.push_back(formula(one_item(node)));
     narrow_ -= exists ? 1 : 0;
     for (std::size_t i = 0; i < result.variables.size(); ++i) scope_.pop_back();
+    if (!exists) universal_.resize(universal_.size() - result.variables.size());
     return result;
   }
 
@@ -411,6 +452,36 @@ class Reader {
     }
   }
 
+  // The disjunction over all choices of n members.
+  Formula at_least(const Value& node) {
+    const std::vector<std::string> names = group_members(node["group"].text);
+    const auto count = static_cast<std::size_t>(node["n"].number);
+    if (count > names.size()) {
+      fail("at_least asks for " + std::to_string(count) + " of the " + std::to_string(names.size()) + " members of '" +
+               node["group"].text + "'",
+           "make the group larger: count = " + std::to_string(count));
+    }
+    std::size_t choices = 1;  // each step is a binomial coefficient, so it divides
+    for (std::size_t i = 0; i < count && choices <= kMostOrders; ++i) choices = choices * (names.size() - i) / (i + 1);
+    if (choices > kMostOrders)
+      fail("at_least has more than 5040 choices", "make the group smaller, or ask for nearly all or nearly none of it");
+    ++narrow_;
+    std::vector<Formula> single;
+    for (const std::string& name : names)
+      single.push_back(formula(replaced(one_item(node), node["variables"].items[0].text, name)));
+    --narrow_;
+    std::vector<Formula> parts;
+    std::vector<bool> chosen(names.size());
+    std::fill_n(chosen.begin(), count, true);
+    do {
+      std::vector<Formula> together;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (chosen[i]) together.push_back(single[i]);
+      parts.push_back(conjunction(std::move(together)));
+    } while (std::prev_permutation(chosen.begin(), chosen.end()));
+    return disjunction(std::move(parts));
+  }
+
   Effect effect(const Value& node, const Effect& frame) {
     check_predicate(node);
     const std::string& name = node["predicate"].text;
@@ -424,13 +495,24 @@ class Reader {
     Effect result = frame;
     result.predicate = name;
     result.terms = expanded(node).at(0);
+    if (!parts_.empty())
+      fail("an effect cannot name a part of a parameter: '" + parts_[0].whole.name + "." + parts_[0].name + "'",
+           "make the part a parameter, and part_of(\"part\", \"" + parts_[0].whole.name + "\") a precondition");
     result.negated = node["negated"].boolean;
     return result;
   }
 
+  struct PartTerm {
+    Term term, whole;
+    std::string name;
+    friend bool operator==(const PartTerm&, const PartTerm&) = default;
+  };
+
   const FormulaContext& context_;
   const Domain& domain_;
-  std::vector<std::string> scope_;  // quantified variables, outermost first
+  std::vector<PartTerm> parts_;         // that the literal being read names
+  std::vector<std::string> scope_;      // quantified variables, outermost first
+  std::vector<std::string> universal_;  // those of them that a forall binds
   int line_ = 0;
   int narrow_ = 0;     // inside any_of or exists
   bool whole_ = true;  // what is read is the whole formula

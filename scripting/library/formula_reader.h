@@ -23,6 +23,7 @@ struct FormulaContext {
   std::string hand = "panda.hand";  // fills the place of a hand that the author left out
   std::function<std::vector<std::string>(const std::string& group)> expand;  // members of `block*`; throws Error
   std::function<std::optional<std::string>(const std::string& object)> object_fault;  // nothing: any name is fine
+  std::function<std::optional<std::string>(const std::string& part)> part_fault;      // of `?x.part`
 };
 
 // All throw Error (file:line: field: complaint, cure) at the first fault.

@@ -102,6 +102,12 @@ const Library::TaskInfo* Library::task(std::string_view name) const {
   return found == tasks_.end() ? nullptr : &found->second;
 }
 
+const Domain& Library::domain_of(std::string_view name) const {
+  const TaskInfo* info = task(name);
+  const auto found = info == nullptr ? domains_.end() : domains_.find(info->skills);
+  return found == domains_.end() ? domain_ : found->second;
+}
+
 std::string Library::hash() const {
   Hasher hasher;
   for (const ScriptFile& file : files_) hasher.text(file.shown_path).text(file.source);

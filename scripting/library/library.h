@@ -69,7 +69,9 @@ class Library {
   // The vocabulary: types, traits, predicates, actions of all skills. One domain for all worlds of a library;
   // an action's name is its skill, or skill_case. The hand is an object of type `hand`; predicates and actions that
   // name it have it as a parameter like any other (`hand_empty(hand)`, `holding(hand, obj)`).
+  // Skills that replace others are in the domains of those tasks only that ask for them.
   const Domain& domain() const { return domain_; }
+  const Domain& domain_of(std::string_view task) const;
   const std::map<std::string, PredicateTraits>& predicate_traits() const { return predicate_traits_; }
   bool can_hide(const std::string& predicate) const { return hiding_.contains(predicate); }  // its file: `observable`
   const SkillInfo* skill(std::string_view name) const;
@@ -80,7 +82,8 @@ class Library {
     std::vector<std::map<std::string, std::string>> variations;  // axis -> value as text, in the file's order
     std::vector<std::string> variation_texts;                    // canonical: `colour=red,height=3`; `` for none
     std::vector<std::string> instructions;
-    bool is_imported = false;  // from a problem in another language, which it holds
+    std::vector<std::string> skills;  // that replace others here, by name
+    bool is_imported = false;         // from a problem in another language, which it holds
   };
   const TaskInfo* task(std::string_view name) const;
   std::string hash() const;  // of all files: part of every episode's key
@@ -91,6 +94,7 @@ class Library {
   std::vector<ScriptFile> files_;
   std::vector<Error> complaints_;  // about files that not every task uses
   Domain domain_;
+  std::map<std::vector<std::string>, Domain> domains_;  // by TaskInfo::skills, where there are some
   std::map<std::string, PredicateTraits> predicate_traits_;
   std::set<std::string> hiding_;
   std::map<std::string, SkillInfo, std::less<>> skills_;

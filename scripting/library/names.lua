@@ -4,6 +4,8 @@
 ---@class stampede.is
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
+---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
+---@field blocked fun(place: string): stampede.literal  something shut is before the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
@@ -15,11 +17,14 @@
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
 ---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
 ---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
+---@field part_name fun(obj: string, value: string): stampede.literal  the part_name of the {obj} is {value} (obj: anything, value: value)
+---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -27,6 +32,8 @@
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
+---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
+---@field blocked fun(place: string): stampede.literal  something shut is before the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
@@ -38,11 +45,14 @@
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
 ---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
 ---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
+---@field part_name fun(obj: string, value: string): stampede.literal  the part_name of the {obj} is {value} (obj: anything, value: value)
+---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -60,19 +70,21 @@
 ---@field place fun(obj: string|table, to?: string): stampede.call  put the {obj} on the {to} (obj: movable, to: surface)
 ---@field press fun(button: string|table): stampede.call  press the {button} (button: pressable)
 ---@field push fun(obj: string|table, area?: string, top?: string): stampede.call  push the {obj} into the {area} (obj: movable, area: marked & container, top: surface)
----@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & openable)
+---@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & reach_in)
 ---@field put_on_shelf fun(obj: string|table, shelf?: string): stampede.call  put the {obj} on the {shelf} (obj: movable, shelf: container & shelf)
 ---@field reach fun(place: string|table): stampede.call  reach the {place} (place: target)
 ---@field set_down fun(obj: string|table, spot?: string): stampede.call  put the {obj} on the {spot} (obj: movable, spot: spot)
 ---@field stack fun(obj: string|table, below?: string): stampede.call  stack the {obj} on the {below} (obj: movable, below: stackable)
 ---@field take_from_shelf fun(obj: string|table, shelf?: string): stampede.call  take the {obj} off the {shelf} (obj: movable & graspable, shelf: container & shelf)
----@field take_out fun(obj: string|table, box?: string): stampede.call  take the {obj} out of the {box} (obj: movable & graspable, box: container & openable)
+---@field take_out fun(obj: string|table, box?: string): stampede.call  take the {obj} out of the {box} (obj: movable & graspable, box: container & reach_in)
 ---@field turn fun(part: string|table): stampede.call  turn the {part} (part: turnable)
 ---@field unhang fun(obj: string|table, hook?: string): stampede.call  take the {obj} off the {hook} (obj: movable & graspable, hook: hook)
 
 ---@alias stampede.predicate_name
 ---| "apart"
 ---| "at"
+---| "behind"
+---| "blocked"
 ---| "clear"
 ---| "closed"
 ---| "colour"
@@ -84,11 +96,14 @@
 ---| "in_slot"
 ---| "inside"
 ---| "leaning"
+---| "lever"
 ---| "lifted"
 ---| "on"
 ---| "open"
 ---| "outside"
 ---| "over"
+---| "part_name"
+---| "part_of"
 ---| "pressed"
 ---| "spaced"
 ---| "turned"
@@ -96,15 +111,18 @@
 ---@alias stampede.type_name
 ---| "area"
 ---| "ball"
+---| "barbecue"
 ---| "bin"
 ---| "black_square"
 ---| "block"
 ---| "board"
 ---| "book"
 ---| "bottle"
+---| "box"
 ---| "button"
 ---| "charger"
 ---| "checker"
+---| "chess_piece"
 ---| "chopping_board"
 ---| "clock"
 ---| "clock_hand"
@@ -112,6 +130,7 @@
 ---| "computer"
 ---| "cube"
 ---| "cup"
+---| "cutlery"
 ---| "cylinder"
 ---| "dish_rack"
 ---| "door"
@@ -121,11 +140,14 @@
 ---| "furniture"
 ---| "grill"
 ---| "hand"
+---| "hanger"
 ---| "knife"
 ---| "knife_block"
 ---| "knob"
 ---| "lamp"
+---| "laptop"
 ---| "level"
+---| "lever"
 ---| "lid"
 ---| "meat"
 ---| "money"
@@ -145,6 +167,7 @@
 ---| "region"
 ---| "ring"
 ---| "scales"
+---| "shoe"
 ---| "sorter"
 ---| "stand"
 ---| "star"
@@ -152,11 +175,13 @@
 ---| "tap"
 ---| "thing"
 ---| "tin"
+---| "toilet"
 ---| "toilet_roll"
 ---| "tray"
 ---| "umbrella"
 ---| "usb_stick"
 ---| "value"
+---| "window"
 ---| "wine_rack"
 
 ---@alias stampede.trait_name
@@ -170,6 +195,7 @@
 ---| "movable"
 ---| "openable"
 ---| "pressable"
+---| "reach_in"
 ---| "shelf"
 ---| "slot"
 ---| "spot"
@@ -184,6 +210,8 @@
 
 ---@alias stampede.object_name
 ---| "air_zone"
+---| "baking_tray"
+---| "barbecue"
 ---| "basin_tap"
 ---| "basketball"
 ---| "basketball_hoop"
@@ -191,12 +219,22 @@
 ---| "black_checker"
 ---| "book"
 ---| "bookshelf"
+---| "bowl"
 ---| "charger"
 ---| "checkers_board"
+---| "chess_bishop"
+---| "chess_board"
+---| "chess_king"
+---| "chess_knight"
+---| "chess_pawn"
+---| "chess_queen"
+---| "chess_rook"
 ---| "chest"
 ---| "chicken"
 ---| "chocolate_jelly"
 ---| "chopping_board"
+---| "clothes_hanger"
+---| "clothes_rail"
 ---| "coffee"
 ---| "cooker"
 ---| "crackers_box"
@@ -206,32 +244,43 @@
 ---| "desk_clock"
 ---| "desktop_computer"
 ---| "dish_rack"
+---| "dishwasher"
+---| "doorway"
 ---| "floating_target"
 ---| "floor"
+---| "fork"
 ---| "frame_hanger"
 ---| "fridge"
 ---| "green_pepper"
 ---| "grill"
+---| "hanger_holder"
 ---| "kitchen_scales"
 ---| "knife"
 ---| "knife_block"
+---| "laptop"
+---| "lidded_box"
+---| "lit_table_lamp"
 ---| "microwave"
 ---| "money"
 ---| "mug"
 ---| "mustard"
+---| "napkin"
 ---| "numbered_block_1"
 ---| "numbered_block_2"
 ---| "numbered_block_3"
 ---| "outlet"
+---| "oven"
 ---| "pedestal"
 ---| "phone"
 ---| "phone_cradle"
 ---| "picture_frame"
+---| "place_mat"
 ---| "plate"
 ---| "plate_stand"
 ---| "push_button"
 ---| "puzzle_frame"
 ---| "puzzle_piece"
+---| "pyramid_mat"
 ---| "raised_space"
 ---| "red_checker"
 ---| "red_pepper"
@@ -241,6 +290,7 @@
 ---| "saucepan"
 ---| "saucepan_lid"
 ---| "shape_sorter"
+---| "shoe"
 ---| "sliding_cabinet"
 ---| "small_cube"
 ---| "small_cylinder"
@@ -255,24 +305,31 @@
 ---| "sorting_block"
 ---| "soup_can"
 ---| "spam_can"
+---| "spoon"
 ---| "square_peg"
 ---| "square_ring"
 ---| "stacking_cup"
 ---| "steak"
 ---| "strawberry_jelly"
 ---| "sugar_box"
+---| "table_knife"
 ---| "table_lamp"
 ---| "target_area"
 ---| "tin"
+---| "toilet"
 ---| "toilet_roll"
 ---| "toilet_roll_stand"
 ---| "tomato"
 ---| "tray"
+---| "tumbler"
 ---| "tuna_can"
 ---| "umbrella"
 ---| "umbrella_stand"
 ---| "usb_stick"
+---| "washing_machine"
+---| "water_bottle"
 ---| "wide_block"
+---| "window"
 ---| "wine_bottle"
 ---| "wine_rack"
 ---| "work_table"

@@ -7,6 +7,7 @@
 --               { tag = "not", line, part }
 --               { tag = "forall" | "exists", variables = { "?x: type", … }, line, part }
 --               { tag = "any_order", group, n, variables = { "?any1", … }, line, part }
+--               { tag = "at_least", group, n, variables = { "?some" }, line, part }
 --               { tag = "when", condition, effects, line }                         effects only
 --               { tag = "equal", line, "a", "b" }   { tag = "pddl", text, line }
 --   draw        { tag = "one_of", values }, { tag = "sample_of", values, n }, { tag = "between", low, high }
@@ -28,6 +29,48 @@ for _, kind in ipairs { "task", "skill", "predicate", "object", "world", "robot"
     if fields.line ~= nil then say("a %s has no field 'line'", kind) end
     fields.kind, fields.line = kind, here()
     return fields
+  end
+end
+
+local function listed(value)
+  if value == nil then return {} end
+  if type(value) ~= "table" or value.tag ~= nil then return { value } end
+  return value
+end
+
+local function joined(first, second)
+  if first == nil and second == nil then return nil end
+  local result = {}
+  for _, value in ipairs(listed(first)) do result[#result + 1] = value end
+  for _, value in ipairs(listed(second)) do result[#result + 1] = value end
+  return result
+end
+
+local function with_conditions(fields, own)
+  local result = {}
+  for key, value in pairs(fields) do result[key] = value end
+  result.precondition = joined(fields.precondition, own.precondition)
+  result.effect = joined(fields.effect, own.effect)
+  return result
+end
+
+-- A skill that extends another: gets what it leaves out; conditions and effects add up, with cases: in each.
+function api.extend(own, base)
+  if own.cases ~= nil then say("a skill that extends another has no cases of its own") end
+  if base.cases ~= nil then
+    own.cases = {}
+    for name, case in pairs(base.cases) do own.cases[name] = with_conditions(case, own) end
+    own.precondition, own.effect = nil, nil
+  else
+    own.precondition, own.effect = joined(base.precondition, own.precondition), joined(base.effect, own.effect)
+  end
+  local continuous = {}
+  for _, fields in ipairs { base.continuous or {}, own.continuous or {} } do
+    for name, value in pairs(fields) do continuous[name] = value end
+  end
+  own.continuous = continuous
+  for key, value in pairs(base) do
+    if own[key] == nil and key ~= "extends" and key ~= "replaces" then own[key] = value end
   end
 end
 
@@ -155,6 +198,15 @@ function words.any_order(group, n, f)
   local part = { tag = "all_of", line = here() }
   for i = 1, n do part[i] = one_part("any_order", f(b, i)) end
   value[1] = part
+  return value
+end
+
+function words.at_least(n, group, f)
+  if type(group) ~= "string" or type(f) ~= "function" or math.type(n) ~= "integer" or n < 1 then
+    say("at_least takes a whole number, a group and a function: at_least(4, \"bean*\", function(x) … end)")
+  end
+  local value = { tag = "at_least", group = group, n = n, variables = { "?some" }, line = here() }
+  value[1] = one_part("at_least", f("?some"))
   return value
 end
 

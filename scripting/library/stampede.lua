@@ -10,6 +10,7 @@
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
+---@field skills? string[]  skills that extend or replace others, for this task (default {})
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
 ---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal
 ---@field fails? (fun(w: stampede.world_view): any)  function(w): true ends the episode as failed
@@ -41,6 +42,9 @@
 ---@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
 ---@field cost? integer  of the action in a plan (default 1)
+---@field moves? string[]  parameters that it moves: what ends_when "moved" of them ends (default {})
+---@field extends? string  a skill whose fields it has where it gives none itself; conditions and effects add up. It takes that one's place in tasks and worlds that name it in their skills
+---@field replaces? string  a skill whose place it takes in tasks and worlds that name it in their skills
 ---@field may_equal? string[][]  pairs of parameters that may be one object (default {})
 
 -- A typed symbol with a test on the state of the world
@@ -55,6 +59,7 @@
 ---@field settle? number  a shorter change is noise [s] (default 0)
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
+---@field ends_when? string  "moved": it ends when a skill moves one of its things, also one that knows nothing of it
 ---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
 ---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)
@@ -90,6 +95,7 @@
 -- Where tasks take place: robot, fixtures, cameras, sensors, light
 ---@class stampede.world
 ---@field robot stampede.entry  the robot file and where it stands
+---@field skills? string[]  skills that extend or replace others, for its tasks (default {})
 ---@field fixtures? table<string, stampede.entry>  objects that every task has (default {})
 ---@field cameras? table<string, stampede.camera>  by name (default {})
 ---@field calibration? string  a file beside this one with cameras as they were measured; they replace those of the same names
@@ -242,6 +248,7 @@
 ---@field texture? stampede.texture  of this shape; its colour tints it
 ---@field collides? boolean  touches others (default true)
 ---@field visible? boolean  is drawn (default true)
+---@field shows? stampede.formula  drawn only while this fact of the object ("self"), a part or a region of it holds, or does not
 ---@field scale? number|number[]  of a mesh file (default 1)
 ---@field segments? integer  wedges of a lathe (default 16)
 ---@field wall? number  of a hollow lathe, which collides as wedges [m]

@@ -54,6 +54,13 @@ function forall(...) end
 ---@return stampede.formula
 function exists(...) end
 
+-- n members of the group or more, whichever: at_least(4, "bean*", function(x) return is.inside(x, "bowl.space") end)
+---@param n integer
+---@param group string  such as "bean*"
+---@param f fun(x: string): stampede.formula
+---@return stampede.formula
+function at_least(n, group, f) end
+
 ---@param a string
 ---@param b string
 ---@return stampede.formula
@@ -304,7 +311,7 @@ function stampede_world_view:opening() end
 ---@param whole? boolean
 ---@return boolean
 function stampede_world_view:inside(region, thing, whole) end
--- From the region's nearest face to a thing, pose or point: negative inside
+-- From the nearest face of a region, or of the bounding box of another thing, to a thing, pose or point: negative inside
 ---@param region string
 ---@param x string|stampede.pose|number
 ---@param y? number
@@ -401,7 +408,7 @@ function stampede_world_view:place(thing, at) end
 ---@field force? number  ends the motion [N]
 ---@field stop_on_contact? boolean
 ---@field tolerate? boolean  an end that is not reached is no failure
----@field collide? boolean  contact is meant
+---@field keep_clear? boolean  refused where arm or load would touch anything but the skill's own objects
 ---@field most_force? number  the arm gives way to contact and ends the motion where it meets more [N]
 
 -- The arm and its hand, in a skill's `run`
@@ -414,9 +421,13 @@ function stampede_robot_view:open_hand(opening) end
 ---@param options? { force: number }
 function stampede_robot_view:close_hand(object, options) end
 -- { approach = pose, grasp = pose }: approach first, then others by name, last grasp, goal, place or target. Or
--- { { "name", pose }, … } in the order written. All but the last are passed without a stop
+-- { { "name", pose }, … } in the order written. All but the last are passed without a stop.
+-- `ahead`: poses after the last to which the arm must be able to go on. `then_part`: a part that it must be able to take
+-- from there to joint position `to`, see move_part, with the hand as wide as `opening`
+-- [m], and to go straight back from there by `retreat` [m]
 ---@param targets table<string, stampede.pose>|any[][]
-function stampede_robot_view:move_through(targets) end
+---@param options? { then_part: string, to: number, pivot: number, opening: number, retreat: number }
+function stampede_robot_view:move_through(targets, options) end
 ---@param target stampede.pose
 function stampede_robot_view:move_to(target) end
 -- Straight, to a pose or by an offset along the world's axes
@@ -438,11 +449,12 @@ function stampede_robot_view:retreat(distance, options) end
 function stampede_robot_view:move_home() end
 ---@param positions number[]
 function stampede_robot_view:move_joints(positions) end
--- The held handle along its joint. `pivot`: the handle may turn in the hand, which then turns with the part as far as it
--- can, or not at all
+-- The held handle along its joint. `pivot`: so far, in rad either way, the handle may turn in the hand about the joint's
+-- axis; within that the hand turns as the arm can best follow
+-- and can then go straight back by `retreat` [m]
 ---@param part string
 ---@param position number
----@param options? { speed: number, most_force: number, pivot: boolean }
+---@param options? { speed: number, most_force: number, pivot: number, retreat: number }
 function stampede_robot_view:move_part(part, position, options) end
 ---@param seconds number
 function stampede_robot_view:wait(seconds) end

@@ -80,7 +80,7 @@ class Builder {
         colours_(colours),
         own_assets_(FileScope({source.folder})),
         assets_(source.assets != nullptr ? *source.assets : own_assets_),
-        context_{colours, source.folder, assets_, result_.drawn} {}
+        context_{colours, source.folder, assets_, result_.drawn, source.name} {}
 
   BuiltObject build() {
     const Value& fields = source_.fields;
@@ -235,11 +235,18 @@ class Builder {
     return object;
   }
 
+  // What every part and region is known by: formulas name `?x.lid`.
+  void name_whole(Object& object) const {
+    object.attributes.emplace("part_of", source_.name);
+    object.attributes.emplace("part_name", part_name_of(object.name.substr(source_.name.size() + 1)));
+  }
+
   void name_part(const Value& fields, const std::string& name, ObjectKind kind, const Body& body, int index) {
     const Part& part = body.parts[static_cast<std::size_t>(index)];
     Object object = named(fields, name, kind, kind == ObjectKind::part ? "part" : "thing");
     object.body = source_.name;
     object.part = index;
+    if (kind == ObjectKind::part) name_whole(object);
     if (!part.shapes.empty()) {
       const auto [lower, upper] = bounding_box(part);
       object.size = upper - lower;
@@ -259,6 +266,7 @@ class Builder {
       object.body = source_.name;
       object.part = index;
       object.size = region.size;
+      name_whole(object);
       result_.objects.push_back(object);
       result_.regions.push_back(region);
     }

@@ -43,6 +43,7 @@ struct ShapeContext {
   std::filesystem::path folder;  // of their files
   Assets& assets;
   DrawnAssets& drawn;
+  std::string owner;  // name of the thing that they belong to: `self` in `shows`
 };
 // A texture's key among context.drawn.
 std::string texture_from(const Value& value, const ShapeContext& context);

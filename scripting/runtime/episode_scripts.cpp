@@ -14,7 +14,7 @@ struct EpisodeScripts::Impl {
        int further_things, std::shared_ptr<Assets> assets)
       : tests(std::move(library)),
         task(tests, name, variation, seed, further_things, std::move(assets)),
-        symbols(tests),
+        symbols(tests, name),
         skills(tests) {}
   TestState tests;
   LuaTask task;

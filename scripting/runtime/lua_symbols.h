@@ -14,8 +14,8 @@ namespace stampede {
 
 class LuaSymbols : public Symbols {
  public:
-  explicit LuaSymbols(TestState& tests) : tests_(tests) {}
-  const Domain& domain() const override { return tests_.library()->domain(); }
+  LuaSymbols(TestState& tests, std::string_view task) : tests_(tests), domain_(tests.library()->domain_of(task)) {}
+  const Domain& domain() const override { return domain_; }
   PredicateTraits traits(const std::string& predicate) const override;
   // Traits and attributes are read from the scene's objects, all else by the predicate's `holds`.
   Value value(const Fact& fact, const WorldView& view) override;
@@ -40,6 +40,7 @@ class LuaSymbols : public Symbols {
   Sampler sampler(const std::string& predicate);
 
   TestState& tests_;
+  const Domain& domain_;
   std::unordered_map<std::string, Sampler> samplers_;  // as good as fresh
   Functions holds_, observable_;
   int generation_ = -1;

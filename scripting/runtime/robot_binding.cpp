@@ -76,7 +76,10 @@ void only_fields(lua_State* state, int index, std::initializer_list<const char*>
     const char* key = lua_type(state, -1) == LUA_TSTRING ? lua_tostring(state, -1) : "1";
     const bool found =
         std::any_of(known.begin(), known.end(), [key](const char* name) { return std::string_view(name) == key; });
-    if (!found) luaL_error(state, "no option '%s' here", key);
+    if (found) continue;
+    std::string all;
+    for (const char* name : known) all += (all.empty() ? "" : " ") + std::string(name);
+    luaL_error(state, "no option '%s' here, there are: %s", key, all.c_str());
   }
 }
 
@@ -138,20 +141,32 @@ int move_through(lua_State* state) {
   listed ? listed_targets(state, call.targets) : named_targets(state, call.targets);
   for (ToolTarget& target : call.targets) target.ahead = target.name == "ahead";
   luaL_argcheck(state, !call.targets.empty() && !call.targets[0].ahead, 2, "expected at least one named pose");
+  only_fields(state, 3, {"then_part", "to", "pivot", "opening", "retreat"});
+  if (lua_istable(state, 3)) {
+    lua_getfield(state, 3, "then_part");
+    const std::string_view part = check_text(state, -1);
+    view_of(state).joint_range(part);
+    call.then_part = std::string(part);
+    lua_pop(state, 1);
+    call.position = number_field(state, 3, "to", 0);
+    call.pivot = number_field(state, 3, "pivot", 0);
+    call.opening = number_field(state, 3, "opening", 0);
+    call.retreat = number_field(state, 3, "retreat", 0);
+  }
   return ask(state, std::move(call));
 }
 
 int move_to(lua_State* state) { return ask(state, robot_call::MoveThrough{{{"goal", finite_pose(state, 2)}}}); }
 
 robot_call::MoveLine line(lua_State* state, const Transform& target, int options, const char* kind) {
-  only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "collide"});
+  only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear"});
   robot_call::MoveLine call{target};
   call.speed = number_field(state, options, "speed", call.speed);
   call.force = number_field(state, options, "force", call.force);
   call.most_force = number_field(state, options, "most_force", call.most_force);
   call.stop_on_contact = flag_field(state, options, "stop_on_contact");
   call.tolerate = flag_field(state, options, "tolerate");
-  call.collide = flag_field(state, options, "collide");
+  call.keep_clear = flag_field(state, options, "keep_clear");
   call.kind = kind;
   luaL_argcheck(state, call.speed > 0, options, "speed must be positive");
   luaL_argcheck(state, call.most_force >= 0, options, "most_force must not be negative");
@@ -239,12 +254,14 @@ int move_joints(lua_State* state) {
 
 // The held or touched part's joint to a position, along its line or arc.
 int move_part(lua_State* state) {
-  only_fields(state, 4, {"speed", "most_force", "pivot"});
+  only_fields(state, 4, {"speed", "most_force", "pivot", "retreat"});
   robot_call::MovePart call;
   call.speed = number_field(state, 4, "speed", call.speed);
   call.most_force = number_field(state, 4, "most_force", call.most_force);
   luaL_argcheck(state, call.most_force >= 0, 4, "most_force must not be negative");
-  call.pivot = flag_field(state, 4, "pivot");
+  call.pivot = number_field(state, 4, "pivot", call.pivot);
+  call.retreat = number_field(state, 4, "retreat", call.retreat);
+  luaL_argcheck(state, call.pivot >= 0 && call.pivot <= 3.2, 4, "pivot must be 0 … pi rad");
   call.position = finite(state, 3);
   const std::string_view part = check_text(state, 2);
   view_of(state).joint_range(part);
@@ -273,12 +290,12 @@ int run(lua_State* state) {
   return ask(state, robot_call::RunSkill{std::move(call)});
 }
 
-// robot:fail("no_grasp" [, detail]); a text that is no reason is the detail.
+// robot:fail("no_grasp" [, detail]); a text that is no reason is the detail of failed_by_skill.
 int fail(lua_State* state) {
   const std::string_view text = check_text(state, 2);
   robot_call::Fail call;
   const std::optional<Reason> reason = reason_from(text);
-  call.reason = reason.value_or(Reason::script_error);
+  call.reason = reason.value_or(Reason::failed_by_skill);
   call.detail = !lua_isnoneornil(state, 3) ? std::string(check_text(state, 3)) : reason ? "" : std::string(text);
   return ask(state, std::move(call));
 }

@@ -167,6 +167,12 @@ class ShapeReader {
     common_.texture = seen.texture;
     common_.collides = !drawn_only && value.boolean_or("collides", true);
     common_.visible = value.boolean_or("visible", true);
+    const Value& shows = value["shows"];
+    if (!shows.present()) return;
+    common_.shown_by = {shows["predicate"].text};
+    common_.shown_without = shows["negated"].boolean;
+    for (const Value& name : shows.items)
+      common_.shown_by.push_back(name.text == "self" ? context.owner : context.owner + "." + name.text);
   }
 
   void append(std::vector<Shape>& shapes, bool hidden) {

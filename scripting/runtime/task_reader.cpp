@@ -172,7 +172,7 @@ void TaskReader::read_looks(const Value& world, const std::filesystem::path& fol
   builder_->set_light(world["light"]);
   if (world["randomise"].present()) {
     DrawnAssets drawn;
-    drawn_.task.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn});
+    drawn_.task.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn, {}});
     builder_->add_drawn(drawn);
   }
   // All that a scene of this library could have, so that a class has one number in all of its tasks.

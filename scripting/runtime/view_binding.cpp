@@ -152,7 +152,7 @@ Vector3 check_point(lua_State* state, const WorldView& view, int index) {
 int region_distance(lua_State* state) {
   const WorldView& view = view_of(state);
   const std::string_view region = check_text(state, 2);
-  lua_pushnumber(state, view.region_distance(region, check_point(state, view, 3)));
+  lua_pushnumber(state, view.box_distance(region, check_point(state, view, 3)));
   return 1;
 }
 

@@ -32,6 +32,21 @@ Said run_of(const Folder& mine) {
 
 }  // namespace
 
+TEST_CASE("check NAME tells of the modules that the file requires, and of no file whose name ends like it") {
+  const Folder mine;
+  put(mine, "worlds/lib/feet.lua", "-- Feet.\nlocal feet = {}\nfeet.high = 1 + nil\nreturn feet\n");
+  put(mine, "worlds/objects/stool.lua",
+      "-- A stool.\nlocal feet = require \"worlds.lib.feet\"\n"
+      "return object { type = \"block\", shape = box { 0.1, 0.1, feet.high } }\n");
+  put(mine, "worlds/objects/footstool.lua", "-- A footstool.\nreturn object { typ = \"block\" }\n");
+  const Said said = say({"check", "stool", "--root", kRoot, "--path", mine.text()});
+  INFO(said.out << said.err);
+  CHECK(said.code == kBadInput);
+  CHECK(says(said.out, "worlds/lib/feet.lua:3: attempt to perform arithmetic on a nil value"));
+  CHECK_FALSE(says(said.out, "footstool"));
+  CHECK(say({"check", "cube", "--root", kRoot, "--path", mine.text()}).code == kDone);
+}
+
 TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `run` alike, and nothing is written") {
   struct Case {
     std::string init, goal, place, complaint;

@@ -108,4 +108,51 @@ TEST_CASE("every example of every help text runs") {
   CHECK(examples > 25);
 }
 
+namespace {
+
+// Files that a page shows: the name in a line of its own, then the block.
+void put_files_of(const std::string& page, const Folder& folder) {
+  std::istringstream lines(page);
+  std::string before, name, text;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line); before = line) {
+    if (line == "```lua" && before.starts_with("`my/") && before.ends_with("`:")) {
+      name = before.substr(1, before.size() - 3);
+      inside = true;
+    } else if (inside && line == "```") {
+      put(folder, name, std::exchange(text, {}));
+      inside = false;
+    } else if (inside) {
+      text += line + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the page of the first task: its files are right, and its commands do what it says") {
+  const Workplace place;
+  const Folder folder;
+  const std::string page = file_text(STAMPEDE_SOURCE_DIR "/tasks/FIRST.md");
+  put_files_of(page, folder);
+  std::istringstream lines(page);
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("stampede ")) continue;
+    std::vector<std::string> words = words_of(line);
+    words.erase(words.begin());
+    if (words[0] == "new") continue;  // its file is there already
+    ++commands;
+    shorten(words);
+    for (std::string& word : words)
+      if (word == "my") word = folder / "my";
+    if (words[0] != "query" && words[0] != "render") words.insert(words.end(), {"--root", STAMPEDE_SOURCE_DIR});
+    const Said said = say(words);
+    INFO(line << "\n" << said.out << said.err);
+    CHECK(said.code == kDone);
+    if (words[0] == "plan") CHECK(says(said.out, "tap"));
+  }
+  CHECK(commands == 7);
+}
+
 }  // namespace stampede::program

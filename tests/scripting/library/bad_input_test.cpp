@@ -271,6 +271,16 @@ TEST_CASE("golden: formulas") {
             .find("is.on: 'block1' has not the trait 'surface', which the surface must have") != std::string::npos);
   CHECK(said("tasks/take.lua", goal, "any_order(\"block*\", 3, function(b, i) return is.holding(b[i]) end)")
             .find("any_order chooses 3 of the 2 members of 'block*'") != std::string::npos);
+  CHECK(said("tasks/take.lua", goal, "at_least(3, \"block*\", function(x) return is.holding(x) end)")
+            .find("at_least asks for 3 of the 2 members of 'block*'\n    make the group larger: count = 3") !=
+        std::string::npos);
+  CHECK(said("tasks/take.lua", goal, "at_least(\"block*\", 1, is.holding(\"lone\"))")
+            .find("at_least takes a whole number, a group and a function") != std::string::npos);
+  Files empty = sound_files();
+  std::string& take = empty["tasks/take.lua"];
+  take.replace(take.find("count = 2"), 9, "count = 0");
+  take.replace(take.find("is.holding(\"lone\")"), 18, "at_least(1, \"block*\", function(x) return is.holding(x) end)");
+  CHECK(Root(empty).complaints().find("at_least asks for 1 of the 0 members of 'block*'") != std::string::npos);
   CHECK(said("tasks/take.lua", goal, "is.on(7, \"table\")") ==
         "tasks/take.lua:7: on: argument 1 is a number, arguments are names such as \"cup\" or \"?x\"\n    in "
         "tasks/take.lua:7: in main chunk\n");
@@ -280,6 +290,72 @@ TEST_CASE("golden: formulas") {
             .find("skills/pick.lua:5: effect: an effect cannot name the derived predicate 'clear'") == 0);
   CHECK(said("worlds/predicates/clear.lua", "is.on(\"?y\", \"x\")", "is.clear(\"?y\")")
             .find("derived: 'clear' depends on its own negation") != std::string::npos);
+}
+
+TEST_CASE("golden: skills that extend or replace others") {
+  Files files = sound_files();
+  files["skills/wary.lua"] = "-- Wary.\nreturn skill { extends = \"pick\", precondition = { is.clear(\"obj\") } }\n";
+  files["tasks/take.lua"].replace(files["tasks/take.lua"].find("  goal"), 6, "  skills = { \"wary\" },\n  goal");
+  CHECK(Root(files).complaints().empty());
+  const auto with = [&](const std::string& file, const std::string& from, const std::string& to) {
+    Files changed = files;
+    std::string& text = changed[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return Root(changed).complaints();
+  };
+  CHECK(with("skills/wary.lua", "\"pick\"", "\"pik\"").find("skills/wary.lua: extends: there is no skill 'pik'") == 0);
+  CHECK(with("skills/wary.lua", "\"pick\"", "\"wary\"").find("extends: 'wary' extends itself") != std::string::npos);
+  CHECK(with("skills/wary.lua", "is.clear(\"obj\")", "is.clear(\"thing\")")
+            .find("skills/wary.lua:2: precondition: unknown parameter 'thing'") == 0);
+  CHECK(with("skills/wary.lua", "extends = \"pick\"", "extends = \"pick\", replaces = \"pick\"")
+            .find("replaces: what extends a skill replaces that one") != std::string::npos);
+  CHECK(with("skills/pick.lua", "  label", "  replaces = \"drop\",\n  label")
+            .find("replaces: there is no other skill 'drop'") != std::string::npos);
+  CHECK(with("tasks/take.lua", "{ \"wary\" }", "{ \"wry\" }")
+            .find("tasks/take.lua:7: skills: there is no skill 'wry'\n    did you mean 'wary'?") == 0);
+  CHECK(with("tasks/take.lua", "{ \"wary\" }", "{ \"pick\" }")
+            .find("skills: 'pick' neither extends nor replaces another skill") != std::string::npos);
+  CHECK(with("tasks/take.lua", "  goal", "  steps = { act.pick(\"lone\") },\n  goal")
+            .find("steps: 'wary' takes the place of 'pick' here\n    write act.wary") != std::string::npos);
+  CHECK(with("tasks/take.lua", "skills = { \"wary\" },\n  goal", "steps = { act.wary(\"lone\") },\n  goal")
+            .find("steps: 'wary' is not among this task's skills\n    add skills = { \"wary\" }") != std::string::npos);
+  CHECK(with("skills/pick.lua", "  label", "  moves = { \"ob\" },\n  label")
+            .find("moves: there is no parameter 'ob'\n    did you mean 'obj'?") != std::string::npos);
+  CHECK(said("worlds/predicates/on.lua", "  holds", "  ends_when = \"touched\",\n  holds")
+            .find("ends_when: 'touched' is nothing that ends a fact\n    write \"moved\"") != std::string::npos);
+  CHECK(said("worlds/predicates/clear.lua", "  derived", "  ends_when = \"moved\",\n  derived")
+            .find("ends_when: only what holds by itself can end so") != std::string::npos);
+}
+
+TEST_CASE("golden: facts that shapes are shown by") {
+  const auto shows = [](const std::string& rule) {
+    return said("worlds/objects/cube.lua", "shape = box { 0.1, 0.1, 0.1 }",
+                "shapes = { box { 0.1, 0.1, 0.1, shows = " + rule + " } }");
+  };
+  CHECK(shows("is.clear(\"self\")").empty());
+  CHECK(shows("is_not.clear(\"self\")").empty());
+  CHECK(shows("is.claer(\"self\")").find("shows: there is no predicate 'claer'\n    did you mean 'clear'?") !=
+        std::string::npos);
+  CHECK(shows("is.on(\"self\", \"table\")").find("shows: 'on' is no fact of one thing") != std::string::npos);
+  CHECK(shows("is.clear(\"bulb\")").find("shows: the object has no part or region 'bulb'") != std::string::npos);
+  CHECK(shows("any_of { is.clear(\"self\") }").find("shows: what a shape is shown by is one fact") !=
+        std::string::npos);
+}
+
+TEST_CASE("golden: parts of variables") {
+  const std::string wrong = said("worlds/predicates/clear.lua", "is.on(\"?y\", \"x\")", "is.on(\"?y\", \"x.lid\")");
+  CHECK(wrong.find("worlds/predicates/clear.lua:5: derived: nothing has a part or region 'lid'") == 0);
+  CHECK(said("worlds/objects/cube.lua", "mass = 0.1", "mass = 0.1, regions = { lid = { size = { 0.1, 0.1, 0.1 } } }")
+            .empty());
+  Files files = sound_files();
+  std::string& cube = files["worlds/objects/cube.lua"];
+  cube.replace(cube.find("mass = 0.1"), 10, "mass = 0.1, regions = { lid = { size = { 0.1, 0.1, 0.1 } } }");
+  std::string& pick = files["skills/pick.lua"];
+  pick.replace(pick.find("is.holding(\"obj\")"), 17, "is.holding(\"obj.lid\")");
+  INFO(Root(files).complaints());
+  CHECK(Root(files).complaints().find("effect: an effect cannot name a part of a parameter: 'obj.lid'") !=
+        std::string::npos);
 }
 
 TEST_CASE("golden: what nothing places") {

@@ -49,6 +49,18 @@ TEST_CASE("groups are conjunctions over their members") {
   CHECK(some.parts.size() == 3);
 }
 
+TEST_CASE("at_least is the disjunction of all choices of so many") {
+  Fixture fixture;
+  const Formula two = fixture.formula("at_least(2, 'b*', function(x) return is.on(x, 'table') end)");
+  REQUIRE(two.kind == Formula::Kind::disjunction);
+  REQUIRE(two.parts.size() == 3);
+  CHECK(two.parts[0].parts[0] == atom("on", {{false, "b1"}, {false, "table"}}));
+  CHECK(two.parts[2].parts[1] == atom("on", {{false, "b3"}, {false, "table"}}));
+  CHECK(fixture.formula("at_least(1, 'b*', function(x) return is.on(x, 'table') end)").parts.size() == 3);
+  CHECK(fixture.formula("at_least(3, 'b*', function(x) return is.on(x, 'table') end)").kind ==
+        Formula::Kind::conjunction);
+}
+
 TEST_CASE("any_order is the disjunction of all ordered choices") {
   Fixture fixture;
   const Formula chain = fixture.formula("any_order('b*', 2, function(b, i) return is.on(b[i], b[i - 1]) end)");
@@ -85,4 +97,25 @@ TEST_CASE("a table that doubles itself is refused, not unfolded") {
   CHECK_THROWS_AS(value_as_written(fixture.state.state(), -1, "t.lua"), Error);
   fixture.state.sandbox().run(Sandbox::compile("local t = {} t.t = t return t", "t.lua"), "t.lua", 1);
   CHECK_THROWS_WITH(value_as_written(fixture.state.state(), -1, "t.lua"), Catch::Contains("nested too deeply"));
+}
+
+TEST_CASE("a part of a variable is one that there is: part_of and part_name") {
+  Fixture fixture;
+  const Formula named = fixture.formula("exists('?x: furniture', is_not.open('?x.top_drawer'))").parts.at(0);
+  REQUIRE(named.kind == Formula::Kind::exists);
+  REQUIRE(named.variables.at(0).name == "x_top_drawer");
+  const std::vector<Formula>& parts = named.parts.at(0).parts;
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[0] == atom("part_of", {{true, "x_top_drawer"}, {true, "x"}}));
+  CHECK(parts[1] == atom("part_name", {{true, "x_top_drawer"}, {false, "top_drawer"}}));
+  CHECK(parts[2] == negation(atom("open", {{true, "x_top_drawer"}})));
+  const Formula all = fixture.formula("forall('?x: furniture', is.open('?x.top_drawer'))").parts.at(0);
+  CHECK(all.kind == Formula::Kind::forall);  // of all that have one
+  CHECK(all.parts.at(0).kind == Formula::Kind::disjunction);
+  CHECK(all.parts.at(0).parts.at(0) == negation(atom("part_of", {{true, "x_top_drawer"}, {true, "x"}})));
+  const std::vector<Parameter> obj = {{"obj", "", {}}};
+  CHECK(fixture.formula("is.open('obj.lid')", obj).kind == Formula::Kind::exists);
+  CHECK(fixture.formula("is.open('obj.lid')").kind == Formula::Kind::atom);  // of a task: that thing
+  CHECK(fixture.formula("is.open('obj.a.b')", obj).parts.at(0).parts.at(1).terms.at(1).name == "a--b");
+  CHECK_THROWS_WITH(fixture.formula("is.open('?y.lid')"), Catch::Contains("unknown variable '?y.lid'"));
 }

@@ -74,7 +74,7 @@ TEST_CASE("each robot method yields its call, one at a time") {
   CHECK((lift.target.translation() - tip - Vector3(0, 0, 0.125)).norm() < 1e-12);
   const auto line = next<robot_call::MoveLine>(*run, view);
   CHECK((line.target.translation() - tip - Vector3(0.1, 0, 0)).norm() < 1e-12);
-  CHECK((line.speed == 0.05 && line.force == 7.0 && line.stop_on_contact && line.tolerate && !line.collide));
+  CHECK((line.speed == 0.05 && line.force == 7.0 && line.stop_on_contact && line.tolerate && !line.keep_clear));
   const auto retreat = next<robot_call::MoveLine>(*run, view);
   const Vector3 back = -view.world_from("mini.hand").linear().col(2);
   CHECK((retreat.target.translation() - tip - 0.08 * back).norm() < 1e-12);
@@ -84,7 +84,7 @@ TEST_CASE("each robot method yields its call, one at a time") {
   const Quaternion turned(to[0].world_from_tip.linear()), before(view.world_from("mini.hand").linear());
   CHECK(angle_between(turned, before) == Approx(std::acos(0.0)));
   const auto part = next<robot_call::MovePart>(*run, view);
-  CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2 && part.pivot));
+  CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2 && part.pivot == 0.5));
   CHECK(next<robot_call::Wait>(*run, view).seconds == 0.5);
   CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
   const AskedCall child = next<robot_call::RunSkill>(*run, view).call;
@@ -121,8 +121,8 @@ TEST_CASE("each run of a skill starts from fresh variables, also beside another 
 TEST_CASE("what goes wrong in run is a failed call with a place, not an exception") {
   SmallWorld small;
   const std::pair<double, std::string> ways[] = {
-      {1, "wrong.lua:2"},      {2, "instruction budget"}, {3, "finite"},
-      {4, "no option 'sped'"}, {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
+      {1, "wrong.lua:2"},        {2, "instruction budget"}, {3, "finite"}, {4, "no option 'sped' here, there are: "},
+      {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);

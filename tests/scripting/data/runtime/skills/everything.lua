@@ -19,7 +19,7 @@ return skill {
     robot:move_line({ 0.1, 0, 0 }, { speed = 0.05, stop_on_contact = true, force = 7, tolerate = true })
     robot:retreat(0.08)
     robot:move_to(robot:tip():offset(0, 0, 0.25):rotated(0, 0, deg(90)))
-    robot:move_part("chest.drawer", 0.1, { speed = 0.2, pivot = true })
+    robot:move_part("chest.drawer", 0.1, { speed = 0.2, pivot = 0.5 })
     robot:wait(0.5)
     robot:move_home()
     robot:run(act.counting { "top", to = "bench" })
