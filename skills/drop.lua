@@ -1,6 +1,7 @@
 -- Let the held object fall into something that is open at the top: a bin, a basket, a hoop.
 return skill {
   params = { "obj: movable", "box: container & hollow" },
+  moves = { "obj" },
   precondition = { is.holding("obj") },
   effect = { is.inside("obj", "box"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.over("obj", "box")) },      -- pose of the object, just above the rim

@@ -3,7 +3,8 @@ local seats = require "worlds.lib.seats"
 
 return skill {
   params = { "obj: movable & graspable", "slot: slot" },
-  precondition = { is.hand_empty(), is.in_slot("obj", "slot") },
+  moves = { "obj" },
+  precondition = { is.hand_empty(), is.in_slot("obj", "slot"), is_not.blocked("slot") },
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.in_slot("obj", "slot"), is.lifted("obj") },
   continuous = {
     grasp = stream("grasps"),                                           -- of the object where it sits
@@ -19,6 +20,6 @@ return skill {
       approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(out[1], out[2], out[3]),
     }
     robot:close_hand(p.obj, { force = c.grasp.force })
-    robot:move_line(out, { speed = c.speed, collide = true })           -- it touches what it sits in
+    robot:move_line(out, { speed = c.speed, keep_clear = true })           -- of all but what it sits in
   end,
 }

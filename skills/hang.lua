@@ -3,6 +3,7 @@ local seats = require "worlds.lib.seats"
 
 return skill {
   params = { "obj: movable", "hook: hook" },
+  moves = { "obj" },
   precondition = { is.holding("obj"), is_not.hanging("obj", "hook"), is_not(exists("?y: movable", is.hanging("?y", "hook"))) },
   effect = { is.hanging("obj", "hook"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = {
@@ -24,8 +25,8 @@ return skill {
     robot:move_through {
       { "approach", before:offset(away * (ox - x), away * (oy - y), away * (oz - z) + 0.03) }, { "goal", before }, { "ahead", over }, { "ahead", hung },
     }
-    robot:move_line(over, { speed = c.speed, collide = true })          -- it may touch the hook
-    robot:move_line(hung, { speed = 0.5 * c.speed, collide = true, tolerate = true })
+    robot:move_line(over, { speed = c.speed, keep_clear = true })       -- of all but the hook
+    robot:move_line(hung, { speed = 0.5 * c.speed, keep_clear = true, tolerate = true })
     robot:wait(0.1)
     robot:open_hand()
     robot:retreat(0.10)

@@ -1,7 +1,8 @@
 -- Put the held object straight into a slot, cradle, socket or rack and let go.
 return skill {
   params = { "obj: movable", "slot: slot" },
-  precondition = { is.holding("obj"), is_not.in_slot("obj", "slot") },
+  moves = { "obj" },
+  precondition = { is.holding("obj"), is_not.in_slot("obj", "slot"), is_not.blocked("slot") },
   effect = { is.in_slot("obj", "slot"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = {
     spot = stream(is.in_slot("obj", "slot")),                           -- pose of the object
@@ -20,7 +21,7 @@ return skill {
       { "approach", before(depth + c.clear) }, { "goal", before(depth) },
       { "ahead", seated }, { "ahead", seated:along(0, 0, -0.10) },      -- and back again
     }
-    robot:move_line(seated, { speed = c.speed, collide = true })        -- it touches what it goes into
+    robot:move_line(seated, { speed = c.speed, keep_clear = true })     -- of all but what it goes into
     robot:wait(0.1)
     robot:open_hand()
     robot:retreat(0.10)

@@ -1,6 +1,7 @@
 -- Lay the held flat object down: its far edge first, then the hand lets go and draws back from under it.
 return skill {
   params = { "obj: movable & flat", "to: surface" },
+  moves = { "obj" },
   precondition = { is.holding("obj") },
   effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.leaning("obj", "to")) },    -- pose of the object as it touches down

@@ -1,6 +1,7 @@
 -- Hold the object in a place in the air: at its middle, or just well inside where there is room.
 return skill {
   params = { "obj: movable", "zone: floating" },
+  moves = { "obj" },
   precondition = { is.holding("obj"), is_not.inside("obj", "zone") },
   effect = { is.inside("obj", "zone") },
   label = "lift the {obj} into the {zone}",

@@ -1,7 +1,13 @@
--- Pull a drawer or door open by its handle.
+-- Pull a drawer or door open by its handle; where a lever holds it shut, turn that first.
+-- The part that the door's attribute `lever` names.
+local function lever_of(w, part)
+  local name = w:attribute(part, "lever")
+  return name and string.sub(part, 1, string.find(part, ".")) .. name
+end
+
 return skill {
   params = { "part: openable" },
-  precondition = { is.hand_empty(), is_not.open("part") },
+  precondition = { is.hand_empty(), is_not.open("part"), is_not.blocked("part") },
   effect = { is.open("part"), is_not.closed("part") },
   continuous = {
     grasp = stream("grasps", "part", "pull"),                           -- of the handle, from which it can be pulled
@@ -11,11 +17,16 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     robot:open_hand(0.05)
-    local pulled = w:part_at(p.part, w:number(p.part, "pull")):times(w:pose(p.part):inverse()):times(c.grasp.pose)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose, ahead = pulled }
-    robot:close_hand(p.part, { force = c.grasp.force })
-    robot:move_part(p.part, w:number(p.part, "pull"), { speed = c.speed, most_force = 40 })
+    local away = 0.08 -- m
+    local pull, pivot = w:number(p.part, "pull"), w:number(p.part, "pivot", 0)
+    local lever = lever_of(w, p.part)
+    local first, to = lever or p.part, lever and w:number(lever, "turn_to") or pull
+    robot:move_through({ approach = c.grasp.approach, grasp = c.grasp.pose },
+      { then_part = first, to = to, pivot = lever and 0 or pivot, opening = c.grasp.width, retreat = away })
+    robot:close_hand(first, { force = c.grasp.force })
+    if lever then robot:move_part(lever, to, { speed = c.speed, most_force = 30 }) end
+    robot:move_part(p.part, pull, { speed = c.speed, most_force = 40, pivot = pivot, retreat = away })
     robot:open_hand(0.05)
-    robot:retreat(0.08)
+    robot:retreat(away)
   end,
 }

@@ -1,6 +1,7 @@
 -- Grasp a movable object where it rests and lift it clear.
 return skill {
   params = { "obj: movable & graspable", "from: support" },
+  moves = { "obj" },
   precondition = { is.hand_empty(), is.on("obj", "from"), is_not(exists("?y: movable", is.on("?y", "obj"))) },
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.on("obj", "from"), is.lifted("obj") },
   continuous = {

@@ -1,6 +1,7 @@
 -- Put the held object down on a free spot of a surface.
 return skill {
   params = { "obj: movable", "to: surface" },
+  moves = { "obj" },
   precondition = { is.holding("obj"), is_not.flat("obj") },             -- what is flat is laid
   effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.on("obj", "to")) },         -- pose of the object

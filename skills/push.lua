@@ -53,6 +53,7 @@ end
 
 return skill {
   params = { "obj: movable", "area: marked & container", "top: surface" },
+  moves = { "obj" },
   precondition = { is.hand_empty(), is.on("obj", "top"), is_not.inside("obj", "area") },
   effect = { is.inside("obj", "area") },
   continuous = { speed = { 0.12, min = 0.02, max = 0.2, unit = "m/s" } },

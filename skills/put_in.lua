@@ -1,7 +1,8 @@
 -- Put the held object into an open drawer or box, from above.
 return skill {
-  params = { "obj: movable", "box: container & openable" },
-  precondition = { is.holding("obj"), is.open("box") },
+  params = { "obj: movable", "box: container & reach_in" },
+  moves = { "obj" },
+  precondition = { is.holding("obj"), is_not.blocked("box"), any_of { is_not.openable("box"), is.open("box") } },
   effect = { is.inside("obj", "box"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.inside("obj", "box")) },    -- pose of the object
   label = "put the {obj} into the {box}",

@@ -1,7 +1,8 @@
 -- Put the held object on a shelf from its open front.
 return skill {
   params = { "obj: movable", "shelf: container & shelf" },
-  precondition = { is.holding("obj") },
+  moves = { "obj" },
+  precondition = { is.holding("obj"), is_not.blocked("shelf") },
   effect = { is.inside("obj", "shelf"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.inside("obj", "shelf")) },  -- pose of the object
   label = "put the {obj} on the {shelf}",

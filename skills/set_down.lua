@@ -1,6 +1,7 @@
 -- Put the held object down on its marked spot of a surface: a square of a board, a place at a table.
 return skill {
   params = { "obj: movable", "spot: spot" },
+  moves = { "obj" },
   precondition = { is.holding("obj"), is_not(exists("?y: movable", is.inside("?y", "spot"))) },
   effect = { is.inside("obj", "spot"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { at = stream(is.inside("obj", "spot")) },               -- pose of the object

@@ -1,6 +1,7 @@
 -- Put the held object on top of another one, centred.
 return skill {
   params = { "obj: movable", "below: stackable" },
+  moves = { "obj" },
   precondition = { is.holding("obj"), is.clear("below") },
   effect = { is.on("obj", "below"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.on("obj", "below")) },      -- pose of the object

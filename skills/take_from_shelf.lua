@@ -1,7 +1,8 @@
 -- Take an object off a shelf through its open front.
 return skill {
   params = { "obj: movable & graspable", "shelf: container & shelf" },
-  precondition = { is.hand_empty(), is.inside("obj", "shelf") },
+  moves = { "obj" },
+  precondition = { is.hand_empty(), is.inside("obj", "shelf"), is_not.blocked("shelf") },
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.inside("obj", "shelf"), is.lifted("obj") },
   continuous = { grasp = stream("grasps") },                            -- of the object, reachable and free
   label = "take the {obj} off the {shelf}",

@@ -1,7 +1,8 @@
 -- Take an object out of an open drawer or box, from above.
 return skill {
-  params = { "obj: movable & graspable", "box: container & openable" },
-  precondition = { is.hand_empty(), is.inside("obj", "box"), is.open("box") },
+  params = { "obj: movable & graspable", "box: container & reach_in" },
+  moves = { "obj" },
+  precondition = { is.hand_empty(), is.inside("obj", "box"), is_not.blocked("box"), any_of { is_not.openable("box"), is.open("box") } },
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.inside("obj", "box"), is.lifted("obj") },
   continuous = {
     grasp = stream("grasps"),                                           -- of the object, reachable and free

@@ -11,11 +11,11 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     local goal = w:number(p.part, "turn_to")
-    local turned = w:part_at(p.part, goal) * w:pose(p.part):inverse() * c.grasp.pose
     robot:open_hand(c.grasp.opening)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose, ahead = turned }
+    robot:move_through({ approach = c.grasp.approach, grasp = c.grasp.pose },
+      { then_part = p.part, to = goal, opening = c.grasp.width, retreat = 0.10 })
     robot:close_hand(p.part, { force = c.grasp.force })
-    robot:move_part(p.part, goal, { speed = c.speed, most_force = 30 })
+    robot:move_part(p.part, goal, { speed = c.speed, most_force = 30, retreat = 0.10 })
     robot:open_hand(c.grasp.opening)
     robot:retreat(0.10)
   end,

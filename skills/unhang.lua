@@ -3,6 +3,7 @@ local seats = require "worlds.lib.seats"
 
 return skill {
   params = { "obj: movable & graspable", "hook: hook" },
+  moves = { "obj" },
   precondition = { is.hand_empty(), is.hanging("obj", "hook") },
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.hanging("obj", "hook"), is.lifted("obj") },
   continuous = {
@@ -21,7 +22,7 @@ return skill {
       ahead = c.grasp.pose:offset(off[1], off[2], off[3] + up),
     }
     robot:close_hand(p.obj, { force = c.grasp.force })
-    robot:lift(up, { speed = c.speed, collide = true })
-    robot:move_line(off, { speed = c.speed, collide = true })
+    robot:lift(up, { speed = c.speed, keep_clear = true })
+    robot:move_line(off, { speed = c.speed, keep_clear = true })
   end,
 }

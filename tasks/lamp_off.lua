@@ -2,8 +2,7 @@
 return task {
   world = "tabletop",
   objects = {
-    lamp = { "table_lamp", colour = { 1.00, 0.93, 0.55 }, at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 },
-      yaw = between(-math.pi, math.pi) },
+    lamp = { "lit_table_lamp", at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 }, yaw = between(-math.pi, math.pi) },
   },
   init = { is_not.pressed("lamp.button") },
   goal = is.pressed("lamp.button"),

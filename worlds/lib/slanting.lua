@@ -24,14 +24,15 @@ function slanting.box(size, force)
   return grasps
 end
 
--- From any side, below the upper rim of a can or jar whose frame is at its middle.
-function slanting.round(radius, height, force)
+-- From any side, of `around` sides (default 12), below the upper rim of a can or jar whose frame is at its middle.
+function slanting.round(radius, height, force, around)
   local grasps = {}
   local z = height / 2 - math.min(math.max(0.046 - radius, 0.010), height * 0.4)
-  for k = 0, 11 do
+  around = around or 12
+  for k = 0, around - 1 do
     for _, down in ipairs { 30, 38, 46 } do
       for _, side in ipairs { 1, -1 } do
-        grasps[#grasps + 1] = one(k * math.pi / 6, 0, z, 2 * radius, force, side, math.rad(down))
+        grasps[#grasps + 1] = one(k * 2 * math.pi / around, 0, z, 2 * radius, force, side, math.rad(down))
       end
     end
   end

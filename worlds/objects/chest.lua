@@ -11,7 +11,7 @@ end
 
 local function drawer(z)
   return {
-    type = "drawer", traits = { "openable", "container" },
+    type = "drawer", traits = { "openable", "container", "reach_in" },
     slider = { axis = { -1, 0, 0 }, at = { 0, 0, z }, range = { 0, 0.20 }, damping = 5, friction = 2 },
     mass = 0.6, colour = { 0.80, 0.68, 0.50 },
     numbers = { open_at = 0.15, closed_at = 0.004, pull = 0.18, hand_back = -0.02, hand_side = 0.045,

@@ -1,7 +1,7 @@
 -- A small fridge on a cupboard, its freezer on top; both doors open towards -x. Its frame is below it, 0.75 m above the floor.
 local doors = require "worlds.lib.doors"
 local body, steel, inner = { 0.90, 0.91, 0.92 }, { 0.72, 0.74, 0.77 }, { 0.96, 0.97, 0.98 }
-local depth, width, low, high, wall = 0.24, 0.30, 0.30, 0.16, 0.014 -- m; low, high: of the two compartments
+local depth, width, low, high, wall = 0.24, 0.32, 0.38, 0.16, 0.014 -- m; low, high: of the two compartments
 
 local function compartment(z, height)
   return {
@@ -15,19 +15,26 @@ end
 local shapes = {
   box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.45, 0.47, 0.50 } }, -- what it stands on
   box { depth, width, wall, at = { 0, 0, low + high + wall / 2 } },
-  box { depth - 0.03, width - 0.03, 0.006, at = { 0.005, 0, 0.15 }, colour = inner }, -- a shelf
 }
 for _, shape in ipairs(compartment(0, low)) do shapes[#shapes + 1] = shape end
 for _, shape in ipairs(compartment(low, high)) do shapes[#shapes + 1] = shape end
 
 local function door(z, height, handle)
   return doors.door {
-    at = { -depth / 2 - 0.001, -width / 2, z }, width = width, height = height - 0.004, thick = 0.03, colour = steel, open = 70,
+    at = { -depth / 2 - 0.001, -width / 2, z }, width = width, height = height - 0.004, thick = 0.03, colour = steel, open = 70, pull = 84,
     mass = 1.5, handle = { z = handle, length = 0.10 },
   }
 end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = body, shapes = shapes,
-  parts = { door = door(0, low, 0.20), freezer_door = door(low, high + wall, 0.08) },
+  parts = {
+    shelf = { -- the floor of the lower compartment
+      type = "level", traits = { "container", "shelf" }, fixed = { at = { 0, 0, wall } }, mass = 1, colour = inner, friction = 0.6,
+      shapes = { box { depth - 2 * wall, width - 2 * wall, 0.004, at = { 0, 0, 0.002 } } },
+      regions = { inside = { at = { 0, 0, low / 2 - wall / 2 }, size = { depth - 2 * wall, width - 2 * wall, low - wall - 0.008 } } },
+    },
+    door = door(0, low, 0.20), freezer_door = door(low, high + wall, 0.08),
+  },
+  regions = { front = { at = { -depth / 2 - 0.20, -0.08, 0.10 }, size = { 0.40, 0.70, 0.20 }, traits = { "container" } } }, -- where its doors swing, and behind them
 }

@@ -2,7 +2,7 @@
 -- the floor.
 local doors = require "worlds.lib.doors"
 local wood, dark, glass = { 0.72, 0.56, 0.38 }, { 0.40, 0.28, 0.18 }, { 0.62, 0.75, 0.80 }
-local depth, width, height, wall = 0.22, 0.40, 0.24, 0.012 -- m
+local depth, width, height, wall = 0.22, 0.64, 0.33, 0.012 -- m
 
 -- `side` 1: the left one, seen from the front, which slides to +y.
 local function door(side)
@@ -17,10 +17,20 @@ local function door(side)
   end
   return {
     type = "door", traits = { "openable" }, mass = 0.8, colour = dark, shapes = shapes,
-    slider = { axis = { 0, side, 0 }, at = { -depth / 2 - 0.002, side * width / 4, height / 2 }, range = { 0, 0.15 },
+    slider = { axis = { 0, side, 0 }, at = { -depth / 2 - 0.002, side * width / 4, height / 2 }, range = { 0, 0.29 },
       friction = 2, damping = 5 },
     grasps = doors.grasps(bar_x, bar_y, 0, 0.012),
-    numbers = { open_at = 0.10, closed_at = 0.004, pull = 0.12 },
+    numbers = { open_at = 0.24, closed_at = 0.004, pull = 0.27 },
+  }
+end
+
+local function shelf(side)
+  local half = width / 2 - 1.5 * wall
+  return {
+    type = "level", traits = { "container", "shelf" }, fixed = { at = { 0, side * (width / 4 - wall / 4), wall } },
+    mass = 1, colour = wood, friction = 0.6,
+    shapes = { box { depth - 2 * wall, half, 0.004, at = { 0, 0, 0.002 } } },
+    regions = { inside = { at = { 0, 0, height / 2 - wall }, size = { depth - 2 * wall, half, height - 2 * wall - 0.008 } } },
   }
 end
 
@@ -35,5 +45,5 @@ return object {
     box { depth, wall, height, at = { 0, -width / 2 + wall / 2, height / 2 } },
     box { depth, wall, height, at = { 0, 0, height / 2 } }, -- between the halves
   },
-  parts = { left_door = door(1), right_door = door(-1) },
+  parts = { left_door = door(1), right_door = door(-1), left_shelf = shelf(1), right_shelf = shelf(-1) },
 }

@@ -1,22 +1,2 @@
--- A small table lamp with a bare globe for a bulb, in the lamp's own `colour`; the push button is on the front of its
--- foot, as far from the stem as a hand needs.
-local metal = { 0.30, 0.32, 0.36 }
-
-return object {
-  type = "lamp", traits = {}, fixed = true, colour = { 0.42, 0.42, 0.44 },
-  shapes = {
-    box { 0.28, 0.10, 0.018, at = { 0, 0, 0.009 }, colour = metal },
-    cylinder { 0.008, 0.10, at = { 0.10, 0, 0.068 }, colour = { 0.72, 0.60, 0.32 } }, -- stem
-    cylinder { 0.018, 0.030, at = { 0.10, 0, 0.128 }, colour = metal }, -- socket
-    sphere { 0.036, at = { 0.10, 0, 0.172 } }, -- bulb
-  },
-  parts = {
-    button = {
-      type = "button", traits = { "pressable" }, mass = 0.04, colour = { 0.92, 0.92, 0.90 },
-      slider = { axis = { 0, 0, -1 }, at = { -0.10, 0, 0.018 }, range = { 0, 0.005 }, spring = 4, damping = 1,
-        friction = 0.2 },
-      shapes = { cylinder { 0.018, 0.014, at = { 0, 0, 0.007 } } },
-      numbers = { on_at = 0.0035 },
-    },
-  },
-}
+-- A small table lamp with a bare globe for a bulb, which shines once its button has been pressed.
+return require("worlds.lib.lamps").table_lamp(false)

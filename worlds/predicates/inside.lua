@@ -81,6 +81,17 @@ local function handy(w, obj, box, spots)
   return kept
 end
 
+-- On a spot that says how things lie there: `folds` is how many ways round they may (1: as the spot, 2: or the other way, …).
+local function aligned(w, obj, spot, folds, rng)
+  local _, _, high = w:size(spot)
+  local poses = {}
+  for i = 1, 12 do
+    local yaw = (i % folds) * 2 * math.pi / folds + rng:between(-0.03, 0.03)
+    poses[i] = w:pose(spot):along(rng:between(-0.002, 0.002), rng:between(-0.002, 0.002), w:below(obj) - high / 2 + 0.003):rotated(0, 0, yaw)
+  end
+  return poses
+end
+
 return predicate {
   params = { "obj: movable", "box: container" },
   label = "the {obj} is inside the {box}",
@@ -94,6 +105,8 @@ return predicate {
   end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
+    local folds = w:number(box, "folds", 0)
+    if folds > 0 then return aligned(w, obj, box, folds, rng) end
     return handy(w, obj, box, w:region_spots(inner(w, box), obj, rng))
   end,
 }

@@ -9,10 +9,8 @@ local function free(w, obj, below, place, radius)
   for _, other in ipairs(w:objects()) do
     local kind = w:type(other)
     if other ~= obj and kind ~= "region" and kind ~= "hand" and w:top(other) > floor then
-      local x, y = (w:pose(other):inverse() * place):position()
-      local length, width = w:size(other)
-      local dx, dy = math.max(math.abs(x) - length / 2, 0), math.max(math.abs(y) - width / 2, 0)
-      if math.sqrt(dx ^ 2 + dy ^ 2) < radius then return false end
+      local beside = place:offset(0, 0, math.min(math.max(z, w:bottom(other)), w:top(other)) - z)
+      if w:region_distance(other, beside) < radius then return false end
     end
   end
   return true

@@ -1,0 +1,16 @@
+-- Push the door, which stands open, shut until its latch snaps in.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { doorway = { "doorway", place = places.beside_the_table(0.06, 0.28, 0.75, 0, 0.15),
+    joints = { door = between(deg(26), deg(34)) } } },
+  init = { is.open("doorway.door") },
+  goal = { is.closed("doorway.door"), is.hand_empty() },
+  instructions = {
+    "close the door",
+    "push the door shut",
+    "there is a draught: shut the door",
+    "move the door into its frame until it snaps in",
+  },
+}

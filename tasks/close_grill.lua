@@ -1,0 +1,14 @@
+-- Lower the lid of the barbecue, which stands open.
+return task {
+  world = "tabletop",
+  objects = { grill = { "barbecue", at = { between(0.14, 0.26), between(-0.18, 0.18), 0.75 }, yaw = between(deg(-90), deg(90)),
+    joints = { lid = between(deg(55), deg(90)) } } },
+  init = { is.open("grill.lid") },
+  goal = { is.closed("grill.lid"), is.hand_empty() },
+  instructions = {
+    "close the barbecue",
+    "bring the lid of the grill down by its wooden grip",
+    "the heat gets out of the grill: shut it",
+    "lower the hood of the barbecue",
+  },
+}

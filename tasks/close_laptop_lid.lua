@@ -1,0 +1,14 @@
+-- Fold the screen of the laptop down.
+return task {
+  world = "tabletop",
+  objects = { laptop = { "laptop", at = { between(0.04, 0.20), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi, math.pi),
+    joints = { lid = between(deg(100), deg(112)) } } },
+  init = { is.open("laptop.lid") },
+  goal = { is.closed("laptop.lid"), is.hand_empty() },
+  instructions = {
+    "close the laptop",
+    "fold the screen of the laptop down onto the keyboard",
+    "work is over: shut the laptop",
+    "bring the lid of the laptop down",
+  },
+}

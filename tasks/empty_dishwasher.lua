@@ -1,0 +1,15 @@
+-- Open the dishwasher, pull its rack out and lay the plate that stands in it on the table.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { dishwasher = { "dishwasher", place = places.round_the_table(0.15, 0.28, 0.75) }, plate = { "plate" } },
+  init = { is.closed("dishwasher.door"), is.closed("dishwasher.rack"), is.in_slot("plate", "dishwasher.rack.slot") },
+  goal = { is.on("plate", "table"), is.hand_empty() },
+  instructions = {
+    "empty the dishwasher",
+    "take the plate out of the dishwasher and lay it on the table",
+    "the plate in the dishwasher is clean: put it on the table",
+    "open the dishwasher, pull the rack out and get the plate",
+  },
+}

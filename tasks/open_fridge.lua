@@ -1,0 +1,15 @@
+-- Open the door of the fridge.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { fridge = { "fridge", place = places.round_the_table(0.13, 0.28, 0.75, -0.16) } },
+  init = { is.closed("fridge.door") },
+  goal = { is.open("fridge.door"), is.hand_empty() },
+  instructions = {
+    "open the fridge",
+    "pull the door of the fridge open by its handle",
+    "something must go into the fridge: open it",
+    "let the fridge stand wide open",
+  },
+}

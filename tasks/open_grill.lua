@@ -1,0 +1,13 @@
+-- Swing the lid of the barbecue up.
+return task {
+  world = "tabletop",
+  objects = { grill = { "barbecue", at = { between(0.14, 0.26), between(-0.18, 0.18), 0.75 }, yaw = between(deg(-90), deg(90)) } },
+  init = { is.closed("grill.lid") },
+  goal = { is.open("grill.lid"), is.hand_empty() },
+  instructions = {
+    "open the barbecue",
+    "swing the lid of the grill up by its wooden grip",
+    "the meat can wait no longer: open the grill",
+    "raise the hood of the barbecue",
+  },
+}

@@ -1,0 +1,15 @@
+-- Open the door of the microwave.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { microwave = { "microwave", place = places.round_the_table(0.13, 0.28, 0.75, -0.14) } },
+  init = { is.closed("microwave.door") },
+  goal = { is.open("microwave.door"), is.hand_empty() },
+  instructions = {
+    "open the microwave",
+    "pull the door of the microwave open by its handle",
+    "something must go into the microwave: open it",
+    "let the microwave stand wide open",
+  },
+}

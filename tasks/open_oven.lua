@@ -1,0 +1,15 @@
+-- Swing the flap of the oven down.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { oven = { "oven", place = places.round_the_table(0.14, 0.28, 0.75) } },
+  init = { is.closed("oven.door") },
+  goal = { is.open("oven.door"), is.hand_empty() },
+  instructions = {
+    "open the oven",
+    "swing the flap of the oven down",
+    "the oven must air: open it",
+    "pull the door of the oven down until it lies level",
+  },
+}

@@ -1,0 +1,15 @@
+-- Turn the handle of the window level and pull the window open.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = { window = { "window", place = places.beside_the_table(0.06, 0.28, 0.75, 0.14, 0.16) } },
+  init = { is.closed("window.leaf") },
+  goal = { is.open("window.leaf"), is.hand_empty() },
+  instructions = {
+    "open the window",
+    "turn the handle of the window and pull it open",
+    "the room needs air: open the window",
+    "swing the window towards you after turning its handle",
+  },
+}

@@ -1,0 +1,17 @@
+-- Take the clothes hanger out of its low holder and hang it on the rail.
+return task {
+  world = "tabletop",
+  objects = {
+    holder = { "hanger_holder", at = { between(0.08, 0.26), between(0.14, 0.26), 0.75 }, yaw = between(math.pi - 0.7, math.pi + 0.7) },
+    rack = { "clothes_rail", at = { between(0.14, 0.26), between(-0.24, -0.12), 0.75 }, yaw = between(math.pi - 0.5, math.pi + 0.5) },
+    hanger = { "clothes_hanger" },
+  },
+  init = { is.hanging("hanger", "holder.rod") },
+  goal = { is.hanging("hanger", "rack.rod"), is.hand_empty() },
+  instructions = {
+    "hang the clothes hanger on the rack",
+    "put the hanger from its holder on the tall rail",
+    "the rail has no hanger yet: give it the one from the holder",
+    "place the hanger on the rod of the rack",
+  },
+}

@@ -1,0 +1,17 @@
+-- Put both shoes into the box, which is shut.
+return task {
+  world = "tabletop",
+  objects = {
+    box = { "lidded_box", at = { between(0.16, 0.26), between(-0.05, 0.05), 0.75 }, yaw = between(deg(-22), deg(22)) },
+    left = { "shoe" }, right = { "shoe" },
+  },
+  init = { is.closed("box.lid"), is.on("left", "table"), is.on("right", "table"), is.spaced("left", "right"),
+    is_not.inside("left", "box.surroundings"), is_not.inside("right", "box.surroundings") },
+  goal = { is.inside("left", "box"), is.inside("right", "box"), is.hand_empty() },
+  instructions = {
+    "put the shoes in the box",
+    "open the box and lay both shoes in it",
+    "the pair of shoes goes into the wooden box",
+    "pack the two shoes away in the box",
+  },
+}

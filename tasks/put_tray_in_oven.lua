@@ -1,0 +1,18 @@
+-- Put the baking tray that lies on the table into the oven, which is shut.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    oven = { "oven", place = places.round_the_table(0.14, 0.28, 0.75) },
+    tray = { "baking_tray" },
+  },
+  init = { is.closed("oven.door"), is.on("tray", "table"), is_not.inside("tray", "oven.front") },
+  goal = { is.inside("tray", "oven.shelf"), is.hand_empty() },
+  instructions = {
+    "put the tray in the oven",
+    "open the oven and push the baking tray in",
+    "bake what is on the tray: it has to go into the oven",
+    "the tray belongs on the shelf of the oven",
+  },
+}

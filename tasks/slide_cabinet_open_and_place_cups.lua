@@ -1,0 +1,22 @@
+-- Slide one door of the cabinet open and put the cup behind it; the other door stays shut.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  variations = { side = { "left", "right" } },
+  objects = {
+    cabinet = { "sliding_cabinet", place = places.behind_the_table(0.13, 0.28, 0.75, 0.12) },
+    cup = { "tumbler", colour = one_of(colours.names) },
+  },
+  init = { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.on("cup", "table") },
+  goal = function(v)
+    return { is.inside("cup", "cabinet." .. v.side .. "_shelf"), is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),
+      is.hand_empty() }
+  end,
+  instructions = {
+    "put the cup in the {side} half of the cabinet",
+    "slide the {side} door open and place the cup behind it",
+    "the cup lives in the cabinet, to the {side}",
+    "store the cup behind the {side} door",
+  },
+}

@@ -1,0 +1,17 @@
+-- Take both shoes out of the box, which is shut, and put them on the table.
+return task {
+  world = "tabletop",
+  objects = {
+    box = { "lidded_box", at = { between(0.16, 0.26), between(-0.05, 0.05), 0.75 }, yaw = between(deg(-22), deg(22)) },
+    left = { "shoe" }, right = { "shoe" },
+  },
+  init = { is.closed("box.lid"), is.inside("left", "box"), is.inside("right", "box") },
+  told = { is.inside("left", "box"), is.inside("right", "box") },
+  goal = { is.on("left", "table"), is.on("right", "table"), is.hand_empty() },
+  instructions = {
+    "take the shoes out of the box",
+    "open the box and put both shoes on the table",
+    "somebody wants to go out: get the two shoes out of the box",
+    "unpack the pair of shoes from the wooden box",
+  },
+}

@@ -1,0 +1,19 @@
+-- Take the baking tray out of the oven, which is shut, and put it on the table.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    oven = { "oven", place = places.round_the_table(0.14, 0.28, 0.75) },
+    tray = { "baking_tray" },
+  },
+  init = { is.closed("oven.door"), is.inside("tray", "oven.shelf") },
+  told = { is.inside("tray", "oven.shelf") },
+  goal = { is.on("tray", "table"), is.hand_empty() },
+  instructions = {
+    "take the tray out of the oven",
+    "open the oven and put the baking tray on the table",
+    "it is done: get the tray out of the oven",
+    "move the tray from the oven to the table",
+  },
+}

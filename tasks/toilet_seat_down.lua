@@ -1,0 +1,13 @@
+-- Lower the seat of the toilet, which is up.
+return task {
+  world = "tabletop",
+  objects = { toilet = { "toilet", at = { between(0.16, 0.28), between(-0.18, 0.18), 0.75 }, yaw = between(deg(-45), deg(45)), joints = { seat = between(deg(92), deg(99)) } } },
+  init = { is.open("toilet.seat") },
+  goal = { is.closed("toilet.seat"), is.hand_empty() },
+  instructions = {
+    "put the toilet seat down",
+    "somebody left the seat up: lower it",
+    "bring the seat of the toilet down onto the bowl",
+    "let the toilet be fit to sit on again",
+  },
+}

@@ -1,0 +1,2 @@
+-- A low holder for one hanger.
+return require "worlds.lib.rails" (0.22, 0.09)
