@@ -1,0 +1,108 @@
+// What authors asked for: skills that know of their predicates, parts of variables, looks that follow facts.
+#include <catch2/catch.hpp>
+
+#include "engine/episode/observation.h"
+#include "engine/render/renderer.h"
+#include "tests/tasks/run_task.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+std::shared_ptr<const Library> authors() {
+  static const std::shared_ptr<const Library> shared =
+      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/authors"}});
+  return shared;
+}
+
+EpisodeRecord run_authors(const std::string& task) {
+  RunOptions options;
+  options.seed = 3;
+  EpisodeScripts scripts(authors(), task, "", options.seed);
+  return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+}
+
+bool has_action(const Domain& domain, const std::string& name) { return domain.action(name) != nullptr; }
+
+}  // namespace
+
+TEST_CASE("a skill that extends another is in the domains of those tasks alone that name it") {
+  const Domain& own = authors()->domain_of("take_the_guarded");
+  CHECK(has_action(own, "wary_pick"));
+  CHECK_FALSE(has_action(own, "pick"));
+  CHECK(has_action(own, "place"));
+  for (const char* other : {"open_each", "pick_and_lift"}) {
+    CHECK(has_action(authors()->domain_of(other), "pick"));
+    CHECK_FALSE(has_action(authors()->domain_of(other), "wary_pick"));
+  }
+}
+
+TEST_CASE("a fact that ends when a thing is moved is deleted by skills that know nothing of it") {
+  const EpisodeRecord episode = run_authors("take_the_guarded");
+  INFO(episode.detail);
+  REQUIRE(episode.outcome == Outcome::success);
+  const std::vector<std::string> skills = skills_of(episode);
+  REQUIRE(skills.size() == 4);
+  CHECK(skills[0] == "wary_pick guard");
+  CHECK(skills[2] == "wary_pick rear");
+  const SegmentRecord* first = nullptr;
+  for (const SegmentRecord& segment : episode.segments)
+    if (first == nullptr && segment.kind == SegmentKind::skill) first = &segment;
+  CHECK(first->arguments[0] == "guard");
+  const EffectRecord ends{{"guards", {"guard", "rear"}}, true};
+  CHECK(std::count(first->declared_effects.begin(), first->declared_effects.end(), ends) == 1);
+  CHECK(first->effect_held == true);
+}
+
+TEST_CASE("formulas name parts of variables, and part_of relates them") {
+  const EpisodeRecord episode = run_authors("open_each");
+  INFO(episode.detail);
+  REQUIRE(episode.outcome == Outcome::success);
+  CHECK(skills_of(episode) == std::vector<std::string>{"open chest.top_drawer"});
+  const auto holds = [&](const Fact& fact) {
+    return std::any_of(episode.facts.begin(), episode.facts.end(),
+                       [&](const FactRecord& one) { return one.fact == fact && one.open_end; });
+  };
+  CHECK(holds({"part_of", {"chest.top_drawer", "chest"}}));
+  CHECK(holds({"part_name", {"chest.top_drawer", "top_drawer"}}));
+}
+
+TEST_CASE("a lamp shines from the frame on at which its button has been pressed") {
+  RunOptions options;
+  options.seed = 3;
+  const EpisodeRecord episode = run_task("lamp_on", first_variation("lamp_on"), options);
+  REQUIRE(episode.outcome == Outcome::success);
+  const auto scene = std::make_shared<const Scene>(scene_from_document(episode.scene_document));
+  const auto pressed = std::find_if(episode.facts.begin(), episode.facts.end(),
+                                    [](const FactRecord& one) { return one.fact.predicate == "pressed"; });
+  REQUIRE(pressed != episode.facts.end());
+  REQUIRE(pressed->first_frame > 0);
+  const ShownFacts lit{{"pressed", "lamp.button"}};
+  CHECK(facts_that_show(*scene) == lit);
+  CHECK(state_at(*scene, episode, pressed->first_frame - 1).facts.empty());
+  CHECK(state_at(*scene, episode, pressed->first_frame).facts == lit);
+  CHECK(state_at(*scene, episode, static_cast<std::int64_t>(episode.frames.size()) - 1).facts == lit);
+
+  // The same moment in both looks, drawn in turns: what is kept of one must not show in the other.
+  ScenePoses poses = scene_poses(*scene, state_at(*scene, episode, 0));
+  const Camera& camera = scene->cameras[static_cast<std::size_t>(1)];
+  const std::vector<View> views{{camera, world_from_camera(*scene, poses, camera)}};
+  std::vector<std::vector<Picture>> drawn;
+  for (const bool osmesa : {false, true}) {
+    const auto renderer = osmesa ? make_osmesa_renderer() : make_renderer();
+    renderer->load(scene);
+    for (int i = 0; i < 6; ++i) {
+      poses.facts = i % 4 < 2 ? ShownFacts{} : lit;
+      DrawOptions draw;
+      draw.shadows = i == 5;
+      renderer->draw(poses, views, draw, drawn.emplace_back());
+    }
+    const std::size_t first = drawn.size() - 6;
+    CHECK(drawn[first][0].rgb == drawn[first + 1][0].rgb);
+    CHECK(drawn[first][0].rgb == drawn[first + 4][0].rgb);
+    CHECK(drawn[first + 2][0].rgb == drawn[first + 3][0].rgb);
+    CHECK(drawn[first][0].rgb != drawn[first + 2][0].rgb);
+    CHECK(drawn[first][0].depth == drawn[first + 2][0].depth);
+  }
+}

@@ -1,0 +1,12 @@
+-- Open the top drawer of everything that has one.
+return task {
+  world = "tabletop",
+  objects = { chest = { "chest", at = { 0.35, 0, 0.75 } } },
+  goal = {
+    forall("?f: furniture", is.open("?f.top_drawer")),
+    forall("?f: furniture", is_not.open("?f.middle_drawer")),
+    is_not(exists("?part: drawer", all_of(is.part_of("?part", "chest"), is.blocked("?part")))),
+    is.hand_empty(),
+  },
+  instructions = { "open each top drawer" },
+}
