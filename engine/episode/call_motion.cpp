@@ -88,10 +88,23 @@ PartWay way_of_part(const Rollout& rollout, const std::string& name, double posi
     return Transform(view.part_at(name, here + share * (position - here)) * part_from_world);
   };
   way.axis = view.world_from(name).linear() * joint.axis.normalized();
-  if (joint.kind == JointKind::hinge) way.turn = position - here;
+  if (joint.kind != JointKind::slider) way.turn = position - here;
   const double last = std::clamp(position, joint.lower, joint.upper);
   if (last != position) way.stop = std::clamp((last - here) / (position - here), 0.0, 1.0);
   return way;
+}
+
+// What is held may touch what it is joined to, and what is joined to it comes along.
+static void allow_joined(const World& world, const std::optional<PartRef>& keep, CollisionState& space) {
+  if (!keep || keep->body < 0) return;
+  const std::vector<Body>& bodies = world.scene().bodies;
+  const Body& held = bodies[static_cast<std::size_t>(keep->body)];
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    const Body& body = bodies[static_cast<std::size_t>(i)];
+    if (!body.joined_to.empty() && body.joined_to == held.name && world.joined({i, 0})) space.remove({i, 0});
+    if (body.name != held.joined_to || !world.joined({keep->body, 0})) continue;
+    for (int part = 0; part < static_cast<int>(body.parts.size()); ++part) space.allow({i, part});
+  }
 }
 
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
@@ -102,6 +115,7 @@ std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vect
       world.scene().bodies[static_cast<std::size_t>(rollout.keep->body)].free)
     space->hold(rollout.keep->body, world.world_from_tip().inverse() * world.world_from_part(*rollout.keep));
   for (const PartRef part : touchable) space->allow(part);
+  allow_joined(world, rollout.keep, *space);
   for (const PartRef part : rollout.imagined_away) space->remove(part);
   return space;
 }

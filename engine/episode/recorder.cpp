@@ -9,12 +9,13 @@ void add_joints(std::vector<JointName>& joints, const Body& body, int index, con
   for (std::size_t part = 1; part < body.parts.size(); ++part) {
     const Joint& joint = body.parts[part].joint;
     if (joint.kind == JointKind::fixed) continue;
-    const bool hinge = joint.kind == JointKind::hinge;
     const std::string own = joint.name.empty() ? body.parts[part].name : joint.name;
     joints.push_back({body.name + "." + own,
                       {index, static_cast<int>(part)},
-                      hinge ? "hinge" : "slider",
-                      hinge ? "rad" : "m",
+                      joint.kind == JointKind::slider  ? "slider"
+                      : joint.kind == JointKind::screw ? "screw"
+                                                       : "hinge",
+                      joint.kind == JointKind::slider ? "m" : "rad",
                       joint.lower,
                       joint.upper,
                       std::find(driven.begin(), driven.end(), static_cast<int>(part)) != driven.end()});

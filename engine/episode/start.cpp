@@ -66,12 +66,17 @@ class Draft {
     const int index = scene_.body_index(thing->body);
     Body& body = scene_.bodies[static_cast<std::size_t>(index)];
     body.world_from_body = pose;
-    if (!body.free) return rebuild();
+    if (!body.free || carries(body)) return rebuild();
     world_->apply(operation::Place{index, pose});
     state_->move_body(index, pose);
   }
 
  private:
+  bool carries(const Body& body) const {  // another body is joined to it
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                       [&](const Body& other) { return other.joined_to == body.name; });
+  }
+
   void rebuild() {
     world_ = std::make_unique<World>(std::make_shared<const Scene>(scene_));
     view_ = std::make_unique<WorldView>(*world_);
@@ -91,7 +96,8 @@ bool opens(const Scene& scene, const Object& object) {
   const std::vector<Part>& parts = scene.bodies[static_cast<std::size_t>(index)].parts;
   return std::any_of(parts.begin() + 1, parts.end(), [](const Part& part) {
     const Joint& joint = part.joint;
-    return joint.kind == JointKind::hinge || (joint.kind == JointKind::slider && joint.upper - joint.lower > kFar);
+    return joint.kind == JointKind::hinge || joint.kind == JointKind::screw ||
+           (joint.kind == JointKind::slider && joint.upper - joint.lower > kFar);
   });
 }
 

@@ -182,12 +182,12 @@ Transform WorldView::part_at(std::string_view name, double position) const {
   const PartRef ref = part_of(name);
   const Body& body = ref.body < 0 ? scene().robot.body : scene().bodies[static_cast<std::size_t>(ref.body)];
   const Part& part = body.parts[static_cast<std::size_t>(ref.part)];
-  if (part.parent < 0) return world_->world_from_part(ref);
-  Transform moved = Transform::Identity();
-  if (part.joint.kind == JointKind::hinge)
-    moved.linear() = Eigen::AngleAxisd(position, part.joint.axis.normalized()).toRotationMatrix();
-  if (part.joint.kind == JointKind::slider) moved.translation() = position * part.joint.axis.normalized();
-  return world_->world_from_part({ref.body, part.parent}) * part.joint.parent_from_joint * moved;
+  PartRef parent{ref.body, part.parent};
+  if (part.parent < 0) {
+    if (!world_->joined(ref)) return world_->world_from_part(ref);
+    parent = {scene().body_index(body.joined_to), body.joined_part};
+  }
+  return world_->world_from_part(parent) * part.joint.parent_from_joint * joint_motion(part.joint, position);
 }
 
 bool WorldView::touching(std::string_view a, std::string_view b) const { return contact_force(a, b) > 0; }

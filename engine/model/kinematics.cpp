@@ -1,23 +1,12 @@
 #include "engine/model/kinematics.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "engine/base/error.h"
 
 namespace stampede {
 namespace {
-
-Transform joint_motion(const Joint& joint, double position) {
-  switch (joint.kind) {
-    case JointKind::hinge:
-      return Transform(Eigen::AngleAxisd(position, joint.axis.normalized()));
-    case JointKind::slider:
-      return translation(position * joint.axis.normalized());
-    case JointKind::fixed:
-      break;
-  }
-  return Transform::Identity();
-}
 
 const Part& part_at(const Body& body, int index) { return body.parts[static_cast<std::size_t>(index)]; }
 
@@ -42,6 +31,23 @@ void check(const Robot& robot) {
 
 }  // namespace
 
+double lead_of(const Joint& joint) { return joint.kind == JointKind::screw ? joint.pitch / (2 * std::numbers::pi) : 0; }
+
+Transform joint_motion(const Joint& joint, double position) {
+  const Vector3 axis = joint.axis.normalized();
+  switch (joint.kind) {
+    case JointKind::hinge:
+      return Transform(Eigen::AngleAxisd(position, axis));
+    case JointKind::slider:
+      return translation(position * axis);
+    case JointKind::screw:
+      return translation(lead_of(joint) * position * axis) * Transform(Eigen::AngleAxisd(position, axis));
+    case JointKind::fixed:
+      break;
+  }
+  return Transform::Identity();
+}
+
 void forward_kinematics(const Body& body, const Transform& world_from_base, std::span<const double> part_positions,
                         std::vector<Transform>& world_from_part) {
   if (part_positions.size() != body.parts.size())
@@ -57,10 +63,13 @@ void forward_kinematics(const Body& body, const Transform& world_from_base, std:
     const Transform& parent = world_from_part[static_cast<std::size_t>(part.parent)];
     Transform& here = world_from_part[i];
     here = product(parent, part.joint.parent_from_joint);
-    if (part.joint.kind == JointKind::slider)
-      here.translation() += part_positions[i] * (here.linear() * part.joint.axis.normalized());
-    else if (part.joint.kind == JointKind::hinge)
-      here.linear() *= Eigen::AngleAxisd(part_positions[i], part.joint.axis.normalized()).toRotationMatrix();
+    const Joint& joint = part.joint;
+    if (joint.kind == JointKind::slider || joint.kind == JointKind::screw) {
+      const double way = part_positions[i] * (joint.kind == JointKind::slider ? 1 : lead_of(joint));
+      here.translation() += way * (here.linear() * joint.axis.normalized());
+    }
+    if (joint.kind == JointKind::hinge || joint.kind == JointKind::screw)
+      here.linear() *= Eigen::AngleAxisd(part_positions[i], joint.axis.normalized()).toRotationMatrix();
   }
 }
 

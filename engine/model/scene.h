@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,14 +46,15 @@ struct Surface {
   bool anchor = false;  // Bullet's friction anchor: for finger pads
 };
 
-enum class JointKind { fixed, hinge, slider };
+enum class JointKind { fixed, hinge, slider, screw };
 
-// How a part moves relative to its parent. Units: rad, N m, N m s for hinges; m, N, N s/m for sliders.
+// How a part moves relative to its parent. Units: rad, N m, N m s for hinges and screws; m, N, N s/m for sliders.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
   Vector3 axis = Vector3::UnitZ();                      // in the joint's frame
   Transform parent_from_joint = Transform::Identity();  // the part's frame is the joint's frame, moved by q
+  double pitch = 0;  // of a screw: travel along the axis in a whole turn, m; negative: left-handed
   double lower = 0, upper = 0;
   double initial = 0;       // position at the start of an episode
   double damping = 0;       // torque per speed
@@ -72,6 +74,8 @@ struct Joint {
   std::string follows;
   double follow_ratio = 1;
   double follow_offset = 0;
+  // Of a body that is joined to another: where the joint lets go of it, for good. Infinite: nowhere.
+  double lets_go = std::numeric_limits<double>::infinity();
 };
 
 struct Part {
@@ -86,10 +90,14 @@ struct Part {
   int instance = 0;  // value in instance masks; 0: not numbered yet, or never in them (see masks.h)
 };
 
-// fixed: part 0 stands still, further parts move on joints (furniture, the robot). free: exactly one part.
+// Part 0 stands still or is free; further parts move on joints: furniture, the robot; a remote control with its
+// buttons. A free body of one part may be joined to a part of an earlier body by the joint of its part 0, until that
+// lets go of it: the cap of a bottle. Then `world_from_body` follows from where that part is.
 struct Body {
   std::string name;
   bool free = false;
+  std::string joined_to = {};  // the other body; empty: it is joined to none
+  int joined_part = 0;
   bool fixture = false;  // of the world, there in each of its tasks
   std::vector<Part> parts;
   Transform world_from_body = Transform::Identity();  // of part 0, at the start
@@ -222,6 +230,10 @@ struct Scene {
   int region_index(std::string_view name) const;
   const Object* object(std::string_view name) const;
 };
+
+// What a joint does to what moves on it: the part's frame at a position, as seen from where it is at 0.
+Transform joint_motion(const Joint& joint, double position);
+double lead_of(const Joint& joint);  // of a screw, m/rad; else 0
 
 // What the attribute part_name says of `drawer` and, as a word that PDDL can write, of `drawer.space`: drawer--space.
 std::string part_name_of(std::string_view name);

@@ -1,5 +1,6 @@
 // The canonical document of a scene. One list of fields serves writing and reading, so they cannot drift apart.
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,7 +16,7 @@ using Json = nlohmann::json;  // keys sorted; doubles written so that they read 
 constexpr int kFormat = 2;
 constexpr std::array kShapeNames{"box", "sphere", "cylinder", "capsule", "cone", "hull", "mesh"};
 constexpr std::array kTextureNames{"image", "checker", "stripes", "noise"};
-constexpr std::array kJointNames{"fixed", "hinge", "slider"};
+constexpr std::array kJointNames{"fixed", "hinge", "slider", "screw"};
 constexpr std::array kObjectNames{"body", "part", "region", "hand"};
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -51,6 +52,7 @@ void fields(Archive& a, Joint& j) {
   a("latch_key", j.latch_key), a("latch_open", j.latch_open), a("latch_close", j.latch_close);
   a.optional("stiffness", j.stiffness, 0.0), a.optional("follows", j.follows, std::string());
   a.optional("follow_ratio", j.follow_ratio, 1.0), a.optional("follow_offset", j.follow_offset, 0.0);
+  a.optional("pitch", j.pitch, 0.0), a.optional("lets_go", j.lets_go, std::numeric_limits<double>::infinity());
 }
 
 template <typename Archive>
@@ -64,6 +66,7 @@ template <typename Archive>
 void fields(Archive& a, Body& b) {
   a("name", b.name), a("free", b.free), a("fixture", b.fixture), a("parts", b.parts);
   a("world_from_body", b.world_from_body);
+  a.optional("joined_to", b.joined_to, std::string()), a.optional("joined_part", b.joined_part, 0);
 }
 
 template <typename Archive>

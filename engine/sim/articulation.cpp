@@ -3,31 +3,70 @@
 #include <btBulletCollisionCommon.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/sim/bullet_convert.h"
 
 namespace stampede {
 
+namespace {
+
+constexpr int kFloatingDofs = 6;
+constexpr double kLargestTurn = 0.785398163397448;  // rad a step
+
+}  // namespace
+
 int Articulation::add(const Link& link) {
   Place place;
-  if (link.kind != JointKind::fixed) {
-    place.dof = dofs();
-    position.push_back(0);
-    velocity.push_back(0);
-    torque.push_back(0);
-  }
+  const bool root = floating_ && links_.empty();
+  place.dofs = root ? kFloatingDofs : link.kind == JointKind::fixed ? 0 : 1;
+  if (place.dofs > 0) place.dof = dofs();
   links_.push_back(link);
   places_.push_back(place);
   motions_.resize(links_.size());
   composites_.resize(links_.size());
   inertias_.resize(links_.size());
-  const auto count = static_cast<std::size_t>(dofs());
+  const auto count = position.size() + static_cast<std::size_t>(place.dofs);
+  position.resize(count, 0);
+  velocity.resize(count, 0);
+  torque.resize(count, 0);
+  twists_.resize(count);
   bias_.assign(count, 0);
   mass_.assign(count * count, 0);
   factor_.assign(count * count, 0);
   inverse_.assign(count * static_cast<std::size_t>(width()), 0);
+  if (root) {  // its frame is the base's
+    world_from_base_ = world_from_base_ * link.parent_from_joint;
+    links_[0].parent_from_joint = Transform::Identity();
+    for (int i = 0; i < 3; ++i) {
+      twists_[static_cast<std::size_t>(i)].linear = Vector3::Unit(i);
+      twists_[static_cast<std::size_t>(3 + i)].angular = Vector3::Unit(i);
+    }
+  }
   return static_cast<int>(links_.size()) - 1;
+}
+
+void Articulation::set_root(const Transform& world_from_root) {
+  world_from_base_ = world_from_root;
+  place();
+}
+
+void Articulation::move(double dt) {
+  std::size_t first = 0;
+  if (floating_) {
+    first = kFloatingDofs;
+    world_from_base_.translation() += dt * Vector3(velocity[0], velocity[1], velocity[2]);
+    const Vector3 spin(velocity[3], velocity[4], velocity[5]);
+    const double speed = spin.norm();
+    if (speed * dt >= 1e-15) {
+      Matrix3 turned = Eigen::AngleAxisd(std::min(speed * dt, kLargestTurn), spin / speed) * world_from_base_.linear();
+      turned = turned * (1.5 * Matrix3::Identity() - 0.5 * turned.transpose() * turned);  // stays a rotation
+      world_from_base_.linear() = turned;
+    }
+  }
+  for (std::size_t i = first; i < position.size(); ++i) position[i] += dt * velocity[i];
+  place();
 }
 
 void Articulation::place() {
@@ -40,11 +79,19 @@ void Articulation::place() {
     const Vector3 parent_origin = on_base ? Vector3(world_from_base_.translation()) : parent.origin;
     here.turn = parent_turn * link.parent_from_joint.linear();
     here.origin = parent_turn * link.parent_from_joint.translation() + parent_origin;
-    here.axis = here.turn * link.axis;
-    if (link.kind == JointKind::hinge)
-      here.turn *= Eigen::AngleAxisd(position[static_cast<std::size_t>(here.dof)], link.axis).toRotationMatrix();
-    else if (link.kind == JointKind::slider)
-      here.origin += position[static_cast<std::size_t>(here.dof)] * here.axis;
+    if (here.dofs == 1) {
+      const double q = position[static_cast<std::size_t>(here.dof)];
+      const Vector3 axis = here.turn * link.axis;
+      Twist& twist = twists_[static_cast<std::size_t>(here.dof)];
+      if (link.kind == JointKind::slider) {
+        twist.linear = axis;
+      } else {
+        twist.linear = link.lead * axis;
+        twist.angular = axis;
+        here.turn *= Eigen::AngleAxisd(q, link.axis).toRotationMatrix();
+      }
+      here.origin += q * twist.linear;
+    }
     here.centre = here.turn * link.centre + here.origin;
     btTransform pose(to_bullet(Matrix3(here.turn * link.link_from_object.linear())),
                      to_bullet(Vector3(here.turn * link.link_from_object.translation() + here.origin)));
@@ -75,29 +122,29 @@ void Articulation::find_bias(const Vector3& gravity) {
       motion.linear_rate =
           parent.linear_rate + parent.angular_rate.cross(arm) + parent.angular.cross(parent.angular.cross(arm));
     }
-    if (here.dof >= 0) {
-      const Vector3 rate = velocity[static_cast<std::size_t>(here.dof)] * here.axis;
-      if (link.kind == JointKind::hinge) {
-        motion.angular_rate += motion.angular.cross(rate);
-        motion.angular += rate;
-      } else {
-        motion.linear_rate += 2 * motion.angular.cross(rate);
-        motion.linear += rate;
-      }
+    Vector3 rate = Vector3::Zero(), spin = Vector3::Zero();  // relative to the parent
+    for (int dof = here.dof; dof < here.dof + here.dofs; ++dof) {
+      rate += velocity[static_cast<std::size_t>(dof)] * twists_[static_cast<std::size_t>(dof)].linear;
+      spin += velocity[static_cast<std::size_t>(dof)] * twists_[static_cast<std::size_t>(dof)].angular;
     }
+    motion.angular_rate += motion.angular.cross(spin);
+    motion.linear_rate += 2 * motion.angular.cross(rate);
+    motion.angular += spin;
+    motion.linear += rate;
     const Vector3 arm = here.centre - here.origin;
-    const Vector3 rate =
+    const Vector3 acceleration =
         motion.linear_rate + motion.angular_rate.cross(arm) + motion.angular.cross(motion.angular.cross(arm));
-    motion.force = link.mass * (rate - gravity);
+    motion.force = link.mass * (acceleration - gravity);
     motion.moment = inertias_[i] * motion.angular_rate + motion.angular.cross(inertias_[i] * motion.angular) +
                     arm.cross(motion.force);
   }
   for (std::size_t i = links_.size(); i-- > 0;) {
     const Place& here = places_[i];
     const Motion& motion = motions_[i];
-    if (here.dof >= 0)
-      bias_[static_cast<std::size_t>(here.dof)] =
-          here.axis.dot(links_[i].kind == JointKind::hinge ? motion.moment : motion.force);
+    for (int dof = here.dof; dof < here.dof + here.dofs; ++dof) {
+      const Twist& twist = twists_[static_cast<std::size_t>(dof)];
+      bias_[static_cast<std::size_t>(dof)] = twist.linear.dot(motion.force) + twist.angular.dot(motion.moment);
+    }
     if (links_[i].parent < 0) continue;
     const auto p = static_cast<std::size_t>(links_[i].parent);
     motions_[p].force += motion.force;
@@ -117,29 +164,25 @@ void Articulation::find_mass() {
         inertias_[i] + composite.mass * (centre.squaredNorm() * Matrix3::Identity() - centre * centre.transpose());
   }
   std::fill(mass_.begin(), mass_.end(), 0.0);
-  const auto at_base = [&](const Place& place, JointKind kind) -> Vector3 {  // speed there, at unit speed of the joint
-    return kind == JointKind::hinge ? Vector3((place.origin - base).cross(place.axis)) : place.axis;
+  const auto at_base = [&](const Place& place, const Twist& twist) -> Vector3 {  // the speed there
+    return twist.linear + (place.origin - base).cross(twist.angular);
   };
   for (std::size_t i = links_.size(); i-- > 0;) {
     const Composite& composite = composites_[i];
     const Place& here = places_[i];
-    const bool turns = links_[i].kind == JointKind::hinge;
-    if (here.dof >= 0) {
-      const Vector3 linear = at_base(here, links_[i].kind);
-      Vector3 momentum = composite.mass * linear, spin = composite.moment.cross(linear);
-      if (turns) {
-        momentum += here.axis.cross(composite.moment);
-        spin += composite.inertia * here.axis;
-      }
-      const auto row = static_cast<std::size_t>(here.dof);
+    for (int row = here.dof; row < here.dof + here.dofs; ++row) {
+      const Twist& twist = twists_[static_cast<std::size_t>(row)];
+      const Vector3 linear = at_base(here, twist);
+      const Vector3 momentum = composite.mass * linear + twist.angular.cross(composite.moment);
+      const Vector3 spin = composite.moment.cross(linear) + composite.inertia * twist.angular;
       for (int at = static_cast<int>(i); at >= 0; at = links_[static_cast<std::size_t>(at)].parent) {
         const Place& other = places_[static_cast<std::size_t>(at)];
-        if (other.dof < 0) continue;
-        const JointKind kind = links_[static_cast<std::size_t>(at)].kind;
-        double inertia = at_base(other, kind).dot(momentum);
-        if (kind == JointKind::hinge) inertia += other.axis.dot(spin);
-        const auto column = static_cast<std::size_t>(other.dof);
-        mass_[row * count + column] = mass_[column * count + row] = inertia;
+        for (int column = other.dof; column < other.dof + other.dofs; ++column) {
+          const Twist& against = twists_[static_cast<std::size_t>(column)];
+          const double inertia = at_base(other, against).dot(momentum) + against.angular.dot(spin);
+          const auto r = static_cast<std::size_t>(row), c = static_cast<std::size_t>(column);
+          mass_[r * count + c] = mass_[c * count + r] = inertia;
+        }
       }
     }
     if (links_[i].parent < 0) continue;

@@ -1,4 +1,5 @@
-// A tree of links on joints that hangs on a base that stands still, in reduced coordinates: one number a joint.
+// A tree of links on joints in reduced coordinates, one number a joint. Its base stands still, or floats: then the
+// first link is a free body that carries the others, and moves in six numbers more.
 #pragma once
 
 #include <vector>
@@ -16,6 +17,7 @@ class Articulation {
     JointKind kind = JointKind::fixed;
     Transform parent_from_joint = Transform::Identity();  // from the parent's frame, the base's where there is none
     Vector3 axis = Vector3::UnitZ();                      // unit, in the joint's frame
+    double lead = 0;                                      // of a screw, m/rad
     double mass = 0;
     Vector3 centre = Vector3::Zero();     // of mass, in the link's frame
     Matrix3 inertia = Matrix3::Zero();    // about the centre, in the link's axes
@@ -23,15 +25,23 @@ class Articulation {
     Transform link_from_object = Transform::Identity();
   };
 
-  explicit Articulation(const Transform& world_from_base) : world_from_base_(world_from_base) {}
+  Articulation(const Transform& world_from_base, bool floating)
+      : world_from_base_(world_from_base), floating_(floating) {}
   int add(const Link& link);                                                       // its index
   int dof(int link) const { return places_[static_cast<std::size_t>(link)].dof; }  // -1: a fixed joint
+  bool floating() const { return floating_; }
   int dofs() const { return static_cast<int>(position.size()); }
   int width() const { return (dofs() + 3) / 4 * 4; }  // of arrays that are read four numbers at a time
 
-  // By dof: m or rad, and their rates. Whoever sets positions calls `place` before anything else.
+  // By dof: m or rad, and their rates. Whoever sets positions calls `place` before anything else. The first six of a
+  // floating tree: no positions; the speeds of the first link's origin and its spin, in world axes.
   std::vector<double> position, velocity;
   std::vector<double> torque;  // N or N m, given from outside for the next step
+
+  // The first link of a floating tree; `place` is called by these.
+  const Transform& world_from_root() const { return world_from_base_; }
+  void set_root(const Transform& world_from_root);
+  void move(double dt);  // at the speeds that it has
 
   // Forward kinematics: where the links are, and their objects.
   void place();
@@ -51,19 +61,21 @@ class Articulation {
   void jacobian(int link, const Vector3& point, Visit visit) const {
     for (int at = link; at >= 0; at = links_[static_cast<std::size_t>(at)].parent) {
       const Place& here = places_[static_cast<std::size_t>(at)];
-      if (here.dof < 0) continue;
-      if (links_[static_cast<std::size_t>(at)].kind == JointKind::hinge)
-        visit(here.dof, Vector3(here.axis.cross(point - here.origin)), here.axis);
-      else
-        visit(here.dof, here.axis, Vector3(Vector3::Zero()));
+      for (int dof = here.dof; dof < here.dof + here.dofs; ++dof) {
+        const Twist& twist = twists_[static_cast<std::size_t>(dof)];
+        visit(dof, Vector3(twist.linear + twist.angular.cross(point - here.origin)), twist.angular);
+      }
     }
   }
 
  private:
   struct Place {  // of a link in the world
-    int dof = -1;
+    int dof = -1, dofs = 0;
     Matrix3 turn = Matrix3::Identity();
-    Vector3 origin = Vector3::Zero(), axis = Vector3::UnitZ(), centre = Vector3::Zero();
+    Vector3 origin = Vector3::Zero(), centre = Vector3::Zero();
+  };
+  struct Twist {  // what a dof at unit speed does to its link: the speed of the link's origin, and its spin
+    Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
   };
   struct Motion {  // of a link: speed and acceleration of its origin, and what it pulls its parent with
     Vector3 linear, angular, linear_rate, angular_rate, force, moment;
@@ -78,8 +90,10 @@ class Articulation {
   void invert_mass();
 
   Transform world_from_base_;
+  bool floating_;
   std::vector<Link> links_;
   std::vector<Place> places_;
+  std::vector<Twist> twists_;
   std::vector<Motion> motions_;
   std::vector<Composite> composites_;
   std::vector<Matrix3> inertias_;  // about the centre, world axes

@@ -131,7 +131,7 @@ struct Assembly {
   int links = 0;
 };
 
-Assembly assemble(const Body& body) {
+Assembly assemble(const Body& body) {  // of a free one its first part moves
   const std::size_t count = body.parts.size();
   Assembly a{std::vector<bool>(count),
              std::vector<int>(count),
@@ -145,10 +145,10 @@ Assembly assemble(const Body& body) {
     if (p > 0 && (part.parent < 0 || parent >= p))
       throw Error(body.name, "part '" + part.name + "' comes before its parent", "order parts from the base outwards");
     const bool fixed = p == 0 || part.joint.kind == JointKind::fixed;
-    a.still[p] = p == 0 || (fixed && a.still[parent]);
+    a.still[p] = p == 0 ? !body.free : fixed && a.still[parent];
     a.host[p] = static_cast<int>(p);
     if (a.still[p]) continue;
-    if (fixed && !has_collision(part)) {  // a frame or a lump of mass: Bullet need not know of it
+    if (p > 0 && fixed && !has_collision(part)) {  // a frame or a lump of mass: Bullet need not know of it
       a.host[p] = a.host[parent];
       a.host_from_part[p] = a.host_from_part[parent] * part.joint.parent_from_joint;
     } else {
@@ -176,11 +176,10 @@ void World::Impl::build() {
     const Body& description = body(index);
     if (description.parts.empty()) throw Error(description.name, "a body needs at least one part", "give it a part");
     body_slot(index).parts.resize(description.parts.size());
-    if (description.free) {
+    if (description.free && description.parts.size() == 1)
       build_free(index);
-    } else {
-      build_fixed(index);
-    }
+    else
+      build_jointed(index);
   }
   build_robot_motors();
   build_mechanisms();
@@ -189,21 +188,48 @@ void World::Impl::build() {
 void World::Impl::build_free(int index) {
   const Body& description = body(index);
   const Part& part = description.parts[0];
-  if (description.parts.size() != 1)
-    throw Error(description.name, "a free body has exactly one part", "fix it to the world, or make it one part");
   const LinkFrame frame = link_frame(part, of_part(part, Transform::Identity()), description.name);
   const Transform link_from_part = frame.part_from_link.inverse();
   btCollisionObject& object = add_object({index, 0}, link_from_part, Role::free);
   object.setWorldTransform(to_bullet(Transform(description.world_from_body * frame.part_from_link)));
   body_slot(index).free = &dynamics.add_free({&object, part.mass, frame.moments, Vector3::Zero(), Vector3::Zero()});
+  if (!description.joined_to.empty()) join(index, frame.part_from_link);
 }
 
-void World::Impl::build_fixed(int index) {
+// A free body to the joint of another body's part.
+void World::Impl::join(int index, const Transform& part_from_link) {
+  const Body& description = body(index);
+  const int host = scene->body_index(description.joined_to);
+  if (host < 0 || host >= index || description.joined_part >= static_cast<int>(body(host).parts.size()) ||
+      description.joined_part < 0)
+    throw Error(description.name, "it is joined to '" + description.joined_to + "', which is no earlier body",
+                "order bodies so that what carries comes first");
+  const Joint& joint = description.parts[0].joint;
+  const PartSlot& on = slot({host, description.joined_part});
+  Bond bond;
+  bond.on = on.object;
+  bond.body = body_slot(index).free;
+  bond.on_from_joint = on.link_from_part * joint.parent_from_joint;
+  bond.body_from_joint = part_from_link.inverse();
+  bond.kind = joint.kind;
+  bond.axis = joint.axis.normalized();
+  bond.lead = lead_of(joint);
+  bond.lower = joint.lower;
+  bond.upper = joint.upper;
+  bond.friction = joint.friction;
+  bond.lets_go = joint.lets_go;
+  bond.upwards = joint.lets_go > joint.initial;
+  bond.position = joint.initial;
+  body_slot(index).bond = &dynamics.add_bond(bond);
+}
+
+void World::Impl::build_jointed(int index) {
   const Body& description = body(index);
   const Assembly assembly = assemble(description);
   BodySlot& slot = body_slot(index);
   std::vector<Transform> still(description.parts.size(), Transform::Identity());
-  if (assembly.links > 0) slot.tree = &dynamics.add_tree(description.world_from_body, index != kRobot);
+  if (assembly.links > 0)
+    slot.tree = &dynamics.add_tree(description.world_from_body, description.free, index != kRobot);
   for (std::size_t p = 0; p < description.parts.size(); ++p) {
     const Part& part = description.parts[p];
     const auto parent = static_cast<std::size_t>(std::max(part.parent, 0));
@@ -225,14 +251,21 @@ void World::Impl::build_fixed(int index) {
     const LinkFrame frame = link_frame(part, mass, description.name + "." + part.name);
     const std::vector<int>& pads = scene->robot.pads;
     const bool pad = index == kRobot && std::find(pads.begin(), pads.end(), static_cast<int>(p)) != pads.end();
-    btCollisionObject& object = add_object(ref, frame.part_from_link.inverse(), pad ? Role::pad : Role::moving);
+    const bool root = description.free && p == 0;
+    btCollisionObject& object = add_object(ref, frame.part_from_link.inverse(),
+                                           pad    ? Role::pad
+                                           : root ? Role::free
+                                                  : Role::moving);
     Articulation::Link link;
     // The parent's part may be merged into another: the joint is seen from that one's frame.
-    link.parent = assembly.still[parent] ? -1 : assembly.link[parent];
-    link.parent_from_joint =
-        (assembly.still[parent] ? still[parent] : assembly.host_from_part[parent]) * part.joint.parent_from_joint;
-    link.kind = part.joint.kind;
+    if (!root) {
+      link.parent = assembly.still[parent] ? -1 : assembly.link[parent];
+      link.parent_from_joint =
+          (assembly.still[parent] ? still[parent] : assembly.host_from_part[parent]) * part.joint.parent_from_joint;
+      link.kind = part.joint.kind;
+    }
     link.axis = part.joint.axis.normalized();
+    link.lead = lead_of(part.joint);
     link.mass = mass.mass;
     link.centre = mass.centre;
     link.inertia = mass.inertia;
@@ -240,7 +273,7 @@ void World::Impl::build_fixed(int index) {
     link.link_from_object = frame.part_from_link;
     mine.tree = slot.tree;
     mine.link = slot.tree->add(link);
-    mine.dof = slot.tree->dof(mine.link);
+    mine.dof = root ? -1 : slot.tree->dof(mine.link);
     dynamics.add_object(object, *slot.tree, mine.link);
     if (mine.dof < 0) continue;
     slot.tree->position[static_cast<std::size_t>(mine.dof)] = part.joint.initial;

@@ -137,9 +137,9 @@ void World::Impl::update_dynamics() {
   Load load;
   const auto held = contacts.grasped(scene->robot.pads);
   if (held && body(held->body).free) {
-    const Part& carried = part(*held);
-    const Transform& pose = world_from_part(*held);
-    load.mass = carried.mass;
+    const Part& carried = part({held->body, 0});  // what moves on it is light
+    const Transform& pose = world_from_part({held->body, 0});
+    for (const Part& one : body(held->body).parts) load.mass += one.mass;
     load.centre = pose * carried.centre_of_mass;
     load.inertia = pose.linear() * carried.inertia * pose.linear().transpose();
   }

@@ -84,8 +84,8 @@ FreeBody& Dynamics::add_free(const FreeBody& body) {
   return free_.back();
 }
 
-Articulation& Dynamics::add_tree(const Transform& world_from_base, bool may_sleep) {
-  trees_.emplace_back(world_from_base);
+Articulation& Dynamics::add_tree(const Transform& world_from_base, bool floating, bool may_sleep) {
+  trees_.emplace_back(world_from_base, floating);
   Mover mover;
   mover.tree = &trees_.back();
   mover.may_sleep = may_sleep;
@@ -186,6 +186,12 @@ void Dynamics::wake_with_neighbours(int first) {
       if (one.mover == woken && asleep(other)) rouse(other.mover);
       if (other.mover == woken && asleep(one)) rouse(one.mover);
     }
+    for (const Bond& bond : bonds_) {
+      const Node on = node_of(bond.on), own = node_of(bond.body->object);
+      if (!bond.holds) continue;
+      if (own.mover == woken && asleep(on)) rouse(on.mover);
+      if (on.mover == woken && asleep(own)) rouse(own.mover);
+    }
   }
 }
 
@@ -215,14 +221,24 @@ void Dynamics::set_rest(const std::vector<Rest>& rest) {
 
 bool Dynamics::slower(const Mover& mover, double than) {
   const double speed = than * kRestSpeed, spin = than * kRestSpin;
-  if (mover.free)
-    return mover.free->linear.squaredNorm() < speed * speed && mover.free->angular.squaredNorm() < spin * spin;
-  return std::all_of(mover.tree->velocity.begin(), mover.tree->velocity.end(),
-                     [&](double rate) { return std::abs(rate) < speed; });
+  if (const auto twist = free_twist(mover);
+      twist && (twist->first.squaredNorm() >= speed * speed || twist->second.squaredNorm() >= spin * spin))
+    return false;
+  if (!mover.tree) return true;
+  const auto joints = mover.tree->velocity.begin() + (mover.tree->floating() ? 6 : 0);
+  return std::all_of(joints, mover.tree->velocity.end(), [&](double rate) { return std::abs(rate) < speed; });
+}
+
+// Speed and spin of what moves freely: a free body, or the first link of a floating tree.
+std::optional<std::pair<Vector3, Vector3>> Dynamics::free_twist(const Mover& mover) {
+  if (mover.free) return std::pair(mover.free->linear, mover.free->angular);
+  if (!mover.tree->floating()) return std::nullopt;
+  const std::vector<double>& v = mover.tree->velocity;
+  return std::pair(Vector3(v[0], v[1], v[2]), Vector3(v[3], v[4], v[5]));
 }
 
 bool Dynamics::at_rest(const Mover& mover) {
-  if (!mover.free) return slower(mover, 1);
+  if (!free_twist(mover)) return slower(mover, 1);
   return slower(mover, kTrembling) && mover.mean_linear.squaredNorm() < kRestSpeed * kRestSpeed &&
          mover.mean_angular.squaredNorm() < kRestSpin * kRestSpin;
 }
@@ -233,9 +249,9 @@ void Dynamics::fall_asleep() {
   for (const Island& island : islands_) least_rest_[static_cast<std::size_t>(island.number)] = kRestSteps;
   for (Mover& mover : movers_) {
     if (mover.asleep) continue;
-    if (mover.free) {
-      mover.mean_linear += kSmoothing * (mover.free->linear - mover.mean_linear);
-      mover.mean_angular += kSmoothing * (mover.free->angular - mover.mean_angular);
+    if (const auto twist = free_twist(mover)) {
+      mover.mean_linear += kSmoothing * (twist->first - mover.mean_linear);
+      mover.mean_angular += kSmoothing * (twist->second - mover.mean_angular);
     }
     mover.rest = mover.may_sleep && at_rest(mover) ? std::min(mover.rest + 1, kRestSteps) : 0;
     int& least = least_rest_[static_cast<std::size_t>(mover.island)];
@@ -295,19 +311,23 @@ void Dynamics::find_touching() {
       mover = movers_[static_cast<std::size_t>(mover)].island;
     return mover;
   };
+  const auto unite = [&](int one, int other) {
+    const int a = root(one), b = root(other);
+    movers_[static_cast<std::size_t>(std::max(a, b))].island = std::min(a, b);
+  };
+  for (const Bond& bond : bonds_)
+    if (bond.holds && node_of(bond.on).mover >= 0) unite(node_of(bond.on).mover, node_of(bond.body->object).mover);
   touching_.clear();
   btDispatcher& dispatcher = *world_.getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(i);
     if (manifold->getNumContacts() == 0) continue;
     const Node one = node_of(manifold->getBody0()), other = node_of(manifold->getBody1());
+    if (bonded(*manifold->getBody0(), *manifold->getBody1())) continue;
     if (asleep(one) || asleep(other)) continue;  // with another sleeper, or near something that it does not meet
-    if (one.mover >= 0 && other.mover >= 0) {
-      const int a = root(one.mover), b = root(other.mover);
-      movers_[static_cast<std::size_t>(std::max(a, b))].island = std::min(a, b);
-    }
+    if (one.mover >= 0 && other.mover >= 0) unite(one.mover, other.mover);
     touching_.push_back({std::max(one.mover, other.mover), manifold->getBody0()->getWorldArrayIndex(),
-                         manifold->getBody1()->getWorldArrayIndex(), manifold, one.link >= 0 || other.link >= 0});
+                         manifold->getBody1()->getWorldArrayIndex(), manifold, on_link(one) || on_link(other)});
   }
   for (std::size_t m = 0; m < movers_.size(); ++m) movers_[m].island = root(static_cast<int>(m));
   for (Touching& touching : touching_) touching.island = movers_[static_cast<std::size_t>(touching.island)].island;
@@ -327,7 +347,11 @@ void Dynamics::find_touching() {
     if (movers_[m].island != static_cast<int>(m) || movers_[m].asleep) continue;
     const auto begin = next;
     while (next != touching_.end() && next->island == static_cast<int>(m)) ++next;
-    if (begin != next || movers_[m].tree)
+    const bool in_bond = std::any_of(bonds_.begin(), bonds_.end(), [&](const Bond& bond) {
+      return bond.holds &&
+             movers_[static_cast<std::size_t>(node_of(bond.body->object).mover)].island == static_cast<int>(m);
+    });
+    if (begin != next || movers_[m].tree || in_bond)
       islands_.push_back({static_cast<int>(m), static_cast<int>(begin - touching_.begin()),
                           static_cast<int>(next - touching_.begin())});
   }
@@ -356,9 +380,13 @@ void Dynamics::solve_island(const Island& island, int iterations) {
   }
   for (const Mover& mover : movers_)
     if (mover.tree && mover.island == island.number) add_joints(mover);
+  const std::size_t joints = joints_.size();
+  for (const Bond& bond : bonds_)
+    if (bond.holds && movers_[static_cast<std::size_t>(node_of(bond.body->object).mover)].island == island.number)
+      add_bond_rows(bond);
   if (settling) iterations = std::max(iterations, kPatience);
-  const SolverIsland rows{numbers_.data(),  velocities_.data(), rows_.data(),     joints_.data(),
-                          contacts_.data(), link_contacts,      contacts_.size(), joints_.size()};
+  const SolverIsland rows{numbers_.data(), velocities_.data(), rows_.data(), joints_.data(),         contacts_.data(),
+                          link_contacts,   contacts_.size(),   joints,       joints_.size() - joints};
   for (int i = 0; i < iterations; ++i)
     if (solve_rows_(rows, i % 2 == 1) <= kSettled) break;
   keep_results();
@@ -367,6 +395,11 @@ void Dynamics::solve_island(const Island& island, int iterations) {
 Dynamics::Node Dynamics::node_of(const btCollisionObject* object) {
   const auto* node = static_cast<const Node*>(object->getUserPointer());
   return node ? *node : Node{};
+}
+
+// On a joint: the first link of a floating tree is as free as a free body.
+bool Dynamics::on_link(const Node& node) const {
+  return node.link > 0 || (node.link == 0 && !movers_[static_cast<std::size_t>(node.mover)].tree->floating());
 }
 
 SolverRow& Dynamics::begin_row(std::vector<SolverRow>& rows) {
@@ -422,15 +455,22 @@ void Dynamics::add_point(SolverRow& row, const Node& node, const Vector3& point,
 }
 
 void Dynamics::add_turn(SolverRow& row, const Node& node, const Vector3& direction) {
+  add_screw(row, node, Vector3::Zero(), Vector3::Zero(), direction);
+}
+
+// The speed of a point along one direction, and the spin about another.
+void Dynamics::add_screw(SolverRow& row, const Node& node, const Vector3& point, const Vector3& linear,
+                         const Vector3& angular) {
   if (node.mover < 0) return;
   const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
   if (mover.free) {
-    add_free_side(row, mover, Vector3::Zero(), direction);
+    const Vector3 arm = point - from_bullet(mover.free->object->getWorldTransform().getOrigin());
+    add_free_side(row, mover, linear, arm.cross(linear) + angular);
     return;
   }
   double* jacobian = add_side(row, mover);
-  mover.tree->jacobian(node.link, Vector3::Zero(), [&](int dof, const Vector3&, const Vector3& angular) {
-    jacobian[dof] = angular.dot(direction);
+  mover.tree->jacobian(node.link, point, [&](int dof, const Vector3& speed, const Vector3& spin) {
+    jacobian[dof] = speed.dot(linear) + spin.dot(angular);
   });
   respond(*mover.tree, jacobian);
 }
@@ -611,12 +651,11 @@ void Dynamics::move() {
       continue;
     }
     Articulation& tree = *mover.tree;
-    for (std::size_t i = 0; i < tree.position.size(); ++i) {
+    for (std::size_t i = 0; i < tree.velocity.size(); ++i)
       tree.velocity[i] = std::clamp(speeds[i], -kFastestJoint, kFastestJoint);
-      tree.position[i] += dt_ * tree.velocity[i];
-    }
-    tree.place();
+    tree.move(dt_);
   }
+  move_bonds();
 }
 
 }  // namespace stampede

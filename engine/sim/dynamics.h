@@ -12,6 +12,8 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/sim/articulation.h"
@@ -56,17 +58,36 @@ struct JointStop {
   double lower = 0, upper = 0;
 };
 
+// A joint between a free body and something else, which lets go of the body at a limit.
+struct Bond {
+  const btCollisionObject* on = nullptr;
+  FreeBody* body = nullptr;
+  Transform on_from_joint = Transform::Identity(), body_from_joint = Transform::Identity();  // of the objects' frames
+  JointKind kind = JointKind::hinge;
+  Vector3 axis = Vector3::UnitZ();  // unit, in the joint's frame
+  double lead = 0;                  // of a screw, m/rad
+  double lower = 0, upper = 0;      // stops, where they differ
+  double friction = 0;              // N or N m
+  double lets_go = 0;
+  bool upwards = true;  // it is passed from below
+  // What tells one moment from another.
+  bool holds = true;
+  double position = 0;  // m or rad; stays when it has let go
+};
+
 class Dynamics {
  public:
   Dynamics(btCollisionWorld& world, const Vector3& gravity, double dt) : world_(world), gravity_(gravity), dt_(dt) {}
 
   // In the order in which they are added. References stay valid.
   FreeBody& add_free(const FreeBody& body);
-  Articulation& add_tree(const Transform& world_from_base, bool may_sleep);
+  Articulation& add_tree(const Transform& world_from_base, bool floating, bool may_sleep);
   void add_object(btCollisionObject& object, Articulation& tree, int link);  // the object moves with the link
   JointMotor& add_motor(Articulation& tree, int dof);
   void add_gear(Articulation& tree, const JointGear& gear);
   void add_stop(Articulation& tree, const JointStop& stop);
+  Bond& add_bond(const Bond& bond);
+  void place_bond(Bond& bond);  // puts the body where the joint at its position has it
 
   void step(int iterations);  // at most so many where a robot takes part
 
@@ -135,6 +156,12 @@ class Dynamics {
   void wake_with_neighbours(int mover);
   static bool at_rest(const Mover& mover);
   static bool slower(const Mover& mover, double than);  // so many times the speed of rest
+  static std::optional<std::pair<Vector3, Vector3>> free_twist(const Mover& mover);
+  bool on_link(const Node& node) const;
+  // bonds.cpp
+  bool bonded(const btCollisionObject& one, const btCollisionObject& other) const;
+  void add_bond_rows(const Bond& bond);
+  void move_bonds();
   void fall_asleep();
   void apply_forces();
   void find_touching();
@@ -147,6 +174,7 @@ class Dynamics {
   void add_free_side(SolverRow& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
   void add_point(SolverRow& row, const Node& node, const Vector3& point, const Vector3& direction);
   void add_turn(SolverRow& row, const Node& node, const Vector3& direction);
+  void add_screw(SolverRow& row, const Node& node, const Vector3& point, const Vector3& linear, const Vector3& angular);
   void start(SolverRow& row, double impulse);
   static void respond(const Articulation& tree, double* jacobian);
   void end_row(SolverRow& row, double target);
@@ -160,6 +188,7 @@ class Dynamics {
   std::deque<FreeBody> free_;  // deques: what they hold stays where it is
   std::deque<Articulation> trees_;
   std::deque<JointMotor> motors_;
+  std::deque<Bond> bonds_;
   std::deque<Node> nodes_;
   std::vector<Mover> movers_;
 

@@ -31,7 +31,10 @@ struct PartSlot {
 struct BodySlot {
   std::vector<PartSlot> parts;
   Articulation* tree = nullptr;  // null: nothing of it moves on a joint
-  FreeBody* free = nullptr;      // the one part of a free body
+  FreeBody* free = nullptr;      // the one part of a free body; with more parts it is a floating tree
+  Bond* bond = nullptr;          // by which the free body is joined to another
+
+  bool floats() const { return tree != nullptr && tree->floating(); }
 };
 
 // A joint of furniture with what acts on it. All of it is a function of joint positions and `locked`.
@@ -69,7 +72,8 @@ struct World::Impl {
   // build_bodies.cpp
   void build();
   void build_free(int body);
-  void build_fixed(int body);
+  void build_jointed(int body);
+  void join(int body, const Transform& part_from_link);
   btCollisionObject& add_object(PartRef ref, const Transform& link_from_part, Role role);
   void build_robot_motors();
   void build_mechanisms();
@@ -93,6 +97,7 @@ struct World::Impl {
   void canonicalise();
   void rebuild_broadphase();
   void place(int body, const Transform& world_from_body);
+  void forget_pairs(int body);
   std::vector<double> state() const;
   void set_state(const std::vector<double>& state);
 

@@ -39,9 +39,10 @@ static double inertia_of(const World::Impl& impl, PartRef ref) {
     const Transform& pose = impl.world_from_part({ref.body, p});
     const Vector3 arm = (pose * part.centre_of_mass - joint.translation()).cross(axis);
     const Vector3 local_axis = pose.linear().transpose() * axis;
+    const double lead = lead_of(mover.joint);
     sum += mover.joint.kind == JointKind::slider
                ? part.mass
-               : local_axis.dot(part.inertia * local_axis) + part.mass * arm.squaredNorm();
+               : local_axis.dot(part.inertia * local_axis) + part.mass * (arm.squaredNorm() + lead * lead);
   }
   return sum;
 }

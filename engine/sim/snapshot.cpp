@@ -1,5 +1,7 @@
 // Snapshots that restore bit for bit. Bullet keeps state that cannot be read (pair order, contact caches, trees of the
 // broadphase), so it is not saved but dropped, on both sides and in the same way.
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/sim/impl.h"
@@ -37,7 +39,8 @@ struct Reader {
 
 }  // namespace
 
-// Free bodies: rotation matrix, origin, velocities. Trees: positions, velocities.
+// Free bodies: rotation matrix, origin, velocities; whether a bond holds, and where. Trees: of a floating one the
+// rotation matrix and origin, positions, velocities.
 std::vector<double> World::Impl::state() const {
   std::vector<double> out;
   for (const BodySlot& slot : bodies) {
@@ -48,7 +51,13 @@ std::vector<double> World::Impl::state() const {
       put(out, to_bullet(slot.free->linear));
       put(out, to_bullet(slot.free->angular));
     }
+    if (slot.bond) out.insert(out.end(), {slot.bond->holds ? 1.0 : 0.0, slot.bond->position});
     if (!slot.tree) continue;
+    if (slot.floats()) {
+      const Transform& root = slot.tree->world_from_root();
+      for (int row = 0; row < 3; ++row) put(out, to_bullet(Vector3(root.linear().row(row))));
+      put(out, to_bullet(Vector3(root.translation())));
+    }
     out.insert(out.end(), slot.tree->position.begin(), slot.tree->position.end());
     out.insert(out.end(), slot.tree->velocity.begin(), slot.tree->velocity.end());
   }
@@ -66,7 +75,17 @@ void World::Impl::set_state(const std::vector<double>& state) {
       slot.free->angular = from_bullet(in.vector());
       slot.free->object->setWorldTransform(pose);
     }
+    if (slot.bond) {
+      slot.bond->holds = in.number() != 0;
+      slot.bond->position = in.number();
+    }
     if (!slot.tree) continue;
+    if (slot.floats()) {
+      Transform root = Transform::Identity();
+      for (int row = 0; row < 3; ++row) root.linear().row(row) = from_bullet(in.vector());
+      root.translation() = from_bullet(in.vector());
+      slot.tree->set_root(root);
+    }
     for (double& position : slot.tree->position) position = in.number();
     for (double& velocity : slot.tree->velocity) velocity = in.number();
     slot.tree->place();
@@ -106,19 +125,38 @@ void World::Impl::canonicalise() {
 }
 
 void World::Impl::place(int index, const Transform& world_from_body) {
-  if (index < 0 || index >= static_cast<int>(scene->bodies.size()) || !body_slot(index).free)
+  if (index < 0 || index >= static_cast<int>(scene->bodies.size()) || !body(index).free)
     throw Error("place", "body " + std::to_string(index) + " is not free", "place free bodies only");
-  FreeBody& free = *body_slot(index).free;
-  dynamics.wake(*free.object);
-  const Transform world_from_link = world_from_body * body_slot(index).parts[0].link_from_part.inverse();
-  free.linear = free.angular = Vector3::Zero();
-  free.object->setWorldTransform(to_bullet(world_from_link));
-  if (free.object->getBroadphaseHandle()) {
-    broadphase.getOverlappingPairCache()->cleanProxyFromPairs(free.object->getBroadphaseHandle(), &dispatcher);
-    world.updateSingleAabb(free.object);
+  BodySlot& mine = body_slot(index);
+  dynamics.wake(*mine.parts[0].object);
+  if (mine.free) {
+    mine.free->linear = mine.free->angular = Vector3::Zero();
+    mine.free->object->setWorldTransform(
+        to_bullet(Transform(world_from_body * mine.parts[0].link_from_part.inverse())));
+  } else {
+    std::fill(mine.tree->velocity.begin(), mine.tree->velocity.end(), 0.0);
+    mine.tree->set_root(world_from_body);
+  }
+  forget_pairs(index);
+  for (int other = 0; other < static_cast<int>(scene->bodies.size()); ++other) {
+    BodySlot& joined = body_slot(other);
+    if (!joined.bond || !joined.bond->holds || body(other).joined_to != body(index).name) continue;
+    joined.free->linear = joined.free->angular = Vector3::Zero();
+    dynamics.place_bond(*joined.bond);
+    forget_pairs(other);
   }
   canonical = false;
   ++stamp;
+}
+
+// What was moved by hand touches nothing until contacts are found anew.
+void World::Impl::forget_pairs(int index) {
+  for (const PartSlot& slot : body_slot(index).parts) {
+    btCollisionObject* object = slot.object;
+    if (!object->getBroadphaseHandle()) continue;
+    broadphase.getOverlappingPairCache()->cleanProxyFromPairs(object->getBroadphaseHandle(), &dispatcher);
+    world.updateSingleAabb(object);
+  }
 }
 
 Snapshot World::snapshot() const {

@@ -31,11 +31,12 @@ struct SolverIsland {
   SolverRow *rows = nullptr, *joints = nullptr;
   const SolverContact* contacts = nullptr;
   std::size_t link_contacts = 0, contact_count = 0;  // those from link_contacts on are on links
-  std::size_t joint_count = 0;
+  std::size_t joint_count = 0, bond_count = 0;       // rows of bonds follow those of joints
 };
 
 // What is held meets other things first and the fingers last, so that it stays in the hand; joints in between,
-// alternately from both ends. The greatest change of a row's speed, m/s or rad/s.
+// alternately from both ends; what is joined to something last of all, or a strong hand would tear it off. The greatest
+// change of a row's speed, m/s or rad/s.
 using SolveRows = double (*)(const SolverIsland& island, bool forwards);
 double solve_rows_plain(const SolverIsland& island, bool forwards);
 SolveRows solve_rows_avx2();     // null where the processor has none

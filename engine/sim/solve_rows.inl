@@ -93,5 +93,8 @@ inline double solve_all(const SolverIsland& island, bool forwards) {
   double most = solve_contacts(island, 0, island.link_contacts);
   for (std::size_t i = 0; i < island.joint_count; ++i)
     most = greater(most, solve_row(island, island.joints[forwards ? i : island.joint_count - 1 - i]));
-  return greater(most, solve_contacts(island, island.link_contacts, island.contact_count));
+  most = greater(most, solve_contacts(island, island.link_contacts, island.contact_count));
+  for (std::size_t i = 0; i < island.bond_count; ++i)
+    most = greater(most, solve_row(island, island.joints[island.joint_count + i]));
+  return most;
 }

@@ -75,6 +75,7 @@ const Transform& World::Impl::world_from_part(PartRef ref) const {
 
 double World::Impl::position(PartRef ref) const {
   const PartSlot& here = slot(ref);
+  if (ref.part == 0 && body_slot(ref.body).bond) return body_slot(ref.body).bond->position;
   return here.dof >= 0 ? here.tree->position[static_cast<std::size_t>(here.dof)] : 0;
 }
 
@@ -105,6 +106,12 @@ Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
   }
   Vector3 angular = Vector3::Zero();
   const Vector3 centre = world_from_part(ref) * part(ref).centre_of_mass;
+  if (mine.floats()) {
+    const std::vector<double>& v = mine.tree->velocity;
+    angular = {v[3], v[4], v[5]};
+    if (linear)
+      *linear = Vector3(v[0], v[1], v[2]) + angular.cross(centre - mine.tree->world_from_root().translation());
+  }
   for (int at = ref.part; at >= 0; at = part({ref.body, at}).parent) {
     const PartSlot& here = slot({ref.body, at});
     if (here.dof < 0) continue;
@@ -112,12 +119,12 @@ Vector3 World::Impl::velocity(PartRef ref, Vector3* linear) const {
     const Joint& joint = part({ref.body, at}).joint;
     const Vector3 rate =
         pose.linear() * joint.axis.normalized() * here.tree->velocity[static_cast<std::size_t>(here.dof)];
-    if (joint.kind == JointKind::hinge) {
-      angular += rate;
-      if (linear) *linear += rate.cross(centre - pose.translation());
-    } else if (linear) {
+    if (joint.kind != JointKind::slider) angular += rate;
+    if (!linear) continue;
+    if (joint.kind == JointKind::slider)
       *linear += rate;
-    }
+    else
+      *linear += rate.cross(centre - pose.translation()) + lead_of(joint) * rate;
   }
   return angular;
 }
@@ -156,7 +163,7 @@ void World::keep_log(bool keep) {
   if (!keep) impl_->log.clear();
 }
 
-// Something presses a joint against its stop. A function of joint positions alone: snapshots know nothing of it.
+// Something presses a joint against its stop, or the hand holds what is joined to something.
 bool World::Impl::strained() const {
   const auto beyond = [&](PartRef ref) {
     const Joint& joint = part(ref).joint;
@@ -167,7 +174,9 @@ bool World::Impl::strained() const {
   const std::vector<int>& fingers = scene->robot.fingers;
   const bool askew =
       fingers.size() == 2 && std::abs(position({kRobot, fingers[0]}) - position({kRobot, fingers[1]})) > kAskew;
-  return askew ||
+  const std::optional<PartRef> held = contacts.grasped(scene->robot.pads);
+  const bool bonded = held && held->body >= 0 && body_slot(held->body).bond && body_slot(held->body).bond->holds;
+  return askew || bonded ||
          std::any_of(mechanisms.begin(), mechanisms.end(), [&](const Mechanism& m) { return beyond(m.part); }) ||
          std::any_of(fingers.begin(), fingers.end(), [&](int finger) {
            return beyond({kRobot, finger});
@@ -276,6 +285,11 @@ double World::joint_velocity(PartRef part) const {
 
 double World::joint_effort(PartRef part) const {
   return impl_->efforts[static_cast<std::size_t>(part.body + 1)][static_cast<std::size_t>(part.part)];
+}
+
+bool World::joined(PartRef part) const {
+  const Bond* bond = part.part == 0 ? impl_->body_slot(part.body).bond : nullptr;
+  return bond != nullptr && bond->holds;
 }
 
 bool World::latched(PartRef part) const {

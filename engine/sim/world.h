@@ -128,6 +128,7 @@ class World {
   double joint_velocity(PartRef part) const;
   double joint_effort(PartRef part) const;  // applied by the motor or controller in the last step
   bool latched(PartRef part) const;
+  bool joined(PartRef part) const;  // of a body that is joined to another: the joint has not let go of it
 
   JointVector arm_position(int robot = 0) const;
   JointVector arm_velocity(int robot = 0) const;

@@ -1,5 +1,6 @@
 // Objects, worlds, and the names that a scene will have.
 #include <algorithm>
+#include <array>
 
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
@@ -17,6 +18,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+constexpr std::array kMovingJoints{"slider", "hinge", "screw"};
 constexpr double kOpening = 0.08;  // m, of a robot that says nothing else
 
 std::string type_or(const Value& node, const std::string& otherwise) {
@@ -62,10 +64,34 @@ void LibraryBuilder::check_body(const Definition& definition, const Value& body,
   }
 }
 
+// What a screw needs, and a joint that lets go of its part.
+void LibraryBuilder::check_thread(const Definition& definition, const Value& joint, const std::string& where) {
+  if (!joint.present()) return;
+  const bool screw = where.ends_with("screw");
+  const Value& pitch = joint["pitch"];
+  if (screw && (!pitch.present() || (pitch.is_number() && pitch.number == 0)))
+    complain(definition, where, "a screw without pitch does not travel",
+             "pitch = mm(4): metres along the axis in a whole turn; one that only turns is a hinge");
+  if (!screw && pitch.present())
+    complain(definition, where + ".pitch", "only a screw has a pitch", "write screw = { … }");
+  const Value& lets_go = joint["lets_go"];
+  if (!lets_go.present()) return;
+  const std::vector<Value>& range = joint["range"].items;
+  const double initial = joint.number_or("initial", 0);
+  if (lets_go.is_number() && range.size() == 2 && range[0].is_number() && range[1].is_number() &&
+      (lets_go.number < range[0].number || lets_go.number > range[1].number || lets_go.number == initial))
+    complain(definition, where + ".lets_go", "the joint never gets there",
+             "a position within range that is not the first");
+  for (const char* other : {"damping", "spring", "stiffness", "detent", "latch", "follows"})
+    if (joint[other].present())
+      complain(definition, where + "." + other, "a joint that lets go of its part has friction alone",
+               "leave it out, or leave out lets_go");
+}
+
 // Numbers that no scene can be built with, and grasps that no hand can make.
 void LibraryBuilder::check_sizes(const Definition& definition, const Value& body, const std::string& path) {
   const std::string prefix = path.empty() ? "" : path + ".";
-  for (const char* kind : {"slider", "hinge"}) {
+  for (const char* kind : kMovingJoints) {
     const Value& joint = body[kind];
     const std::vector<Value>& range = joint["range"].items;
     const std::string where = prefix + kind;
@@ -78,6 +104,7 @@ void LibraryBuilder::check_sizes(const Definition& definition, const Value& body
     for (const char* number : {"damping", "friction", "spring", "detent"})
       if (joint[number].is_number() && joint[number].number < 0)
         complain(definition, where + "." + number, "is negative");
+    check_thread(definition, joint, where);
   }
   std::vector<const Value*> shapes;
   if (body["shape"].is_table()) shapes.push_back(&body["shape"]);
@@ -143,9 +170,13 @@ void LibraryBuilder::check_shows(const Definition& definition, const Value& body
 // Latches and couplings name other moving parts, and couplings come to an end.
 void LibraryBuilder::check_links(const Definition& definition, const Value& parts, const std::string& name) {
   const auto joint_of = [&](const std::string& part) -> const Value& {
-    return parts[part]["hinge"].present() ? parts[part]["hinge"] : parts[part]["slider"];
+    const auto kind = std::find_if(kMovingJoints.begin(), kMovingJoints.end(),
+                                   [&](const char* one) { return parts[part][one].present(); });
+    return parts[part][kind == kMovingJoints.end() ? "hinge" : *kind];
   };
-  const std::string path = "parts." + name + (parts[name]["hinge"].present() ? ".hinge" : ".slider");
+  std::string path = "parts." + name;
+  for (const char* kind : kMovingJoints)
+    if (parts[name][kind].present()) path += std::string(".") + kind;
   std::vector<std::string> moving;
   for (const auto& [other, unused] : parts.fields)
     if (other != name && joint_of(other).present()) moving.push_back(other);
@@ -183,9 +214,10 @@ void LibraryBuilder::check_objects() {
       const std::string path = "parts." + part_name;
       check_body(definition, part, path);
       check_shows(definition, part);
-      const int joints = part["slider"].present() + part["hinge"].present() + part["fixed"].present();
+      int joints = part["fixed"].present();
+      for (const char* kind : kMovingJoints) joints += part[kind].present();
       if (joints != 1 && !node["urdf"].present())
-        complain(definition, path, "a part needs one of slider, hinge and fixed");
+        complain(definition, path, "a part needs one of slider, hinge, screw and fixed");
       if (part["parent"].is_text() && !node["parts"][part["parent"].text].present() && !node["urdf"].present()) {
         std::vector<std::string> known;
         for (const auto& [other, unused] : node["parts"].fields) known.push_back(other);
@@ -281,7 +313,7 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   object.positioned = entry["at"].present() || entry["place"].present();
   const bool fixed =
       either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
-  object.free = found != nullptr && !fixed && !region && either("parts").fields.empty();
+  object.free = found != nullptr && !fixed && !region;
   objects[name] = object;
   const auto add_regions = [&](const std::string& owner, const Value& regions) {
     for (const auto& [region_name, one] : regions.fields) {
@@ -290,7 +322,9 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   };
   add_regions(name, either("regions"));
   for (const auto& [part_name, part] : either("parts").fields) {
-    objects[name + "." + part_name] = {type_or(part, ""), texts(part["traits"]), false, false};
+    const bool loose = std::any_of(kMovingJoints.begin(), kMovingJoints.end(),
+                                   [&](const char* joint) { return part[joint]["lets_go"].present(); });
+    objects[name + "." + part_name] = {type_or(part, ""), texts(part["traits"]), loose, true};
     add_regions(name + "." + part_name, part["regions"]);
   }
 }

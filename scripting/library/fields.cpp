@@ -172,6 +172,7 @@ const Record kPart{
     body_fields_and({{"parent", "string", false, "the base", "", "the part that it hangs on"},
                      {"slider", "joint", false, "", "", "moves along an axis"},
                      {"hinge", "joint", false, "", "", "turns about an axis"},
+                     {"screw", "joint", false, "", "", "turns about an axis and travels along it"},
                      {"fixed", "joint|boolean", false, "", "", "does not move relative to its parent"}})};
 
 const Record kJoint{
@@ -189,6 +190,9 @@ const Record kJoint{
      {"spring_target", "number", false, "0", "rad or m", "where the spring pushes to"},
      {"stiffness", "number", false, "0", "N m/rad or N/m", "force per way from spring_target, beside spring"},
      {"detent", "number", false, "0", "N m or N", "holds at a limit until this is exceeded"},
+     {"pitch", "number", false, "", "m", "of a screw: travel in a whole turn; negative: left-handed"},
+     {"lets_go", "number", false, "", "rad or m",
+      "where the joint lets go of its part, for good; until then that is a thing of its own that is held there"},
      {"follows", "follows", false, "", "", "coupled to another joint; each moves the other"},
      {"latch", "latch", false, "", "", "locked until another joint is moved"}}};
 

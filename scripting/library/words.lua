@@ -266,6 +266,10 @@ function stampede_world_view:joint_velocity(part) end
 ---@param part string
 ---@return number lower, number upper
 function stampede_world_view:joint_range(part) end
+-- Of a part whose joint lets go of it at a limit: has it not done so?
+---@param part string
+---@return boolean
+function stampede_world_view:joined(part) end
 -- Where the part would be if its joint were there
 ---@param part string
 ---@param position number

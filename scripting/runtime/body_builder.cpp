@@ -1,8 +1,10 @@
 #include "scripting/runtime/body_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "engine/model/kinematics.h"
 #include "scripting/runtime/evaluate.h"
 
 namespace stampede {
@@ -10,8 +12,9 @@ namespace {
 
 constexpr double kTiny = 1e-12;
 
-// The kind of joint and the table that describes it: slider = { … } or hinge = { … }; else fixed.
+// The kind of joint and the table that describes it: slider, hinge or screw = { … }; else fixed.
 std::pair<JointKind, const Value*> joint_of(const Value& part) {
+  if (part["screw"].kind == Value::Kind::table) return {JointKind::screw, &part["screw"]};
   if (part["hinge"].kind == Value::Kind::table) return {JointKind::hinge, &part["hinge"]};
   if (part["slider"].kind == Value::Kind::table) return {JointKind::slider, &part["slider"]};
   if (part["fixed"].kind == Value::Kind::table) return {JointKind::fixed, &part["fixed"]};
@@ -42,6 +45,15 @@ Joint joint_from(const Value& part, const std::string& name) {
   if (joint.axis.norm() < kTiny) throw Error(value->place, "axis must not be zero");
   joint.axis.normalize();
   read_range(*value, joint);
+  if (kind == JointKind::screw) {
+    joint.pitch = (*value)["pitch"].as_number();
+    if (joint.pitch == 0) throw Error((*value)["pitch"].place, "a screw travels as it turns: its pitch is not 0");
+  }
+  if (const Value& lets_go = (*value)["lets_go"]; lets_go.present()) {
+    joint.lets_go = lets_go.as_number();
+    if (joint.lets_go == joint.initial || joint.lets_go < joint.lower || joint.lets_go > joint.upper)
+      lets_go.expected("a position within its range that is not the first");
+  }
   // Never zero: without friction and damping, drawers rebound from their stops.
   const bool slider = kind == JointKind::slider;
   const Value& follows = (*value)["follows"];
@@ -99,8 +111,9 @@ class Builder {
     add_parts(fields, body);
     set_joints(fields["joints"], body);
     start_followers(body);
-    body.free = is_free(fields, body);
+    body.free = is_free(fields);
     result_.stands_still = !body.free;
+    join_loose(body);
     if (body.free && !(body.parts[0].mass > 0)) {
       throw Error(fields.place, "'" + source_.name + "' can move, so it needs a mass", "mass = 0.1 (kg)");
     }
@@ -179,7 +192,38 @@ class Builder {
     if (part.joint.kind != JointKind::fixed && !(part.mass > 0)) {
       throw Error(fields.place, "'" + name + "' moves, so it needs a mass", "mass = 1 (kg)");
     }
+    if (std::isfinite(part.joint.lets_go)) return add_loose(name, std::move(part));
     body.parts.push_back(std::move(part));
+  }
+
+  // A part whose joint lets go of it is a body of its own.
+  void add_loose(const std::string& name, Part part) {
+    Body loose;
+    loose.name = source_.name + "." + name;
+    loose.free = true;
+    loose.joined_to = source_.name;
+    loose.joined_part = part.parent;
+    part.parent = -1;
+    loose.parts.push_back(std::move(part));
+    result_.loose.push_back(std::move(loose));
+  }
+
+  const Body* loose(const std::string& name) const {
+    const auto found = std::find_if(result_.loose.begin(), result_.loose.end(),
+                                    [&](const Body& body) { return body.name == source_.name + "." + name; });
+    return found == result_.loose.end() ? nullptr : &*found;
+  }
+
+  void join_loose(const Body& body) {
+    std::vector<double> positions;
+    for (const Part& part : body.parts) positions.push_back(part.parent < 0 ? 0 : part.joint.initial);
+    std::vector<Transform> world_from_part;
+    forward_kinematics(body, body.world_from_body, positions, world_from_part);
+    for (Body& one : result_.loose) {
+      const Joint& joint = one.parts[0].joint;
+      one.world_from_body = world_from_part[static_cast<std::size_t>(one.joined_part)] * joint.parent_from_joint *
+                            joint_motion(joint, joint.initial);
+    }
   }
 
   // What follows another joint starts where that puts it; chains are followed to their end.
@@ -198,6 +242,7 @@ class Builder {
   void set_joints(const Value& positions, Body& body) const {
     for (const auto& [name, value] : positions.fields) {
       const int index = body.part_index(name);
+      if (index < 0 && loose(name) != nullptr) value.expected("no start: what lets go starts where its file says");
       if (index < 0) throw Error(value.place, "'" + source_.name + "' has no part '" + name + "'");
       Joint& joint = body.parts[static_cast<std::size_t>(index)].joint;
       joint.initial = value.as_number();
@@ -205,16 +250,11 @@ class Builder {
     }
   }
 
-  bool is_free(const Value& fields, const Body& body) const {
+  static bool is_free(const Value& fields) {
     const std::vector<std::string> traits =
         fields["traits"].present() ? fields["traits"].as_texts() : std::vector<std::string>{};
     const bool movable = std::find(traits.begin(), traits.end(), "movable") != traits.end();
-    const bool free = !fields.boolean_or("fixed", !movable);
-    if (free && body.parts.size() > 1) {
-      throw Error(fields.place, "'" + source_.name + "' has parts, so it cannot be free",
-                  "leave out the trait movable");
-    }
-    return free;
+    return !fields.boolean_or("fixed", !movable);
   }
 
   Object named(const Value& fields, const std::string& name, ObjectKind kind, std::string_view type) const {
@@ -244,9 +284,9 @@ class Builder {
   void name_part(const Value& fields, const std::string& name, ObjectKind kind, const Body& body, int index) {
     const Part& part = body.parts[static_cast<std::size_t>(index)];
     Object object = named(fields, name, kind, kind == ObjectKind::part ? "part" : "thing");
-    object.body = source_.name;
+    object.body = body.name;
     object.part = index;
-    if (kind == ObjectKind::part) name_whole(object);
+    if (name != source_.name) name_whole(object);
     if (!part.shapes.empty()) {
       const auto [lower, upper] = bounding_box(part);
       object.size = upper - lower;
@@ -254,16 +294,16 @@ class Builder {
     result_.objects.push_back(object);
   }
 
-  void name_regions(const Value& fields, const std::string& owner, int index) {
+  void name_regions(const Value& fields, const std::string& owner, const std::string& body, int index) {
     for (const auto& [key, value] : fields["regions"].fields) {
       Region region;
       region.name = owner + "." + key;
-      region.body = source_.name;
+      region.body = body;
       region.part = index;
       region.part_from_region = transform_from(value);
       describe_region(value, value, region);
       Object object = named(value, region.name, ObjectKind::region, "region");
-      object.body = source_.name;
+      object.body = body;
       object.part = index;
       object.size = region.size;
       name_whole(object);
@@ -274,15 +314,17 @@ class Builder {
 
   void name_things(const Value& fields, const Body& body) {
     name_part(fields, source_.name, ObjectKind::body, body, 0);
-    name_regions(fields, source_.name, 0);
+    name_regions(fields, source_.name, source_.name, 0);
     for (const auto& [key, value] : parts_in_order(fields)) {
-      const int index = body.part_index(key);
+      const Body* own = loose(key);
+      const Body& carrier = own != nullptr ? *own : body;
+      const int index = own != nullptr ? 0 : body.part_index(key);
       const std::string name = source_.name + "." + key;
       // A part without a type or traits is nothing that people or plans speak of.
-      if ((*value)["type"].present() || (*value)["traits"].present()) {
-        name_part(*value, name, ObjectKind::part, body, index);
+      if (own != nullptr || (*value)["type"].present() || (*value)["traits"].present()) {
+        name_part(*value, name, own != nullptr ? ObjectKind::body : ObjectKind::part, carrier, index);
       }
-      name_regions(*value, name, index);
+      name_regions(*value, name, carrier.name, index);
     }
   }
 

@@ -26,6 +26,7 @@ struct ObjectSource {
 
 struct BuiltObject {
   std::optional<Body> body;  // nothing: the whole object is a region
+  std::vector<Body> loose;   // its parts whose joints let go of them: bodies that are joined to it
   std::vector<Region> regions;
   std::vector<Object> objects;  // itself, its named parts and regions
   DrawnAssets drawn;            // meshes and textures that its shapes name

@@ -76,6 +76,7 @@ void SceneBuilder::add(BuiltObject built, std::vector<Body>& bodies) {
   }
   std::move(built.regions.begin(), built.regions.end(), std::back_inserter(scene_.regions));
   if (built.body) bodies.push_back(std::move(*built.body));
+  std::move(built.loose.begin(), built.loose.end(), std::back_inserter(bodies));
   if (bodies_.size() + fixtures_.size() > kMostBodies)
     throw Error(bodies.back().name, "a scene of more than " + std::to_string(kMostBodies) + " things",
                 "lower the counts: each is simulated, and plans speak of each");

@@ -103,6 +103,12 @@ int distance(lua_State* state) {
   return 1;
 }
 
+int joined(lua_State* state) {
+  const WorldView& view = view_of(state);
+  lua_pushboolean(state, view.world().joined(view.part_of(check_text(state, 2))));
+  return 1;
+}
+
 int joint_range(lua_State* state) {
   const auto [lower, upper] = view_of(state).joint_range(check_text(state, 2));
   lua_pushnumber(state, lower);
@@ -308,6 +314,7 @@ constexpr luaL_Reg kMethods[] = {
     {"joint_fraction", lua_function<number_of<&WorldView::joint_fraction>>},
     {"joint_velocity", lua_function<number_of<&WorldView::joint_velocity>>},
     {"joint_range", lua_function<joint_range>},
+    {"joined", lua_function<joined>},
     {"part_at", lua_function<part_at>},
     {"touching", lua_function<pair_test<&WorldView::touching>>},
     {"force", lua_function<force>},

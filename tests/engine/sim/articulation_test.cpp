@@ -16,15 +16,19 @@ using namespace stampede::testing;
 
 namespace {
 
-// Hinges and a slider in a row, and a branch; masses off their axes.
+constexpr int kLinks = 7;
+
+// Hinges, sliders and a screw in a row, and a branch; masses off their axes. A floating one: the first link is free.
 struct Tree {
-  Tree() : tree(translation(0.1, -0.2, 0.5) * Transform(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()))) {
+  explicit Tree(bool floating)
+      : tree(translation(0.1, -0.2, 0.5) * Transform(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized())), floating) {
     Random random(RandomKey("tree"));
     const auto number = [&](double most) { return random.between(-most, most); };
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < kLinks; ++i) {
       Articulation::Link link;
       link.parent = i == 5 ? 2 : i - 1;
       link.kind = i == 1 || i == 4 ? JointKind::slider : i == 3 ? JointKind::fixed : JointKind::hinge;
+      if (i == 6) link.kind = JointKind::screw, link.lead = 0.1;
       link.parent_from_joint = translation(number(0.3), number(0.3), number(0.3)) *
                                Transform(Eigen::AngleAxisd(number(3), Vector3(number(1), number(1), 1).normalized()));
       link.axis = Vector3(number(1), number(1), 1).normalized();
@@ -54,7 +58,7 @@ struct Tree {
   }
   double kinetic_energy() const {
     double energy = 0;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < kLinks; ++i) {
       Vector3 spin = Vector3::Zero();
       tree.jacobian(i, centre(i), [&](int dof, const Vector3&, const Vector3& angular) {
         spin += tree.velocity[static_cast<std::size_t>(dof)] * angular;
@@ -69,11 +73,11 @@ struct Tree {
   }
   double potential_energy(double g) const {
     double energy = 0;
-    for (int i = 0; i < 6; ++i) energy += links[static_cast<std::size_t>(i)].mass * g * centre(i).z();
+    for (int i = 0; i < kLinks; ++i) energy += links[static_cast<std::size_t>(i)].mass * g * centre(i).z();
     return energy;
   }
 
-  btCollisionObject objects[6];
+  btCollisionObject objects[kLinks];
   std::vector<Articulation::Link> links;
   Articulation tree;
 };
@@ -81,7 +85,7 @@ struct Tree {
 }  // namespace
 
 TEST_CASE("half of v M v is the energy of all links", "[sim]") {
-  Tree t;
+  Tree t(GENERATE(false, true));
   t.tree.prepare(Vector3(0, 0, -9.81));
   double energy = 0;
   for (int i = 0; i < t.tree.dofs(); ++i)
@@ -92,7 +96,7 @@ TEST_CASE("half of v M v is the energy of all links", "[sim]") {
 }
 
 TEST_CASE("the inverse mass matrix is one, and is filled up with zeros", "[sim]") {
-  Tree t;
+  Tree t(GENERATE(false, true));
   t.tree.prepare(Vector3::Zero());
   for (int i = 0; i < t.tree.dofs(); ++i) {
     for (int j = 0; j < t.tree.dofs(); ++j) {
@@ -104,8 +108,8 @@ TEST_CASE("the inverse mass matrix is one, and is filled up with zeros", "[sim]"
   }
 }
 
-TEST_CASE("a tree that swings freely keeps its energy", "[sim]") {
-  Tree t;
+TEST_CASE("a tree that swings or falls freely keeps its energy", "[sim]") {
+  Tree t(GENERATE(false, true));
   const double g = 9.81, start = t.kinetic_energy() + t.potential_energy(g);
   const double dt = 1e-5;
   for (int step = 0; step < 50000; ++step) {
@@ -115,11 +119,8 @@ TEST_CASE("a tree that swings freely keeps its energy", "[sim]") {
       for (int j = 0; j < t.tree.dofs(); ++j)
         acceleration[static_cast<std::size_t>(i)] -=
             t.tree.inverse_mass(i)[j] * t.tree.bias()[static_cast<std::size_t>(j)];
-    for (std::size_t i = 0; i < acceleration.size(); ++i) {
-      t.tree.velocity[i] += dt * acceleration[i];
-      t.tree.position[i] += dt * t.tree.velocity[i];
-    }
-    t.tree.place();
+    for (std::size_t i = 0; i < acceleration.size(); ++i) t.tree.velocity[i] += dt * acceleration[i];
+    t.tree.move(dt);
   }
   CHECK(t.kinetic_energy() > 1);  // it does swing
   CHECK(t.kinetic_energy() + t.potential_energy(g) == Approx(start).margin(0.01));
