@@ -52,7 +52,8 @@ void copy_table(const sql::Database& database, const std::string& table) {
 }  // namespace
 
 const std::vector<Release>& earlier_releases() {
-  static const std::vector<Release> releases = {{5, "b42eca7836102aadf68a7328d44acb2f"}};
+  static const std::vector<Release> releases = {{5, "b42eca7836102aadf68a7328d44acb2f"},
+                                                {6, "46e3d1c4dfe2701f86da6280a2a0bfaf"}};
   return releases;
 }
 

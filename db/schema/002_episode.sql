@@ -86,7 +86,7 @@ CREATE TABLE joint (
   name TEXT NOT NULL,
   body INTEGER NOT NULL,  -- index in the scene; -1: the robot
   part INTEGER NOT NULL,
-  kind TEXT NOT NULL CHECK (kind IN ('fixed', 'hinge', 'slider')),
+  kind TEXT NOT NULL CHECK (kind IN ('fixed', 'hinge', 'slider', 'screw')),
   unit TEXT NOT NULL,
   lower REAL NOT NULL,
   upper REAL NOT NULL,

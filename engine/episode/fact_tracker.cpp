@@ -106,6 +106,8 @@ void FactTracker::add_static(const WorldView& view) {
     static_.insert(fact);
     if (!type.empty() && values.insert(fact.arguments[1]).second) objects_.push_back({fact.arguments[1], type});
   }
+  for (const TypedObject& constant : symbols_.domain().constants)
+    if (values.insert(constant.name).second) objects_.push_back(constant);
   std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 

@@ -133,10 +133,24 @@ class Reader {
     const Part part(*this);
     for (const Value& stage : node.items) {
       const Line line(*this, stage);
-      if (!only_literals(formula(stage)))
+      const Formula read = formula(stage);
+      if (!only_literals(read))
         fail("a part of in_order is more than literals", "write it without any_of, exists, forall and is_not(all_of)");
+      if (const std::string derived = derived_in(read); !derived.empty())
+        fail("'" + derived + "' is derived: no action makes it true by itself, so nobody can wait for its turn",
+             "name what it is derived from");
     }
     return list(node, Formula::Kind::conjunction);
+  }
+
+  std::string derived_in(const Formula& formula) const {
+    if (formula.kind == Formula::Kind::atom) {
+      const Predicate* predicate = context_.domain->predicate(formula.predicate);
+      return predicate != nullptr && predicate->kind == PredicateKind::derived ? formula.predicate : "";
+    }
+    for (const Formula& part : formula.parts)
+      if (std::string name = derived_in(part); !name.empty()) return name;
+    return {};
   }
 
   static bool only_literals(const Formula& formula) {

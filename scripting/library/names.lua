@@ -16,6 +16,7 @@
 ---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
+---@field joined fun(obj: string): stampede.literal  the {obj} is screwed on (obj: threaded)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
 ---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
@@ -25,8 +26,10 @@
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field part_name fun(obj: string, value: string): stampede.literal  the part_name of the {obj} is {value} (obj: anything, value: value)
 ---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
+---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
+---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 
 ---@class stampede.is_not
@@ -44,6 +47,7 @@
 ---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
+---@field joined fun(obj: string): stampede.literal  the {obj} is screwed on (obj: threaded)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
 ---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
@@ -53,8 +57,10 @@
 ---@field over fun(obj: string, box: string): stampede.literal  the {obj} is over the {box} (obj: movable, box: container & hollow)
 ---@field part_name fun(obj: string, value: string): stampede.literal  the part_name of the {obj} is {value} (obj: anything, value: value)
 ---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
+---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
+---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 
 ---@class stampede.act
@@ -68,6 +74,7 @@
 ---@field open fun(part: string|table): stampede.call  open the {part} (part: openable)
 ---@field pick fun(obj: string|table, from?: string): stampede.call  pick up the {obj} (obj: movable & graspable, from: support)
 ---@field place fun(obj: string|table, to?: string): stampede.call  put the {obj} on the {to} (obj: movable, to: surface)
+---@field point fun(obj: string|table, aim?: string, top?: string): stampede.call  put the {obj} down on the {top} so that it points at the {aim} (obj: movable & pointable, aim: aim, top: surface)
 ---@field press fun(button: string|table): stampede.call  press the {button} (button: pressable)
 ---@field push fun(obj: string|table, area?: string, top?: string): stampede.call  push the {obj} into the {area} (obj: movable, area: marked & container, top: surface)
 ---@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & reach_in)
@@ -79,6 +86,7 @@
 ---@field take_out fun(obj: string|table, box?: string): stampede.call  take the {obj} out of the {box} (obj: movable & graspable, box: container & reach_in)
 ---@field turn fun(part: string|table): stampede.call  turn the {part} (part: turnable)
 ---@field unhang fun(obj: string|table, hook?: string): stampede.call  take the {obj} off the {hook} (obj: movable & graspable, hook: hook)
+---@field unscrew fun(obj: string|table): stampede.call  unscrew the {obj} (obj: movable & threaded)
 
 ---@alias stampede.predicate_name
 ---| "apart"
@@ -95,6 +103,7 @@
 ---| "holding"
 ---| "in_slot"
 ---| "inside"
+---| "joined"
 ---| "leaning"
 ---| "lever"
 ---| "lifted"
@@ -104,8 +113,10 @@
 ---| "over"
 ---| "part_name"
 ---| "part_of"
+---| "pointing_at"
 ---| "pressed"
 ---| "spaced"
+---| "switched_on"
 ---| "turned"
 
 ---@alias stampede.type_name
@@ -165,6 +176,7 @@
 ---| "puzzle_piece"
 ---| "red_square"
 ---| "region"
+---| "remote"
 ---| "ring"
 ---| "scales"
 ---| "shoe"
@@ -173,6 +185,7 @@
 ---| "star"
 ---| "switch"
 ---| "tap"
+---| "television"
 ---| "thing"
 ---| "tin"
 ---| "toilet"
@@ -185,6 +198,7 @@
 ---| "wine_rack"
 
 ---@alias stampede.trait_name
+---| "aim"
 ---| "container"
 ---| "flat"
 ---| "floating"
@@ -194,6 +208,7 @@
 ---| "marked"
 ---| "movable"
 ---| "openable"
+---| "pointable"
 ---| "pressable"
 ---| "reach_in"
 ---| "shelf"
@@ -203,6 +218,7 @@
 ---| "support"
 ---| "surface"
 ---| "target"
+---| "threaded"
 ---| "turnable"
 
 ---@alias stampede.world_name
@@ -284,6 +300,7 @@
 ---| "raised_space"
 ---| "red_checker"
 ---| "red_pepper"
+---| "remote_control"
 ---| "rocker_switch"
 ---| "rubbish"
 ---| "safe"
@@ -315,6 +332,7 @@
 ---| "table_knife"
 ---| "table_lamp"
 ---| "target_area"
+---| "television"
 ---| "tin"
 ---| "toilet"
 ---| "toilet_roll"

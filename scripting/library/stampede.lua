@@ -180,6 +180,7 @@
 ---@field parent? string  the part that it hangs on (default the base)
 ---@field slider? stampede.joint  moves along an axis
 ---@field hinge? stampede.joint  turns about an axis
+---@field screw? stampede.joint  turns about an axis and travels along it
 ---@field fixed? stampede.joint|boolean  does not move relative to its parent
 
 -- How a part moves
@@ -196,6 +197,8 @@
 ---@field spring_target? number  where the spring pushes to [rad or m] (default 0)
 ---@field stiffness? number  force per way from spring_target, beside spring [N m/rad or N/m] (default 0)
 ---@field detent? number  holds at a limit until this is exceeded [N m or N] (default 0)
+---@field pitch? number  of a screw: travel in a whole turn; negative: left-handed [m]
+---@field lets_go? number  where the joint lets go of its part, for good; until then that is a thing of its own that is held there [rad or m]
 ---@field follows? stampede.follows  coupled to another joint; each moves the other
 ---@field latch? stampede.latch  locked until another joint is moved
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The catalogues in tests/db/data: `schema5.db.gz` was made by release 5.
+// The catalogues in tests/db/data: `schema5.db.gz` was made by release 5, and so on.
 std::vector<fs::path> stored_releases() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(STAMPEDE_SOURCE_DIR "/tests/db/data"))
@@ -91,7 +91,7 @@ int die_at_drop(sqlite3* handle, char**, const void*) {
 TEST_CASE("a table that changes has a new schema version") {
   // When this fails: raise schema_version() in catalogue.cpp, write db/migrations/NNN_to_NNN.sql, add the old hash to
   // earlier_releases() in migrations.cpp, add a catalogue of the old release to tests/db/data, and put both here.
-  CHECK(schema_version() == 6);
+  CHECK(schema_version() == 7);
   CHECK(current_tables_hash() == "46e3d1c4dfe2701f86da6280a2a0bfaf");
 }
 
@@ -168,8 +168,9 @@ TEST_CASE("views of an earlier release answer the same before it is migrated and
     }
     for (const char* view : {"actions", "frames", "joints", "masks", "sensors", "steps", "transitions"})
       CHECK(now.query(std::string("SELECT * FROM ") + view, {{}, 5}).rows.size() == 5);
-    for (const char* view : {"preconditions", "agent_actions"})  // release 5 did not write them
-      CHECK(now.query(std::string("SELECT * FROM ") + view).rows.empty());
+    if (stored.filename() == "schema5.db.gz")  // release 5 did not write them
+      for (const char* view : {"preconditions", "agent_actions"})
+        CHECK(now.query(std::string("SELECT * FROM ") + view).rows.empty());
     CHECK(now.query("SELECT * FROM segment_effect WHERE NOT undone AND held IS NULL").rows.empty());
     CHECK(now.query("SELECT * FROM command WHERE robot <> 0").rows.empty());
   }
@@ -270,9 +271,9 @@ TEST_CASE("tables of no release are refused with a cure, and nothing is changed"
   refuse("between.db", "those of no release: it says schema 5", "read it with the build that made it (0.1.0)");
   Catalogue::write(folder / "current.db").close();
   change(folder / "current.db", "ALTER TABLE frame ADD COLUMN mood TEXT");
-  refuse("current.db", "those of no release: it says schema 6", "generate the episodes again");
+  refuse("current.db", "those of no release: it says schema 7", "generate the episodes again");
   Catalogue::write(folder / "future.db").close();
-  change(folder / "future.db", "PRAGMA user_version = 7");
+  change(folder / "future.db", "PRAGMA user_version = 8");
   refuse("future.db", "made by a newer version: its schema is 7", "use that version of stampede");
   Catalogue::write(folder / "ancient.db").close();
   change(folder / "ancient.db", "PRAGMA user_version = 4");

@@ -68,6 +68,24 @@ TEST_CASE("formulas name parts of variables, and part_of relates them") {
   CHECK(holds({"part_name", {"chest.top_drawer", "top_drawer"}}));
 }
 
+TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, and put down like any other") {
+  const EpisodeRecord episode = run_authors("open_the_jar");
+  INFO(episode.detail);
+  REQUIRE(episode.outcome == Outcome::success);
+  CHECK(skills_of(episode) == std::vector<std::string>{"unscrew jar.lid", "place jar.lid"});
+  const auto joined = std::find_if(episode.facts.begin(), episode.facts.end(),
+                                   [](const FactRecord& one) { return one.fact.predicate == "joined"; });
+  REQUIRE(joined != episode.facts.end());
+  CHECK((joined->open_start && !joined->open_end));
+  CHECK(replay_episode(episode) == "");
+}
+
+TEST_CASE("values that formulas of the library name are constants of every domain") {
+  const Domain& domain = authors()->domain_of("open_the_jar");  // where nothing has a power button
+  CHECK(std::find(domain.constants.begin(), domain.constants.end(), TypedObject{"power_button", "value"}) !=
+        domain.constants.end());
+}
+
 TEST_CASE("a lamp shines from the frame on at which its button has been pressed") {
   RunOptions options;
   options.seed = 3;

@@ -328,6 +328,34 @@ TEST_CASE("golden: skills that extend or replace others") {
             .find("ends_when: only what holds by itself can end so") != std::string::npos);
 }
 
+TEST_CASE("golden: screws, and joints that let go") {
+  const auto lid = [](const std::string& joint) {
+    return said(
+        "worlds/objects/cube.lua", "mass = 0.1",
+        "mass = 0.1,\n  parts = { lid = { type = \"thing\", traits = { \"movable\" }, mass = 0.1,\n  shape = box { "
+        "0.1, 0.1, 0.1 },\n  " +
+            joint + " } }");
+  };
+  CHECK(lid("screw = { range = { 0, 9 }, pitch = mm(4) }").empty());
+  CHECK(lid("screw = { range = { 0, 9 }, pitch = mm(4), friction = 0.1, lets_go = 8 }").empty());
+  CHECK(lid("hinge = { range = { 0, 9 }, lets_go = 8 }").empty());
+  const std::string flat = lid("screw = { range = { 0, 9 } }");
+  CHECK(flat.find(
+            "worlds/objects/cube.lua:5: parts.lid.screw: a screw without pitch does not travel\n    pitch = mm(4)") ==
+        0);
+  CHECK(lid("screw = { range = { 0, 9 }, pitch = 0 }") == flat);
+  CHECK(lid("hinge = { range = { 0, 9 }, pitch = mm(4) }").find("hinge.pitch: only a screw has a pitch") !=
+        std::string::npos);
+  CHECK(lid("hinge = { range = { 0, 9 }, lets_go = 12 }").find("hinge.lets_go: the joint never gets there") !=
+        std::string::npos);
+  CHECK(lid("hinge = { range = { 0, 9 }, lets_go = 0 }").find("hinge.lets_go: the joint never gets there") !=
+        std::string::npos);
+  CHECK(lid("hinge = { range = { 0, 9 }, lets_go = 8, spring = 1 }")
+            .find("hinge.spring: a joint that lets go of its part has friction alone") != std::string::npos);
+  CHECK(lid("hinge = { range = { 0, 9 } }, slider = { range = { 0, 1 } }")
+            .find("a part needs one of slider, hinge, screw and fixed") != std::string::npos);
+}
+
 TEST_CASE("golden: facts that shapes are shown by") {
   const auto shows = [](const std::string& rule) {
     return said("worlds/objects/cube.lua", "shape = box { 0.1, 0.1, 0.1 }",
@@ -369,6 +397,8 @@ TEST_CASE("golden: what nothing places") {
   CHECK(said("tasks/take.lua", "is.on(\"lone\", \"table\")",
              "is.on(\"lone\", \"table\"), exists(\"?x: movable\", is.on(\"?x\", \"tabel\"))")
             .find("there is no object 'tabel'") != std::string::npos);
+  CHECK(said("tasks/take.lua", "is.holding(\"lone\")", "in_order { is.clear(\"lone\"), is.holding(\"lone\") }")
+            .find("tasks/take.lua:7: goal: 'clear' is derived: no action makes it true by itself") == 0);
   CHECK(said("tasks/take.lua", "is.on(\"lone\", \"table\")", "in_order { is.on(\"lone\", \"table\") }")
             .find("init: nothing comes in an order before the start\n    in_order belongs to the goal") !=
         std::string::npos);

@@ -21,7 +21,8 @@ class Part:
     frame: str  # `chest` of a thing's base, else `chest.bottom_drawer`, `panda.link3`
     parent: str  # frame; `world` of a base
     joint: str  # label in `joint_positions`, `gripper_joint_positions` or `object_joint_positions`; empty: it is fixed
-    hinge: bool  # else a slider
+    turns: bool  # by rad: a hinge or screw; else it slides
+    lead: float  # of a screw, m/rad
     axis: Array  # 3, in the joint's frame
     parent_from_joint: Array  # 7: m, quaternion x y z w; of a base its pose at the start, world
     shapes: list[Json]  # kind, size, radius, length, points (m), colour, part_from_shape
@@ -29,10 +30,10 @@ class Part:
     def pose(self, position: float) -> Array:
         """7: parent_from_part where the joint is at `position`, rad or m."""
         origin, turn = self.parent_from_joint[:3], self.parent_from_joint[3:]
-        if self.hinge:
-            own = np.append(self.axis * np.sin(position / 2), np.cos(position / 2))
-            return np.concatenate([origin, _product(turn, own)])
-        return np.concatenate([origin + _rotated(turn, self.axis * position), turn])
+        if not self.turns:
+            return np.concatenate([origin + _rotated(turn, self.axis * position), turn])
+        own = np.append(self.axis * np.sin(position / 2), np.cos(position / 2))
+        return np.concatenate([origin + _rotated(turn, self.axis * position * self.lead), _product(turn, own)])
 
 
 def parts_of(episode: StoredEpisode) -> list[Part]:
@@ -98,7 +99,8 @@ def _parts(body: Json, base: str) -> list[Part]:
                 frame=frames[-1],
                 parent="world" if is_base else frames[part["parent"]],
                 joint=f"{body['name']}.{joint['name']}" if moves else "",
-                hinge=joint["kind"] == "hinge",
+                turns=joint["kind"] in ("hinge", "screw"),
+                lead=joint.get("pitch", 0.0) / (2 * np.pi),
                 axis=np.array(joint["axis"]),
                 parent_from_joint=pose_of(body["world_from_body"] if is_base else joint["parent_from_joint"]),
                 shapes=_drawn(part["shapes"]),
