@@ -76,15 +76,16 @@ sql::Database migrated_to_read(const std::string& uri, int flags, const std::str
   // An empty name is a database of its own on disk, without a file that others see; it goes when it is closed.
   sql::Database database("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | (flags & SQLITE_OPEN_URI), shown_path);
   sql::Statement(database, "ATTACH ?1 AS file").run(uri);
-  database.run("PRAGMA temp_store = MEMORY; BEGIN");  // before there are temporary views: setting it drops them
+  // Before there are temporary views: setting it drops them. Tables that did not change are not here to be referred to.
+  database.run("PRAGMA foreign_keys = OFF; PRAGMA temp_store = MEMORY; BEGIN");
   for (const SqlFile& migration : embedded_migrations()) {
     if (first_number(migration) < schema) continue;
     for (const std::string& table : changed_tables(migration)) copy_table(database, table);
     const Parts parts = parts_of(migration.text, "file");
     database.run(parts.copied + parts.in_place);
   }
-  for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
-  if (schema == 5) {
+  if (schema == 5) {  // which had none
+    for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
     database.run(derived_sql("effects_held"));
     database.run("CREATE TEMP VIEW undeclared_change AS " + derived_sql("undeclared_change"));
   }

@@ -71,6 +71,7 @@ return {
     bottle = { parent = "thing" },
     wine_rack = { parent = "fixture" },
     lamp = { parent = "fixture" },
+    jar = { parent = "fixture" },
     remote = { parent = "thing" },
     television = { parent = "fixture" },
     region = {},

@@ -66,7 +66,7 @@ TEST_CASE("the lists of C++ and the checks of SQL are the same") {
     CHECK(enumeration(catalogue, table, "outcome") == std::set<std::string>{"success", "failure"});
   CHECK(enumeration(catalogue, "segment", "kind") == std::set<std::string>{"subgoal", "skill", "motion", "control"});
   CHECK(enumeration(catalogue, "object", "kind") == std::set<std::string>{"body", "part", "region", "hand"});
-  CHECK(enumeration(catalogue, "joint", "kind") == std::set<std::string>{"fixed", "hinge", "slider"});
+  CHECK(enumeration(catalogue, "joint", "kind") == std::set<std::string>{"fixed", "hinge", "slider", "screw"});
   CHECK(enumeration(catalogue, "language", "level") == std::set<std::string>{"task", "world", "skill"});
 }
 

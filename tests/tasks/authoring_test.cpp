@@ -69,7 +69,9 @@ TEST_CASE("formulas name parts of variables, and part_of relates them") {
 }
 
 TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, and put down like any other") {
-  const EpisodeRecord episode = run_authors("open_the_jar");
+  RunOptions options;
+  options.seed = 3;
+  const EpisodeRecord episode = run_task("open_jar", first_variation("open_jar"), options);
   INFO(episode.detail);
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(skills_of(episode) == std::vector<std::string>{"unscrew jar.lid", "place jar.lid"});
@@ -81,7 +83,7 @@ TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, 
 }
 
 TEST_CASE("values that formulas of the library name are constants of every domain") {
-  const Domain& domain = authors()->domain_of("open_the_jar");  // where nothing has a power button
+  const Domain& domain = authors()->domain_of("open_jar");  // where nothing has a power button
   CHECK(std::find(domain.constants.begin(), domain.constants.end(), TypedObject{"power_button", "value"}) !=
         domain.constants.end());
 }

@@ -70,8 +70,8 @@ void check_margins(const Values& values) {
       FAIL_CHECK(to_text(fact) << (value.holds ? " holds" : " does not hold") << " with margin " << *value.margin);
 }
 
-const std::set<std::string> kMeasured = {"at",     "closed", "hanging", "holding", "in_slot", "inside",
-                                         "lifted", "on",     "open",    "over",    "pressed", "turned"};
+const std::set<std::string> kMeasured = {"at", "closed", "hanging", "holding",     "in_slot", "inside", "lifted",
+                                         "on", "open",   "over",    "pointing_at", "pressed", "turned"};
 
 void check_stored_margins(const EpisodeRecord& episode) {
   for (const FactRecord& record : episode.facts) {

@@ -42,6 +42,7 @@ Scene rich_scene() {
                   JointKind::slider,
                   Vector3::UnitY(),
                   translation(1, 2, 3),
+                  0.004,
                   -0.1,
                   0.3,
                   0.05,
@@ -58,7 +59,8 @@ Scene rich_scene() {
                   0.1,
                   "lid",
                   120,
-                  0.5};
+                  0.5,
+                  0.25};
   Shape hull;
   hull.kind = ShapeKind::hull;
   hull.points = {{0, 0, 0}, {1e-300, 0, 0}, {0, 0.1, 0}, {0, 0, 5e-324}};
@@ -66,6 +68,7 @@ Scene rich_scene() {
   drawer.shapes.push_back(hull);
   drawer.surface = {0.1, 0.2, 0.3, 0.4, true};
   scene.bodies[0].parts.push_back(drawer);
+  scene.bodies[1].joined_to = "table", scene.bodies[1].joined_part = 1;
   scene.regions.push_back({"inside", "table", 1, translation(0, 0, 0.1), {1, 2, 3}, true, {0.1, 0.2, 0.3, 0.4}});
   scene.cameras.push_back(
       {"front", "table", 1, translation(1, 0, 1), 64, 48, 70, 71, 31.5, 24.5, {0.1, 0.2, 0.3, 0.4, 0.5}, 0.02, 3.2});
@@ -82,15 +85,18 @@ Scene rich_scene() {
 
 }  // namespace
 
-TEST_CASE("documents of earlier releases have no couplings") {
+TEST_CASE("documents of earlier releases have no couplings, no screws and nothing that lets go") {
   Scene scene = rich_scene();
+  scene.bodies[1].joined_to.clear(), scene.bodies[1].joined_part = 0;
   Joint& joint = scene.bodies[0].parts[1].joint;
   joint.follows.clear();
   joint.follow_ratio = 1;
-  joint.follow_offset = joint.stiffness = 0;
+  joint.follow_offset = joint.stiffness = joint.pitch = 0;
+  joint.lets_go = std::numeric_limits<double>::infinity();
   const std::string document = scene_to_document(scene);
   CHECK(document.find("follow") == std::string::npos);
-  CHECK(document.find("stiffness") == std::string::npos);
+  for (const char* field : {"stiffness", "pitch", "lets_go", "joined"})
+    CHECK(document.find(field) == std::string::npos);
   CHECK(scene_from_document(document).bodies[0].parts[1].joint.follow_ratio == 1);
 }
 
@@ -104,6 +110,9 @@ TEST_CASE("a scene survives its document, and the document its scene") {
   CHECK(back.bodies[0].parts[1].shapes[0].points == scene.bodies[0].parts[1].shapes[0].points);
   CHECK(back.bodies[0].parts[1].joint.latch_key == "key");
   CHECK(back.bodies[0].parts[1].joint.follow_ratio == 120);
+  CHECK(back.bodies[0].parts[1].joint.pitch == 0.004);
+  CHECK(back.bodies[0].parts[1].joint.lets_go == 0.25);
+  CHECK(back.bodies[1].joined_to == "table");
   CHECK(back.robot.checked_pairs == scene.robot.checked_pairs);
   CHECK(back.robot.body.parts[3].inertia == scene.robot.body.parts[3].inertia);
   CHECK(back.objects[0].attributes == scene.objects[0].attributes);

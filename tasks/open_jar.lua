@@ -1,0 +1,20 @@
+-- Unscrew the lid of the jar of one colour and put it on the table; the other jar stays shut.
+return task {
+  world = "tabletop",
+  variations = { colour = colours.names },
+  objects = function(v)
+    local anywhere = { between(0.08, 0.32), between(-0.28, 0.28), 0.75 }
+    return {
+      jar = { "jar", colour = v.colour, at = anywhere, yaw = between(-math.pi, math.pi) },
+      other = { "jar", colour = one_of(colours.except(v.colour)), at = anywhere, yaw = between(-math.pi, math.pi) },
+    }
+  end,
+  init = { is.spaced("jar", "other"), is.joined("jar.lid"), is.joined("other.lid") },
+  goal = { is.on("jar.lid", "table"), is.joined("other.lid"), is.hand_empty() },
+  instructions = {
+    "open the {colour} jar",
+    "unscrew the lid of the {colour} jar and put it on the table",
+    "take the lid off the {colour} jar; leave the other jar shut",
+    "twist the {colour} jar open and lay its lid down",
+  },
+}
