@@ -100,6 +100,7 @@ return {
     marked = "an area on a surface to push things into",
     pointable = "has a front, its +x, that can be pointed at something: a remote control",
     aim = "a thing to point something at",
+    tool = "what is held in the hand acts with a point of its own: its `tip`",
     floating = "a place in the air to hold something in",
   },
 }

@@ -112,6 +112,18 @@ class Symbols {
   // Ways to make the fact true, best or random first, at most `most`; empty when the predicate has no sample.
   virtual std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state,
                                         RandomKey key, int most) = 0;
+  // From now on places that sampling turns down are added there, for people; null: nobody asks.
+  virtual void watch(std::vector<Looked>* /*turned_down*/) {}
+  class Watching {  // for a scope
+   public:
+    Watching(Symbols& symbols, std::vector<Looked>* turned_down) : symbols_(symbols) { symbols.watch(turned_down); }
+    ~Watching() { symbols_.watch(nullptr); }
+    Watching(const Watching&) = delete;
+    Watching& operator=(const Watching&) = delete;
+
+   private:
+    Symbols& symbols_;
+  };
 };
 
 // A declared continuous parameter of a skill.

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "engine/episode/impasse.h"
 #include "engine/episode/interfaces.h"
 #include "engine/episode/observation.h"
 #include "engine/episode/perturbation.h"
@@ -51,6 +52,7 @@ struct RunOptions {
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
   Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
   bool explain = false;                    // every failed try says why, not only the first of its kind. Alters no data.
+  Witness witness;                         // told of each step that finds no grasp or place. Alters no data.
   int encoders = 0;                        // threads that encode its images beside the drawing. Alters no data.
   std::map<std::string, std::string> as_text() const;
 };

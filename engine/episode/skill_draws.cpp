@@ -47,7 +47,7 @@ std::optional<PartWay> way_to(const Rollout& rollout, const std::string& name, c
 }
 
 Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
-                  std::string& detail) {
+                  std::string& detail, Impasse* impasse) {
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
@@ -59,9 +59,13 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
   if (candidates.empty() && !info.to.empty()) candidates = grasps({});  // perhaps it can be taken some of the way
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
-    if (context.mode.explain)
-      detail += ": " + why_no_grasp(*space, rollout.world(), rollout.view().object(name),
-                                    planning_start(rollout.world()), context.key.with(info.name));
+    if (context.mode.explain || impasse != nullptr) {
+      std::vector<Looked> looked =
+          look_at_grasps(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
+                         context.key.with(info.name), impasse != nullptr);
+      detail += ": " + why_no_grasp(looked);
+      if (impasse != nullptr) impasse->subject = name, impasse->looked = std::move(looked);
+    }
     return Reason::no_grasp;
   }
   const GraspCandidate& grasp = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
@@ -73,35 +77,80 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
   return Reason::none;
 }
 
+// Where the hand must be to put the held object to a place, and what keeps the arm from it.
+class PlaceTrial {
+ public:
+  PlaceTrial(const Rollout& rollout, const CollisionState& space, RandomKey key)
+      : world_(rollout.world()), space_(space), letting_go_(space), key_(key) {
+    letting_go_.set_opening(space.opening() + kRoomToLetGo_m);
+  }
+  struct Answer {
+    bool free = false, free_but_tight = false;  // tight: the fingers have no room to open
+    std::vector<JointVector> ways;
+    Transform world_from_tip;
+  };
+  Answer ask(const Transform& place, const Transform& object_from_tip) const {
+    Answer answer;
+    answer.world_from_tip = place * object_from_tip;
+    // As many as a grasp is given: the nearest one may touch something.
+    answer.ways = world_.arm().solutions(answer.world_from_tip, planning_start(world_), key_, 3, 12);
+    const auto free_in = [&](const CollisionState& state) {
+      return std::any_of(answer.ways.begin(), answer.ways.end(), [&](const JointVector& q) { return state.free(q); });
+    };
+    answer.free = free_in(letting_go_);
+    answer.free_but_tight = !answer.free && free_in(space_);
+    return answer;
+  }
+  // For people, of what is not free. `measured`: also by how much.
+  Looked judged(const Transform& place, const Answer& answer, bool measured) const {
+    Looked looked{answer.ways.empty() ? Looked::Fate::out_of_reach : Looked::Fate::touches, place};
+    if (!answer.ways.empty()) looked.touched = touched_in_all(letting_go_, answer.ways);
+    if (!measured) return looked;
+    if (answer.ways.empty()) {
+      measure_reach(world_.arm(), world_.scene().robot, answer.world_from_tip, planning_start(world_), key_, looked);
+      return looked;
+    }
+    const Transform tip_from_place = answer.world_from_tip.inverse() * place;
+    const auto free = [&](const Transform& tip) {
+      return letting_go_.hand_free(tip) && letting_go_.body_free(*letting_go_.held(), tip * tip_from_place, 0);
+    };
+    if (!free(answer.world_from_tip)) looked.missed_m = way_to_free(answer.world_from_tip, level_directions(), free);
+    return looked;
+  }
+
+ private:
+  const World& world_;
+  const CollisionState& space_;
+  CollisionState letting_go_;
+  RandomKey key_;
+};
+
 Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& context, const ContinuousInfo& info,
-                   ContinuousValue& value, std::string& detail) {
-  constexpr int kSamples = 64;
+                   ContinuousValue& value, std::string& detail, Impasse* impasse) {
+  constexpr int kSamples = 64, kMostMeasured = 12;
   Fact fact{info.literal.predicate, {}};
   for (const std::string& name : info.literal.arguments)
     fact.arguments.push_back(argument(context.info->parameters, context.arguments, name));
   const auto space = planning_space(rollout, touchable(rollout, context));
-  CollisionState letting_go = *space;
-  letting_go.set_opening(space->opening() + kRoomToLetGo_m);
-  const World& world = rollout.world();
+  const PlaceTrial trial(rollout, *space, context.key.with("ik"));
   int wanted = context.attempt % 6;
-  std::optional<Transform> tight;  // there the fingers have no room to open
-  Causes causes;
+  std::optional<Transform> tight;
+  std::vector<Looked> looked, turned_down;
+  const bool explain = context.mode.explain || impasse != nullptr;
   int tried = 0;
-  for (const Placement& placement :
-       symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples)) {
+  const Symbols::Watching watching(symbols, impasse != nullptr ? &turned_down : nullptr);
+  const auto placements = symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples);
+  for (const Placement& placement : placements) {
     const Transform* pose = std::get_if<Transform>(&placement.value);
     if (pose == nullptr) continue;
     ++tried;
     if (space->held() && rollout.view().part_of(placement.object).body == *space->held()) {
-      const Transform object_from_tip = rollout.view().world_from(placement.object).inverse() * world.world_from_tip();
-      const auto ways =  // as many as a grasp is given: the nearest one may touch something
-          world.arm().solutions(*pose * object_from_tip, planning_start(world), context.key.with("ik"), 3, 12);
-      const auto free_in = [&](const CollisionState& state) {
-        return std::any_of(ways.begin(), ways.end(), [&](const JointVector& q) { return state.free(q); });
-      };
-      if (!free_in(letting_go)) {
-        if (!tight && free_in(*space)) tight = *pose;
-        if (context.mode.explain) causes.add(ways.empty() ? "out of reach" : touches_in_all(letting_go, ways));
+      const Transform object_from_tip =
+          rollout.view().world_from(placement.object).inverse() * rollout.world().world_from_tip();
+      const PlaceTrial::Answer answer = trial.ask(*pose, object_from_tip);
+      if (!answer.free) {
+        if (!tight && answer.free_but_tight) tight = *pose;
+        if (explain) looked.push_back(trial.judged(*pose, answer, impasse != nullptr && tried <= kMostMeasured));
         continue;
       }
     }
@@ -112,7 +161,12 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
   if (!value.pose) {
     detail = "no reachable and free pose makes " + to_text(fact) + " true";
     if (tried == 0) detail += ": there is no room for any";
-    if (tried > 0 && context.mode.explain) detail += ": of " + std::to_string(tried) + " " + causes.text();
+    if (tried > 0 && explain) detail += ": of " + std::to_string(tried) + " " + causes_of(looked).text();
+    if (impasse != nullptr) {
+      impasse->subject = fact.arguments.empty() ? "" : fact.arguments.front();
+      impasse->looked = std::move(looked);
+      impasse->looked.insert(impasse->looked.end(), turned_down.begin(), turned_down.end());
+    }
     return Reason::no_placement;
   }
   value.record.values = seven(*value.pose);
@@ -210,16 +264,17 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
 }
 
 Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
-                       std::string& detail) {
+                       std::string& detail, Impasse* impasse) {
   for (const ContinuousInfo& info : context.info->continuous) {
     ContinuousValue value;
     value.record = {info.name, info.initial, {}, info.unit, info.frame, ChosenBy::default_value};
     if (context.mode.random_parameters) draw_within(info, context.key.with(info.name), value.record);
     Reason reason = Reason::none;
     if (!set_value(rollout, context, info, value)) {
-      if (info.source == ContinuousInfo::Source::grasps) reason = draw_grasp(rollout, context, info, value, detail);
+      if (info.source == ContinuousInfo::Source::grasps)
+        reason = draw_grasp(rollout, context, info, value, detail, impasse);
       if (info.source == ContinuousInfo::Source::sample)
-        reason = draw_sample(rollout, symbols, context, info, value, detail);
+        reason = draw_sample(rollout, symbols, context, info, value, detail, impasse);
     }
     if (reason != Reason::none) return reason;
     call.continuous.push_back(std::move(value));

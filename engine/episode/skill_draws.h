@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/episode/impasse.h"
 #include "engine/episode/rollout.h"
 #include "engine/episode/skill_call.h"
 
@@ -11,8 +12,9 @@ namespace stampede {
 
 // Fills call.continuous, in the order of declaration: what the context's settings say, else drawn. Repeatable: a pure
 // function of the rollout's state and the context. Result: none, or why a stream has nothing, said in `detail`.
+// `impasse`: then, where somebody asks, its subject and what was looked at.
 Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
-                       std::string& detail);
+                       std::string& detail, Impasse* impasse = nullptr);
 
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context);

@@ -115,7 +115,9 @@ void SkillExecution::start(SkillContext context, int parent) {
   SkillCall call = undrawn_call();
   std::string detail;
   const SkillCall undrawn = call;
-  const Reason drawn = draw_continuous(rollout_, symbols_, context_, call, detail);
+  Impasse impasse;
+  const Reason drawn =
+      draw_continuous(rollout_, symbols_, context_, call, detail, options_.witness ? &impasse : nullptr);
   SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
   segment.controller = std::string(to_string(call.controller));
   for (const ContinuousValue& value : call.continuous) segment.parameters.push_back(value.record);
@@ -129,6 +131,7 @@ void SkillExecution::start(SkillContext context, int parent) {
       std::string ignored;
       return draw_continuous(rollout_, symbols_, context_, again, ignored) == Reason::none;
     });
+    if (options_.witness) tell(std::move(impasse), failed);
     finish(std::move(failed));
     return;
   }
@@ -137,6 +140,20 @@ void SkillExecution::start(SkillContext context, int parent) {
   rollout_.world().apply(controller_);
   run_ = skills_.start(call, rollout_.view());
   if (reference_moves(rollout_.world())) follow(make_brake());
+}
+
+void SkillExecution::tell(Impasse impasse, const SkillResult& failed) const {
+  const Task& task = rollout_.task();
+  impasse.task = task.name;
+  impasse.variation = task.variation;
+  impasse.seed = options_.seed;
+  impasse.step = context_.info->name;
+  for (const std::string& argument : context_.arguments) impasse.step += " " + argument;
+  impasse.reason = failed.reason;
+  impasse.detail = failed.detail;
+  impasse.scene = rollout_.scene();
+  impasse.state = state_of(rollout_.view());
+  options_.witness(impasse);
 }
 
 // The run's own words go first: of this skill, then of all; then those of the call; then the skill's.

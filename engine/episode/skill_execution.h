@@ -55,6 +55,7 @@ class SkillExecution {
 
   void start(SkillContext context, int parent);
   SkillCall undrawn_call() const;
+  void tell(Impasse impasse, const SkillResult& failed) const;
   void open_segment(int parent, const Facts& before);
   bool step_due();
   void after_step();

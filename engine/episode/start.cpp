@@ -172,24 +172,55 @@ class StartMaker {
       }
       if (nothing_to_do()) break;
     }
-    start.task = std::move(task_);
     start.reason = Reason::init_impossible;
-    if (nothing_to_do()) {
-      start.detail = "the goal holds at the start already, in each of " + std::to_string(start.draws) +
-                     " draws: init, or the goal, must leave something to do";
-      return start;
-    }
-    for (const auto& [text, count] : failures_)
-      start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
+    say_why(start);
+    start.task = std::move(task_);
     return start;
   }
 
  private:
+  void say_why(PreparedStart& start) {
+    if (nothing_to_do()) {
+      start.detail = "the goal holds at the start already, in each of " + std::to_string(start.draws) +
+                     " draws: init, or the goal, must leave something to do";
+      return;
+    }
+    for (const auto& [text, count] : failures_)
+      start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
+    for (auto& [text, impasse] : impasses_) tell(text, std::move(impasse), start.detail);
+  }
+
   // Every start that was drawn so far is the end too.
   bool nothing_to_do() const {
     constexpr int kEnough = 10;
     const auto goal = failures_.find(kGoalHolds);
     return goal != failures_.end() && failures_.size() == 1 && goal->second >= std::min(kEnough, options_.draws);
+  }
+
+  void tell(const std::string& literal, Impasse impasse, const std::string& detail) const {
+    impasse.task = task_.name;
+    impasse.variation = task_.variation;
+    impasse.seed = options_.seed;
+    impasse.step = "init " + literal;
+    impasse.reason = Reason::init_impossible;
+    impasse.detail = detail;
+    options_.witness(impasse);
+  }
+
+  // No place for the literal's first argument: keeps the moment of the first such draw, and what all of them looked at.
+  bool refuse_place(const Draft& draft, const Literal& literal, const std::vector<Looked>& looked) {
+    constexpr std::size_t kMost = 1000;
+    const std::string text = text_of(literal);
+    if (!options_.witness) return refuse(text);
+    Impasse& impasse = impasses_[text];
+    if (++failures_[text] == 1) {
+      impasse.subject = subject(literal);
+      impasse.scene = std::make_shared<const Scene>(draft.view().scene());
+      impasse.state = initial_state(*impasse.scene);
+    }
+    impasse.draws = failures_[text];
+    if (impasse.looked.size() < kMost) impasse.looked.insert(impasse.looked.end(), looked.begin(), looked.end());
+    return false;
   }
 
   bool refuse(const std::string& what) {
@@ -263,12 +294,18 @@ class StartMaker {
   }
 
   // Leaves the first spot with enough room; where there is none, the roomiest that does for slim fingers.
-  void keep_clear(std::vector<Placement>& ways, const WorldView& view, const Literal& on) const {
+  // Those that have not even that go to `crowded`.
+  void keep_clear(std::vector<Placement>& ways, const WorldView& view, const Literal& on,
+                  std::vector<Looked>& crowded) const {
     constexpr double kLeast = -0.04;  // m
     const Placement* best = nullptr;
     double most = kLeast;
     for (const Placement& way : ways) {
       const double room = spare_room(view, task_.clutter, on, way);
+      if (const auto* pose = std::get_if<Transform>(&way.value); room < kLeast && pose != nullptr && options_.witness) {
+        crowded.push_back({Looked::Fate::crowded, *pose});
+        crowded.back().missed_m = kLeast - room;
+      }
       if (room < most) continue;
       best = &way;
       most = room;
@@ -306,12 +343,14 @@ class StartMaker {
       waiting_literals.erase(next);
       if (literal.negated) continue;
       const bool clutter = is_clutter(subject(literal));
+      std::vector<Looked> looked;
+      const Symbols::Watching watching(symbols_, options_.witness ? &looked : nullptr);
       auto ways = symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key.with(number++),
                                   clutter ? kClutterSamples : kSamples);
-      if (clutter) keep_clear(ways, draft.view(), literal);
+      if (clutter) keep_clear(ways, draft.view(), literal, looked);
       const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
       if (ways.empty()) {
-        if (waiting != unplaced.end()) return refuse(text_of(literal));
+        if (waiting != unplaced.end()) return refuse_place(draft, literal, looked);
         continue;  // nothing to place: the literal is only tested
       }
       const bool joint = std::holds_alternative<double>(ways.front().value);
@@ -401,6 +440,7 @@ class StartMaker {
   std::vector<std::string> replaced_;  // things with a place of their own, which `where` gives another
   std::optional<Formula> where_;
   std::map<std::string, int> failures_;
+  std::map<std::string, Impasse> impasses_;  // of literals, where somebody asks
 };
 
 }  // namespace

@@ -8,6 +8,10 @@
 namespace stampede {
 namespace {
 
+// Nothing to take, nowhere to put it: what was done before changes that seldom, and other draws never where a thing is
+// out of reach. So often it is tried again; then another way is looked for, and in the end the plan is given up.
+constexpr int kSameBeforeOtherWay = 6, kSameAtMost = 12;
+
 constexpr std::size_t kMostDetours = 3;  // one within the other: what is in the way of what is in the way
 
 // Where an undone episode stands. places_[i] is before step i of the plan, failures_[i] counts what failed there.
@@ -28,6 +32,7 @@ class Undo {
   void restart();
   void step_done();
   bool try_again(const SkillResult& failed);
+  bool another_way(const SkillResult& failed);
   bool go_round(const SkillResult& blocked);
   void leave_detour(int most);
   bool other_plan();
@@ -42,6 +47,7 @@ class Undo {
   std::map<std::size_t, SkillResult> blocked_;  // what was found in the way of a step
   std::vector<Detour> detours_;                 // the later ones within the earlier ones
   std::map<PlanStep, int> blame_, failed_;      // failures of each ground action: since a plan did without it; in all
+  std::map<PlanStep, int> same_;                // of these, how often it found nothing to take or no place
   std::size_t i_ = 0;
 };
 
@@ -62,6 +68,7 @@ SkillResult Undo::run() {
   SkillResult last;
   int tries = 0;
   for (int plans = 0; plans < drive_.options.plans; ++plans) {
+    same_.clear();
     restart();
     while (true) {
       last = step();
@@ -77,6 +84,7 @@ SkillResult Undo::run() {
       if (i_ == plan_.size() && i_ > 0) --i_;
       if (i_ < plan_.size()) ++blame_[plan_.steps[i_]], ++failed_[plan_.steps[i_]];
       if (++tries >= drive_.options.tries_per_episode) return with_bottleneck(std::move(last), tries);
+      if (another_way(last)) continue;
       if (!try_again(last)) break;
     }
     const CurrentPlan::Course failed = plan_.course();
@@ -90,7 +98,7 @@ SkillResult Undo::run() {
       return again.ok() ? again : with_bottleneck(std::move(last), tries);
     }
   }
-  return last;
+  return with_bottleneck(std::move(last), tries);
 }
 
 void Undo::step_done() {
@@ -105,6 +113,25 @@ void Undo::step_done() {
     detours_.pop_back();  // it led where it should
 }
 
+// A plan for the rest that does without a step which keeps failing for the same reason, whatever was done before it.
+bool Undo::another_way(const SkillResult& failed) {
+  const bool nothing = failed.reason == Reason::no_grasp || failed.reason == Reason::no_placement;
+  if (!nothing || plan_.given() || i_ >= plan_.size()) return false;
+  const PlanStep step = plan_.steps[i_];
+  if (++same_[step] != kSameBeforeOtherWay || !detours_.empty()) return false;
+  track_.back_to(places_[i_]);
+  plan_.forbidden.insert(step);
+  if (!plan_.again(i_).ok()) {
+    plan_.forbidden.erase(step);
+    return false;
+  }
+  blame_.erase(step);
+  failures_.resize(plan_.size() + 1, 0);
+  std::fill(failures_.begin() + static_cast<std::ptrdiff_t>(i_), failures_.end(), 0);
+  blocked_.erase(blocked_.lower_bound(i_), blocked_.end());
+  return true;
+}
+
 // Chooses where to go on after a failure, and goes there: the same step with other draws; a detour around what was
 // found in the way; back from a detour that did not work; else the step before. False: this plan is used up.
 bool Undo::try_again(const SkillResult& failed) {
@@ -112,6 +139,9 @@ bool Undo::try_again(const SkillResult& failed) {
   const int allowed = drive_.options.tries_per_skill;
   const int most = failed.reason == Reason::no_grasp ? std::min(2, allowed) : allowed;
   if (!failed.blockers.empty()) blocked_[i_] = failed;
+  if (const auto same = same_.find(i_ < plan_.size() ? plan_.steps[i_] : PlanStep{});
+      same != same_.end() && same->second >= kSameAtMost && detours_.empty())
+    return false;
   if (++failures_[i_] < most) {
     track_.back_to(places_[i_]);
     return true;

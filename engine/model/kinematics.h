@@ -17,6 +17,14 @@ using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1>;  // at m
 void forward_kinematics(const Body& body, const Transform& world_from_base, std::span<const double> part_positions,
                         std::vector<Transform>& world_from_part);
 
+// What is missing of a pose that an arm cannot reach: it would have to be `way_m` nearer to the arm's shoulder, or
+// where `joint` is an index (from 0), that joint would have to turn by `angle` rad beyond a limit.
+struct Shortfall {
+  double way_m = 0;
+  int joint = -1;
+  double angle = 0;
+};
+
 class Arm {
  public:
   explicit Arm(const Robot& robot);  // copies what it needs
@@ -38,8 +46,13 @@ class Arm {
   // Distinct solutions (any joint differs by more than 0.1 rad), nearest to `start` first.
   std::vector<JointVector> solutions(const Transform& world_from_tip, const JointVector& start, RandomKey key, int most,
                                      int restarts = 50) const;
+  // For people: the least of both, 0.3 m to a radian. Nothing where neither would do. As costly as ten solutions.
+  std::optional<Shortfall> shortfall(const Transform& world_from_tip, const JointVector& start, RandomKey key) const;
 
  private:
+  std::optional<Shortfall> beyond_limits(const Transform& world_from_tip, const JointVector& start,
+                                         RandomKey key) const;
+  std::optional<Shortfall> nearer(const Transform& world_from_tip, const JointVector& start, RandomKey key) const;
   std::optional<JointVector> descend(const Transform& base_from_tip, JointVector q) const;
   Transform world_from_base_;
   std::vector<Transform> parent_from_joint_;  // fixed transforms between driven joints folded in

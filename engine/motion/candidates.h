@@ -1,11 +1,12 @@
 // Streams of grasps and placements: candidate k is a pure function of the key and k.
 #pragma once
 
-#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/motion/looked.h"
 #include "engine/motion/part_way.h"
 #include "engine/motion/planner.h"
 
@@ -30,32 +31,27 @@ std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const 
                                              const JointVector& start, RandomKey key, int most,
                                              const std::optional<PartWay>& follow = {});
 
-// Why there are none, for people: of how many grasps each cause keeps the hand. As costly as looking for one.
-std::string why_no_grasp(const CollisionState& state, const World& world, const Object& object,
-                         const JointVector& start, RandomKey key);
-
-// Counts by cause, most frequent first: `12 out of reach, 3 touch chest.top_drawer`.
-class Causes {
- public:
-  void add(const std::string& cause) { ++counts_[cause]; }
-  std::string text() const;
-
- private:
-  std::map<std::string, int> counts_;
-};
-// What the arm touches in all of these configurations: `touch NAME` of the first, or nothing where one is free.
-std::string touches_in_all(const CollisionState& state, const std::vector<JointVector>& configurations);
+// What became of each grasp that would be tried, for people. As costly as looking for one; with `measure` also how near
+// the first of them came, which costs ten times as much.
+std::vector<Looked> look_at_grasps(const CollisionState& state, const World& world, const Object& object,
+                                   const JointVector& start, RandomKey key, bool measure);
+// Of how many grasps each cause keeps the hand: `of 72 grasps the best: 12 touch pot; others: 60 out of reach`.
+std::string why_no_grasp(std::span<const Looked> grasps);
 
 // Places where a free body fits on top of a surface part: uniformly over the upper faces of its shapes, upright with
 // random yaw, `margin` from the edge, free of all other bodies. Poses are of the body. Result: at most `most`.
+// `turned_down`: where somebody asks why, what was drawn and cannot be is added there.
 std::vector<Transform> free_spots(const CollisionState& state, const World& world, const Object& surface,
-                                  const Object& object, RandomKey key, int most);
+                                  const Object& object, RandomKey key, int most,
+                                  std::vector<Looked>* turned_down = nullptr);
 // The same inside a region's box (resting on its lower face, or anywhere within when `floating`).
 std::vector<Transform> region_spots(const CollisionState& state, const World& world, const Region& region,
-                                    const Object& object, RandomKey key, int most);
+                                    const Object& object, RandomKey key, int most,
+                                    std::vector<Looked>* turned_down = nullptr);
 // The one pose on top of another object, centred, with a yaw symmetric to it (stacking).
 std::vector<Transform> stack_spots(const CollisionState& state, const World& world, const Object& below,
-                                   const Object& object, RandomKey key, int most);
+                                   const Object& object, RandomKey key, int most,
+                                   std::vector<Looked>* turned_down = nullptr);
 
 // Pose of an object (body, part or region centre) in the world.
 Transform world_from_object(const World& world, const Object& object);

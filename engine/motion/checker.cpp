@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "engine/motion/looked.h"
+
 namespace stampede {
 namespace {
 
 constexpr double kExcusedRadius = 0.25;  // rad around an end that touches the padding
-
-std::string part_name(const Scene& scene, PartRef ref) {
-  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies.at(static_cast<std::size_t>(ref.body));
-  const std::string& name = ref.body < 0 ? scene.robot.name : body.name;
-  if (ref.part < 0 || ref.part >= static_cast<int>(body.parts.size())) return name;
-  const std::string& part = body.parts[static_cast<std::size_t>(ref.part)].name;
-  return part.empty() || part == name ? name : name + "." + part;
-}
 
 std::string contact_text(const CollisionState& state, const JointVector& q, double padding_m) {
   const std::optional<CollisionPair> pair = state.first_contact(q, padding_m);

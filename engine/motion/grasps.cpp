@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "engine/base/error.h"
@@ -95,17 +96,33 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
   return false;
 }
 
-// What keeps the arm from a grasp that is not feasible.
-std::string fault_of(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start,
-                     RandomKey key) {
-  const Arm& arm = state.arm();
-  const auto at_grasp = arm.solutions(grasp.world_from_tip, start, key, 3, 12);
-  if (at_grasp.empty()) return "out of reach";
-  if (const std::string touched = touches_in_all(state, at_grasp); !touched.empty()) return touched;
-  const auto before = arm.solutions(grasp.world_from_approach, start, key, 3, 12);
-  if (before.empty()) return "out of reach on the approach";
-  if (const std::string touched = touches_in_all(state, before); !touched.empty()) return touched + " on the approach";
-  return "without a straight way from the approach";
+// What keeps the arm from a grasp, if anything.
+Looked judged(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key) {
+  Looked looked{Looked::Fate::out_of_reach, grasp.world_from_tip, grasp.opening};
+  const auto free = [&](const std::vector<JointVector>& ways) {
+    looked.touched = touched_in_all(state, ways);
+    if (!looked.touched.empty()) looked.fate = Looked::Fate::touches;
+    return !ways.empty() && looked.touched.empty();
+  };
+  if (!free(state.arm().solutions(grasp.world_from_tip, start, key, 3, 12))) return looked;
+  looked.approach = true;
+  if (!free(state.arm().solutions(grasp.world_from_approach, start, key, 3, 12))) return looked;
+  looked.approach = false;
+  looked.fate = feasible(state, grasp, start, key, {}) ? Looked::Fate::usable : Looked::Fate::no_way;
+  return looked;
+}
+
+// How near a grasp came that is not feasible: how far the hand would have to be moved.
+void measure_miss(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key,
+                  Looked& looked) {
+  const Transform& tip = looked.approach ? grasp.world_from_approach : grasp.world_from_tip;
+  if (looked.fate == Looked::Fate::out_of_reach)
+    measure_reach(state.arm(), state.scene().robot, tip, start, key, looked);
+  if (looked.fate != Looked::Fate::touches || state.hand_free(tip)) return;  // else it is the arm that touches
+  std::vector<Vector3> directions = {Vector3::UnitZ()};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) directions.push_back(sign * tip.linear().col(axis));
+  looked.missed_m = way_to_free(tip, directions, [&](const Transform& moved) { return state.hand_free(moved); });
 }
 
 // All that might be a grasp of one object.
@@ -179,39 +196,31 @@ std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const 
   return found;
 }
 
-std::string why_no_grasp(const CollisionState& state, const World& world, const Object& object,
-                         const JointVector& start, RandomKey key) {
+std::vector<Looked> look_at_grasps(const CollisionState& state, const World& world, const Object& object,
+                                   const JointVector& start, RandomKey key, bool measure) {
+  constexpr int kMostMeasured = 12;  // of each cause
   const Search search(state, world, object, start, key);
-  if (search.options.empty()) return "no two sides of it fit between the fingers, and it says no grasps";
   CollisionState hand = search.hand(state);
-  Causes best, others;  // the best: from above, where there are such
+  std::vector<Looked> all;
+  std::map<std::string, int> measured;
   for (const Option& option : search.options) {
     const GraspCandidate grasp = search.candidate(option, kNarrow_m);
     hand.set_opening(grasp.opening);
-    const bool near_best = option.score < search.options.front().score + 1;
-    (near_best ? best : others).add(fault_of(hand, grasp, start, key.with("ik")));
+    Looked looked = judged(hand, grasp, start, key.with("ik"));
+    looked.best = option.score < search.options.front().score + 1;  // from above, where there are such
+    if (measure && ++measured[cause_of(looked)] <= kMostMeasured)
+      measure_miss(hand, grasp, start, key.with("miss"), looked);
+    all.push_back(std::move(looked));
   }
-  const std::string rest = others.text();
-  return "of " + std::to_string(search.options.size()) + " grasps the best: " + best.text() +
-         (rest.empty() ? "" : "; others: " + rest);
+  return all;
 }
 
-std::string Causes::text() const {
-  std::vector<std::pair<std::string, int>> sorted(counts_.begin(), counts_.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::string text;
-  for (const auto& [cause, count] : sorted) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + cause;
-  return text;
-}
-
-std::string touches_in_all(const CollisionState& state, const std::vector<JointVector>& configurations) {
-  std::string first;
-  for (const JointVector& q : configurations) {
-    const std::string contact = describe_contact(state, q);
-    if (contact.empty()) return {};
-    if (first.empty()) first = "touch " + contact.substr(contact.rfind(' ') + 1);
-  }
-  return first;
+std::string why_no_grasp(std::span<const Looked> grasps) {
+  if (grasps.empty()) return "no two sides of it fit between the fingers, and it says no grasps";
+  Causes best, others;
+  for (const Looked& one : grasps) (one.best ? best : others).add(cause_of(one));
+  return "of " + std::to_string(grasps.size()) + " grasps the best: " + best.text() +
+         (others.empty() ? "" : "; others: " + others.text());
 }
 
 }  // namespace stampede

@@ -143,25 +143,90 @@ Quaternion resting_rotation(const World& world, int body) {
   return resting_rotation(Quaternion(world.world_from_part({body, 0}).linear()));
 }
 
+// Of the places that were drawn, those that are taken; where none was, the one that misses least. For people.
+class TurnedDown {
+ public:
+  TurnedDown(const CollisionState& state, int body, std::vector<Looked>* list)
+      : state_(state), body_(body), list_(list) {}
+  bool wanted() const { return list_ != nullptr; }
+
+  void taken(const Transform& place, double padding_m) {
+    if (list_ == nullptr || list_->size() >= kMost) return;
+    const std::optional<PartRef> part = state_.body_contact(body_, place, padding_m);
+    if (!part) return;
+    Looked looked{Looked::Fate::touches, place};
+    looked.touched = part_name(state_.scene(), *part);
+    if (++measured_ <= kMostMeasured)
+      looked.missed_m = way_to_free(place, level_directions(),
+                                    [&](const Transform& moved) { return state_.body_free(body_, moved, padding_m); });
+    list_->push_back(std::move(looked));
+  }
+  void too_wide(const Transform& place, double by_m) {
+    if (!too_wide_ || by_m < too_wide_->missed_m) {
+      too_wide_ = Looked{Looked::Fate::no_room, place};
+      too_wide_->missed_m = by_m;
+    }
+    ++misses_;
+  }
+  void close(bool fits) {
+    if (list_ != nullptr && !fits && too_wide_)
+      list_->insert(list_->end(), static_cast<std::size_t>(misses_), *too_wide_);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 200;
+  static constexpr int kMostMeasured = 24;
+  const CollisionState& state_;
+  int body_, measured_ = 0, misses_ = 0;
+  std::vector<Looked>* list_;
+  std::optional<Looked> too_wide_;
+};
+
 // Draws places, asks about many at once and keeps the first `most` that are free. A draw is nothing where it misses.
-std::vector<Transform> keep_free(const CollisionState& state, int body, int most,
+std::vector<Transform> keep_free(const CollisionState& state, int body, int most, TurnedDown& turned_down,
                                  const std::function<std::optional<Transform>()>& draw) {
   std::vector<Transform> kept, drawn;
+  bool fits = false;
   for (int left = kDrawsPerSpot * most; left > 0 && static_cast<int>(kept.size()) < most;) {
     drawn.clear();
     for (; left > 0 && static_cast<int>(drawn.size()) < most; --left)
       if (const std::optional<Transform> place = draw()) drawn.push_back(*place);
+    fits = fits || !drawn.empty();
     const std::vector<bool> free = state.places_free(body, drawn, kPadding_m);
     for (std::size_t i = 0; i < drawn.size() && static_cast<int>(kept.size()) < most; ++i)
-      if (free[i]) kept.push_back(drawn[i]);
+      if (free[i])
+        kept.push_back(drawn[i]);
+      else
+        turned_down.taken(drawn[i], kPadding_m);
   }
+  turned_down.close(fits);
   return kept;
+}
+
+// How much wider than the face a footprint is; negative: it fits.
+double too_wide_by(const Face& face, const Footprint& foot) {
+  const Vector3 size = foot.high - foot.low;
+  if (face.radius > 0) return std::hypot(size.x(), size.y()) / 2 + kMargin_m - face.radius;
+  return std::max(size.x() - 2 * face.half_x, size.y() - 2 * face.half_y) + 2 * kMargin_m;
+}
+
+// A body on a face: somewhere if it fits, else in the middle, which is turned down.
+std::optional<Transform> place_on(const Face& face, const Footprint& foot, const Part& part, const Quaternion& rotation,
+                                  Random& random, TurnedDown& turned_down) {
+  const std::optional<Vector3> point = draw_on(face, foot, random);
+  if (!point && !turned_down.wanted()) return std::nullopt;
+  Vector3 origin =
+      face.world_from_face * point.value_or(Vector3(-0.5 * (foot.low + foot.high)).cwiseProduct(Vector3(1, 1, 0)));
+  origin.z() += footprint(part, rotation).below + kGap_m;
+  if (point) return make_transform(origin, rotation);
+  if (const double by = too_wide_by(face, foot); by > 0) turned_down.too_wide(make_transform(origin, rotation), by);
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<Transform> free_spots(const CollisionState& state, const World& world, const Object& surface,
-                                  const Object& object, RandomKey key, int most) {
+                                  const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
   const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
@@ -170,20 +235,17 @@ std::vector<Transform> free_spots(const CollisionState& state, const World& worl
   const std::vector<Face> faces = upper_faces(part_of(scene, surface), world_from_surface);
   if (faces.empty()) return {};
   Random random(key.with("free_spots"));
-  return keep_free(state, body, most, [&]() -> std::optional<Transform> {
+  TurnedDown down(state, body, turned_down);
+  return keep_free(state, body, most, down, [&] {
     const Face& face = draw_face(faces, random);
     const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
     const Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
-    const std::optional<Vector3> point = draw_on(face, foot, random);
-    if (!point) return std::nullopt;
-    Vector3 origin = face.world_from_face * *point;
-    origin.z() += footprint(part, rotation).below + kGap_m;
-    return make_transform(origin, rotation);
+    return place_on(face, foot, part, rotation, random, down);
   });
 }
 
 std::vector<Transform> region_spots(const CollisionState& state, const World& world, const Region& region,
-                                    const Object& object, RandomKey key, int most) {
+                                    const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
   const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
@@ -196,23 +258,20 @@ std::vector<Transform> region_spots(const CollisionState& state, const World& wo
   Face face{world_from_region * translation(0, 0, -0.5 * region.size.z()), 0.5 * region.size.x(), 0.5 * region.size.y(),
             0};
   Random random(key.with("region_spots"));
-  return keep_free(state, body, most, [&]() -> std::optional<Transform> {
+  TurnedDown down(state, body, turned_down);
+  return keep_free(state, body, most, down, [&] {
     const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
     Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
     // Where the whole object does not fit, its middle does: a small target still names a place.
     if (foot.high.x() - foot.low.x() + 2 * kMargin_m > region.size.x() ||
         foot.high.y() - foot.low.y() + 2 * kMargin_m > region.size.y())
       foot.low = foot.high = Vector3::Zero();
-    const std::optional<Vector3> point = draw_on(face, foot, random);
-    if (!point) return std::nullopt;
-    Vector3 origin = face.world_from_face * *point;
-    origin.z() += footprint(part, rotation).below + kGap_m;
-    return make_transform(origin, rotation);
+    return place_on(face, foot, part, rotation, random, down);
   });
 }
 
 std::vector<Transform> stack_spots(const CollisionState& state, const World& world, const Object& below,
-                                   const Object& object, RandomKey key, int most) {
+                                   const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
   const Scene& scene = world.scene();
   const int body = body_of(scene, object);
   const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
@@ -228,13 +287,17 @@ std::vector<Transform> stack_spots(const CollisionState& state, const World& wor
   const double yaw = std::atan2(turned(1, 0), turned(0, 0));
   const std::int64_t first = Random(key.with("stack_spots")).below(4);
   std::vector<Transform> spots;
+  TurnedDown down(state, body, turned_down);
   for (std::int64_t k = 0; k < 4 && static_cast<int>(spots.size()) < most; ++k) {
     const Quaternion rotation = turn(yaw + 0.5 * std::numbers::pi * static_cast<double>((first + k) % 4)) * upright;
     const Footprint foot = footprint(part, rotation);
     Vector3 origin = middle - 0.5 * (foot.low + foot.high);
     origin.z() = top + foot.below + kGap_m;
     const Transform spot = make_transform(origin, rotation);
-    if (state.body_free(body, spot, 0)) spots.push_back(spot);
+    if (state.body_free(body, spot, 0))
+      spots.push_back(spot);
+    else
+      down.taken(spot, 0);
   }
   return spots;
 }

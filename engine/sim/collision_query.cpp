@@ -158,7 +158,7 @@ void CollisionQuery::arm_as_it_was() {
 }
 
 // Tested a little higher than asked, so that what it rests on is just out of reach, with padding or without.
-bool CollisionQuery::body_free(int body, const Transform& world_from_body) {
+std::optional<PartRef> CollisionQuery::body_contact(int body, const Transform& world_from_body) {
   const Vector3& gravity = model_.scene->gravity;
   const Vector3 up = gravity.squaredNorm() > 0 ? Vector3(-gravity.normalized()) : Vector3::UnitZ();
   const Transform raised = translation(up * (padding_ + kRestGap)) * world_from_body;
@@ -170,11 +170,11 @@ bool CollisionQuery::body_free(int body, const Transform& world_from_body) {
     place(tried, piece, raised * state_.body_from_part_[first + static_cast<std::size_t>(piece.part.part)]);
     for (std::size_t k = 0; k < model_.bodies.size(); ++k)
       if ((k < range.begin || k >= range.end) && near(piece, tried, model_.bodies[k], state_.pieces_[k], padding_))
-        return false;
+        return model_.bodies[k].part;
     for (std::size_t k = 0; k < robot_.size(); ++k)
-      if (near(piece, tried, model_.robot[k], robot_[k], padding_)) return false;
+      if (near(piece, tried, model_.robot[k], robot_[k], padding_)) return model_.robot[k].part;
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace stampede

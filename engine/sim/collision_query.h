@@ -24,8 +24,8 @@ class CollisionQuery {
   bool visit(const JointVector& q, const Visitor& visitor);
 
   bool hand_free(const Transform& world_from_tip);
-  void arm_as_it_was();  // before body_free
-  bool body_free(int body, const Transform& world_from_body);
+  void arm_as_it_was();  // before body_contact
+  std::optional<PartRef> body_contact(int body, const Transform& world_from_body);
 
   static void place(Placed& placed, const CollisionModel::Piece& piece, const Transform& world_from_part);
 

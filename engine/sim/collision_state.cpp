@@ -120,12 +120,19 @@ bool CollisionState::body_free(int body, const Transform& world_from_body, doubl
   return places_free(body, {&world_from_body, 1}, padding_m).front();
 }
 
+std::optional<PartRef> CollisionState::body_contact(int body, const Transform& world_from_body,
+                                                    double padding_m) const {
+  CollisionQuery query(*this, padding_m);
+  query.arm_as_it_was();
+  return query.body_contact(body, world_from_body);
+}
+
 std::vector<bool> CollisionState::places_free(int body, std::span<const Transform> world_from_body,
                                               double padding_m) const {
   CollisionQuery query(*this, padding_m);
   query.arm_as_it_was();
   std::vector<bool> free;
-  for (const Transform& place : world_from_body) free.push_back(query.body_free(body, place));
+  for (const Transform& place : world_from_body) free.push_back(!query.body_contact(body, place));
   return free;
 }
 

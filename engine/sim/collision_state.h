@@ -63,6 +63,7 @@ class CollisionState {
   // Would this free body, placed there, touch anything but what it may rest on? The arm is where it was, the fingers
   // as open as the state says.
   bool body_free(int body, const Transform& world_from_body, double padding_m) const;
+  std::optional<PartRef> body_contact(int body, const Transform& world_from_body, double padding_m) const;  // with what
   // The same for many places: one answer each.
   std::vector<bool> places_free(int body, std::span<const Transform> world_from_body, double padding_m) const;
 

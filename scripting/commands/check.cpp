@@ -5,9 +5,10 @@
 #include <map>
 #include <ostream>
 #include <set>
-#include <tuple>
 
 #include "db/table_text.h"
+#include "scripting/commands/check_built.h"
+#include "scripting/commands/check_failures.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
@@ -16,20 +17,6 @@
 
 namespace stampede::program {
 namespace {
-
-// What only building shows: URDF and mesh files, sizes of shapes. One draw of the first variation of each task.
-void build_scenes(const std::shared_ptr<const Library>& library, std::vector<Error>& complaints) {
-  std::set<std::string> said;
-  for (const ScriptFile* file : library->files(DefinitionKind::task)) {
-    try {
-      const Library::TaskInfo& task = task_info(*library, file->name);
-      EpisodeScripts(library, task.name, task.variation_texts.empty() ? "" : task.variation_texts.front(), 0).task()(0);
-    } catch (const LibraryError&) {  // said already
-    } catch (const Error& error) {
-      if (said.insert(error.what()).second) complaints.push_back(error);
-    }
-  }
-}
 
 // The tasks without mistakes, where what all of them share has none; else nothing.
 std::shared_ptr<const Library> usable_part(const Arguments& arguments) {
@@ -161,36 +148,6 @@ QueryResult table_of(const SeenVariations& variations) {
   return table;
 }
 
-// How often each step failed of what, undone tries included: what stands first is the bottleneck.
-class FailedSteps {
- public:
-  void add(const EpisodeRecord& episode) {
-    for (const AttemptRecord& attempt : episode.attempts) add(episode.task, attempt.segment);
-    for (const SegmentRecord& segment : episode.segments) add(episode.task, segment);
-  }
-  QueryResult table() const {
-    std::vector<std::pair<Row, std::int64_t>> sorted(counts_.begin(), counts_.end());
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-    QueryResult table;
-    table.columns = {"times", "task", "step", "reason", "detail"};
-    for (const auto& [row, count] : sorted) {
-      const auto& [task, step, reason, detail] = row;
-      table.rows.push_back({count, task, step, reason, detail});
-    }
-    return table;
-  }
-
- private:
-  using Row = std::tuple<std::string, std::string, std::string, std::string>;
-  void add(const std::string& task, const SegmentRecord& segment) {
-    if (segment.kind != SegmentKind::skill || segment.reason == Reason::none) return;
-    std::string step = segment.skill;
-    for (const std::string& argument : segment.arguments) step += " " + argument;
-    ++counts_[{task, step, std::string(to_string(segment.reason)), segment.detail}];
-  }
-  std::map<Row, std::int64_t> counts_;
-};
-
 ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& arguments, Console& console) {
   const std::vector<std::string> tasks = tasks_to_run(*library, arguments.list("NAMES"));
   JobRequest request{tasks, in_range(arguments, "--episodes", 1, kMostEpisodes),
@@ -198,26 +155,30 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   RunSettings settings;
   settings.workers = workers_of(arguments);
   settings.stop = console.stop;
-  settings.options.explain = arguments.flag("--why");
+  const std::string pictures = arguments.text("--pictures");
+  const bool why = arguments.flag("--why") || !pictures.empty();
+  FailedSteps failed_steps;
+  settings.options.explain = why;
+  if (why) settings.options.witness = [&](const Impasse& impasse) { failed_steps.add(impasse); };
   if (arguments.flag("--randomise")) settings.options.randomise = default_randomisation();
   settings.options.observation.images = WhichFrames::none;  // nobody would see them
   Progress progress(console);
   std::vector<std::string> failures;
   SeenVariations seen;
-  FailedSteps failed_steps;
   settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
     const bool good = episode.outcome == Outcome::success;
     const std::string line = fmt::format("{} {} seed {}: {}", episode.task, episode.variation, episode.seed,
                                          good ? "success" : to_string(episode.reason));
     seen[{episode.task, episode.variation}].add(episode);
-    if (settings.options.explain) failed_steps.add(episode);
+    if (why) failed_steps.add(episode);
     if (!good) failures.push_back(line + (episode.detail.empty() ? "" : ": " + episode.detail));
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, line);
   };
   const RunTally tally = run_jobs(library, JobList(*library, request), settings, nullptr);
   progress.finish();
   for (const std::string& failure : failures) console.err << failure << "\n";
-  if (settings.options.explain) console.err << to_table(failed_steps.table());
+  if (!pictures.empty()) failed_steps.draw(pictures);
+  if (why) console.err << to_table(failed_steps.table());
   console.out << (arguments.flag("--json") ? to_json(table_of(seen)) : to_table(table_of(seen)));
   return tally.succeeded == tally.total ? kDone : kNo;
 }
@@ -225,7 +186,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
 ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const auto library = Library::load(roots_of(arguments), all);
-  if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) build_scenes(usable, all);
+  if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) check_built(usable, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
   check_names(*library, names, all);
   const std::vector<Error> complaints = wanted_complaints(*library, all, names);
@@ -248,15 +209,32 @@ CommandRow check_command() {
       "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
       "runs, and prints for each variation that was met: the success rate, undone tries, the mean length, the slowest "
       "step, and the commonest reason why a try or an episode failed. With --why it also tells how often each step "
-      "failed, undone tries included, and of what: how many grasps and placements were out of reach or touched what.",
+      "failed, undone tries included, and of what: how many grasps and places were out of reach or touched what, and "
+      "how near the nearest of them came. With --pictures it draws them too: one picture a step that found no grasp, "
+      "place or start, as ghosts of the hand or of the object in the scene of that moment; red ones touch something, "
+      "grey ones are out of reach, orange ones fail otherwise, green ones would do.",
       {{"NAMES", "names of files; default: all", false, true}},
       {{"--physics", "", "run the tasks too", Takes::flag, "", {}, false},
-       {"--why", "", "with --physics: of each failed step the causes, counted", Takes::flag, "", {}, false},
+       {"--why",
+        "",
+        "with --physics: of each failed step the causes, counted, and the nearest miss",
+        Takes::flag,
+        "",
+        {},
+        false},
+       {"--pictures",
+        "DIR",
+        "with --physics: --why, and pictures of what was turned down into DIR (PNG)",
+        Takes::path,
+        "",
+        {},
+        false},
        {"--episodes", "N", "episodes per task with --physics", Takes::integer, "10", {}, false},
        {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
        {"--randomise", "", "with drawn looks, light and dynamics, as `run --randomise`", Takes::flag, "", {}, false},
        {"--workers", "W", "cores to use, default: all", Takes::integer, "", {}, false}},
-      {"stampede check", "stampede check stack_blocks --physics --episodes 20"},
+      {"stampede check", "stampede check stack_blocks --physics --episodes 20",
+       "stampede check stack_blocks --physics --episodes 1 --pictures why"},
       do_check};
 }
 

@@ -119,6 +119,7 @@ std::optional<std::string> LibraryBuilder::part_fault(const std::string& name) c
   for (const auto& [object, definition] : objects->second) {
     if (definition.node["urdf"].present()) return std::nullopt;
     for (const auto& [region, unused] : definition.node["regions"].fields) known.push_back(region);
+    if (definition.node["tip"].present()) known.push_back("tip");
     for (const auto& [part, fields] : definition.node["parts"].fields) {
       known.push_back(part);
       for (const auto& [region, unused] : fields["regions"].fields) known.push_back(part + "." + region);

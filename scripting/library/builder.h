@@ -100,6 +100,7 @@ class LibraryBuilder {
   void check_body(const Definition& definition, const Value& body, const std::string& path);
   void check_sizes(const Definition& definition, const Value& body, const std::string& path);
   void check_thread(const Definition& definition, const Value& joint, const std::string& where);
+  void check_tip(const Definition& definition, const Value& node, const std::string& path);
   void check_shows(const Definition& definition, const Value& body);
   void check_links(const Definition& definition, const Value& parts, const std::string& name);
   std::string hand_of(const std::string& world) const;

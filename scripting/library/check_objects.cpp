@@ -130,10 +130,24 @@ void LibraryBuilder::check_sizes(const Definition& definition, const Value& body
   }
 }
 
+// A tip is the one thing of its name. Whether it lies on its tool is known when that is built.
+void LibraryBuilder::check_tip(const Definition& definition, const Value& node, const std::string& path) {
+  const Value& tip = node["tip"];
+  if (!tip.present()) return;
+  const std::string where = path.empty() ? "tip" : path + ".tip";
+  if (node["region"].present())
+    return complain(definition, where, "a region has no tip", "give it to an object with shapes");
+  if (node["regions"]["tip"].present())
+    complain(definition, where, "there is a region 'tip' too, and both are called OBJECT.tip", "rename the region");
+  if (node["parts"]["tip"].present())
+    complain(definition, where, "there is a part 'tip' too, and both are called OBJECT.tip", "rename the part");
+}
+
 // A shape follows one fact of one thing of its object.
 void LibraryBuilder::check_shows(const Definition& definition, const Value& body) {
   std::vector<std::string> known = {"self"};
   const Value& node = definition.node;
+  if (node["tip"].present()) known.push_back("tip");
   for (const auto& [region, unused] : node["regions"].fields) known.push_back(region);
   for (const auto& [part, fields] : node["parts"].fields) {
     known.push_back(part);
@@ -203,6 +217,7 @@ void LibraryBuilder::check_objects() {
     const Value& node = definition.node;
     check_body(definition, node, {});
     check_shows(definition, node);
+    check_tip(definition, node, {});
     check_assets(definition);
     if (!node["region"].present() && !node["type"].is_text()) {
       complain(definition, {}, "an object needs the field 'type'", "one of worlds/types.lua");
@@ -265,6 +280,7 @@ void LibraryBuilder::check_entry(const Definition& definition, const Value& entr
     if (const Value& value = entry[name]; value.present()) replaced.fields[name] = value;
   if (!robot) check_record(*record("object"), replaced, path, complainer(definition));
   check_body(definition, entry, path);
+  check_tip(definition, entry, path);
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
   if (robot) return check_start(definition, entry["joints"], found->second.node["arm"], path + ".joints");
   for (const auto& [part, position] : entry["joints"].fields) {
@@ -321,6 +337,7 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
     }
   };
   add_regions(name, either("regions"));
+  if (either("tip").present() && !region) objects[name + ".tip"] = {"region", {}, false, false};
   for (const auto& [part_name, part] : either("parts").fields) {
     const bool loose = std::any_of(kMovingJoints.begin(), kMovingJoints.end(),
                                    [&](const char* joint) { return part[joint]["lets_go"].present(); });

@@ -146,7 +146,12 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
   FormulaContext where = context(definition, "init");
   where.hand = hand_of(definition.node["world"].text);
   where.expand = [&](const std::string& group) {
-    if (const auto found = groups.find(group); found != groups.end()) return found->second;
+    if (const auto found = groups.find(group); found != groups.end()) {
+      if (found->second.empty() && (where.field == "goal" || where.field == "subgoals"))
+        throw Error({}, "the group '" + group + "' has no members, so what is asked of them says nothing",
+                    "give it a count of at least 1, or leave the test out where there are none");
+      return found->second;
+    }
     std::vector<std::string> names;
     for (const auto& [name, unused] : groups) names.push_back(name);
     const std::string single = group.substr(0, group.size() - 1);

@@ -160,12 +160,15 @@ std::vector<Field> body_fields_and(std::vector<Field> more) {
 
 const Record kObject{
     "object", "A thing: shape, mass, type, traits, parts, grasps",
-    body_fields_and({{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
-                     {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
-                     {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
-                     {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"},
-                     {"declares", "table", false, "{}", "",
-                      "types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} }"}})};
+    body_fields_and(
+        {{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
+         {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
+         {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
+         {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"},
+         {"tip", "tip", false, "", "", "where a tool acts: the region OBJECT.tip, `{ tool = \"OBJECT\" }` of moves",
+          "{ at = { 0, 0, -0.15 }, rpy = { math.pi, 0, 0 } }"},
+         {"declares", "table", false, "{}", "",
+          "types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} }"}})};
 
 const Record kPart{
     "part", "A moving part of an object",
@@ -220,6 +223,14 @@ const Record kRegion{"region",
                       {"numbers", "table", false, "{}", "", "numbers by name"},
                       {"visible", "boolean", false, "false", "", "drawn in pictures"},
                       {"colour", "colour", false, "", "", "when visible"}}};
+
+const Record kTip{
+    "tip",
+    "The point of a tool that acts: z out of the tool, in the direction in which it works",
+    {{"at", "vector", false, "{ 0, 0, 0 }", "m", "in the object's frame, on the tool or at most 5 mm off it"},
+     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "in the object's frame"},
+     {"yaw", "number", false, "0", "rad", "instead of rpy"},
+     {"quaternion", "numbers", false, "", "", "instead of rpy"}}};
 
 const Record kGrasp{"grasp",
                     "Where a hand may take an object",
@@ -386,10 +397,10 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {kTask,   kProblem, kSkill,  kPredicate, kObject,  kWorld,
-                                               kRobot,  kEntry,   kPlace,  kCase,      kPart,    kJoint,
-                                               kLatch,  kFollows, kRegion, kGrasp,     kShape,   kTexture,
-                                               kCamera, kSensor,  kLight,  kRandomise, kObserve, kObserveNoise};
+  static const std::vector<Record> kRecords = {kTask,   kProblem,   kSkill,   kPredicate,   kObject,  kWorld,  kRobot,
+                                               kEntry,  kPlace,     kCase,    kPart,        kJoint,   kLatch,  kFollows,
+                                               kRegion, kTip,       kGrasp,   kShape,       kTexture, kCamera, kSensor,
+                                               kLight,  kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

@@ -428,15 +428,16 @@ function stampede_robot_view:close_hand(object, options) end
 -- { { "name", pose }, … } in the order written. All but the last are passed without a stop.
 -- `ahead`: poses after the last to which the arm must be able to go on. `then_part`: a part that it must be able to take
 -- from there to joint position `to`, see move_part, with the hand as wide as `opening`
--- [m], and to go straight back from there by `retreat` [m]
+-- [m], and to go straight back from there by `retreat` [m]. `tool`: a tool in the hand whose tip the poses are of
 ---@param targets table<string, stampede.pose>|any[][]
----@param options? { then_part: string, to: number, pivot: number, opening: number, retreat: number }
+---@param options? { then_part: string?, to: number?, pivot: number?, opening: number?, retreat: number?, tool: string? }
 function stampede_robot_view:move_through(targets, options) end
 ---@param target stampede.pose
-function stampede_robot_view:move_to(target) end
--- Straight, to a pose or by an offset along the world's axes
+---@param options? { tool: string }
+function stampede_robot_view:move_to(target, options) end
+-- Straight, to a pose or by an offset along the world's axes. `tool`: a tool in the hand whose tip the pose is of
 ---@param target stampede.pose|number[]
----@param options? stampede.line_options
+---@param options? stampede.line_options|{ tool: string }
 function stampede_robot_view:move_line(target, options) end
 -- A registered policy acts, frame by frame, until it is done, the skill's effect holds, or time is up
 ---@param name string

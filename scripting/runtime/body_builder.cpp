@@ -312,9 +312,44 @@ class Builder {
     }
   }
 
+  // Where a tool acts is a region without volume.
+  void name_tip(const Value& fields, const Body& body) {
+    constexpr double kOff_m = 0.005;
+    const Value& tip = fields["tip"];
+    if (!tip.present()) return;
+    Region region;
+    region.name = source_.name + ".tip";
+    region.body = source_.name;
+    region.part_from_region = transform_from(tip);
+    const auto [lower, upper] = bounding_box(body.parts[0]);
+    const Vector3 at = region.part_from_region.translation();
+    const double off = (lower - at).cwiseMax(at - upper).cwiseMax(0.0).norm();
+    if (off > kOff_m)
+      throw Error(tip.place,
+                  "the tip is " + std::to_string(static_cast<int>(std::lround(1000 * off))) + " mm outside the tool",
+                  "its shapes reach from " + corner_text(lower) + " to " + corner_text(upper) + " m: move `at` there");
+    Object object = named(Value{}, region.name, ObjectKind::region, "region");
+    object.body = source_.name;
+    name_whole(object);
+    result_.objects.push_back(object);
+    result_.regions.push_back(region);
+  }
+
+  static std::string corner_text(const Vector3& corner) {
+    const auto number = [](double value) { return plain_text_of(std::round(1000 * value) / 1000); };
+    return "{ " + number(corner.x()) + ", " + number(corner.y()) + ", " + number(corner.z()) + " }";
+  }
+  static std::string plain_text_of(double value) {
+    Value number;
+    number.kind = Value::Kind::number;
+    number.number = value;
+    return plain_text(number);
+  }
+
   void name_things(const Value& fields, const Body& body) {
     name_part(fields, source_.name, ObjectKind::body, body, 0);
     name_regions(fields, source_.name, source_.name, 0);
+    name_tip(fields, body);
     for (const auto& [key, value] : parts_in_order(fields)) {
       const Body* own = loose(key);
       const Body& carrier = own != nullptr ? *own : body;

@@ -89,7 +89,7 @@ std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& vie
   ScriptState& scripts = *own.scripts;
   std::vector<Placement> placements;
   if (own.function != 0) {
-    const ViewScope scope(scripts.view, view, &free, most);
+    const ViewScope scope(scripts.view, view, &free, most, turned_down_);
     scripts.protect([&](lua_State* state) {
       scripts.push_kept(own.function);
       scripts.push_kept(scripts.view_reference());

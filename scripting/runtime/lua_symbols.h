@@ -25,6 +25,7 @@ class LuaSymbols : public Symbols {
   // A sample depends on its arguments only: each has a fresh state, or one in which no other sample has left anything.
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
                                 int most) override;
+  void watch(std::vector<Looked>* turned_down) override { turned_down_ = turned_down; }
 
  private:
   // A predicate's function, as registry reference; 0: it has none.
@@ -44,6 +45,7 @@ class LuaSymbols : public Symbols {
   std::unordered_map<std::string, Sampler> samplers_;  // as good as fresh
   Functions holds_, observable_;
   int generation_ = -1;
+  std::vector<Looked>* turned_down_ = nullptr;
 };
 
 }  // namespace stampede

@@ -83,6 +83,27 @@ void only_fields(lua_State* state, int index, std::initializer_list<const char*>
   }
 }
 
+Transform tip_of(lua_State* state) { return view_of(state).world_from(context_of(state).view->hand); }
+
+// { tool = "stick" } in an options table: poses are of the held tool's tip. Result: tool_tip_from_hand_tip, which turns
+// such a pose into one of the hand; without the option nothing changes.
+Transform hand_seen_from_tool(lua_State* state, int options) {
+  if (!lua_istable(state, options)) return Transform::Identity();
+  lua_getfield(state, options, "tool");
+  const bool given = !lua_isnil(state, -1);
+  const std::string tool = given ? std::string(check_text(state, -1)) : std::string();
+  lua_pop(state, 1);
+  if (!given) return Transform::Identity();
+  const WorldView& view = view_of(state);
+  view.object(tool);
+  const std::string tip = tool + ".tip";
+  if (view.scene().object(tip) == nullptr)
+    throw Error(tool, "has no tip to move", "give its object file one: tip = { at = { x, y, z }, rpy = { r, p, y } }");
+  if (view.grasped_object() != tool)
+    throw Error(tool, "is not in the hand, so its tip cannot be moved", "pick it first");
+  return view.world_from(tip).inverse() * tip_of(state);
+}
+
 int open_hand(lua_State* state) {
   const Robot& robot = robot_of(state);
   const double opening = lua_isnoneornil(state, 2) ? robot.opening_max : finite(state, 2);
@@ -141,9 +162,13 @@ int move_through(lua_State* state) {
   listed ? listed_targets(state, call.targets) : named_targets(state, call.targets);
   for (ToolTarget& target : call.targets) target.ahead = target.name == "ahead";
   luaL_argcheck(state, !call.targets.empty() && !call.targets[0].ahead, 2, "expected at least one named pose");
-  only_fields(state, 3, {"then_part", "to", "pivot", "opening", "retreat"});
-  if (lua_istable(state, 3)) {
-    lua_getfield(state, 3, "then_part");
+  only_fields(state, 3, {"then_part", "to", "pivot", "opening", "retreat", "tool"});
+  const Transform from_tool = hand_seen_from_tool(state, 3);
+  for (ToolTarget& target : call.targets) target.world_from_tip = target.world_from_tip * from_tool;
+  if (lua_istable(state, 3) && lua_getfield(state, 3, "then_part") == LUA_TNIL) {
+    lua_pop(state, 1);
+    only_fields(state, 3, {"tool"});  // the others belong to a part
+  } else if (lua_istable(state, 3)) {
     const std::string_view part = check_text(state, -1);
     view_of(state).joint_range(part);
     call.then_part = std::string(part);
@@ -156,10 +181,16 @@ int move_through(lua_State* state) {
   return ask(state, std::move(call));
 }
 
-int move_to(lua_State* state) { return ask(state, robot_call::MoveThrough{{{"goal", finite_pose(state, 2)}}}); }
+int move_to(lua_State* state) {
+  only_fields(state, 3, {"tool"});
+  return ask(state, robot_call::MoveThrough{{{"goal", finite_pose(state, 2) * hand_seen_from_tool(state, 3)}}});
+}
 
 robot_call::MoveLine line(lua_State* state, const Transform& target, int options, const char* kind) {
-  only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear"});
+  if (std::string_view(kind) == "move_line")
+    only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "tool"});
+  else
+    only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear"});
   robot_call::MoveLine call{target};
   call.speed = number_field(state, options, "speed", call.speed);
   call.force = number_field(state, options, "force", call.force);
@@ -173,11 +204,10 @@ robot_call::MoveLine line(lua_State* state, const Transform& target, int options
   return call;
 }
 
-Transform tip_of(lua_State* state) { return view_of(state).world_from(context_of(state).view->hand); }
-
-// To a pose, or by an offset { x, y, z } along the world's axes.
+// To a pose, or by an offset { x, y, z } along the world's axes, which is the same for the hand and what it holds.
 int move_line(lua_State* state) {
-  if (!lua_istable(state, 2)) return ask(state, line(state, finite_pose(state, 2), 3, "move_line"));
+  const Transform from_tool = hand_seen_from_tool(state, 3);
+  if (!lua_istable(state, 2)) return ask(state, line(state, finite_pose(state, 2) * from_tool, 3, "move_line"));
   Transform target = tip_of(state);
   for (int i = 0; i < 3; ++i) {
     lua_rawgeti(state, 2, i + 1);

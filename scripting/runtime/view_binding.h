@@ -2,10 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/base/random.h"
 #include "engine/episode/world_view.h"
-#include "engine/sim/collision_state.h"
+#include "engine/motion/looked.h"
 
 struct lua_State;
 
@@ -15,20 +16,23 @@ namespace stampede {
 // only: a script that keeps `w` for later gets an error, never another moment's world.
 struct ViewContext {
   const WorldView* view = nullptr;
-  const CollisionState* space = nullptr;  // while sampling
-  int most = 0;                           // samples asked for
-  bool facts = false;                     // may the facts be read? Not by predicates: facts are made of these
-  std::string hand;                       // `panda.hand`
+  const CollisionState* space = nullptr;       // while sampling
+  int most = 0;                                // samples asked for
+  std::vector<Looked>* turned_down = nullptr;  // while sampling, where somebody asks: places that cannot be
+  bool facts = false;                          // may the facts be read? Not by predicates: facts are made of these
+  std::string hand;                            // `panda.hand`
 };
 
 // Sets a context for a scope. Scopes nest.
 class ViewScope {
  public:
-  ViewScope(ViewContext& context, const WorldView& view, const CollisionState* space = nullptr, int most = 0)
+  ViewScope(ViewContext& context, const WorldView& view, const CollisionState* space = nullptr, int most = 0,
+            std::vector<Looked>* turned_down = nullptr)
       : context_(context), before_(context) {
     context.view = &view;
     context.space = space;
     context.most = most;
+    context.turned_down = turned_down;
     context.facts = false;
   }
   enum class Facts { readable };
@@ -37,6 +41,7 @@ class ViewScope {
     context_.view = before_.view;
     context_.space = before_.space;
     context_.most = before_.most;
+    context_.turned_down = before_.turned_down;
     context_.facts = before_.facts;
   }
   ViewScope(const ViewScope&) = delete;
@@ -46,10 +51,15 @@ class ViewScope {
   ViewContext& context_;
   struct Before {
     explicit Before(const ViewContext& context)
-        : view(context.view), space(context.space), most(context.most), facts(context.facts) {}
+        : view(context.view),
+          space(context.space),
+          most(context.most),
+          turned_down(context.turned_down),
+          facts(context.facts) {}
     const WorldView* view;
     const CollisionState* space;
     int most;
+    std::vector<Looked>* turned_down;
     bool facts;
   } before_;
 };

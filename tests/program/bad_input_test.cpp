@@ -91,6 +91,44 @@ TEST_CASE("`check` builds what tasks use: a missing mesh, a broken mesh and a sh
   }
 }
 
+TEST_CASE("a tip that is not on its tool is refused, with line and cure, whether a task uses the tool or not") {
+  const Folder mine;
+  put(mine, "worlds/objects/stick.lua",
+      "-- A stick.\nreturn object {\n  type = \"thing\", traits = { \"movable\", \"tool\" }, mass = 0.1,\n"
+      "  shape = box { 0.02, 0.02, 0.30 },\n  tip = { at = { 0, 0, -0.20 } },\n}\n");
+  const Said check = checked(mine);
+  INFO(check.out);
+  CHECK(check.code == kBadInput);
+  CHECK(says(check.out, "worlds/objects/stick.lua:5: tip: the tip is 50 mm outside the tool"));
+  CHECK(says(check.out, "its shapes reach from { -0.01, -0.01, -0.15 } to { 0.01, 0.01, 0.15 } m: move `at` there"));
+}
+
+TEST_CASE("a slot that is smaller than what is to go into it is refused, in goals and in starts") {
+  const auto said = [](const std::string& radius, const std::string& init, const std::string& goal) {
+    const Folder mine;
+    put(mine, "worlds/objects/rod.lua",
+        "-- A rod.\nreturn object { type = \"peg\", traits = { \"movable\", \"graspable\" }, mass = 0.1, shape = "
+        "cylinder { " +
+            radius + ", 0.10 },\n  regions = { seat = { at = { 0, 0, -0.05 }, size = { 0.01, 0.01, 0.002 } } } }\n");
+    put(mine, "worlds/objects/bored.lua",
+        file_text(STAMPEDE_SOURCE_DIR "/tests/tasks/authors/worlds/objects/bored_block.lua"));
+    put(mine, "tasks/t.lua",
+        "-- Put it in.\nreturn task {\n  world = \"tabletop\",\n"
+        "  objects = { block = { \"bored\", at = { 0.25, 0, 0.75 } }, rod = { \"rod\" } },\n  init = " +
+            init + ",\n  goal = " + goal + ",\n  instructions = { \"put it in\" },\n}\n");
+    return checked(mine);
+  };
+  const std::string on = "{ is.on(\"rod\", \"table\") }", in = "{ is.in_slot(\"rod\", \"block.bore\") }";
+  for (const std::string radius : {"0.014", "0.010"}) CHECK(said(radius, on, in).code == kDone);
+  const Said goal = said("0.018", on, in), start = said("0.018", in, "is.lifted(\"rod\")");
+  INFO(goal.out << start.out);
+  CHECK(goal.code == kBadInput);
+  CHECK(says(goal.out, "tasks/t.lua:6: goal: 'rod' does not fit: it would touch 'block'"));
+  CHECK(says(goal.out, "make the place wider, or the thing smaller"));
+  CHECK(start.code == kBadInput);
+  CHECK(says(start.out, "tasks/t.lua:5: init: 'rod' does not fit"));
+}
+
 TEST_CASE("a malformed URDF is a complaint with its file") {
   const Folder mine;
   std::string arm = file_text(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.lua");

@@ -210,7 +210,7 @@ TEST_CASE("a failed step says how many of its grasps failed of what") {
       say({"check", "too_far", "--physics", "--why", "--episodes", "1", "--root", kRoot, "--path", mine.text()});
   INFO(said.out << said.err);
   CHECK(said.code == kNo);
-  CHECK(says(said.err, "no grasp of a is reachable and free: of "));
+  CHECK(says(said.err, "grasps: "));
   CHECK(says(said.err, "out of reach"));
 }
 

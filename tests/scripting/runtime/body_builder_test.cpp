@@ -78,6 +78,21 @@ TEST_CASE("an object that is a region has no body") {
   CHECK(zone.placed);
 }
 
+TEST_CASE("a tool's tip is a region without volume on the tool, or next to it") {
+  const std::string stick = "traits = { 'movable' }, mass = 1, shape = { shape = 'box', 0.02, 0.02, 0.30 }";
+  const auto tool = built("{ tip = { at = { 0, 0, -0.153 }, rpy = { 0, 0, 0 } }, " + stick + " }");
+  REQUIRE(tool.regions.size() == 1);
+  CHECK(tool.regions[0].name == "thing.tip");
+  CHECK(tool.regions[0].size == Vector3::Zero());
+  CHECK(tool.regions[0].part_from_region.translation() == Vector3(0, 0, -0.153));
+  REQUIRE(tool.objects.size() == 2);
+  CHECK(tool.objects[1].kind == ObjectKind::region);
+  CHECK(tool.objects[1].attributes.at("part_of") == "thing");
+  CHECK_THROWS_WITH(built("{ tip = { at = { 0, 0, -0.18 } }, " + stick + " }"),
+                    Catch::Contains("objects/thing.lua: tip") && Catch::Contains("the tip is 30 mm outside the tool") &&
+                        Catch::Contains("its shapes reach from { -0.01, -0.01, -0.15 } to { 0.01, 0.01, 0.15 } m"));
+}
+
 TEST_CASE("mistakes of an object name the field") {
   const std::string part = "shapes = { { shape = 'box', 1, 1, 1 } }, mass = 1";
   CHECK_THROWS_WITH(built("{ shape = { shape = 'box', 1, 1 } }"), Catch::Contains("without its size"));

@@ -120,9 +120,14 @@ TEST_CASE("each run of a skill starts from fresh variables, also beside another 
 
 TEST_CASE("what goes wrong in run is a failed call with a place, not an exception") {
   SmallWorld small;
-  const std::pair<double, std::string> ways[] = {
-      {1, "wrong.lua:2"},        {2, "instruction budget"}, {3, "finite"}, {4, "no option 'sped' here, there are: "},
-      {6, "not told its 'obj'"}, {5, "wrong.lua:16"}};
+  const std::pair<double, std::string> ways[] = {{1, "wrong.lua:2"},
+                                                 {2, "instruction budget"},
+                                                 {3, "finite"},
+                                                 {4, "no option 'sped' here, there are: "},
+                                                 {6, "not told its 'obj'"},
+                                                 {5, "wrong.lua:18"},
+                                                 {7, "cube: has no tip to move"},
+                                                 {8, "top: is not in the hand, so its tip cannot be moved"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);

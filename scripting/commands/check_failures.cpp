@@ -1,0 +1,109 @@
+#include "scripting/commands/check_failures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/base/error.h"
+
+namespace stampede::program {
+namespace {
+
+// A file's name of what a step says: `init (on peg table)` is init-on-peg-table.
+std::string plain(const std::string& text) {
+  std::string name;
+  for (const char c : text) {
+    const bool kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+    if (kept)
+      name += c;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  while (name.ends_with('-')) name.pop_back();
+  return name;
+}
+
+}  // namespace
+
+void FailedSteps::add(const Impasse& impasse) {
+  const std::lock_guard lock(mutex_);
+  Step& step = steps_[{impasse.task, impasse.step, std::string(to_string(impasse.reason))}];
+  if (impasse.reason == Reason::init_impossible) {
+    step.times += impasse.draws;
+    starts_.insert({impasse.task, impasse.variation, impasse.seed});
+  }
+  step.looked += static_cast<std::int64_t>(impasse.looked.size());
+  for (const Looked& one : impasse.looked) step.causes.add(cause_of(one));
+  const auto nearer = [&](const Looked& one) {
+    if (!step.nearest) return true;
+    const std::vector<Looked> both = {*step.nearest, one};
+    return nearest_miss(both) == &both[1];
+  };
+  if (const Looked* one = nearest_miss(impasse.looked); one != nullptr && nearer(*one)) step.nearest = *one;
+  if (!step.first || impasse.seed < step.first->seed) step.first = impasse;
+}
+
+void FailedSteps::add(const EpisodeRecord& episode) {
+  const std::lock_guard lock(mutex_);
+  const auto count = [&](const std::string& step, Reason reason, const std::string& detail) {
+    Step& failed = steps_[{episode.task, step, std::string(to_string(reason))}];
+    ++failed.times;
+    if (!detail.empty()) ++failed.details[detail];
+  };
+  const auto add = [&](const SegmentRecord& segment) {
+    if (segment.kind != SegmentKind::skill || segment.reason == Reason::none) return;
+    std::string step = segment.skill;
+    for (const std::string& argument : segment.arguments) step += " " + argument;
+    count(step, segment.reason, segment.detail);
+  };
+  for (const AttemptRecord& attempt : episode.attempts) add(attempt.segment);
+  for (const SegmentRecord& segment : episode.segments) add(segment);
+  if (episode.reason == Reason::init_impossible && !starts_.contains({episode.task, episode.variation, episode.seed}))
+    count("init", episode.reason, episode.detail);
+}
+
+void FailedSteps::draw(const std::filesystem::path& folder) {
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault) throw Error(folder.string(), "the folder cannot be made: " + fault.message(), "name another one");
+  for (auto& [key, step] : steps_) {
+    if (!step.first) continue;
+    const auto& [task, what, reason] = key;
+    const std::filesystem::path file = folder / (plain(task + " " + what + " " + reason) + ".png");
+    draw_impasse(*step.first, file);
+    step.picture = file.string();
+  }
+}
+
+// Counted over all tries where candidates were looked at; else what was said most often.
+std::string FailedSteps::why(const Step& step) const {
+  if (!step.causes.empty()) {
+    const bool grasps = step.first->reason == Reason::no_grasp;
+    return fmt::format("of {} {}: {}", step.looked, grasps ? "grasps" : "places", step.causes.text());
+  }
+  const auto most = std::max_element(step.details.begin(), step.details.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == step.details.end() ? "" : most->first;
+}
+
+QueryResult FailedSteps::table() const {
+  std::vector<std::pair<Key, const Step*>> sorted;
+  for (const auto& [key, step] : steps_) sorted.emplace_back(key, &step);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second->times > b.second->times; });
+  QueryResult table;
+  table.columns = {"times", "task", "step", "reason", "why", "nearest_miss"};
+  const bool pictures =
+      std::any_of(steps_.begin(), steps_.end(), [](const auto& s) { return !s.second.picture.empty(); });
+  if (pictures) table.columns.push_back("picture");
+  for (const auto& [key, step] : sorted) {
+    const auto& [task, what, reason] = key;
+    table.rows.push_back({step->times, task, what, reason, why(*step), SqlValue{}});
+    if (step->nearest) table.rows.back().back() = miss_of(*step->nearest);
+    if (pictures) table.rows.back().push_back(step->picture.empty() ? SqlValue{} : SqlValue{step->picture});
+  }
+  return table;
+}
+
+}  // namespace stampede::program
