@@ -217,8 +217,10 @@ StaticFacts static_facts(const Scene& scene, const Domain& domain) {
     known.facts.insert(fact);
     if (!type.empty() && values.insert(fact.arguments[1]).second) known.objects.push_back({fact.arguments[1], type});
   }
-  for (const TypedObject& constant : domain.constants)
-    if (values.insert(constant.name).second) known.objects.push_back(constant);
+  for (const TypedObject& constant : domain.constants) {
+    const auto is_it = [&](const TypedObject& one) { return one.name == constant.name; };
+    if (std::none_of(known.objects.begin(), known.objects.end(), is_it)) known.objects.push_back(constant);
+  }
   std::sort(known.objects.begin(), known.objects.end());
   return known;
 }

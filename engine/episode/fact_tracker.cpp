@@ -106,8 +106,10 @@ void FactTracker::add_static(const WorldView& view) {
     static_.insert(fact);
     if (!type.empty() && values.insert(fact.arguments[1]).second) objects_.push_back({fact.arguments[1], type});
   }
-  for (const TypedObject& constant : symbols_.domain().constants)
-    if (values.insert(constant.name).second) objects_.push_back(constant);
+  for (const TypedObject& constant : symbols_.domain().constants) {
+    const auto is_it = [&](const TypedObject& one) { return one.name == constant.name; };
+    if (std::none_of(objects_.begin(), objects_.end(), is_it)) objects_.push_back(constant);
+  }
   std::sort(objects_.begin(), objects_.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 

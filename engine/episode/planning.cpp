@@ -140,6 +140,9 @@ std::string beside_goal(const Task& task) {
 PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
                            const std::vector<Obstruction>& obstructions) {
   PlanningTask planning{domain, world_problem(task, facts)};
+  for (TypedObject& constant : planning.domain.constants)  // a thing may be called as a part of another is
+    for (const TypedObject& object : planning.problem.objects)
+      if (object.name == constant.name) constant = object;
   for (std::size_t i = 0; i < obstructions.size(); ++i)
     obstruct(planning, obstructions[i], "obstructed_" + std::to_string(i + 1), facts.objects());
   const std::vector<Formula>& stages = task.stages;

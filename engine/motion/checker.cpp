@@ -14,7 +14,7 @@ constexpr double kExcusedRadius = 0.25;  // rad around an end that touches the p
 std::string contact_text(const CollisionState& state, const JointVector& q, double padding_m) {
   const std::optional<CollisionPair> pair = state.first_contact(q, padding_m);
   if (!pair) return {};
-  return part_name(state.scene(), pair->robot_part) + " touches " + part_name(state.scene(), pair->other);
+  return name_of_part(state.scene(), pair->robot_part) + " touches " + name_of_part(state.scene(), pair->other);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Causes causes_of(std::span<const Looked> looked);
 // What the arm touches in all of these configurations, in the first: its name, or nothing where one of them is free.
 std::string touched_in_all(const CollisionState& state, const std::vector<JointVector>& configurations);
 // What people call a part: `chest.top_drawer`, `panda.link5`.
-std::string part_name(const Scene& scene, PartRef part);
+std::string name_of_part(const Scene& scene, PartRef part);
 
 // The least way along one of the directions (unit vectors, world) that makes a pose free, to a millimetre; negative:
 // 64 mm are not enough.

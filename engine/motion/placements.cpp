@@ -155,7 +155,7 @@ class TurnedDown {
     const std::optional<PartRef> part = state_.body_contact(body_, place, padding_m);
     if (!part) return;
     Looked looked{Looked::Fate::touches, place};
-    looked.touched = part_name(state_.scene(), *part);
+    looked.touched = name_of_part(state_.scene(), *part);
     if (++measured_ <= kMostMeasured)
       looked.missed_m = way_to_free(place, level_directions(),
                                     [&](const Transform& moved) { return state_.body_free(body_, moved, padding_m); });

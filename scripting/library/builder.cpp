@@ -129,36 +129,11 @@ std::optional<std::string> LibraryBuilder::part_fault(const std::string& name) c
   return did_you_mean(name, known);
 }
 
-namespace {
-
-// Values of attributes that a formula names: (part_name ?lid lid). Every problem of the domain has them.
-void add_values(const Formula& formula, Domain& domain) {
-  if (formula.kind == Formula::Kind::atom && formula.terms.size() == 2 && !formula.terms[1].variable) {
-    const Predicate* predicate = domain.predicate(formula.predicate);
-    const TypedObject value{formula.terms[1].name, predicate == nullptr ? "" : predicate->parameters.at(1).type};
-    if (std::find(domain.constants.begin(), domain.constants.end(), value) == domain.constants.end())
-      domain.constants.push_back(value);
-  }
-  for (const Formula& part : formula.parts) add_values(part, domain);
-}
-
-void name_constants(Domain& domain) {
-  for (std::size_t i = 0; i < domain.predicates.size(); ++i) add_values(Formula(domain.predicates[i].derived), domain);
-  for (std::size_t i = 0; i < domain.actions.size(); ++i) {
-    add_values(Formula(domain.actions[i].precondition), domain);
-    for (const Effect& effect : std::vector<Effect>(domain.actions[i].effects)) add_values(effect.when, domain);
-  }
-  std::sort(domain.constants.begin(), domain.constants.end());
-}
-
-}  // namespace
-
 void LibraryBuilder::finish() {
   Domain& domain = library_->domain_;
   domain.name = "stampede";
   const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
   std::sort(domain.actions.begin(), domain.actions.end(), by_name);
-  name_constants(domain);
   make_domains();
   std::stable_sort(complaints_.begin(), complaints_.end(),
                    [](const Error& a, const Error& b) { return place_of(a) < place_of(b); });

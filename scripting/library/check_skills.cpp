@@ -170,6 +170,31 @@ std::vector<std::string> LibraryBuilder::chosen_skills(const Definition& task, c
   return names;
 }
 
+namespace {
+
+// Values that a formula names: `lid` of `?x.lid`.
+void collect_values(const Formula& formula, const Domain& domain, std::set<std::string>& names) {
+  for (const Formula& part : formula.parts) collect_values(part, domain, names);
+  const Predicate* predicate = formula.kind == Formula::Kind::atom ? domain.predicate(formula.predicate) : nullptr;
+  if (predicate == nullptr) return;
+  for (std::size_t i = 0; i < formula.terms.size() && i < predicate->parameters.size(); ++i)
+    if (!formula.terms[i].variable && predicate->parameters[i].type == "value") names.insert(formula.terms[i].name);
+}
+
+// What actions and derived predicates name is there in every problem, also where no object has such a part.
+void name_constants(Domain& domain) {
+  std::set<std::string> names;
+  for (const Action& action : domain.actions) {
+    collect_values(action.precondition, domain, names);
+    for (const Effect& effect : action.effects) collect_values(effect.when, domain, names);
+  }
+  for (const Predicate& predicate : domain.predicates)
+    if (predicate.kind == PredicateKind::derived) collect_values(predicate.derived, domain, names);
+  for (const std::string& name : names) domain.constants.push_back({name, "value"});
+}
+
+}  // namespace
+
 void LibraryBuilder::make_domains() {
   const std::map<std::string, SkillInfo, std::less<>>& skills = library_->skills_;
   Domain& base = library_->domain_;
@@ -185,7 +210,9 @@ void LibraryBuilder::make_domains() {
     std::erase_if(made->second.actions, [&](const Action& action) {
       return replaced.contains(action.skill) || (!replaces(action).empty() && !listed(task.skills, action.skill));
     });
+    name_constants(made->second);
   }
+  name_constants(base);
 }
 
 void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& info, const Value& fields,

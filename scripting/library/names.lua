@@ -220,6 +220,7 @@
 ---| "surface"
 ---| "target"
 ---| "threaded"
+---| "tool"
 ---| "turnable"
 
 ---@alias stampede.world_name

@@ -90,6 +90,7 @@
 ---@field region? stampede.region  the whole object is a region: no mass, no contact
 ---@field parts? table<string, stampede.part>  articulated parts, addressed object.part (default {})
 ---@field urdf? string  a URDF file beside this one, instead of shapes
+---@field tip? stampede.tip  where a tool acts: the region OBJECT.tip, `{ tool = "OBJECT" }` of moves
 ---@field declares? table  types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} } (default {})
 
 -- Where tasks take place: robot, fixtures, cameras, sensors, light
@@ -226,6 +227,13 @@
 ---@field numbers? table  numbers by name (default {})
 ---@field visible? boolean  drawn in pictures (default false)
 ---@field colour? string|number[]  when visible
+
+-- The point of a tool that acts: z out of the tool, in the direction in which it works
+---@class stampede.tip
+---@field at? number[]  in the object's frame, on the tool or at most 5 mm off it [m] (default { 0, 0, 0 })
+---@field rpy? number[]  in the object's frame [rad] (default { 0, 0, 0 })
+---@field yaw? number  instead of rpy [rad] (default 0)
+---@field quaternion? number[]  instead of rpy
 
 -- Where a hand may take an object
 ---@class stampede.grasp
