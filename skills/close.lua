@@ -1,5 +1,7 @@
 -- Shut a drawer, door or lid: pushed by its handle with the tips of the closed fingers, or swung by its grip, where it has
--- the number `gripped`.
+-- the number `gripped`. Where the arm cannot follow the whole way at once, it touches or grips it again.
+local grips = require "worlds.lib.grips"
+
 -- The position past its stop at which the hand has gone 3 cm further: the way to the handle, and what the arm gives way.
 local function pressed(w, part, hand)
   local ahead = w:part_at(part, w:joint(part) - 0.03):times(w:pose(part):inverse()):times(hand)
@@ -10,27 +12,21 @@ end
 
 local away = 0.08 -- m that the hand goes back at the end
 
-local function swing(robot, p, c, pivot)
-  robot:open_hand(0.06)
-  robot:move_through({ approach = c.grasp.approach, grasp = c.grasp.pose },
-    { then_part = p.part, to = 0, pivot = pivot, opening = c.grasp.width, retreat = away })
-  robot:close_hand(p.part, { force = c.grasp.force })
-  robot:move_part(p.part, 0, { speed = c.speed, most_force = 30, pivot = pivot, retreat = away })
-  robot:open_hand(0.06)
-  robot:retreat(away)
-end
-
-local function push(robot, p, c, pivot)
-  local before = c.grasp.pose:along(0, 0, -0.042) -- the closed fingers do not touch the handle yet
-  local past = pressed(robot:view(), p.part, c.grasp.pose)
+local function push(robot, part, grasp, c, pivot)
+  local before = grasp.pose:along(0, 0, -0.042) -- the closed fingers do not touch the handle yet
+  local past, w = pressed(robot:view(), part, grasp.pose), robot:view()
+  local whole = not grasp.reach or grasp.reach <= w:number(part, "closed_at")
   robot:close_hand()
-  robot:move_through({ approach = c.grasp.approach, goal = before, ahead = c.grasp.pose },
-    { then_part = p.part, to = past, pivot = pivot, retreat = away })
-  robot:move_line(c.grasp.pose, { speed = 0.05, stop_on_contact = true, tolerate = true })
-  robot:move_part(p.part, 0, { speed = c.speed, most_force = 25, pivot = pivot, retreat = away }) -- but for the gap
-  robot:move_part(p.part, past, { speed = math.min(c.speed, 0.05), most_force = 25, pivot = pivot, retreat = away })
+  robot:move_through({ approach = grasp.approach, goal = before, ahead = grasp.pose },
+    { then_part = part, to = whole and past or grasp.reach, pivot = pivot, retreat = away })
+  robot:move_line(grasp.pose, { speed = 0.05, stop_on_contact = true, tolerate = true })
+  local function on(to, speed)
+    robot:move_part(part, to,
+      { speed = speed, most_force = 25, pivot = pivot, retreat = away, as_far_as_it_goes = not whole })
+  end
+  on(whole and 0 or grasp.reach, c.speed) -- but for the gap
+  if whole then on(past, math.min(c.speed, 0.05)) end
   robot:retreat(away)
-  robot:open_hand()
 end
 
 return skill {
@@ -44,7 +40,14 @@ return skill {
   label = "close the {part}",
   run = function(robot, p, c)
     local w = robot:view()
-    local way = w:number(p.part, "gripped", 0) > 0 and swing or push
-    way(robot, p, c, w:number(p.part, "pivot", 0))
+    local pivot, gripped = w:number(p.part, "pivot", 0), w:number(p.part, "gripped", 0) > 0
+    local o = { speed = c.speed, most_force = 30, pivot = pivot, away = away, opening = 0.06 }
+    local function shut(grasp)
+      if gripped then grips.take(robot, p.part, grasp, 0, o) else push(robot, p.part, grasp, c, pivot) end
+    end
+    shut(c.grasp)
+    local to = gripped and 0 or w:number(p.part, "closed_at")
+    grips.go_on(robot, p.part, to, o, function() return w:joint(p.part) <= w:number(p.part, "closed_at") end, shut)
+    robot:open_hand()
   end,
 }

@@ -1,4 +1,5 @@
--- Put the held object straight into a slot, cradle, socket or rack and let go.
+-- Put the held object straight into a slot, cradle, socket or rack and let go. A slot with the number `search` [m] lets
+-- the hand look for its mouth so far around, where the object meets its edge; `pitch`: from turn to turn.
 return skill {
   params = { "obj: movable", "slot: slot" },
   moves = { "obj" },
@@ -21,7 +22,10 @@ return skill {
       { "approach", before(depth + c.clear) }, { "goal", before(depth) },
       { "ahead", seated }, { "ahead", seated:along(0, 0, -0.10) },      -- and back again
     }
-    robot:move_line(seated, { speed = c.speed, keep_clear = true })     -- of all but what it goes into
+    robot:move_line(seated, {
+      speed = c.speed, keep_clear = true,                               -- of all but what it goes into
+      search = w:number(p.slot, "search", 0), pitch = w:number(p.slot, "pitch", 0.0008),
+    })
     robot:wait(0.1)
     robot:open_hand()
     robot:retreat(0.10)

@@ -1,4 +1,6 @@
--- Grasp a knob or the head of a tap and turn it about its axis.
+-- Grasp a knob, a wheel or the head of a tap and turn it about its axis; beyond the wrist's range grip it again.
+local grips = require "worlds.lib.grips"
+
 return skill {
   params = { "part: turnable" },
   precondition = { is.hand_empty(), is_not.turned("part") },
@@ -10,13 +12,10 @@ return skill {
   label = "turn the {part}",
   run = function(robot, p, c)
     local w = robot:view()
-    local goal = w:number(p.part, "turn_to")
-    robot:open_hand(c.grasp.opening)
-    robot:move_through({ approach = c.grasp.approach, grasp = c.grasp.pose },
-      { then_part = p.part, to = goal, opening = c.grasp.width, retreat = 0.10 })
-    robot:close_hand(p.part, { force = c.grasp.force })
-    robot:move_part(p.part, goal, { speed = c.speed, most_force = 30, retreat = 0.10 })
-    robot:open_hand(c.grasp.opening)
-    robot:retreat(0.10)
+    local goal, wanted = w:number(p.part, "turn_to"), w:number(p.part, "turned_at")
+    local o = { speed = c.speed, most_force = 30, away = 0.10 }
+    local function turn(grasp) grips.take(robot, p.part, grasp, goal, o) end
+    turn(c.grasp)
+    grips.go_on(robot, p.part, goal, o, function() return w:joint(p.part) >= wanted end, turn)
   end,
 }

@@ -1,6 +1,9 @@
 #include "engine/episode/call_motion.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/episode/call_follow.h"
 
 namespace stampede {
 namespace {
@@ -27,6 +30,7 @@ int robot_of(const RobotCall& call) {
 PlannedCall from(PlannedMotion planned, FollowOptions options) {
   if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
   options.vias = std::move(planned.vias);
+  for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
@@ -47,7 +51,49 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
     if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
   }
   const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
-  return from(plan_tool_path(state, start, rigid, line, {}, key), std::move(options));
+  PlannedMotion whole = plan_tool_path(state, start, rigid, line, {}, key);
+  if (whole.reason != Reason::none && call.as_far_as_it_goes)
+    if (const std::optional<ArmWay> found = furthest_with_part(state, start, way, key)) {
+      LineOptions guided = line;
+      guided.near = found->arm;
+      whole = plan_tool_path(state, start, found->world_from_tip, guided, {}, key);
+    }
+  return from(std::move(whole), std::move(options));
+}
+
+// Of a motion that presses, gives way or moves the fingers.
+void set_contact(const Rollout& rollout, double most_force, double press, const Vector3& press_along,
+                 FollowOptions& options) {
+  options.most_force = most_force;
+  options.press = press;
+  if (!press_along.isZero()) options.press_along = press_along.normalized();
+  options.hand_force = rollout.view().scene().robot.grip_force;
+}
+
+PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, const CollisionState& state,
+                           const JointVector& start, FollowOptions options, RandomKey key) {
+  options.kind = call.kind;
+  options.stop_on_contact = call.stop_on_contact;
+  options.contact_force = call.force;
+  options.tolerate_error = call.tolerate || call.stop_on_contact || call.most_force > 0;
+  set_contact(rollout, call.most_force, call.press, call.press_along, options);
+  options.search = call.search;
+  options.search_pitch = call.search_pitch;
+  options.search_force = call.force;
+  if (call.opening) options.hands.push_back({0, *call.opening});
+  LineOptions line;
+  line.tool_speed = call.speed;
+  line.keep_clear = call.keep_clear;
+  return from(plan_line(state, start, call.target, line, {}, key), std::move(options));
+}
+
+PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const CollisionState& state,
+                        const JointVector& start, FollowOptions options, RandomKey key) {
+  options.kind = "follow";
+  options.tolerate_error = call.tolerate || call.most_force > 0;
+  set_contact(rollout, call.most_force, call.press, call.press_along, options);
+  const auto pieces = tool_pieces(call, rollout.view(), rollout.world().arm(call.robot).world_from_tip(start));
+  return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, {}, key), std::move(options));
 }
 
 // The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
@@ -120,10 +166,22 @@ std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vect
   return space;
 }
 
-bool yields(const RobotCall& call) {
-  const auto* line = std::get_if<robot_call::MoveLine>(&call);
-  const auto* part = std::get_if<robot_call::MovePart>(&call);
-  return (line != nullptr && line->most_force > 0) || (part != nullptr && part->most_force > 0);
+Yielding yielding(const RobotCall& call) {
+  const auto of = [](double most_force, bool steered) {
+    return steered ? Yielding::always : most_force > 0 ? Yielding::where_stiff : Yielding::no;
+  };
+  if (const auto* line = std::get_if<robot_call::MoveLine>(&call))
+    return of(line->most_force, line->press > 0 || line->search > 0);
+  if (const auto* follow = std::get_if<robot_call::Follow>(&call)) return of(follow->most_force, follow->press > 0);
+  if (const auto* part = std::get_if<robot_call::MovePart>(&call)) return of(part->most_force, false);
+  return Yielding::no;
+}
+
+bool moves_fingers(const RobotCall& call) {
+  if (const auto* line = std::get_if<robot_call::MoveLine>(&call)) return line->opening.has_value();
+  const auto* follow = std::get_if<robot_call::Follow>(&call);
+  return follow != nullptr && std::any_of(follow->pieces.begin(), follow->pieces.end(),
+                                          [](const robot_call::Piece& piece) { return piece.opening.has_value(); });
 }
 
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
@@ -139,41 +197,34 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
     return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
   };
   return std::visit(
-      Overloaded{[&](const robot_call::MoveThrough& move) {
-                   options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
-                   if (move.then_part.empty())
-                     return from(plan_through(*free_space(), start, move.targets, {}, key), options);
-                   PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
-                   then.opening = move.opening;
-                   then.retreat = move.retreat;
-                   return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
-                 },
-                 [&](const robot_call::MoveLine& move) {
-                   options.kind = move.kind;
-                   options.stop_on_contact = move.stop_on_contact;
-                   options.contact_force = move.force;
-                   options.tolerate_error = move.tolerate || move.stop_on_contact || move.most_force > 0;
-                   options.most_force = move.most_force;
-                   LineOptions line;
-                   line.tool_speed = move.speed;
-                   line.keep_clear = move.keep_clear;
-                   return from(plan_line(*space(), start, move.target, line, {}, key), options);
-                 },
-                 [&](const robot_call::MoveJoints& move) {
-                   options.kind = "move_joints";
-                   return from(plan_joints(*space(), start, move.target, {}, key), options);
-                 },
-                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
-                 [&](const robot_call::MovePart& move) {
-                   return plan_move_part(rollout, move, *space(), start, options, key);
-                 },
-                 [&](const robot_call::Wait& wait) {
-                   return PlannedCall{
-                       make_wait(std::max<std::int64_t>(1, std::llround(wait.seconds / world.dt()))), Reason::none, {}};
-                 },
-                 [&](const auto&) {
-                   return PlannedCall{nullptr, Reason::script_error, "not a motion"};
-                 }},
+      Overloaded{
+          [&](const robot_call::MoveThrough& move) {
+            options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
+            if (move.then_part.empty()) return from(plan_through(*free_space(), start, move.targets, {}, key), options);
+            PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
+            then.opening = move.opening;
+            then.retreat = move.retreat;
+            return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
+          },
+          [&](const robot_call::MoveLine& move) {
+            return plan_move_line(rollout, move, *space(), start, options, key);
+          },
+          [&](const robot_call::Follow& follow) { return plan_follow(rollout, follow, *space(), start, options, key); },
+          [&](const robot_call::MoveJoints& move) {
+            options.kind = "move_joints";
+            return from(plan_joints(*space(), start, move.target, {}, key), options);
+          },
+          [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
+          [&](const robot_call::MovePart& move) {
+            return plan_move_part(rollout, move, *space(), start, options, key);
+          },
+          [&](const robot_call::Wait& wait) {
+            return PlannedCall{
+                make_wait(std::max<std::int64_t>(1, std::llround(wait.seconds / world.dt()))), Reason::none, {}};
+          },
+          [&](const auto&) {
+            return PlannedCall{nullptr, Reason::script_error, "not a motion"};
+          }},
       call);
 }
 

@@ -18,11 +18,16 @@ struct PlannedCall {
 };
 
 // Plans one robot call from where the reference is. `touchable`: parts that hand and held object may touch near the
-// targets. Repeatable: a pure function of its arguments. RunSkill, Done and Fail are not motions.
+// targets. Repeatable: a pure function of its arguments. RunSkill, Done, Fail and questions are not
+// motions.
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key);
 
-// Is it made by an arm that gives way to contact (on Cartesian impedance, where the skill's controller is stiff)?
-bool yields(const RobotCall& call);
+// Is it made on Cartesian impedance, whatever the skill's controller, or where that is stiff?
+enum class Yielding { no, where_stiff, always };
+Yielding yielding(const RobotCall& call);
+
+// Does it open or close the hand beside what the arm does?
+bool moves_fingers(const RobotCall& call);
 
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);

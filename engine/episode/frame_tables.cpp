@@ -6,7 +6,7 @@
 namespace stampede {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotStored = std::numeric_limits<double>::quiet_NaN();
 
 void add(std::vector<double>& table, const Pose& pose) {
   table.insert(table.end(), pose.position.begin(), pose.position.end());
@@ -19,13 +19,13 @@ void add(std::vector<double>& table, const std::vector<double>& values) {
 
 void add_action(FrameTables& tables, const std::optional<ActionRecord>& action) {
   std::vector<double> joints = action ? action->joint_position : std::vector<double>();
-  joints.resize(tables.commanded, kUnknown);
+  joints.resize(tables.commanded, kNotStored);
   add(tables.action_joint_position, joints);
   if (action)
     add(tables.action_tool_pose, action->tool_pose);
   else
-    tables.action_tool_pose.insert(tables.action_tool_pose.end(), FrameTables::kPose, kUnknown);
-  tables.action_gripper.push_back(action ? action->gripper : kUnknown);
+    tables.action_tool_pose.insert(tables.action_tool_pose.end(), FrameTables::kPose, kNotStored);
+  tables.action_gripper.push_back(action ? action->gripper : kNotStored);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ FrameTables frame_tables(const EpisodeRecord& episode) {
       tables.hand.insert(tables.hand.end(), hand.touch.begin(), hand.touch.end());
     }
     for (const Pose& pose : frame.camera_pose) add(tables.camera_pose, pose);
-    tables.camera_pose.resize(tables.step.size() * episode.cameras.size() * FrameTables::kPose, kUnknown);
+    tables.camera_pose.resize(tables.step.size() * episode.cameras.size() * FrameTables::kPose, kNotStored);
     add_action(tables, frame.action);
   }
   return tables;

@@ -188,7 +188,53 @@ struct MoveLine {
   bool tolerate = false;    // falling short is no failure
   bool keep_clear = false;  // refused where anything is touched but the skill's own objects
   double most_force = 0;    // N: the arm gives way, and stops where contact asks for more; 0: it does not
+  double press = 0;         // as of Follow
+  Vector3 press_along = Vector3::Zero();
+  double search = 0;             // m around the line in which it looks for a way on where contact of `force` stops it
+  double search_pitch = 0.0008;  // m from one turn of the spiral to the next
+  std::optional<double> opening = {};  // m, to which the hand begins to open or close as the line begins
   std::string kind = "move_line";
+  int robot = 0;
+};
+// Ways that Follow travels. Poses and points are of the world, but for what a Tilt says.
+namespace piece {
+struct Offset {
+  Vector3 by = Vector3::Zero();  // straight, from where the piece begins
+};
+struct Line {
+  Transform target = Transform::Identity();  // straight to there, turning evenly
+};
+struct Arc {  // around a line of the world
+  double angle = 0;
+  Vector3 axis = Vector3::UnitZ(), point = Vector3::Zero();
+  bool turn = true;  // the tool turns with it, else it keeps its orientation
+};
+struct PartArc {  // as a part moves while its joint turns by the angle
+  double angle = 0;
+  std::string part;
+  bool turn = true;
+};
+struct Tilt {  // about an axis of the tool's own frame, as it is when the piece begins
+  double angle = 0;
+  Vector3 axis = Vector3::UnitZ();
+  Vector3 point = Vector3::Zero();  // in the tool's frame, or
+  bool in_world = false;            // in the world
+};
+}  // namespace piece
+struct Piece {
+  std::variant<piece::Offset, piece::Line, piece::Arc, piece::PartArc, piece::Tilt> way;
+  double speed = 0.25, turn_speed = 1.0;  // m/s of the tip and rad/s of the tool, at most
+  bool stop = false;                      // rests at its end; the last one does
+  std::string name = {};                  // of the via at its end; empty: none
+  std::optional<double> opening = {};     // m, to which the hand begins to open or close as the piece begins
+};
+struct Follow {
+  std::vector<Piece> pieces;
+  double blend = 0.01;    // m, see PiecesOptions
+  double most_force = 0;  // as of MoveLine
+  double press = 0;       // N along the tool's z, or along `press_along` where that is not zero, while it moves:
+  Vector3 press_along = Vector3::Zero();      // world
+  bool keep_clear = false, tolerate = false;  // as of MoveLine
   int robot = 0;
 };
 struct MoveJoints {
@@ -206,10 +252,20 @@ struct MovePart {
   double position = 0;
   double speed = 0.1;
   int robot = 0;
-  double most_force = 0;  // as of MoveLine
-  double retreat = 0;     // m that the hand must be able to go straight back at the end
-  double pivot = 0;       // rad either way that the handle may turn in the hand, about the joint's axis
-};                        // the held handle's joint; arcs too
+  double most_force = 0;           // as of MoveLine
+  double retreat = 0;              // m that the hand must be able to go straight back at the end
+  double pivot = 0;                // rad either way that the handle may turn in the hand, about the joint's axis
+  bool as_far_as_it_goes = false;  // where the arm cannot follow the whole way: as much of it as it can
+};                                 // the held handle's joint; arcs too
+// Questions: planned from here and now, nothing moves. The run is told the answer before it is asked for its next call.
+struct ReachOfPart {  // the position nearest to `position` that the arm can take the held part to
+  std::string object;
+  double position = 0, pivot = 0, retreat = 0;
+};
+struct FindGrasp {  // of a part: from which the arm can take it to `position`, or else as far as possible
+  std::string object;
+  double position = 0, pivot = 0, retreat = 0;
+};
 struct Wait {
   double seconds = 0;
 };
@@ -228,9 +284,16 @@ struct Fail {
   std::string detail;
 };
 }  // namespace robot_call
-using RobotCall = std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
-                               robot_call::MovePart, robot_call::Wait, robot_call::Policy, robot_call::RunSkill,
-                               robot_call::Done, robot_call::Fail>;
+using RobotCall =
+    std::variant<robot_call::MoveThrough, robot_call::MoveLine, robot_call::MoveJoints, robot_call::Hand,
+                 robot_call::MovePart, robot_call::Wait, robot_call::Policy, robot_call::RunSkill, robot_call::Done,
+                 robot_call::Fail, robot_call::Follow, robot_call::ReachOfPart, robot_call::FindGrasp>;
+
+// To a question. Nothing of what was asked for: there is none.
+struct RobotAnswer {
+  std::optional<double> reach;
+  std::optional<GraspCandidate> grasp;
+};
 
 // One run of a skill. next() is called with the view as it is when the previous call has ended well; a call that
 // failed ends the run. Never copied: undo starts a new one.
@@ -238,6 +301,7 @@ class SkillRun {
  public:
   virtual ~SkillRun() = default;
   virtual RobotCall next(const WorldView& view) = 0;
+  virtual void answer(const RobotAnswer&) {}  // to the question that the last call was
 };
 
 class SkillLibrary {

@@ -9,10 +9,10 @@ constexpr double kPassed_m = 0.05;
 
 }  // namespace
 
-void Passages::look(const World& world) {
+void Passages::look(const World& world, std::int64_t clock) {
   if (vias_.empty()) return;
   const JointVector speed = world.arm_velocity();
-  samples_.push_back({world.step_count(), world.world_from_tip(), speed.cwiseAbs().maxCoeff(),
+  samples_.push_back({world.step_count(), clock, world.world_from_tip(), speed.cwiseAbs().maxCoeff(),
                       (world.arm().jacobian(world.arm_position()).topRows<3>() * speed).norm()});
 }
 
@@ -38,7 +38,14 @@ std::vector<ViaRecord> Passages::in_order() const {
   }
   std::size_t last = count - 1;
   for (std::size_t i = vias_.size(); i-- > 0;) {
-    last = best[i][last];
+    if (vias_[i].by_time) {
+      const auto passed = std::find_if(samples_.begin(), samples_.end(),
+                                       [&](const Sample& sample) { return sample.clock >= vias_[i].step; });
+      if (passed == samples_.end()) continue;
+      last = static_cast<std::size_t>(passed - samples_.begin());
+    } else {
+      last = best[i][last];
+    }
     const Sample& sample = samples_[last];
     if (distance(i, last) >= kPassed_m) continue;
     records.push_back({segment_, vias_[i].name, to_pose(vias_[i].world_from_tip), to_pose(sample.world_from_tip),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/episode/call_motion.h"
+#include "engine/episode/part_questions.h"
 #include "engine/motion/planner.h"
 
 namespace stampede {
@@ -51,12 +52,13 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
-  const auto grasps = [&](const std::optional<PartWay>& follow) {
-    return grasp_candidates(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
-                            context.key.with(info.name), wanted + 1, follow);
+  const auto grasps = [&](const std::optional<PartWay>& follow, double from, double to) {
+    return grasps_to_go(rollout, *space, name, follow, from, to, context.key.with(info.name), wanted + 1);
   };
-  auto candidates = grasps(way_to(rollout, name, info.to));
-  if (candidates.empty() && !info.to.empty()) candidates = grasps({});  // perhaps it can be taken some of the way
+  const std::optional<PartWay> way = way_to(rollout, name, info.to);
+  auto candidates =
+      way ? grasps(way, rollout.view().joint(name), rollout.view().object(name).numbers.at(info.to)) : grasps({}, 0, 0);
+  if (candidates.empty() && way) candidates = grasps({}, 0, 0);  // perhaps it moves a little all the same
   if (candidates.empty()) {
     detail = "no grasp of " + name + " is reachable and free";
     if (context.mode.explain || impasse != nullptr) {

@@ -9,6 +9,7 @@
 #include "engine/episode/call_settings.h"
 #include "engine/episode/effects.h"
 #include "engine/episode/language.h"
+#include "engine/episode/part_questions.h"
 #include "engine/episode/skill_draws.h"
 
 namespace stampede {
@@ -100,7 +101,7 @@ void SkillExecution::start(SkillContext context, int parent) {
   if (const auto set = options_.set.find(context_.info->name); set != options_.set.end())
     context_.given.push_back({set->second, ChosenBy::caller});
   result_ = {};
-  calls_ = 0;
+  calls_ = questions_ = 0;
   step_asked_ = false;
   phase_ = Phase::calling;
   const Facts before = rollout_.facts().facts();
@@ -206,7 +207,7 @@ void SkillExecution::after_step() {
     if (auto end = ended())
       end_motion(std::move(*end));
     else
-      passages_->look(rollout_.world());
+      passages_->look(rollout_.world(), motion_->clock());
   } else if (phase_ == Phase::settling) {
     if (rollout_.at_frame()) lacking_ = missing_effects();
     if (auto end = ended()) end_settling(std::move(*end));
@@ -244,6 +245,13 @@ bool SkillExecution::ask_script() {
     return finish({Reason::budget, "the skill asked for more than " + std::to_string(kCallsPerSkill) + " motions"});
   if (policy_) return go_on_with_policy(context_.key.with("call").with(calls_++));
   const RobotCall next = run_->next(rollout_.view());
+  if (const auto answer =
+          answer_to(rollout_, next, touchable(rollout_, context_), context_.key.with("question").with(questions_))) {
+    if (++questions_ > kCallsPerSkill)
+      return finish({Reason::budget, "the skill asked more than " + std::to_string(kCallsPerSkill) + " questions"});
+    run_->answer(*answer);
+    return false;
+  }
   const RandomKey key = context_.key.with("call").with(calls_++);
   if (std::holds_alternative<robot_call::Done>(next)) return begin_settling();
   if (const auto* fail = std::get_if<robot_call::Fail>(&next)) return finish({fail->reason, fail->detail});
@@ -334,8 +342,11 @@ bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
   const auto* hand = std::get_if<robot_call::Hand>(&call);
   hand_ = hand == nullptr ? std::nullopt : std::optional(*hand);
   follow(std::move(planned.motion));
+  if (moves_fingers(call)) opening_before_ = rollout_.world().opening();
   SegmentRecord& segment = rollout_.recorder().segment(motion_segment_);
-  if (yields(call) && segment.controller == to_string(ControllerKind::joint_position))
+  const Yielding way = yielding(call);
+  if (way == Yielding::always ||
+      (way == Yielding::where_stiff && segment.controller == to_string(ControllerKind::joint_position)))
     segment.controller = to_string(ControllerKind::cartesian_impedance);
   return false;
 }
@@ -362,6 +373,7 @@ void SkillExecution::end_motion(SkillResult result) {
   keep_passages();
   if (hand_) after_hand(*hand_, result.ok());
   hand_.reset();
+  let_go();
   motion_.reset();
   close(motion_segment_, result);
   if (result.ok())
@@ -382,6 +394,12 @@ void SkillExecution::after_hand(const robot_call::Hand& hand, bool ok) {
                     ok};
   rollout_.recorder().grasps.push_back(std::move(grasp));
   if (ok) rollout_.keep = view.part_of(hand.expect);
+}
+
+// Where the hand was told to open on the way.
+void SkillExecution::let_go() {
+  if (opening_before_ && rollout_.world().commanded_opening() > *opening_before_) rollout_.keep.reset();
+  opening_before_.reset();
 }
 
 std::vector<std::string> SkillExecution::missing_effects() {
@@ -429,6 +447,7 @@ void SkillExecution::interrupt(const std::string& why) {
     keep_passages();
     if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect).holds);
     hand_.reset();
+    let_go();
     motion_.reset();
     close(motion_segment_, result);
   }

@@ -71,6 +71,7 @@ class SkillExecution {
   void end_motion(SkillResult result);
   void keep_passages();
   void after_hand(const robot_call::Hand& hand, bool ok);
+  void let_go();
   bool begin_settling();
   bool settled();
   void end_settling(SkillResult result);
@@ -91,12 +92,13 @@ class SkillExecution {
   SkillResult result_;
   std::unique_ptr<SkillRun> run_;
   operation::Controller controller_;  // of this call; a child may have had another
-  int calls_ = 0;                     // asked for so far
+  int calls_ = 0, questions_ = 0;     // asked for so far
   std::unique_ptr<SkillExecution> child_;
   std::unique_ptr<SkillPolicy> policy_;  // the script waits for it
   SkillCall call_;                       // as it was drawn
   std::unique_ptr<Motion> motion_;
   std::optional<robot_call::Hand> hand_;  // what the motion does, where it moves the fingers
+  std::optional<double> opening_before_;  // a motion that moves the fingers on its way
   std::optional<Passages> passages_;
   int motion_segment_ = -1;
   std::int64_t settle_until_ = 0;

@@ -34,11 +34,11 @@ PathPoint BlendedPath::at(double s) const {
   const std::size_t index = static_cast<std::size_t>(after - starts_.begin()) - 1;
   const Piece& piece = pieces_[index];
   const double along = std::clamp(s - starts_[index], 0.0, piece.length);
-  if (!piece.blend) return {piece.origin + along * piece.from, piece.from, JointVector::Zero(piece.from.size())};
+  if (!piece.blend) return {piece.origin + along * piece.from, piece.from, JointVector::Zero(piece.from.size()), s};
   const double x = along / piece.length;
   const JointVector turn = piece.to - piece.from;
   return {piece.origin + along * piece.from + piece.length * x * x * x * (1 - 0.5 * x) * turn,
-          piece.from + x * x * (3 - 2 * x) * turn, (6 * x * (1 - x) / piece.length) * turn};
+          piece.from + x * x * (3 - 2 * x) * turn, (6 * x * (1 - x) / piece.length) * turn, s};
 }
 
 std::vector<double> BlendedPath::grid() const {

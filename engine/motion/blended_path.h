@@ -11,6 +11,7 @@ namespace stampede {
 // A joint path by a length parameter and its first two derivatives.
 struct PathPoint {
   JointVector position, tangent, curvature;  // q, dq/ds, d2q/ds2
+  double s = 0;                              // rad; a corner that is rounded counts as the lines that it replaces
 };
 
 // Straight lines joined by blends. From `blend` before a corner to `blend` after it the tangent turns from one

@@ -20,6 +20,8 @@ struct GraspCandidate {
   double opening = 0.08;  // to approach with, m
   double force = 20;      // N
   int index = 0;          // k of the stream
+  // How far the part can be taken from here, where that was asked: its joint's position.
+  std::optional<double> reach = {};
 };
 
 // Antipodal grasps of a part's shapes (parallel faces of boxes, diameters of round shapes, opposed facets of hulls)

@@ -24,6 +24,13 @@ struct PlannedVia {
   std::string name;  // `approach`
   Transform world_from_tip;
   std::int64_t step = 0;  // planned passage, in steps from the motion's start
+  bool by_time = false;   // passed when that step of the plan is done: a way may lead through one place twice
+};
+
+// The fingers begin to move while the arm does.
+struct PlannedHand {
+  std::int64_t step = 0;  // from the motion's start
+  double opening = 0;     // m
 };
 
 class Motion {
@@ -34,6 +41,8 @@ class Motion {
   // (and nothing else). done/failed: no further call; the motion ends before that step.
   virtual MotionResult step(World& world) = 0;
   virtual std::vector<PlannedVia> vias() const { return {}; }
+  // How many steps of its plan are done after the coming step: fewer than were made where it had to wait.
+  virtual std::int64_t clock() const { return 0; }
   // Between two steps: it is over now, before its end. What it set going must come to rest by itself.
   virtual void interrupt(World&) {}
 };
@@ -53,6 +62,17 @@ struct FollowOptions {
   // N, above 0: the arm gives way to contact (Cartesian impedance for the time of this motion), and the motion is done
   // where the hand or what it holds meets more than this. It stays where contact has left it.
   double most_force = 0;
+  std::vector<PlannedHand> hands;  // in order; the motion ends when the fingers have come to rest too
+  double hand_force = 20;          // N
+  // N, above 0: the arm presses with this force while it moves, see steering.h; done when the trajectory is and the arm
+  // rests, tracking_error where there is nothing to press on.
+  double press = 0;
+  Vector3 press_along = Vector3::Zero();  // world, a unit vector; zero: the tool's own z, as it turns
+  // m, above 0: where contact stops the arm on its straight way it searches around it, see steering.h; stuck where
+  // nothing within this distance lets it go on.
+  double search = 0;
+  double search_pitch = 0.0008;  // m from one turn of the spiral to the next
+  double search_force = 6;       // N
 };
 std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options);
 

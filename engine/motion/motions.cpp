@@ -1,61 +1,23 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/motion/motion.h"
+#include "engine/motion/steering.h"
 
 namespace stampede {
 namespace {
 
 const MotionResult kRunning{MotionStatus::running, Reason::none};
 const MotionResult kDone{MotionStatus::done, Reason::none};
-constexpr double kLost_s = 0.1;     // a grasp may flicker for this long
-constexpr double kGrasped_s = 0.1;  // and must be steady for this long
-constexpr double kStopped_s = 0.3;  // fingers that have not moved for this long have stopped
-constexpr double kHandTimeout_s = 3;
-constexpr double kStill_m = 2e-4;
-constexpr double kOpeningTolerance_m = 1e-3;
+constexpr double kLost_s = 0.1;              // a grasp may flicker for this long
+constexpr double kGrasped_s = 0.1;           // and must be steady for this long
 constexpr double kRest_s = 0.025;            // and must stay so: it may swing
 constexpr double kRest_rad_s = 0.01;         // slower joints are at rest: below 1 cm/s at the tip
 constexpr double kYieldingStiffness = 1500;  // N/m: 1 cm off its way, the arm presses with 15 N
 
 MotionResult failed(Reason reason) { return {MotionStatus::failed, reason}; }
-
-std::int64_t steps_of(double seconds, const World& world) {
-  return static_cast<std::int64_t>(std::llround(seconds / world.dt()));
-}
-
-// From the reference's present state to rest, at a tenth of a second or as fast as the joints can.
-Trajectory brake(const World& world, int robot) {
-  const JointState now = world.reference(robot);
-  double time_s = 0.1;
-  const auto& limits = world.arm(robot).limits();
-  for (Eigen::Index i = 0; i < now.position.size(); ++i) {
-    const double acceleration = limits[static_cast<std::size_t>(i)].acceleration;
-    if (acceleration > 0) time_s = std::max(time_s, 2 * std::abs(now.velocity[i]) / acceleration);
-  }
-  const std::int64_t steps = std::max<std::int64_t>(1, steps_of(time_s, world));
-  const double span = static_cast<double>(steps) * world.dt();
-  const JointVector still = JointVector::Zero(now.position.size());
-  Trajectory stop;
-  stop.knots.push_back({0, now.position, now.velocity, now.acceleration});
-  stop.knots.push_back({steps, now.position + 0.5 * span * now.velocity, still, still});
-  return stop;
-}
-
-// The parts that hang on the arm's last joint: the last link and the hand.
-std::set<PartRef> hand_parts(const Robot& robot, int index) {
-  std::set<PartRef> parts;
-  if (robot.arm.empty()) return parts;
-  for (int part = 0; part < static_cast<int>(robot.body.parts.size()); ++part) {
-    int up = part;
-    while (up >= 0 && up != robot.arm.back()) up = robot.body.parts[static_cast<std::size_t>(up)].parent;
-    if (up >= 0) parts.insert(PartRef::of_robot(part, index));
-  }
-  return parts;
-}
 
 class FollowMotion : public Motion {
  public:
@@ -63,6 +25,7 @@ class FollowMotion : public Motion {
       : trajectory_(std::move(trajectory)), options_(std::move(options)) {}
   std::string kind() const override { return options_.kind; }
   std::vector<PlannedVia> vias() const override { return options_.vias; }
+  std::int64_t clock() const override { return clock_; }
 
   MotionResult step(World& world) override {
     if (count_ == 0) start(world);
@@ -82,14 +45,16 @@ class FollowMotion : public Motion {
 
  private:
   void start(World& world) {
-    hand_ = hand_parts(world.scene().robot, options_.robot);
-    if (options_.stop_on_contact)
-      for (const Contact& contact : world.contacts()) known_.insert({contact.a, contact.b});
-    if (options_.most_force > 0 && world.controller(options_.robot).kind == ControllerKind::joint_position) {
-      stiff_ = world.controller(options_.robot);
-      world.apply(operation::Controller{ControllerKind::cartesian_impedance, kYieldingStiffness, options_.robot});
+    watch_.emplace(world, options_.keep, options_.robot);
+    if (options_.press > 0) steering_ = make_pressing(trajectory_, options_);
+    if (options_.search > 0) steering_ = make_searching(trajectory_, options_);
+    const operation::Controller& now = world.controller(options_.robot);
+    if (steering_ || (options_.most_force > 0 && now.kind == ControllerKind::joint_position)) {
+      stiff_ = now;
+      world.apply(operation::Controller{ControllerKind::cartesian_impedance,
+                                        steering_ ? steering_->stiffness() : kYieldingStiffness, options_.robot});
     }
-    world.apply(operation::Follow{trajectory_, options_.robot});
+    if (!steering_) world.apply(operation::Follow{trajectory_, options_.robot});
   }
 
   MotionResult look(World& world) {
@@ -100,17 +65,50 @@ class FollowMotion : public Motion {
     }
     if (!stopping_ && met(world)) {
       stopping_ = true;
+      steering_.reset();
       trajectory_ = brake(world, options_.robot);
       world.apply(operation::Follow{trajectory_, options_.robot});
       count_ = 1;
       return kRunning;
     }
-    if (elapsed < trajectory_.steps()) return kRunning;
-    const bool there = stopping_ || arrived(world);
+    if (steering_) return steered(world);
+    if (!stopping_) {
+      clock_ = elapsed + 1;
+      move_fingers(world, elapsed);
+    }
+    return elapsed < trajectory_.steps() ? kRunning : ending(world, elapsed - trajectory_.steps());
+  }
+
+  MotionResult steered(World& world) {
+    const Steering::Next next = steering_->next(world, *watch_);
+    if (next.reason != Reason::none && options_.tolerate_error) return kDone;
+    if (next.reason != Reason::none) return {MotionStatus::failed, next.reason, next.detail};
+    world.apply(operation::Setpoint{next.position, next.velocity, options_.robot});
+    clock_ = next.clock;
+    move_fingers(world, next.clock);
+    return next.clock < trajectory_.steps() ? kRunning : ending(world, over_++);
+  }
+
+  // `since`: steps since the end of the trajectory.
+  MotionResult ending(const World& world, std::int64_t since) {
+    const bool there = stopping_ || steering_ || arrived(world);
     resting_ = at_rest(world) ? resting_ + 1 : 0;
-    if (there && resting_ >= steps_of(kRest_s, world)) return kDone;
-    if (elapsed - trajectory_.steps() < steps_of(options_.settle_s, world)) return kRunning;
+    const bool fingers_rest = !fingers_ || fingers_->arrived(world) || fingers_->stopped(world);
+    if (there && fingers_rest && resting_ >= steps_of(kRest_s, world)) return kDone;
+    if (since < steps_of(options_.settle_s, world) || !fingers_rest) return kRunning;
     return there || options_.tolerate_error ? kDone : failed(Reason::tracking_error);
+  }
+
+  void move_fingers(World& world, std::int64_t clock) {
+    for (; next_hand_ < options_.hands.size() && options_.hands[next_hand_].step <= clock; ++next_hand_) {
+      const double opening = options_.hands[next_hand_].opening;
+      if (opening > world.opening(options_.robot)) {  // what was held is let go
+        options_.keep.reset();
+        watch_->forget_held();
+      }
+      world.apply(operation::Hand{opening, options_.hand_force, options_.robot});
+      fingers_.emplace().begin(world, opening, options_.robot);
+    }
   }
 
   // An arm that gave way stays where contact has left it: stiff again, it must not jump back to its reference.
@@ -136,26 +134,20 @@ class FollowMotion : public Motion {
     return missing_ > steps_of(kLost_s, world);
   }
 
-  // A contact of the hand, or of what it holds, with anything else: one that was not there at the start, or one that
-  // is harder than this motion may press.
   bool met(const World& world) const {
-    if (!options_.stop_on_contact && options_.most_force <= 0) return false;
-    const auto mine = [&](PartRef part) { return hand_.contains(part) || options_.keep == part; };
-    return std::any_of(world.contacts().begin(), world.contacts().end(), [&](const Contact& contact) {
-      if (mine(contact.a) == mine(contact.b)) return false;
-      if (options_.most_force > 0 && contact.mean_force > options_.most_force) return true;
-      return options_.stop_on_contact && contact.mean_force > options_.contact_force &&
-             !known_.contains({contact.a, contact.b});
-    });
+    const double new_force = options_.stop_on_contact ? std::max(1e-9, options_.contact_force) : 0;
+    return watch_->met(world, new_force, options_.most_force);
   }
 
   Trajectory trajectory_;
   FollowOptions options_;
-  std::set<PartRef> hand_;
-  std::set<std::pair<PartRef, PartRef>> known_;
+  std::optional<ContactWatch> watch_;
+  std::unique_ptr<Steering> steering_;
+  std::optional<FingerWatch> fingers_;  // that were set going on the way
+  std::size_t next_hand_ = 0;
   std::optional<operation::Controller> stiff_;  // to return to
   bool stopping_ = false;
-  std::int64_t count_ = 0, missing_ = 0, resting_ = 0;
+  std::int64_t count_ = 0, clock_ = 0, missing_ = 0, resting_ = 0, over_ = 0;
 };
 
 class HandMotion : public Motion {
@@ -166,18 +158,13 @@ class HandMotion : public Motion {
   std::string kind() const override { return expect_ || opening_m_ < 0.01 ? "close_hand" : "open_hand"; }
 
   MotionResult step(World& world) override {
-    if (count_ == 0) {
+    if (!begun_) {
       world.apply(operation::Hand{opening_m_, force_, robot_});
-      last_m_ = world.opening(robot_);
+      fingers_.begin(world, opening_m_, robot_);
+      begun_ = true;
     }
-    const std::int64_t elapsed = count_++;
-    still_ = std::abs(world.opening(robot_) - last_m_) > kStill_m ? 0 : still_ + 1;
-    if (still_ == 0) last_m_ = world.opening(robot_);
-    const bool stopped = still_ > steps_of(kStopped_s, world) || elapsed > steps_of(kHandTimeout_s, world);
-    if (!expect_) {
-      const bool arrived = std::abs(world.opening(robot_) - opening_m_) <= kOpeningTolerance_m;
-      return arrived || stopped ? kDone : kRunning;
-    }
+    const bool stopped = fingers_.stopped(world);
+    if (!expect_) return fingers_.arrived(world) || stopped ? kDone : kRunning;
     held_ = world.grasped(robot_) == expect_ ? held_ + 1 : 0;
     if (held_ > steps_of(kGrasped_s, world)) return kDone;
     return stopped && held_ == 0 ? failed(Reason::grasp_missed) : kRunning;
@@ -187,8 +174,9 @@ class HandMotion : public Motion {
   double opening_m_, force_;
   std::optional<PartRef> expect_;
   int robot_;
-  double last_m_ = 0;
-  std::int64_t count_ = 0, still_ = 0, held_ = 0;
+  FingerWatch fingers_;
+  bool begun_ = false;
+  std::int64_t held_ = 0;
 };
 
 class BrakeMotion : public Motion {
@@ -223,6 +211,9 @@ class WaitMotion : public Motion {
 
 std::unique_ptr<Motion> make_follow(Trajectory trajectory, FollowOptions options) {
   if (trajectory.knots.empty()) throw Error("follow", "the trajectory has no knots", "was its plan a success?");
+  if (options.press > 0 && options.search > 0) throw Error("follow", "it either presses or searches");
+  if (options.search > 0 && !(options.search_pitch > 0 && options.search_force > 0))
+    throw Error("follow", "the pitch and force of a search must be positive");
   return std::make_unique<FollowMotion>(std::move(trajectory), std::move(options));
 }
 

@@ -11,7 +11,8 @@
 namespace stampede {
 namespace {
 
-constexpr int kLayers = 16;          // places of the part that are looked at
+constexpr int kLayers = 16;          // places of the part that are looked at, at least
+constexpr double kLayerTurn = 0.25;  // rad from one to the next, at most
 constexpr double kMostJump = 0.5;    // rad of a joint from one to the next
 constexpr int kMostTurns = 2;        // steps of the handle in the hand from one to the next
 constexpr double kLeastStep = 0.05;  // rad, of those
@@ -53,58 +54,91 @@ void smooth(std::vector<double>& turns) {
   }
 }
 
-}  // namespace
-
-std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
-                                    RandomKey key) {
+std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
+                             bool whole) {
   const Arm& arm = state.arm();
   const Transform held = arm.world_from_tip(start);
-  const double step = std::max(kLeastStep, std::abs(way.turn) / kLayers);
+  const std::size_t count =
+      static_cast<std::size_t>(std::max(kLayers, static_cast<int>(std::ceil(std::abs(way.turn) / kLayerTurn))));
+  const double step = std::max(kLeastStep, std::abs(way.turn) / static_cast<double>(count));
   const int most = way.turn == 0 ? 0 : static_cast<int>(way.pivot / step);
   const std::size_t width = static_cast<std::size_t>(2 * most) + 1;
-  std::vector<std::vector<Node>> layers(kLayers + 1, std::vector<Node>(width));
+  std::vector<std::vector<Node>> layers(count + 1, std::vector<Node>(width));
   layers[0][static_cast<std::size_t>(most)] = {start, 0, -1};
   CollisionState holding = state;
   holding.set_opening(way.opening);
   if (way.part.body >= 0) holding.allow_touched(way.part, start);
-  for (int k = 1; k <= kLayers; ++k) {
-    const double share = static_cast<double>(k) / kLayers;
+  for (std::size_t k = 1; k <= count; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(count);
     const Transform moved = way.moved(share);
     CollisionState there = holding;
     if (way.part.body >= 0) there.move_part(way.part, moved);
-    const std::vector<Node>& before = layers[static_cast<std::size_t>(k) - 1];
+    const std::vector<Node>& before = layers[k - 1];
+    bool any = false;
     for (int j = -most; j <= most; ++j) {
-      Node& node = layers[static_cast<std::size_t>(k)][static_cast<std::size_t>(j + most)];
+      Node& node = layers[k][static_cast<std::size_t>(j + most)];
       const Transform tip = turned(moved * held, way.axis, j * step);
       for (int i = std::max(-most, j - kMostTurns); i <= std::min(most, j + kMostTurns); ++i) {
         const Node& from = before[static_cast<std::size_t>(i + most)];
         const double bend = kPivotCost * step * (j - i);
         if (from.cost + bend * bend >= node.cost) continue;
-        const auto q = arm.solve(tip, from.q, key.with(k), 0);
+        const auto q = arm.solve(tip, from.q, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
         if (cost < node.cost && (share > way.stop || there.free(*q))) node = {*q, cost, i + most};
       }
+      any = any || node.from >= 0;
     }
+    if (!any) break;
   }
-  std::vector<Node>& ends = layers.back();
-  const auto best_end = [&] {
-    return std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
-  };
-  auto best = best_end();
-  for (; best->from >= 0 && !can_retreat(arm, best->q, way.retreat, key.with("retreat")); best = best_end()) *best = {};
-  if (best->from < 0) return std::nullopt;
-  std::vector<double> turns(kLayers + 1);
-  std::vector<JointVector> arm_at(kLayers + 1, start);
-  int at = static_cast<int>(best - ends.begin());
-  for (std::size_t k = kLayers; k > 0; --k) {
-    const Node& node = layers[k][static_cast<std::size_t>(at)];
-    turns[k] = (at - most) * step;
-    arm_at[k] = node.q;
-    at = node.from;
+  // The last layer, or the last one from which the hand gets away.
+  for (std::size_t end = count; end > 0; --end) {
+    std::vector<Node>& ends = layers[end];
+    const auto best_end = [&] {
+      return std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
+    };
+    auto best = best_end();
+    for (; best->from >= 0 && !can_retreat(arm, best->q, way.retreat, key.with("retreat")); best = best_end())
+      *best = {};
+    if (best->from < 0) {
+      if (whole) break;
+      continue;
+    }
+    std::vector<double> turns(end + 1);
+    std::vector<JointVector> arm_at(end + 1, start);
+    int at = static_cast<int>(best - ends.begin());
+    for (std::size_t k = end; k > 0; --k) {
+      const Node& node = layers[k][static_cast<std::size_t>(at)];
+      turns[k] = (at - most) * step;
+      arm_at[k] = node.q;
+      at = node.from;
+    }
+    smooth(turns);
+    const double reach = end == count ? 1.0 : static_cast<double>(end) / static_cast<double>(count);
+    return ArmWay{tip_way(first_of(way, reach), held, std::move(turns)), std::move(arm_at), reach};
   }
-  smooth(turns);
-  return ArmWay{tip_way(way, held, std::move(turns)), std::move(arm_at)};
+  return std::nullopt;
+}
+
+}  // namespace
+
+PartWay first_of(const PartWay& way, double share) {
+  if (share == 1) return way;
+  PartWay part = way;
+  part.moved = [moved = way.moved, share](double of_it) { return moved(share * of_it); };
+  part.turn *= share;
+  part.stop = std::min(1.0, way.stop / share);
+  return part;
+}
+
+std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
+                                    RandomKey key) {
+  return search(state, start, way, key, true);
+}
+
+std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
+                                         RandomKey key) {
+  return search(state, start, way, key, false);
 }
 
 }  // namespace stampede

@@ -25,6 +25,7 @@ struct PartWay {
 struct ArmWay {
   std::function<Transform(double)> world_from_tip;  // at a share: with the part and, within `pivot`, turned against it
   std::vector<JointVector> arm;                     // at equal shares, near to where it is then; the first: the start
+  double reach = 1;                                 // share of the part's way that this is; shares above are of it
 };
 
 // A way that the arm can follow from `start`, where the hand holds the part, without a jump and with nothing touched
@@ -34,5 +35,11 @@ struct ArmWay {
 // none. Repeatable.
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key);
+// The same as far as it goes: to the end, or to where the arm cannot follow. Nothing: not even a little.
+std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
+                                         RandomKey key);
+
+// The first `share` of a way.
+PartWay first_of(const PartWay& way, double share);
 
 }  // namespace stampede

@@ -29,6 +29,7 @@ struct PlannedMotion {
   std::string detail;            // for people: what touches what, which target has no IK solution
   Trajectory trajectory;
   std::vector<PlannedVia> vias;
+  std::vector<PlannedHand> hands;
 };
 
 struct ToolTarget {

@@ -414,6 +414,51 @@ function stampede_world_view:place(thing, at) end
 ---@field tolerate? boolean  an end that is not reached is no failure
 ---@field keep_clear? boolean  refused where arm or load would touch anything but the skill's own objects
 ---@field most_force? number  the arm gives way to contact and ends the motion where it meets more [N]
+---@field press? number  presses with this force while it moves [N]
+---@field press_along? number[]  in which direction of the world (default the tool's z)
+---@field search? number  where it is blocked it looks around, at most so far from the line, for a way on [m]
+---@field pitch? number  of the spiral on which it looks (default 0.8 mm) [m]
+---@field open? number  the hand begins to open or close to this as the line begins [m]
+
+-- One of to, by, arc and tilt; none of them where the hand alone moves
+---@class stampede.piece
+---@field to? stampede.pose  straight to a pose
+---@field by? number[]  straight by an offset along the world's axes, from where the piece begins [m]
+---@field arc? number  around a line of the world: `axis` through `about`, or the axis of the joint of the part `about` [rad]
+---@field tilt? number  about `axis` of the tool's own frame (default its z) through `about` (default the tip) [rad]
+---@field axis? number[]
+---@field about? stampede.pose|number[]|stampede.object_name  a tilt: three numbers are of the tool's frame; what is held moves along
+---@field turn? boolean  of an arc, false: the tool keeps its orientation
+---@field speed? number  of the tip [m/s]
+---@field turn_speed? number  of the tool [rad/s]
+---@field stop? boolean  rests at its end
+---@field name? string  stored as a via with the moment at which it ends
+---@field open? number  the hand begins to open or close to this as the piece begins [m]
+
+---@class stampede.follow_options
+---@field speed? number  of pieces that say none (default 0.25) [m/s]
+---@field turn_speed? number  of pieces that say none (default 1) [rad/s]
+---@field blend? number  corners are cut within this distance (default 0.01) [m]
+---@field most_force? number  the arm gives way to contact and ends the motion where it meets more [N]
+---@field press? number  presses with this force while it moves [N]
+---@field press_along? number[]  in which direction of the world (default the tool's z)
+---@field keep_clear? boolean  refused where arm or load would touch anything but the skill's own objects
+---@field tolerate? boolean  an end that is not reached is no failure
+
+---@class stampede.tilt_options: stampede.follow_options
+---@field axis? number[]
+---@field about? stampede.pose|number[]|stampede.object_name
+---@field name? string
+---@field open? number
+
+---@class stampede.grasp
+---@field pose stampede.pose
+---@field approach stampede.pose
+---@field on_object stampede.pose
+---@field width number
+---@field opening number
+---@field force number
+---@field reach? number  the position to which the arm can take the part's joint from here
 
 -- The arm and its hand, in a skill's `run`
 ---@class stampede.robot_view
@@ -456,11 +501,32 @@ function stampede_robot_view:move_home() end
 function stampede_robot_view:move_joints(positions) end
 -- The held handle along its joint. `pivot`: so far, in rad either way, the handle may turn in the hand about the joint's
 -- axis; within that the hand turns as the arm can best follow
--- and can then go straight back by `retreat` [m]
+-- and can then go straight back by `retreat` [m]. `as_far_as_it_goes`: where the arm cannot follow the whole way, as much
+-- of it as it can; w:joint(part) then says how far that was
 ---@param part string
 ---@param position number
----@param options? { speed: number, most_force: number, pivot: number, retreat: number }
+---@param options? { speed: number, most_force: number, pivot: number, retreat: number, as_far_as_it_goes: boolean }
 function stampede_robot_view:move_part(part, position, options) end
+-- The joint position nearest to `to` that the arm can take the held part to from here
+---@param part string
+---@param to number
+---@param options? { pivot: number, retreat: number }
+---@return number
+function stampede_robot_view:reach_of_part(part, to, options) end
+-- A grasp of the part, where it is now, from which the arm can take it to `to`, or as far as any: its `reach`
+---@param part string
+---@param to number
+---@param options? { pivot: number, retreat: number }
+---@return stampede.grasp|nil
+function stampede_robot_view:find_grasp(part, to, options) end
+-- Pieces one after the other, in one motion that stops where a piece says so and at the end
+---@param pieces stampede.piece[]
+---@param options? stampede.follow_options
+function stampede_robot_view:follow(pieces, options) end
+-- Turns the tool about an axis of its own: pours, screws
+---@param angle number  [rad]
+---@param options? stampede.tilt_options
+function stampede_robot_view:tilt(angle, options) end
 ---@param seconds number
 function stampede_robot_view:wait(seconds) end
 -- Another skill as a part of this one, with all its arguments but the hand

@@ -1,12 +1,12 @@
 #include "scripting/runtime/robot_binding.h"
 
 #include <algorithm>
-#include <cmath>
 #include <lua.hpp>
 
 #include "engine/base/error.h"
 #include "scripting/lua/binding.h"
-#include "scripting/runtime/pose_binding.h"
+#include "scripting/runtime/options.h"
+#include "scripting/runtime/piece_reader.h"
 #include "scripting/runtime/sampling_binding.h"
 
 namespace stampede {
@@ -33,54 +33,6 @@ int ask(lua_State* state, RobotCall call) {
   view_of(state);
   context_of(state).call = std::move(call);
   return lua_yield(state, 0);
-}
-
-// Optional fields of an options table at `index`; anything but a table counts as none.
-double number_field(lua_State* state, int index, const char* name, double otherwise) {
-  if (!lua_istable(state, index)) return otherwise;
-  lua_getfield(state, index, name);
-  if (!lua_isnil(state, -1) && lua_type(state, -1) != LUA_TNUMBER) luaL_error(state, "%s must be a number", name);
-  const double value = lua_isnil(state, -1) ? otherwise : lua_tonumber(state, -1);
-  lua_pop(state, 1);
-  if (!std::isfinite(value)) luaL_error(state, "%s must be finite", name);
-  return value;
-}
-
-bool flag_field(lua_State* state, int index, const char* name) {
-  if (!lua_istable(state, index)) return false;
-  lua_getfield(state, index, name);
-  const bool value = lua_toboolean(state, -1) != 0;
-  lua_pop(state, 1);
-  return value;
-}
-
-double finite(lua_State* state, int index) {
-  const double value = luaL_checknumber(state, index);
-  luaL_argcheck(state, std::isfinite(value), index, "must be finite");
-  return value;
-}
-
-Transform finite_pose(lua_State* state, int index) {
-  const Transform pose = check_pose(state, index);
-  if (!pose.matrix().allFinite()) luaL_error(state, "a pose with numbers that are not finite");
-  return pose;
-}
-
-// A known option keeps a misspelt one from being ignored.
-void only_fields(lua_State* state, int index, std::initializer_list<const char*> known) {
-  if (lua_isnoneornil(state, index)) return;
-  luaL_checktype(state, index, LUA_TTABLE);
-  lua_pushnil(state);
-  while (lua_next(state, index) != 0) {
-    lua_pop(state, 1);
-    const char* key = lua_type(state, -1) == LUA_TSTRING ? lua_tostring(state, -1) : "1";
-    const bool found =
-        std::any_of(known.begin(), known.end(), [key](const char* name) { return std::string_view(name) == key; });
-    if (found) continue;
-    std::string all;
-    for (const char* name : known) all += (all.empty() ? "" : " ") + std::string(name);
-    luaL_error(state, "no option '%s' here, there are: %s", key, all.c_str());
-  }
 }
 
 Transform tip_of(lua_State* state) { return view_of(state).world_from(context_of(state).view->hand); }
@@ -188,19 +140,33 @@ int move_to(lua_State* state) {
 
 robot_call::MoveLine line(lua_State* state, const Transform& target, int options, const char* kind) {
   if (std::string_view(kind) == "move_line")
-    only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "tool"});
+    only_fields(state, options,
+                {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "press", "press_along",
+                 "search", "pitch", "open", "tool"});
   else
-    only_fields(state, options, {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear"});
+    only_fields(state, options,
+                {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "press", "press_along",
+                 "search", "pitch", "open"});
   robot_call::MoveLine call{target};
+  call.search = number_field(state, options, "search", 0);
   call.speed = number_field(state, options, "speed", call.speed);
-  call.force = number_field(state, options, "force", call.force);
+  call.force = number_field(state, options, "force", call.search > 0 ? 6 : call.force);
   call.most_force = number_field(state, options, "most_force", call.most_force);
+  call.press = number_field(state, options, "press", 0);
+  call.press_along = direction_field(state, options, "press_along");
+  call.search_pitch = number_field(state, options, "pitch", call.search_pitch);
+  call.opening = opening_field(state, options, robot_of(state).opening_max);
   call.stop_on_contact = flag_field(state, options, "stop_on_contact");
   call.tolerate = flag_field(state, options, "tolerate");
   call.keep_clear = flag_field(state, options, "keep_clear");
   call.kind = kind;
   luaL_argcheck(state, call.speed > 0, options, "speed must be positive");
-  luaL_argcheck(state, call.most_force >= 0, options, "most_force must not be negative");
+  luaL_argcheck(state, call.most_force >= 0 && call.press >= 0 && call.search >= 0, options,
+                "most_force, press and search must not be negative");
+  luaL_argcheck(state, call.search == 0 || (call.press == 0 && !call.stop_on_contact), options,
+                "search goes neither with press nor with stop_on_contact");
+  luaL_argcheck(state, call.search_pitch > 0 && (call.search == 0 || call.force > 0), options,
+                "pitch and force must be positive");
   return call;
 }
 
@@ -284,8 +250,9 @@ int move_joints(lua_State* state) {
 
 // The held or touched part's joint to a position, along its line or arc.
 int move_part(lua_State* state) {
-  only_fields(state, 4, {"speed", "most_force", "pivot", "retreat"});
+  only_fields(state, 4, {"speed", "most_force", "pivot", "retreat", "as_far_as_it_goes"});
   robot_call::MovePart call;
+  call.as_far_as_it_goes = flag_field(state, 4, "as_far_as_it_goes");
   call.speed = number_field(state, 4, "speed", call.speed);
   call.most_force = number_field(state, 4, "most_force", call.most_force);
   luaL_argcheck(state, call.most_force >= 0, 4, "most_force must not be negative");
@@ -298,6 +265,30 @@ int move_part(lua_State* state) {
   call.object = std::string(part);
   return ask(state, std::move(call));
 }
+
+// The part, the position and the options of a question about it.
+template <typename Question>
+Question question_about(lua_State* state) {
+  only_fields(state, 4, {"pivot", "retreat"});
+  Question question;
+  question.pivot = number_field(state, 4, "pivot", 0);
+  question.retreat = number_field(state, 4, "retreat", 0);
+  luaL_argcheck(state, question.pivot >= 0 && question.pivot <= 3.2, 4, "pivot must be 0 … pi rad");
+  question.position = finite(state, 3);
+  const std::string_view part = check_text(state, 2);
+  view_of(state).joint_range(part);
+  question.object = std::string(part);
+  return question;
+}
+
+// How far the arm can take the held part: run() goes on with the answer.
+int reach_of_part(lua_State* state) { return ask(state, question_about<robot_call::ReachOfPart>(state)); }
+
+int find_grasp(lua_State* state) { return ask(state, question_about<robot_call::FindGrasp>(state)); }
+
+int follow(lua_State* state) { return ask(state, follow_at(state, view_of(state))); }
+
+int tilt(lua_State* state) { return ask(state, tilt_at(state, view_of(state))); }
 
 int wait(lua_State* state) {
   const double seconds = finite(state, 2);
@@ -361,6 +352,10 @@ constexpr luaL_Reg kMethods[] = {
     {"move_home", lua_function<move_home>},
     {"move_joints", lua_function<move_joints>},
     {"move_part", lua_function<move_part>},
+    {"reach_of_part", lua_function<reach_of_part>},
+    {"find_grasp", lua_function<find_grasp>},
+    {"follow", lua_function<follow>},
+    {"tilt", lua_function<tilt>},
     {"wait", lua_function<wait>},
     {"run", lua_function<run>},
     {"fail", lua_function<fail>},

@@ -1,6 +1,7 @@
 #include "scripting/runtime/skill_run.h"
 
 #include <lua.hpp>
+#include <optional>
 
 #include "scripting/runtime/pose_binding.h"
 
@@ -18,13 +19,19 @@ void set_pose(lua_State* state, const char* field, const Transform& pose) {
 }
 
 void push_grasp(lua_State* state, const GraspCandidate& grasp) {
-  lua_createtable(state, 0, 6);
+  lua_createtable(state, 0, 7);
   set_pose(state, "pose", grasp.world_from_tip);
   set_pose(state, "approach", grasp.world_from_approach);
   set_pose(state, "on_object", grasp.object_from_tip);
   set_number(state, "width", grasp.width);
   set_number(state, "opening", grasp.opening);
   set_number(state, "force", grasp.force);
+  if (grasp.reach) set_number(state, "reach", *grasp.reach);
+}
+
+void push_answer(lua_State* state, const RobotAnswer& answer) {
+  if (answer.grasp) return push_grasp(state, *answer.grasp);
+  answer.reach ? lua_pushnumber(state, *answer.reach) : lua_pushnil(state);
 }
 
 void push_continuous(lua_State* state, const ContinuousValue& value) {
@@ -122,11 +129,22 @@ class LuaRun : public SkillRun {
     return resume();
   }
 
+  void answer(const RobotAnswer& answer) override { answer_ = answer; }
+
  private:
   RobotCall resume() {
     try {
       int results = 0;
-      const bool yielded = scripts_.sandbox().resume(coroutine_, started_ ? 0 : 3, results);
+      int arguments = started_ ? 0 : 3;
+      if (answer_) {
+        scripts_.protect([&](lua_State* state) {
+          push_answer(state, *answer_);
+          lua_xmove(state, coroutine_, 1);
+        });
+        answer_.reset();
+        arguments = 1;
+      }
+      const bool yielded = scripts_.sandbox().resume(coroutine_, arguments, results);
       started_ = true;
       lua_pop(coroutine_, results);
       if (yielded && scripts_.robot.call) return std::move(*scripts_.robot.call);
@@ -142,6 +160,7 @@ class LuaRun : public SkillRun {
   TestState& tests_;
   ScriptState scripts_;
   lua_State* coroutine_ = nullptr;
+  std::optional<RobotAnswer> answer_;  // to what it asked last
   bool started_ = false, finished_ = false;
 };
 

@@ -40,3 +40,17 @@ TEST_CASE("a path that passes one place twice passes its via-points in their ord
   CHECK(out[0].step < steps - 60);
   CHECK(out[1].step == Approx(steps).margin(12));
 }
+
+TEST_CASE("a via that is passed by time is found where the plan has got to it, however often the tool is there") {
+  World world(std::make_shared<Scene>(table_scene(0)));
+  const Transform here = world.world_from_tip();
+  Passages passages({{"first", here, 10, true}, {"second", here, 30, true}, {"never", here, 90, true}}, 3);
+  for (int step = 0; step < 60; ++step) {  // the plan waits for twenty steps after its fifteenth
+    world.step();
+    passages.look(world, step < 15 ? step + 1 : std::max(15, step + 1 - 20));
+  }
+  const auto found = passages.in_order();
+  REQUIRE(found.size() == 2);
+  CHECK((found[0].name == "first" && found[0].step == 10));
+  CHECK((found[1].name == "second" && found[1].step == 50));
+}

@@ -46,6 +46,30 @@ Call next(SkillRun& run, const WorldView& view) {
   return std::get<Call>(call);
 }
 
+void check_pieces(const robot_call::Follow& follow, const WorldView& view) {
+  namespace piece = robot_call::piece;
+  const Transform tip = view.world_from("mini.hand");
+  CHECK((follow.blend == 0.02 && follow.press == 5.0 && follow.most_force == 30.0 && follow.press_along.isZero()));
+  REQUIRE(follow.pieces.size() == 7);
+  const auto& up = follow.pieces[0];
+  CHECK(std::get<piece::Offset>(up.way).by == Vector3(0, 0, 0.1));
+  CHECK((up.opening == 0.05 && up.speed == 0.4 && up.turn_speed == 2.0 && !up.stop));
+  const auto& over = follow.pieces[1];
+  CHECK((std::get<piece::Line>(over.way).target.translation() - tip.translation() - Vector3(0, 0.2, 0)).norm() < 1e-12);
+  CHECK((over.stop && over.name == "over" && over.speed == 0.25 && !over.opening));
+  const auto& arc = std::get<piece::Arc>(follow.pieces[2].way);
+  CHECK((arc.axis == Vector3(0, 0, 1) && !arc.turn && arc.angle == Approx(std::acos(0.0))));
+  CHECK(arc.point == view.world_from("cube").translation());
+  const auto& round = std::get<piece::Arc>(follow.pieces[3].way);
+  CHECK((round.point == Vector3(0.1, 0.2, 0.3) && round.turn && round.angle == -1.0));
+  const auto& own = std::get<piece::Tilt>(follow.pieces[4].way);
+  CHECK((own.axis == Vector3(0, 0, 1) && own.point == Vector3(0, 0, 0.05) && !own.in_world));
+  CHECK(follow.pieces[4].turn_speed == 0.5);
+  const auto& fixed = std::get<piece::Tilt>(follow.pieces[5].way);
+  CHECK((fixed.in_world && fixed.point == tip.translation() && fixed.axis == Vector3(0, 1, 0)));
+  CHECK((follow.pieces[6].opening == 0.01 && std::get<piece::Offset>(follow.pieces[6].way).by.isZero()));
+}
+
 }  // namespace
 
 TEST_CASE("each robot method yields its call, one at a time") {
@@ -85,6 +109,28 @@ TEST_CASE("each robot method yields its call, one at a time") {
   CHECK(angle_between(turned, before) == Approx(std::acos(0.0)));
   const auto part = next<robot_call::MovePart>(*run, view);
   CHECK((part.object == "chest.drawer" && part.position == 0.1 && part.speed == 0.2 && part.pivot == 0.5));
+  const auto reach = next<robot_call::ReachOfPart>(*run, view);
+  CHECK((reach.object == "chest.drawer" && reach.position == 0.15 && reach.pivot == 0.2 && reach.retreat == 0.05));
+  run->answer({0.125, {}});
+  CHECK(next<robot_call::FindGrasp>(*run, view).object == "chest.drawer");
+  GraspCandidate found = *grasp().grasp;
+  found.reach = 0.0625;
+  run->answer({{}, found});
+  CHECK(next<robot_call::FindGrasp>(*run, view).position == 0.2);
+  run->answer({});
+  const auto as_far = next<robot_call::MovePart>(*run, view);
+  CHECK((as_far.position == 0.125 && as_far.as_far_as_it_goes && !part.as_far_as_it_goes));
+  const auto wipe = next<robot_call::MoveLine>(*run, view);
+  CHECK((wipe.press == 8.0 && wipe.opening == 0.03 && wipe.press_along.normalized() == Vector3(0, 0, -1)));
+  const auto search = next<robot_call::MoveLine>(*run, view);
+  CHECK((search.search == 0.004 && search.search_pitch == 0.001 && search.force == 6.0));
+  check_pieces(next<robot_call::Follow>(*run, view), view);
+  const auto tilt = next<robot_call::Follow>(*run, view);
+  REQUIRE(tilt.pieces.size() == 1);
+  CHECK((tilt.pieces[0].name == "poured" && tilt.pieces[0].speed == 0.1));
+  const auto& poured = std::get<robot_call::piece::Tilt>(tilt.pieces[0].way);
+  CHECK((poured.angle == -1.5 && poured.axis == Vector3(1, 0, 0) && poured.in_world));
+  CHECK(poured.point == view.world_from("cube").translation());
   CHECK(next<robot_call::Wait>(*run, view).seconds == 0.5);
   CHECK(next<robot_call::MoveJoints>(*run, view).target[2] == 1.0);
   const AskedCall child = next<robot_call::RunSkill>(*run, view).call;
@@ -125,9 +171,23 @@ TEST_CASE("what goes wrong in run is a failed call with a place, not an exceptio
                                                  {3, "finite"},
                                                  {4, "no option 'sped' here, there are: "},
                                                  {6, "not told its 'obj'"},
-                                                 {5, "wrong.lua:18"},
-                                                 {7, "cube: has no tip to move"},
-                                                 {8, "top: is not in the hand, so its tip cannot be moved"}};
+                                                 {5, "wrong.lua:27"},
+                                                 {7, "expected a list of pieces"},
+                                                 {8, "piece 2: no field 'up' here, there are: to by arc"},
+                                                 {9, "piece 2: by must be three numbers"},
+                                                 {10, "piece 1: 'chest.drawer' slides"},
+                                                 {11, "piece 1: axis must have a length"},
+                                                 {12, "piece 1: an arc needs about"},
+                                                 {13, "piece 1: it goes nowhere"},
+                                                 {14, "piece 1: to must be a pose"},
+                                                 {15, "piece 1: tilt must be an angle"},
+                                                 {16, "piece 1: it has several of to, by, arc and tilt"},
+                                                 {17, "piece 1: speed and turn_speed must be positive"},
+                                                 {18, "piece 1: expected a table"},
+                                                 {19, "joint"},
+                                                 {20, "search goes neither with press nor with stop_on_contact"},
+                                                 {21, "cube: has no tip to move"},
+                                                 {22, "top: is not in the hand, so its tip cannot be moved"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);

@@ -20,6 +20,24 @@ return skill {
     robot:retreat(0.08)
     robot:move_to(robot:tip():offset(0, 0, 0.25):rotated(0, 0, deg(90)))
     robot:move_part("chest.drawer", 0.1, { speed = 0.2, pivot = 0.5 })
+    local reach = robot:reach_of_part("chest.drawer", 0.15, { pivot = 0.2, retreat = 0.05 })
+    assert(reach == 0.125)
+    local grasp = robot:find_grasp("chest.drawer", 0.15)
+    assert(grasp.reach == 0.0625 and grasp.force == 12)
+    assert(robot:find_grasp("chest.drawer", 0.2) == nil)
+    robot:move_part("chest.drawer", reach, { as_far_as_it_goes = true })
+    robot:move_line({ 0, 0.1, 0 }, { press = 8, press_along = { 0, 0, -2 }, open = 0.03 })
+    robot:move_line({ 0, 0, -0.04 }, { search = 0.004, pitch = 0.001 })
+    robot:follow({
+      { by = { 0, 0, 0.1 }, open = 0.05, speed = 0.4 },
+      { to = robot:tip():offset(0, 0.2, 0), stop = true, name = "over" },
+      { arc = deg(90), axis = { 0, 0, 3 }, about = p.obj, turn = false },
+      { arc = -1, axis = { 1, 0, 0 }, about = { 0.1, 0.2, 0.3 } },
+      { tilt = 2, about = { 0, 0, 0.05 }, turn_speed = 0.5 },
+      { tilt = 1, axis = { 0, 1, 0 }, about = robot:tip() },
+      { open = 0.01 },
+    }, { blend = 0.02, press = 5, most_force = 30, turn_speed = 2 })
+    robot:tilt(-1.5, { axis = { 1, 0, 0 }, about = p.obj, speed = 0.1, name = "poured" })
     robot:wait(0.5)
     robot:move_home()
     robot:run(act.counting { "top", to = "bench" })

@@ -1,0 +1,16 @@
+// robot:follow { … } and robot:tilt(…): the pieces of a way, read from Lua.
+#pragma once
+
+#include "engine/episode/interfaces.h"
+
+struct lua_State;
+
+namespace stampede {
+
+// The list at index 2 and the options at index 3. Raises Lua errors that say which piece is wrong.
+robot_call::Follow follow_at(lua_State* state, const WorldView& view);
+
+// The angle at index 2 and the options at index 3.
+robot_call::Follow tilt_at(lua_State* state, const WorldView& view);
+
+}  // namespace stampede
