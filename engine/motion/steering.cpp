@@ -43,15 +43,20 @@ class Pressing : public Steering {
     const double rate = std::clamp(lacking / (kStiffness * kTime_s), -kFastest, kFastest);
     const double before = shift_;
     shift_ = std::clamp(shift_ + rate * world.dt(), -kBack_m, kAhead_m);
-    presses_ = presses_ || std::abs(lacking) <= kNear * force_;
+    near_ = std::abs(lacking) <= kNear * force_ ? near_ + 1 : 0;  // more than the blow with which it came down
+    presses_ = presses_ || near_ > steps_of(kSteady_s, world);
     touched_ = touched_ || pressed > kNear * force_;
     if (presses_ || ++waited_ > steps_of(kPatience_s, world)) clock_ = std::min(clock_ + 1, trajectory_.steps());
 
     const JointState there = evaluate(trajectory_, static_cast<double>(clock_), hz);
+    // Across, what friction holds back is made up as well.
+    const Vector3 off = arm.world_from_tip(here.position).translation() - world.world_from_tip(robot_).translation();
+    aside_ += world.dt() / kTime_s * (off - off.dot(into) * into);
+    if (aside_.norm() > kAside_m) aside_ *= kAside_m / aside_.norm();
     Vector6 creep = Vector6::Zero();
     creep.head<3>() = (shift_ - before) / world.dt() * into;
-    Next next{shifted(arm, there.position, shift_ * into), there.velocity + joints_for(arm, there.position, creep),
-              clock_};
+    Next next{shifted(arm, there.position, shift_ * into + aside_),
+              there.velocity + joints_for(arm, there.position, creep), clock_};
     if (clock_ == trajectory_.steps() && !touched_) {
       next.reason = Reason::tracking_error;
       next.detail = "there was nothing to press on within " + std::to_string(std::lround(1000 * kAhead_m)) + " mm";
@@ -60,19 +65,21 @@ class Pressing : public Steering {
   }
 
  private:
-  static constexpr double kStiffness = 2000;  // N/m: 1 cm beside its way across, 20 N bring it back
+  static constexpr double kStiffness = 1200;  // N/m: a bump of 1 mm is 1.2 N at once
   static constexpr double kTime_s = 0.2;      // in which a lack of force is made up
   static constexpr double kFastest = 0.04;    // m/s, to where it presses
   static constexpr double kAhead_m = 0.03, kBack_m = 0.02;
+  static constexpr double kAside_m = 0.01;
   static constexpr double kNear = 0.3;  // of the force
-  static constexpr double kPatience_s = 1;
+  static constexpr double kSteady_s = 0.15, kPatience_s = 2;
   Trajectory trajectory_;
   double force_;
   Vector3 along_;
   int robot_;
   double shift_ = 0;  // m
+  Vector3 aside_ = Vector3::Zero();
   bool presses_ = false, touched_ = false;
-  std::int64_t clock_ = 0, waited_ = 0;
+  std::int64_t clock_ = 0, waited_ = 0, near_ = 0;
 };
 
 class Searching : public Steering {
@@ -123,9 +130,9 @@ class Searching : public Steering {
   }
 
  private:
-  static constexpr double kStiffness = 2500;  // N/m
+  static constexpr double kStiffness = 6000;  // N/m: friction of 3 N holds the tool back by half a millimetre
   static constexpr double kAdvance_m = 0.0015;
-  static constexpr double kSpeed = 0.012;   // m/s around
+  static constexpr double kSpeed = 0.010;   // m/s around
   static constexpr double kRamp_s = 0.15;   // back to the full pace
   static constexpr double kStands_s = 0.2;  // held up for so long, it begins to search
   static constexpr int kMostSpirals = 8;
