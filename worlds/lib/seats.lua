@@ -33,6 +33,30 @@ function seats.all_with_part_at(w, obj, place, wanted)
   return poses
 end
 
+-- By how much a hand that holds the object must be turned so that the object is turned as in `wanted`, rad.
+local function turn_to(w, obj, wanted)
+  local _, _, _, scalar = (w:pose(obj):inverse() * wanted):quaternion()
+  return 2 * math.acos(math.min(math.abs(scalar), 1))
+end
+
+-- All poses at which what hangs freely hangs at `wanted`: level, however much the hook rises. While it is held, also turned
+-- about the hook by up to its number `swing`, from where it swings to its rest; those first for which the hand turns least.
+function seats.all_swinging(w, obj, place, wanted)
+  local poses, turns = {}, {}
+  local x, y, z = wanted:position()
+  local ahead_x, ahead_y = wanted:along(0, 0, 1):position()
+  local level = pose(x, y, z, 0, math.pi / 2, math.atan(ahead_y - y, ahead_x - x))
+  for _, share in ipairs(w:grasped(obj) and { 0.5, 0.75, 0.25, 1, 0 } or { 0 }) do
+    for _, flip in ipairs { 0, math.pi } do
+      local turned = level:rotated(flip, 0, 0):rotated(0, 0, share * w:number(obj, "swing"))
+      local there = seats.with_part_at(w, obj, place, turned)
+      poses[#poses + 1], turns[there] = there, turn_to(w, obj, there)
+    end
+  end
+  if w:grasped(obj) then table.sort(poses, function(a, b) return turns[a] < turns[b] end) end
+  return poses
+end
+
 -- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.
 function seats.way_out(w, region, place, clear)
   local _, _, length = w:size(region)

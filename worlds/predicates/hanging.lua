@@ -13,6 +13,7 @@ return predicate {
   end,
   sample = function(w, obj, hook) -- in the middle of the hook, or as far down it as its number `down` says
     local there = w:pose(hook):along(0, 0, -w:number(hook, "down", 0))
+    if w:number(obj, "swing", 0) > 0 then return seats.all_swinging(w, obj, seats.loop(w, obj), there) end
     return seats.all_with_part_at(w, obj, seats.loop(w, obj), there)
   end,
 }

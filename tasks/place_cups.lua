@@ -1,0 +1,18 @@
+-- Hang one, two or all three mugs that stand on the table on the mug tree.
+return task {
+  world = "tabletop",
+  variations = { count = { 1, 2, 3 } },
+  objects = {
+    tree = { "mug_tree", at = { between(0.08, 0.24), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi / 2, math.pi / 2) },
+    mug = { "mug", count = 3 },
+  },
+  init = { is.on("mug*", "table"), is_not.crowds("tree", "mug*") },
+  goal = function(v)
+    return { is.hand_empty(), any_order("mug*", v.count, function(mug, i) return exists("?h: hook", is.hanging(mug[i], "?h")) end) }
+  end,
+  instructions = function(v)
+    local what = ({ "one of the mugs", "two of the mugs", "all three mugs" })[v.count]
+    return { "hang " .. what .. " on the mug tree", "the tree is bare: it should bear " .. what, "take " .. what .. " off the table and hang each by its handle",
+      "let " .. what .. " dangle from the spokes of the wooden tree" }
+  end,
+}
