@@ -39,6 +39,6 @@ return object {
   regions = { -- its -x is up when it hangs
     loop = { at = { 0, -0.0525, up }, rpy = { math.pi / 2, rest, math.pi / 2 }, size = { 0.020, 0.008, 0.020 } },
   },
-  numbers = { ends = 2, swing = math.rad(45) },
+  numbers = { stands = 1, swing = math.rad(45) },
   grasps = grasps,
 }

@@ -30,6 +30,15 @@ local function roomy(w, obj, below, spots)
   return #kept > 0 and kept or spots
 end
 
+-- What always stands on its foot (number `stands`) does so however the hand holds it.
+local function standing(w, obj, below, spots, rng)
+  if w:number(obj, "stands", 0) == 0 then return spots end
+  return each(spots, function(spot)
+    local x, y = spot:position()
+    return pose(x, y, w:top(below) + w:below(obj) + 0.001, 0, 0, rng:between(-math.pi, math.pi))
+  end)
+end
+
 return predicate {
   params = { "obj: movable", "below: support" },
   label = "the {obj} is on the {below}",
@@ -42,6 +51,6 @@ return predicate {
       return w:pose(below .. ".mouth"):offset(0, 0, 0.001):turned(rng:between(-math.pi, math.pi))
     end
     if w:has_trait(below, "stackable") then return w:stack_spots(below, obj, rng) end
-    return roomy(w, obj, below, w:free_spots(below, obj, rng))
+    return roomy(w, obj, below, standing(w, obj, below, w:free_spots(below, obj, rng), rng))
   end,
 }
