@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   variations = { count = { 1, 2, 3 } },
   objects = {
-    tree = { "mug_tree", at = { between(0.08, 0.24), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi / 2, math.pi / 2) },
+    tree = { "mug_tree", at = { between(0.10, 0.20), between(-0.15, 0.15), 0.75 }, yaw = between(-math.pi / 2, math.pi / 2) },
     mug = { "mug", count = 3 },
   },
   init = { is.on("mug*", "table"), is_not.crowds("tree", "mug*") },
@@ -12,7 +12,11 @@ return task {
   end,
   instructions = function(v)
     local what = ({ "one of the mugs", "two of the mugs", "all three mugs" })[v.count]
-    return { "hang " .. what .. " on the mug tree", "the tree is bare: it should bear " .. what, "take " .. what .. " off the table and hang each by its handle",
-      "let " .. what .. " dangle from the spokes of the wooden tree" }
+    return {
+      "hang " .. what .. " on the mug tree",
+      "the tree is bare: it should bear " .. what,
+      "take " .. what .. " off the table and up onto the spokes, by the handle",
+      "let " .. what .. " dangle from the wooden tree",
+    }
   end,
 }

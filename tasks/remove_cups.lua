@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { count = { 1, 2 } },
   objects = {
-    tree = { "mug_tree", at = { between(0.13, 0.20), between(-0.13, 0.13), 0.75 }, yaw = between(-math.pi / 2, math.pi / 2) },
+    tree = { "mug_tree", at = { between(0.18, 0.25), between(-0.13, 0.13), 0.75 }, yaw = between(-math.pi, math.pi) },
     mug = { "mug", count = 3 },
   },
   init = each(spokes, function(spoke, i) return is.hanging("mug" .. i, "tree." .. spoke) end),
@@ -16,6 +16,11 @@ return task {
   end,
   instructions = function(v)
     local what = ({ "one of the mugs", "two of the mugs" })[v.count]
-    return { "take " .. what .. " off the mug tree and put it on the table" }
+    return {
+      "fetch " .. what .. " from the mug tree to the table",
+      "stand " .. what .. " that hang there on the table",
+      "unhook " .. what .. " from the wooden tree; the table is where mugs go",
+      "the table needs " .. what .. " that the tree bears",
+    }
   end,
 }

@@ -33,27 +33,33 @@ function seats.all_with_part_at(w, obj, place, wanted)
   return poses
 end
 
--- By how much a hand that holds the object must be turned so that the object is turned as in `wanted`, rad.
-local function turn_to(w, obj, wanted)
-  local _, _, _, scalar = (w:pose(obj):inverse() * wanted):quaternion()
-  return 2 * math.acos(math.min(math.abs(scalar), 1))
+-- How little the hand likes a pose of the object: while it holds it, by how much it must turn, rad; else how far its top
+-- is from the hand, m.
+local function effort(w, obj, wanted)
+  if w:grasped(obj) then
+    local _, _, _, scalar = (w:pose(obj):inverse() * wanted):quaternion()
+    return 2 * math.acos(math.min(math.abs(scalar), 1))
+  end
+  local x, y, z = (w:tip():inverse() * wanted):along(0, 0, 0.05):position()
+  return math.sqrt(x ^ 2 + y ^ 2 + z ^ 2)
 end
 
--- All poses at which what hangs freely hangs at `wanted`: level, however much the hook rises. While it is held, also turned
--- about the hook by up to its number `swing`, from where it swings to its rest; those first for which the hand turns least.
+-- All poses at which what hangs freely hangs at `wanted`: level, however much the hook rises, and either way round; while it
+-- is held also turned about the hook by up to its number `swing`, from where it swings to its rest. The best for the hand
+-- come first.
 function seats.all_swinging(w, obj, place, wanted)
-  local poses, turns = {}, {}
+  local poses, efforts = {}, {}
   local x, y, z = wanted:position()
   local ahead_x, ahead_y = wanted:along(0, 0, 1):position()
   local level = pose(x, y, z, 0, math.pi / 2, math.atan(ahead_y - y, ahead_x - x))
-  for _, share in ipairs(w:grasped(obj) and { 0.5, 0.75, 0.25, 1, 0 } or { 0 }) do
-    for _, flip in ipairs { 0, math.pi } do
-      local turned = level:rotated(flip, 0, 0):rotated(0, 0, share * w:number(obj, "swing"))
+  for _, share in ipairs(w:grasped(obj) and { 0, 0.25, 0.5, 0.75, 1 } or { 0 }) do
+    for _, side in ipairs { 0, math.pi } do
+      local turned = level:rotated(side, 0, 0):rotated(0, 0, share * w:number(obj, "swing"))
       local there = seats.with_part_at(w, obj, place, turned)
-      poses[#poses + 1], turns[there] = there, turn_to(w, obj, there)
+      poses[#poses + 1], efforts[there] = there, effort(w, obj, there)
     end
   end
-  if w:grasped(obj) then table.sort(poses, function(a, b) return turns[a] < turns[b] end) end
+  table.sort(poses, function(a, b) return efforts[a] < efforts[b] end)
   return poses
 end
 

@@ -1,6 +1,6 @@
 -- A wooden tree for three mugs: its spokes point up by 22 degrees; its frame is below its foot.
-local trunk, root, spoke, long, rise = 0.010, 0.215, 0.005, 0.118, math.rad(22) -- m
-local middle = 0.080                                                           -- m along the spoke: where a mug hangs
+local trunk, root, spoke, long, rise = 0.010, 0.215, 0.005, 0.132, math.rad(22) -- m
+local middle = 0.092                                                           -- m along the spoke: where a mug hangs
 
 local names = { "first_spoke", "second_spoke", "third_spoke" }
 
@@ -19,8 +19,9 @@ for i = 1, #names do
   local turn = { 0, math.pi / 2 - rise, around }
   shapes[#shapes + 1] = cylinder { spoke, long, at = at(long / 2, 0), rpy = turn }
   shapes[#shapes + 1] = sphere { spoke, at = at(long, 0) }
+  shapes[#shapes + 1] = sphere { spoke + 0.003, at = at(middle - 0.026, 0) } -- no mug slides further in
   regions[names[i]] = { -- where the middle of a mug's handle is for as long as it hangs there
-    at = at(middle, 0.0065), rpy = turn, size = { 0.04, 0.04, 0.09 }, traits = { "hook" }, numbers = { lift = 0.0065 },
+    at = at(middle, 0.0065), rpy = turn, size = { 0.04, 0.04, 0.096 }, traits = { "hook" }, numbers = { lift = 0.0065 },
   }
 end
 
