@@ -3,7 +3,8 @@ return skill {
   params = { "obj: movable & graspable", "from: support" },
   moves = { "obj" },
   precondition = { is.hand_empty(), is.on("obj", "from"), is_not(exists("?y: movable", is.on("?y", "obj"))) },
-  effect = { is.holding("obj"), is_not.hand_empty(), is_not.on("obj", "from"), is.lifted("obj") },
+  effect = { is.holding("obj"), is_not.hand_empty(), is_not.on("obj", "from"), is.lifted("obj"),
+    forall("?s: spot", is_not.inside("obj", "?s")) },
   continuous = {
     grasp = stream("grasps"),                                           -- of the object, reachable and free
     height = { 0.10, min = 0.02, max = 0.30, unit = "m" },

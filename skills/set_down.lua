@@ -4,6 +4,7 @@ return skill {
   moves = { "obj" },
   precondition = { is.holding("obj"), is_not(exists("?y: movable", is.inside("?y", "spot"))) },
   effect = { is.inside("obj", "spot"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
+  forgets = { "on" },                                                   -- what the spot is of, or what lies below it
   continuous = { at = stream(is.inside("obj", "spot")) },               -- pose of the object
   label = "put the {obj} on the {spot}",
   run = function(robot, p, c)

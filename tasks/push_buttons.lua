@@ -1,11 +1,12 @@
 -- Press one to three buttons in the order that the instruction says; a later one before its turn fails the episode.
 local function sequences()
   local names, list = colours.names, {}
-  for i = 1, #names do
-    local second = colours.except(names[i]) -- nobody takes one of the three for another
-    local b = second[(i + 6) % #second + 1]
-    local third = colours.except(names[i], b)
-    list[#list + 1] = { count = i % 3 + 1, first = names[i], second = b, third = third[(i + 12) % #third + 1] }
+  for i = 1, 50 do
+    local first, round = names[(i - 1) % #names + 1], (i - 1) // #names
+    local second = colours.except(first) -- nobody takes one of the three for another
+    local b = second[(i + 6 + 3 * round) % #second + 1]
+    local third = colours.except(first, b)
+    list[#list + 1] = { count = i % 3 + 1, first = first, second = b, third = third[(i + 12 + 5 * round) % #third + 1] }
   end
   return list
 end

@@ -6,7 +6,7 @@ return task {
     left = { "shoe" }, right = { "shoe" },
   },
   init = { is.closed("box.lid"), is.on("left", "table"), is.on("right", "table"), is.spaced("left", "right"),
-    is_not.inside("left", "box.surroundings"), is_not.inside("right", "box.surroundings") },
+    is.outside("left", "box.outline"), is.outside("right", "box.outline") },
   goal = { is.inside("left", "box"), is.inside("right", "box"), is.hand_empty() },
   instructions = {
     "put the shoes in the box",

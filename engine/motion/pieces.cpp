@@ -13,7 +13,7 @@ namespace {
 constexpr int kProbes = 32;          // chords that measure a piece: it may bend
 constexpr double kWayOfTurn = 0.25;  // m for each rad
 constexpr double kTurnStep = 0.02;   // rad between samples
-constexpr double kToolError = 3e-4;  // rad, of decimated paths
+constexpr double kPathError = 3e-4;  // rad, of decimated paths
 
 // The pieces with their corners rounded. Two neighbours meet half way round their corner.
 class Rounded {
@@ -181,7 +181,7 @@ PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start,
       if (const auto touch = first_touch(checker, waypoints, certified_step(limits)))
         return fail(Reason::no_path, name_of(pieces, i) + ": " + checker.contact(*touch));
     }
-    waypoints = decimate(waypoints, kToolError);
+    waypoints = decimate(waypoints, kPathError);
     last = waypoints.back();
     stretch.waypoints.push_back(std::move(waypoints));
     if (!pieces[i].stop && i + 1 < pieces.size()) continue;

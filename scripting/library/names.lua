@@ -282,6 +282,7 @@
 ---| "microwave"
 ---| "money"
 ---| "mug"
+---| "mug_tree"
 ---| "mustard"
 ---| "napkin"
 ---| "numbered_block_1"

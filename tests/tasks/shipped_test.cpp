@@ -40,7 +40,7 @@ void check_share(std::size_t first, std::size_t of) {
       const EpisodeRecord episode = run_shipped(files[i]->name);
       INFO(files[i]->name << " " << episode.variation << " seed " << kSeed << ": " << verdict(episode));
       CHECK(episode.outcome == Outcome::success);
-      CHECK_FALSE(skills_of(episode).empty());
+      REQUIRE_FALSE(skills_of(episode).empty());
       check_tiling(episode);
       check_plan(episode);
       CHECK(replay_episode(episode) == "");

@@ -21,5 +21,5 @@ return object {
   },
   numbers = { hand_front = -0.03, hand_back = 0.01, hand_side = 0.08, hand_turn = 0.1 },
   regions = { inside = { at = { 0, 0, (height + wall) / 2 }, size = { length - 2 * wall, width - 2 * wall, height - wall } },
-    surroundings = { at = { 0, 0, 0.02 }, size = { length + 0.24, width + 0.24, 0.04 }, traits = { "container" } } },
+    outline = { at = { 0, 0, 0.02 }, size = { length + 0.10, width + 0.10, 0.04 }, traits = { "marked" } } },
 }

@@ -5,10 +5,8 @@ return predicate {
   start_only = true,
   holds = function(w, obj, area)
     local x, y = w:position(obj)
-    local area_x, area_y = w:position(area)
-    local obj_long, obj_wide = w:size(obj)
-    local area_long, area_wide = w:size(area)
-    local reach = math.max(obj_long, obj_wide) / 2 + math.max(area_long, area_wide) / 2
-    return math.sqrt((x - area_x) ^ 2 + (y - area_y) ^ 2) >= reach + 0.02
+    local _, _, level = w:position(area)
+    local long, wide = w:size(obj)
+    return w:region_distance(area, x, y, level) >= math.sqrt(long ^ 2 + wide ^ 2) / 2
   end,
 }
