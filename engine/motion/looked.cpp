@@ -49,11 +49,16 @@ std::string cause_of(const Looked& looked) {
   return "without room for a hand beside it";
 }
 
+std::string amount_of(const Looked& looked) {
+  if (!looked.joint.empty()) return number(looked.missed_rad, 2) + " rad beyond " + looked.joint + "'s limit";
+  return looked.missed_m < 0 ? "" : millimetres(looked.missed_m);
+}
+
 std::string miss_of(const Looked& looked) {
-  const std::string by = looked.missed_m < 0 ? "" : " by " + millimetres(looked.missed_m);
+  const std::string amount = amount_of(looked), by = amount.empty() ? "" : " by " + amount;
   const std::string where = looked.approach ? " on the approach" : "";
   if (looked.fate == Looked::Fate::touches) return "touches " + looked.touched + by + where;
-  if (!looked.joint.empty()) return number(looked.missed_rad, 2) + " rad beyond " + looked.joint + "'s limit" + where;
+  if (!looked.joint.empty()) return amount + where;
   if (looked.fate == Looked::Fate::out_of_reach) return "out of reach" + by + where;
   return cause_of(looked) + by;
 }

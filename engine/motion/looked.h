@@ -25,8 +25,9 @@ struct Looked {
   std::string joint = {};
 };
 
-std::string cause_of(const Looked& looked);  // of many, for counts: `touch pot`, `out of reach on the approach`
-std::string miss_of(const Looked& looked);   // `touches pot by 2 mm`, `0.40 rad beyond panda_joint6's limit`
+std::string cause_of(const Looked& looked);   // of many, for counts: `touch pot`, `out of reach on the approach`
+std::string miss_of(const Looked& looked);    // `touches pot by 2 mm`, `0.40 rad beyond panda_joint6's limit`
+std::string amount_of(const Looked& looked);  // `2 mm`, `0.40 rad beyond panda_joint6's limit`; empty: not measured
 // The one that came closest to being usable, a radian taken for 0.3 m; null: nobody knows.
 const Looked* nearest_miss(std::span<const Looked> looked);
 

@@ -169,15 +169,15 @@ class TurnedDown {
     ++misses_;
   }
   void close(bool fits) {
-    if (list_ != nullptr && !fits && too_wide_)
-      list_->insert(list_->end(), static_cast<std::size_t>(misses_), *too_wide_);
+    if (list_ != nullptr && !fits && too_wide_) list_->insert(list_->end(), std::min(misses_, kMost), *too_wide_);
   }
 
  private:
   static constexpr std::size_t kMost = 200;
   static constexpr int kMostMeasured = 24;
   const CollisionState& state_;
-  int body_, measured_ = 0, misses_ = 0;
+  int body_, measured_ = 0;
+  std::size_t misses_ = 0;
   std::vector<Looked>* list_;
   std::optional<Looked> too_wide_;
 };

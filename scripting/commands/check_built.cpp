@@ -21,12 +21,16 @@ std::string place_in(const ScriptFile& file, const std::string& field) {
   return fmt::format("{}:{}: {}", file.shown_path, line_of(field_lines(file.source), field), field);
 }
 
-// `worlds/objects/stick.lua: tip` with its line.
+// `worlds/objects/stick.lua: tip: …` with its line. What has gone through Lua is all message.
 Error with_line(const Library& library, const Error& error) {
+  const std::string text = error.where().empty() ? error.message() : error.where() + ": " + error.message();
   for (const ScriptFile* file : library.all_files()) {
     const std::string start = file->shown_path + ": ";
-    if (error.where().starts_with(start))
-      return Error(place_in(*file, error.where().substr(start.size())), error.message(), error.hint());
+    const std::size_t end = text.find(": ", start.size());
+    if (!text.starts_with(start) || end == std::string::npos) continue;
+    std::string field = text.substr(start.size(), end - start.size());
+    if (field.starts_with(file->name + ".")) field.erase(0, file->name.size() + 1);  // an object by itself
+    return Error(place_in(*file, field), text.substr(end + 2), error.hint());
   }
   return error;
 }

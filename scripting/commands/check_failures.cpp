@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -24,6 +25,11 @@ std::string plain(const std::string& text) {
   return name;
 }
 
+void keep_nearer(const Looked& one, std::optional<Looked>& nearest) {
+  const std::vector<Looked> both = nearest ? std::vector<Looked>{*nearest, one} : std::vector<Looked>{one};
+  if (nearest_miss(both) == &both.back()) nearest = one;
+}
+
 }  // namespace
 
 void FailedSteps::add(const Impasse& impasse) {
@@ -34,13 +40,12 @@ void FailedSteps::add(const Impasse& impasse) {
     starts_.insert({impasse.task, impasse.variation, impasse.seed});
   }
   step.looked += static_cast<std::int64_t>(impasse.looked.size());
-  for (const Looked& one : impasse.looked) step.causes.add(cause_of(one));
-  const auto nearer = [&](const Looked& one) {
-    if (!step.nearest) return true;
-    const std::vector<Looked> both = {*step.nearest, one};
-    return nearest_miss(both) == &both[1];
-  };
-  if (const Looked* one = nearest_miss(impasse.looked); one != nullptr && nearer(*one)) step.nearest = *one;
+  for (const Looked& one : impasse.looked) {
+    auto& [count, nearest] = step.causes[cause_of(one)];
+    ++count;
+    keep_nearer(one, nearest);
+    keep_nearer(one, step.nearest);
+  }
   if (!step.first || impasse.seed < step.first->seed) step.first = impasse;
 }
 
@@ -80,7 +85,17 @@ void FailedSteps::draw(const std::filesystem::path& folder) {
 std::string FailedSteps::why(const Step& step) const {
   if (!step.causes.empty()) {
     const bool grasps = step.first->reason == Reason::no_grasp;
-    return fmt::format("of {} {}: {}", step.looked, grasps ? "grasps" : "places", step.causes.text());
+    std::vector<std::pair<std::string, std::pair<std::int64_t, std::optional<Looked>>>> sorted(step.causes.begin(),
+                                                                                               step.causes.end());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second.first > b.second.first; });
+    std::string text = fmt::format("of {} {}", step.looked, grasps ? "grasps" : "places");
+    const char* comma = ": ";
+    for (const auto& [cause, known] : sorted) {
+      text += fmt::format("{}{} {}", std::exchange(comma, ", "), known.first, cause);
+      if (known.second && !amount_of(*known.second).empty()) text += " (" + amount_of(*known.second) + " at least)";
+    }
+    return text;
   }
   const auto most = std::max_element(step.details.begin(), step.details.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });

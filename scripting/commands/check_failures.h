@@ -31,7 +31,7 @@ class FailedSteps {
   struct Step {
     std::int64_t times = 0, looked = 0;
     std::map<std::string, std::int64_t> details;
-    Causes causes;
+    std::map<std::string, std::pair<std::int64_t, std::optional<Looked>>> causes;  // how often, and the nearest miss
     std::optional<Looked> nearest;
     std::optional<Impasse> first;  // of the least seed
     std::string picture;

@@ -249,6 +249,16 @@ void fade(Scene& scene, const std::string& subject) {
   fade_body(scene.robot.body);
 }
 
+// ` (2 mm at least)`, of the nearest miss of a cause.
+std::string least(const std::vector<Looked>& looked, const std::string& cause) {
+  std::vector<Looked> same;
+  std::copy_if(looked.begin(), looked.end(), std::back_inserter(same),
+               [&](const Looked& one) { return cause_of(one) == cause; });
+  const Looked* nearest = nearest_miss(same);
+  const std::string amount = nearest == nullptr ? "" : amount_of(*nearest);
+  return amount.empty() ? "" : " (" + amount + " at least)";
+}
+
 void write_words(Canvas& canvas, const Impasse& impasse, const std::vector<LegendLine>& legend, std::size_t ghosts,
                  int below) {
   const bool hands = impasse.reason == Reason::no_grasp;
@@ -262,7 +272,8 @@ void write_words(Canvas& canvas, const Impasse& impasse, const std::vector<Legen
   int baseline = below + kLetters + 4;
   for (const LegendLine& line : std::span(legend).first(std::min(legend.size(), kMostLines))) {
     canvas.fill(kGap, baseline - kLetters + 2, kLetters, kLetters, bytes_of(line.colour));
-    canvas.text(2 * kGap + kLetters, baseline, fmt::format("{} {}", line.count, line.text), kLetters, kInk);
+    canvas.text(2 * kGap + kLetters, baseline,
+                fmt::format("{} {}{}", line.count, line.text, least(impasse.looked, line.text)), kLetters, kInk);
     baseline += kLetters + 6;
   }
   if (const Looked* nearest = nearest_miss(impasse.looked))

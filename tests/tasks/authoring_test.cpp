@@ -102,6 +102,31 @@ TEST_CASE("what eight tries of authors look like now: each is done, with one see
   }
 }
 
+TEST_CASE("a third step that can never be grasped is not tried for ever") {
+  const auto failed = [](const EpisodeRecord& episode) {
+    int count = 0;
+    const auto is_it = [](const SegmentRecord& segment) {
+      return segment.kind == SegmentKind::skill && segment.skill == "pick" && segment.arguments[0] == "far" &&
+             segment.reason == Reason::no_grasp;
+    };
+    for (const AttemptRecord& attempt : episode.attempts) count += is_it(attempt.segment);
+    for (const SegmentRecord& segment : episode.segments) count += is_it(segment);
+    return count;
+  };
+  int most = 0;
+  for (const std::int64_t seed : {1, 2, 3, 4}) {  // which of both is tried first is drawn
+    const EpisodeRecord episode = run_authors("take_either", seed);
+    INFO(verdict(episode));
+    CHECK(episode.outcome == Outcome::success);  // another way is taken
+    most = std::max(most, failed(episode));
+  }
+  CHECK(most == 6);
+  const EpisodeRecord never = run_authors("take_the_far");  // there is none: the plan is given up
+  INFO(verdict(never));
+  CHECK(never.reason == Reason::no_grasp);
+  CHECK((failed(never) >= 2 && failed(never) <= 13));
+}
+
 TEST_CASE(
     "a tool acts with its tip: that goes where a skill sends it, and a stain that it wipes is gone from then on") {
   const EpisodeRecord episode = run_authors("wipe_stain");

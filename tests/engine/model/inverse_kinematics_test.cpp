@@ -78,3 +78,46 @@ TEST_CASE("a pose that is not finite is an error") {
   target.translation().x() = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(arm.solve(target, arm.home(), RandomKey("nan")), Error);
 }
+
+TEST_CASE(
+    "what is missing of a pose out of reach: so much nearer to the shoulder it can be reached, and not much before") {
+  const Arm arm(panda_robot());
+  const Vector3 shoulder(0, 0, 0.333);
+  for (const double x : {0.95, 1.1, 1.3}) {
+    const Transform target = translation(x, 0, 0.2) * rotation_rpy(3.14159, 0, 0);
+    REQUIRE_FALSE(arm.solve(target, arm.home(), RandomKey("ik")));
+    const auto missing = arm.shortfall(target, arm.home(), RandomKey("why"));
+    REQUIRE(missing);
+    REQUIRE(missing->joint < 0);
+    const auto nearer = [&](double way) {
+      Transform moved = target;
+      moved.translation() += way * (shoulder - target.translation()).normalized();
+      return arm.solve(moved, arm.home(), RandomKey("ik")).has_value();
+    };
+    CHECK(nearer(missing->way_m));
+    CHECK_FALSE(nearer(0.8 * missing->way_m));
+  }
+}
+
+TEST_CASE("what is missing of a pose that a joint's limit forbids: at most what one way to it goes beyond") {
+  const Arm arm(panda_robot());
+  constexpr double kBeyond = 0.04;  // rad
+  Random random(RandomKey("beyond"));
+  int by_joint = 0;
+  for (int k = 0; k < 1400; ++k) {
+    JointVector q = random_joints(arm, random);
+    const Eigen::Index joint = k % q.size();
+    q[joint] = arm.limits()[static_cast<std::size_t>(joint)].upper + kBeyond;
+    const Transform target = arm.world_from_tip(q);
+    if (arm.solve(target, arm.home(), RandomKey("ik"))) continue;  // another way stays within the limits
+    const auto missing = arm.shortfall(target, q, RandomKey("why"));
+    REQUIRE(missing);
+    if (missing->joint < 0) {
+      CHECK(missing->way_m < 0.3 * kBeyond + 1e-3);
+      continue;
+    }
+    CHECK((missing->angle > 0 && missing->angle < kBeyond + 1e-3));
+    ++by_joint;
+  }
+  CHECK(by_joint > 0);
+}

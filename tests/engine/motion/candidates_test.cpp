@@ -178,3 +178,54 @@ TEST_CASE("region spots keep the object inside the region, on its lower face") {
     }
   }
 }
+
+TEST_CASE("places that cannot be are told of where somebody asks, with what they touch, and nothing changes by that") {
+  const World world(std::make_shared<Scene>(table_scene(12)));
+  const CollisionState state = world.collision_state();
+  const Scene& scene = world.scene();
+  const Object &table = *scene.object("table"), &cube = *scene.object("cube1");
+  std::vector<Looked> turned_down;
+  const auto plain = free_spots(state, world, table, cube, RandomKey("spots"), 50);
+  const auto watched = free_spots(state, world, table, cube, RandomKey("spots"), 50, &turned_down);
+  REQUIRE(watched.size() == plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) CHECK(watched[i].matrix() == plain[i].matrix());
+
+  turned_down.clear();
+  Region region;
+  region.part_from_region = translation(world.world_from_part({scene.body_index("cube2"), 0}).translation());
+  region.size = Vector3(0.02, 0.02, 0.04);
+  CHECK(region_spots(state, world, region, cube, RandomKey("region"), 4, &turned_down).empty());
+  REQUIRE(turned_down.size() > 10);
+  for (const Looked& one : turned_down) {
+    CHECK(one.fate == Looked::Fate::touches);
+    CHECK(one.touched == "cube2");
+    if (one.missed_m < 0) continue;
+    // Not a cube's edge nearer to it, and so far that both cubes can stand side by side.
+    CHECK((one.missed_m > 0.015 && one.missed_m <= 0.064));
+  }
+  const Looked* nearest = nearest_miss(turned_down);
+  REQUIRE(nearest != nullptr);
+  CHECK(miss_of(*nearest).starts_with("touches cube2 by "));
+  CHECK(causes_of(turned_down).text() == std::to_string(turned_down.size()) + " touch cube2");
+}
+
+TEST_CASE("of grasps that cannot be it is known what keeps the hand, and by how much") {
+  Scene scene = table_scene(2);
+  scene.bodies[static_cast<std::size_t>(scene.body_index("cube1"))].world_from_body = translation(1.2, 0, 0.02);
+  const World world(std::make_shared<Scene>(scene));
+  const CollisionState state = world.collision_state();
+  const JointVector home = world.arm().home();
+  const auto far = look_at_grasps(state, world, *world.scene().object("cube1"), home, RandomKey("why"), true);
+  REQUIRE(far.size() > 10);
+  for (const Looked& one : far) CHECK(one.fate != Looked::Fate::usable);
+  const Looked* nearest = nearest_miss(far);
+  REQUIRE(nearest != nullptr);
+  CHECK(nearest->fate == Looked::Fate::out_of_reach);
+  CHECK((nearest->missed_m > 0.1 && nearest->missed_m < 0.8));
+  const auto near = look_at_grasps(state, world, *world.scene().object("cube2"), home, RandomKey("why"), true);
+  CHECK(std::any_of(near.begin(), near.end(), [](const Looked& one) { return one.fate == Looked::Fate::usable; }));
+  const auto through_table = [](const Looked& one) {
+    return one.fate == Looked::Fate::touches && one.touched == "table" && one.pose.linear().col(2).z() > 0.9;
+  };
+  CHECK(std::any_of(near.begin(), near.end(), through_table));  // from below
+}
