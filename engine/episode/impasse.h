@@ -1,4 +1,4 @@
-// What stood in the way where a skill, or a start, found nothing to take or no place: with all that was looked at.
+// What stood in the way where a skill or a start found nothing to take or no place, or failed later: all it looked at.
 #pragma once
 
 #include <functional>

@@ -70,6 +70,11 @@ Reason draw_grasp(Rollout& rollout, const SkillContext& context, const Continuou
     }
     return Reason::no_grasp;
   }
+  if (impasse != nullptr) {  // whatever becomes of it
+    impasse->subject = name;
+    impasse->looked = look_at_grasps(*space, rollout.world(), rollout.view().object(name),
+                                     planning_start(rollout.world()), context.key.with(info.name), false);
+  }
   const GraspCandidate& grasp = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
   value.grasp = grasp;
   value.record.values = seven(grasp.object_from_tip);
@@ -156,19 +161,20 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
         continue;
       }
     }
+    if (impasse != nullptr) looked.push_back({Looked::Fate::usable, *pose});
     if (!value.pose || wanted-- > 0) value.pose = *pose;
     if (wanted < 0 || context.attempt == 0) break;
   }
   if (!value.pose) value.pose = tight;
+  if (impasse != nullptr) {
+    impasse->subject = fact.arguments.empty() ? "" : fact.arguments.front();
+    impasse->looked = looked;
+    impasse->looked.insert(impasse->looked.end(), turned_down.begin(), turned_down.end());
+  }
   if (!value.pose) {
     detail = "no reachable and free pose makes " + to_text(fact) + " true";
     if (tried == 0) detail += ": there is no room for any";
     if (tried > 0 && explain) detail += ": of " + std::to_string(tried) + " " + causes_of(looked).text();
-    if (impasse != nullptr) {
-      impasse->subject = fact.arguments.empty() ? "" : fact.arguments.front();
-      impasse->looked = std::move(looked);
-      impasse->looked.insert(impasse->looked.end(), turned_down.begin(), turned_down.end());
-    }
     return Reason::no_placement;
   }
   value.record.values = seven(*value.pose);

@@ -12,7 +12,7 @@ namespace stampede {
 
 // Fills call.continuous, in the order of declaration: what the context's settings say, else drawn. Repeatable: a pure
 // function of the rollout's state and the context. Result: none, or why a stream has nothing, said in `detail`.
-// `impasse`: then, where somebody asks, its subject and what was looked at.
+// `impasse`: where somebody asks, the subject of a stream and what was looked at for it, in vain or not.
 Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
                        std::string& detail, Impasse* impasse = nullptr);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/episode/agent_action.h"
 #include "engine/episode/blockers.h"
@@ -132,9 +133,15 @@ void SkillExecution::start(SkillContext context, int parent) {
       std::string ignored;
       return draw_continuous(rollout_, symbols_, context_, again, ignored) == Reason::none;
     });
+    impasse.state = state_of(rollout_.view());
     if (options_.witness) tell(std::move(impasse), failed);
     finish(std::move(failed));
     return;
+  }
+  looked_at_.reset();
+  if (!impasse.looked.empty()) {
+    impasse.state = state_of(rollout_.view());
+    looked_at_ = std::move(impasse);
   }
   controller_ = {call.controller, call.stiffness};
   call_ = call;
@@ -153,7 +160,6 @@ void SkillExecution::tell(Impasse impasse, const SkillResult& failed) const {
   impasse.reason = failed.reason;
   impasse.detail = failed.detail;
   impasse.scene = rollout_.scene();
-  impasse.state = state_of(rollout_.view());
   options_.witness(impasse);
 }
 
@@ -468,6 +474,7 @@ bool SkillExecution::finish(SkillResult result) {
   result.segment = context_.segment;
   result.step = result_.step;
   close(context_.segment, result);
+  if (looked_at_ && !result.ok()) tell(*std::exchange(looked_at_, std::nullopt), result);
   result_ = std::move(result);
   run_.reset();
   child_.reset();

@@ -104,6 +104,7 @@ class SkillExecution {
   std::int64_t settle_until_ = 0;
   bool pending_ = false;  // a declared effect is becoming steady
   std::vector<std::string> lacking_;
+  std::optional<Impasse> looked_at_;  // where somebody asks: told if this call fails after all
 };
 
 // Ticks what has begun to its end, making every step that is due.

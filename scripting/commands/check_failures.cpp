@@ -39,6 +39,10 @@ void FailedSteps::add(const Impasse& impasse) {
     step.times += impasse.draws;
     starts_.insert({impasse.task, impasse.variation, impasse.seed});
   }
+  if (!step.first || impasse.seed < step.first->seed) step.first = impasse;
+  const bool in_vain = impasse.reason == Reason::no_grasp || impasse.reason == Reason::no_placement ||
+                       impasse.reason == Reason::init_impossible;
+  if (!in_vain) return;  // something was found, and failed later
   step.looked += static_cast<std::int64_t>(impasse.looked.size());
   for (const Looked& one : impasse.looked) {
     auto& [count, nearest] = step.causes[cause_of(one)];
@@ -46,7 +50,6 @@ void FailedSteps::add(const Impasse& impasse) {
     keep_nearer(one, nearest);
     keep_nearer(one, step.nearest);
   }
-  if (!step.first || impasse.seed < step.first->seed) step.first = impasse;
 }
 
 void FailedSteps::add(const EpisodeRecord& episode) {

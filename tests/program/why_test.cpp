@@ -108,6 +108,22 @@ TEST_CASE("a start that cannot be made: which literal, what is in the way, and a
   CHECK(pictures_in(mine / "why") == 1);
 }
 
+TEST_CASE("a step that found a grasp and failed after that: green ghosts of the hand") {
+  const Folder mine;
+  put(mine, "skills/give_up.lua",
+      "-- Finds a grasp, and gives up.\nreturn skill {\n  params = { \"obj: movable & graspable\" },\n"
+      "  precondition = { is.hand_empty() }, effect = { is.holding(\"obj\") },\n"
+      "  continuous = { grasp = stream(\"grasps\") }, label = \"give up\",\n"
+      "  run = function(robot) robot:fail(\"no more\") end,\n}\n");
+  put_task(mine, "a = " + kCube, "", "is.lifted(\"a\"), steps = act.give_up(\"a\")");
+  const Said said = why(mine, {"--pictures", mine / "why"});
+  INFO(said.out << said.err);
+  CHECK(says(said.err, "no more"));
+  CHECK_FALSE(says(said.err, "nearest miss"));
+  const Image picture = load_image(mine / "why/t-give_up-a-panda.hand-failed_by_skill.png");
+  CHECK(pixels_like(picture, 26, 158, 64) > 150);
+}
+
 TEST_CASE("what is told does not depend on the number of workers, and without --why nothing is told") {
   const Folder mine;
   put_slab(mine, "0.03");
