@@ -26,7 +26,7 @@ local function push(robot, part, grasp, c, pivot)
   end
   on(whole and 0 or grasp.reach, c.speed) -- but for the gap
   if whole then on(past, math.min(c.speed, 0.05)) end
-  robot:retreat(away)
+  robot:retreat(away, { as_far_as_it_goes = true })
 end
 
 return skill {

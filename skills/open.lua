@@ -31,7 +31,7 @@ return skill {
     robot:move_part(p.part, pull,
       { speed = c.speed, most_force = 40, pivot = pivot, retreat = o.away, as_far_as_it_goes = true })
     robot:open_hand(o.opening)
-    robot:retreat(o.away)
+    robot:retreat(o.away, { as_far_as_it_goes = true })
     grips.go_on(robot, p.part, pull, o, function() return w:joint(p.part) >= w:number(p.part, "open_at") end,
       function(grasp) grips.take(robot, p.part, grasp, pull, o) end)
   end,

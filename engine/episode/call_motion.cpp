@@ -52,10 +52,13 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
   }
   const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
   PlannedMotion whole = plan_tool_path(state, start, rigid, line, {}, key);
-  if (whole.reason != Reason::none && call.as_far_as_it_goes)
+  const bool good =  // the arm goes on from there
+      whole.reason == Reason::none && free_at_end(state, start, way, whole.trajectory.knots.back().position);
+  if (!good && call.as_far_as_it_goes)
     if (const std::optional<ArmWay> found = furthest_with_part(state, start, way, key)) {
       LineOptions guided = line;
       guided.near = found->arm;
+      guided.least_share = 0;
       whole = plan_tool_path(state, start, found->world_from_tip, guided, {}, key);
     }
   return from(std::move(whole), std::move(options));
@@ -84,6 +87,7 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
   LineOptions line;
   line.tool_speed = call.speed;
   line.keep_clear = call.keep_clear;
+  if (call.as_far_as_it_goes) line.least_share = 0.5;
   return from(plan_line(state, start, call.target, line, {}, key), std::move(options));
 }
 

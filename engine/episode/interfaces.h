@@ -184,11 +184,12 @@ struct MoveLine {
   Transform target;
   double speed = 0.25;  // m/s
   bool stop_on_contact = false;
-  double force = 3;         // N, that stops it
-  bool tolerate = false;    // falling short is no failure
-  bool keep_clear = false;  // refused where anything is touched but the skill's own objects
-  double most_force = 0;    // N: the arm gives way, and stops where contact asks for more; 0: it does not
-  double press = 0;         // as of Follow
+  double force = 3;                // N, that stops it
+  bool tolerate = false;           // falling short is no failure
+  bool keep_clear = false;         // refused where anything is touched but the skill's own objects
+  bool as_far_as_it_goes = false;  // where the arm cannot follow to the end: at least half of it
+  double most_force = 0;           // N: the arm gives way, and stops where contact asks for more; 0: it does not
+  double press = 0;                // as of Follow
   Vector3 press_along = Vector3::Zero();
   double search = 0;             // m around the line in which it looks for a way on where contact of `force` stops it
   double search_pitch = 0.0008;  // m from one turn of the spiral to the next

@@ -54,6 +54,13 @@ void smooth(std::vector<double>& turns) {
   }
 }
 
+CollisionState with_part_held(const CollisionState& state, const JointVector& start, const PartWay& way) {
+  CollisionState holding = state;
+  holding.set_opening(way.opening);
+  if (way.part.body >= 0) holding.allow_touched(way.part, start);
+  return holding;
+}
+
 std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
                              bool whole) {
   const Arm& arm = state.arm();
@@ -65,9 +72,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
   const std::size_t width = static_cast<std::size_t>(2 * most) + 1;
   std::vector<std::vector<Node>> layers(count + 1, std::vector<Node>(width));
   layers[0][static_cast<std::size_t>(most)] = {start, 0, -1};
-  CollisionState holding = state;
-  holding.set_opening(way.opening);
-  if (way.part.body >= 0) holding.allow_touched(way.part, start);
+  const CollisionState holding = with_part_held(state, start, way);
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count);
     const Transform moved = way.moved(share);
@@ -121,6 +126,12 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
 }
 
 }  // namespace
+
+bool free_at_end(const CollisionState& state, const JointVector& start, const PartWay& way, const JointVector& q) {
+  CollisionState there = with_part_held(state, start, way);
+  if (way.part.body >= 0) there.move_part(way.part, way.moved(1));
+  return there.free(q);
+}
 
 PartWay first_of(const PartWay& way, double share) {
   if (share == 1) return way;

@@ -39,6 +39,10 @@ std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVect
 std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                          RandomKey key);
 
+// Would the arm at `q` touch anything there, once the part is at the end of its way? What way_with_part leaves out does
+// not count here either.
+bool free_at_end(const CollisionState& state, const JointVector& start, const PartWay& way, const JointVector& q);
+
 // The first `share` of a way.
 PartWay first_of(const PartWay& way, double share);
 

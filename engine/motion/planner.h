@@ -79,6 +79,8 @@ struct LineOptions {
   double tool_speed = 0.25;  // m/s
   double tool_turn = 1.0;    // rad/s
   bool keep_clear = false;
+  // Where the arm cannot follow to the end it goes as far as it can, at least this share of the way; 1: to the end.
+  double least_share = 1;
   int samples = 0;                     // 0: one each 5 mm or 0.02 rad
   std::vector<JointVector> near = {};  // at equal shares, whence its configurations are sought; empty: the one before
 };

@@ -26,7 +26,8 @@ class Steering {
 // Hybrid control of position and force (Raibert, Craig 1981, doi:10.1115/1.3139652), as an admittance around the
 // impedance of the arm: across the direction the tool keeps to its trajectory; along it the reference is shifted by
 // what the force lacks, by 3 cm to where it presses and 2 cm back at most. It presses first and sets out when it does;
-// with nothing to press on for two seconds it sets out all the same, and gives up at the end. Options: press, press_along.
+// with nothing to press on for two seconds it sets out all the same, and gives up at the end. Options: press,
+// press_along.
 std::unique_ptr<Steering> make_pressing(Trajectory trajectory, const FollowOptions& options);
 
 // Straight on as long as the arm follows: the reference is never further ahead than what `search_force` takes. Where it

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/motion/checker.h"
@@ -12,6 +13,7 @@ constexpr double kMostJump = 0.3;    // rad between samples
 constexpr double kLineError = 2e-3;  // rad, of decimated approach lines
 constexpr double kToolError = 3e-4;  // rad, of decimated tool paths
 constexpr int kSolutions = 6;        // joint solutions tried for the first target
+constexpr int kMoreSolutions = 24;   // and after these
 
 void check_pose(const Transform& pose) {
   if (!pose.matrix().allFinite()) throw Error("motion planning", "a tool target must be finite");
@@ -199,11 +201,17 @@ PlannedMotion plan_through(const CollisionState& state, const JointVector& start
   motion.reason = ends.reason;
   motion.detail = ends.detail;
   if (motion.reason == Reason::start_in_collision) return motion;
-  const std::vector<JointVector> solutions =
+  std::vector<JointVector> solutions =
       state.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
+  bool searched = then == nullptr;  // who has to go on with a part needs the right one: then more are looked for
   motion.reason = Reason::unreachable;
   motion.detail = "no joint configuration reaches " + targets[0].name;
-  for (std::size_t i = 0; i < solutions.size(); ++i) {
+  for (std::size_t i = 0;; ++i) {
+    if (i == solutions.size() && !std::exchange(searched, true)) {
+      const auto more = state.arm().solutions(targets[0].world_from_tip, start, key.with("more"), kMoreSolutions, 200);
+      solutions.insert(solutions.end(), more.begin(), more.end());
+    }
+    if (i >= solutions.size()) break;
     const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
     const Tail tail = make_tail(state, solutions[i], targets, then, limits, query.with("tail"));
     if (tail.reason != Reason::none) {
@@ -236,7 +244,10 @@ PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& sta
   const ToolPath first = follow_tool(
       state.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
   const JointVector from = first.reason == Reason::none ? first.waypoints.back() : start;
-  const ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"), line.near);
+  ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"), line.near);
+  if (path.reason != Reason::none && !path.waypoints.empty() &&
+      static_cast<double>(path.waypoints.size()) >= line.least_share * samples)
+    path.reason = Reason::none;
   motion.reason = first.reason == Reason::none ? path.reason : first.reason;
   motion.detail = first.reason == Reason::none ? path.detail : "the path's start is out of reach";
   if (motion.reason != Reason::none) return motion;

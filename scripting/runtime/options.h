@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/episode/world_view.h"
 #include "scripting/runtime/pose_binding.h"
 
 namespace stampede {
@@ -74,6 +75,16 @@ inline std::optional<double> opening_field(lua_State* state, int index, double m
   const double opening = number_field(state, index, "open", 0, place);
   if (opening < 0) throw Error(place, "open must not be negative");
   return std::min(opening, most);
+}
+
+// The joint of a part. Throws Error for a thing that has none.
+inline const Joint& joint_of(const WorldView& view, const std::string& name, const std::string& place = {}) {
+  const PartRef ref = view.part_of(name);
+  const Scene& scene = view.scene();
+  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(ref.body)];
+  const Part& part = body.parts[static_cast<std::size_t>(ref.part)];
+  if (part.parent < 0 || part.joint.kind == JointKind::fixed) throw Error(place, "'" + name + "' has no joint");
+  return part.joint;
 }
 
 inline double finite(lua_State* state, int index) {

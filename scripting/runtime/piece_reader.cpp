@@ -112,11 +112,7 @@ class PieceReader {
       return;
     }
     if (centre.kind != About::Kind::thing) fail("an arc about a point needs axis = { x, y, z }");
-    view_.joint(centre.thing);  // a thing without a joint is told
-    const PartRef part = view_.part_of(centre.thing);
-    const Body& body =
-        part.body < 0 ? view_.scene().robot.body : view_.scene().bodies[static_cast<std::size_t>(part.body)];
-    if (body.parts[static_cast<std::size_t>(part.part)].joint.kind == JointKind::slider)
+    if (joint_of(view_, centre.thing, place_).kind == JointKind::slider)
       fail("'" + centre.thing + "' slides and does not turn: use by, or robot:move_part");
     piece.way = piece::PartArc{turn, centre.thing, carries};
   }

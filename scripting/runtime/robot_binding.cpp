@@ -142,11 +142,11 @@ robot_call::MoveLine line(lua_State* state, const Transform& target, int options
   if (std::string_view(kind) == "move_line")
     only_fields(state, options,
                 {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "press", "press_along",
-                 "search", "pitch", "open", "tool"});
+                 "search", "pitch", "open", "as_far_as_it_goes", "tool"});
   else
     only_fields(state, options,
                 {"speed", "force", "most_force", "stop_on_contact", "tolerate", "keep_clear", "press", "press_along",
-                 "search", "pitch", "open"});
+                 "search", "pitch", "open", "as_far_as_it_goes"});
   robot_call::MoveLine call{target};
   call.search = number_field(state, options, "search", 0);
   call.speed = number_field(state, options, "speed", call.speed);
@@ -159,6 +159,7 @@ robot_call::MoveLine line(lua_State* state, const Transform& target, int options
   call.stop_on_contact = flag_field(state, options, "stop_on_contact");
   call.tolerate = flag_field(state, options, "tolerate");
   call.keep_clear = flag_field(state, options, "keep_clear");
+  call.as_far_as_it_goes = flag_field(state, options, "as_far_as_it_goes");
   call.kind = kind;
   luaL_argcheck(state, call.speed > 0, options, "speed must be positive");
   luaL_argcheck(state, call.most_force >= 0 && call.press >= 0 && call.search >= 0, options,
@@ -275,9 +276,8 @@ Question question_about(lua_State* state) {
   question.retreat = number_field(state, 4, "retreat", 0);
   luaL_argcheck(state, question.pivot >= 0 && question.pivot <= 3.2, 4, "pivot must be 0 … pi rad");
   question.position = finite(state, 3);
-  const std::string_view part = check_text(state, 2);
-  view_of(state).joint_range(part);
-  question.object = std::string(part);
+  question.object = check_text(state, 2);
+  joint_of(view_of(state), question.object);
   return question;
 }
 

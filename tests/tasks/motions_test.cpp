@@ -29,3 +29,85 @@ int motions_of(const EpisodeRecord& episode, const std::string& kind) {
 }
 
 }  // namespace
+
+TEST_CASE("a valve of one and a half turns is turned by the library's own skill, with as many grips as it needs") {
+  for (const std::uint64_t seed : {3, 4}) {
+    const EpisodeRecord episode = run_authored("open_the_valve", "", seed);
+    INFO(verdict(episode));
+    REQUIRE(episode.outcome == Outcome::success);
+    CHECK(skills_of(episode) == std::vector<std::string>{"turn valve.wheel"});
+    CHECK(motions_of(episode, "move_part") >= 2);
+    CHECK(motions_of(episode, "move_part") <= 4);
+    CHECK(replay_episode(episode) == "");
+  }
+}
+
+TEST_CASE("a door that one grip does not open far enough is opened with several") {
+  int grips = 0;
+  for (const std::uint64_t seed : {7, 8, 14}) {
+    const EpisodeRecord episode = run_authored("open_the_wide_door", "", seed);
+    INFO(verdict(episode));
+    CHECK(episode.outcome == Outcome::success);
+    grips = std::max(grips, motions_of(episode, "move_part"));
+  }
+  CHECK(grips > 1);
+}
+
+TEST_CASE("a held rod that is taken to a place 2 mm beside its hole finds it where the slot says that it may search") {
+  int without = 0;
+  for (std::uint64_t seed = 3; seed < 8; ++seed) {
+    const EpisodeRecord searched = run_authored("rod_in_socket", "hole=searched", seed);
+    INFO(verdict(searched));
+    REQUIRE(searched.outcome == Outcome::success);
+    if (seed == 3) CHECK(replay_episode(searched) == "");
+    without += run_authored("rod_in_socket", "hole=plain", seed).outcome == Outcome::success ? 1 : 0;
+  }
+  CHECK(without <= 2);  // a hand that pushes hard enough now and then turns the rod in
+}
+
+TEST_CASE("a hand lets go on its way, and what it lets go falls where it was let go") {
+  const EpisodeRecord episode = run_authored("drop_on_the_way", "", 3);
+  INFO(verdict(episode));
+  REQUIRE(episode.outcome == Outcome::success);
+  CHECK(motions_of(episode, "open_hand") == 1);  // before it was picked up
+  CHECK(motions_of(episode, "follow") == 1);
+  const auto over =
+      std::find_if(episode.vias.begin(), episode.vias.end(), [](const auto& via) { return via.name == "over"; });
+  REQUIRE(over != episode.vias.end());
+  CHECK(over->tool_speed > 0.03);  // it did not stop
+  CHECK(replay_episode(episode) == "");
+}
+
+TEST_CASE("an arc about a part goes as its joint turns") {
+  for (const std::uint64_t seed : {3, 4, 5}) {
+    const EpisodeRecord episode = run_authored("tap_by_arc", "", seed);
+    INFO(verdict(episode));
+    REQUIRE(episode.outcome == Outcome::success);
+    CHECK(motions_of(episode, "follow") == 1);
+  }
+}
+
+TEST_CASE("a wipe in a skill holds its force at a surface that is not where it was thought to be") {
+  for (const double wrong : {-0.005, 0.005}) {
+    RunOptions options;
+    options.seed = 3;
+    options.on_failure = OnFailure::stop;
+    options.set["rub"].values = {{"wrong", 0, {wrong}}};
+    EpisodeScripts scripts(authored(), "rub_the_patch", "", options.seed);
+    const EpisodeRecord episode = run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+    INFO(wrong << " " << verdict(episode));
+    REQUIRE(episode.outcome == Outcome::success);
+    const auto follow = std::find_if(episode.segments.begin(), episode.segments.end(), [](const auto& segment) {
+      return segment.kind == SegmentKind::motion && segment.skill == "follow";
+    });
+    REQUIRE(follow != episode.segments.end());
+    CHECK(follow->controller == "cartesian_impedance");
+    const auto press = std::find_if(episode.contacts.begin(), episode.contacts.end(),
+                                    [](const ContactRecord& contact) { return contact.peak_force > 5; });
+    REQUIRE(press != episode.contacts.end());
+    REQUIRE(episode.vias.size() >= 3);
+    CHECK(replay_episode(episode) == "");
+    const EpisodeRecord again = run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+    CHECK(again.state_hash == episode.state_hash);
+  }
+}

@@ -15,7 +15,7 @@ function grips.take(robot, part, grasp, to, o)
   robot:move_part(part, to,
     { speed = o.speed, most_force = o.most_force, pivot = o.pivot, retreat = o.away, as_far_as_it_goes = true })
   robot:open_hand(o.opening or grasp.opening)
-  robot:retreat(o.away)
+  robot:retreat(o.away, { as_far_as_it_goes = true })
 end
 
 -- Calls again(grasp) with another grasp, each time from where the part is by then, until enough() says that it is far

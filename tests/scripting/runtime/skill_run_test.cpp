@@ -184,7 +184,7 @@ TEST_CASE("what goes wrong in run is a failed call with a place, not an exceptio
                                                  {16, "piece 1: it has several of to, by, arc and tilt"},
                                                  {17, "piece 1: speed and turn_speed must be positive"},
                                                  {18, "piece 1: expected a table"},
-                                                 {19, "joint"},
+                                                 {19, "piece 1: 'cube' has no joint"},
                                                  {20, "search goes neither with press nor with stop_on_contact"},
                                                  {21, "cube: has no tip to move"},
                                                  {22, "top: is not in the hand, so its tip cannot be moved"}};
