@@ -1,0 +1,18 @@
+-- Fill the cup that stands on the table with ice: push the lever in the fridge's niche back with it, and keep it in the hand.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    fridge = { "ice_fridge", place = places.beside_the_table(0.15, 0.3, 0.75) },
+    cup = { "tumbler", colour = one_of(colours.names) },
+  },
+  init = { is.on("cup", "table"), is_not.pressed("fridge.lever") },
+  goal = { is.pressed_with("cup", "fridge.lever"), is.holding("cup"), is.lifted("cup") },
+  instructions = {
+    "get ice from the fridge into the cup",
+    "hold the cup against the lever of the fridge until ice comes",
+    "the drink wants ice: take the cup to the dispenser in the fridge's front and push its lever",
+    "press the lever in the niche of the fridge with the cup, and keep hold of it",
+  },
+}
