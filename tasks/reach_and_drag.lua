@@ -1,0 +1,24 @@
+-- Take the stick and drag the cube with it onto the patch of one colour; two patches of other colours are there to be ignored.
+return task {
+  world = "tabletop",
+  variations = { colour = colours.names },
+  objects = function(v)
+    local anywhere, turn = { between(0.04, 0.32), between(-0.28, 0.28), 0.75 }, between(-math.pi, math.pi)
+    return {
+      target = { "patch", colour = v.colour, at = anywhere, yaw = turn },
+      other = { "patch", count = 2, colour = sample_of(colours.except(v.colour), 2), at = anywhere, yaw = turn },
+      cube = { "waxed_cube" },
+      stick = { "stick" },
+    }
+  end,
+  init = { is.spaced("target", "other1"), is.spaced("target", "other2"), is.spaced("other1", "other2"),
+    is.on("cube", "table"), is.outside("cube", "target"), is.on("stick", "table"), is_not.crowds("cube", "stick") },
+  goal = { is.covers("cube", "target"), is.on("cube", "table") },
+  also = function(w) return w:at_rest("cube") end,
+  instructions = {
+    "drag the cube onto the {colour} patch with the stick",
+    "use the stick to bring the cube to the {colour} square",
+    "the hand must not touch the cube: take the stick and pull it to where the table is {colour}",
+    "reach for the stick and shift the cube with it until it lies on {colour}",
+  },
+}
