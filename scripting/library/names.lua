@@ -9,6 +9,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
+---@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: marked)
 ---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
@@ -28,6 +29,7 @@
 ---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -40,6 +42,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
+---@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: marked)
 ---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
@@ -59,12 +62,14 @@
 ---@field part_of fun(part: string, whole: string): stampede.literal   (part: anything, whole: anything)
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
+---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
+---@field drag fun(tool: string|table, obj?: string, area?: string, top?: string): stampede.call  drag the {obj} onto the {area} with the {tool} (tool: tool, obj: movable, area: marked, top: surface)
 ---@field drop fun(obj: string|table, box?: string): stampede.call  drop the {obj} into the {box} (obj: movable, box: container & hollow)
 ---@field extract fun(obj: string|table, slot?: string): stampede.call  pull the {obj} out of the {slot} (obj: movable & graspable, slot: slot)
 ---@field hang fun(obj: string|table, hook?: string): stampede.call  hang the {obj} on the {hook} (obj: movable, hook: hook)
@@ -76,6 +81,7 @@
 ---@field place fun(obj: string|table, to?: string): stampede.call  put the {obj} on the {to} (obj: movable, to: surface)
 ---@field point fun(obj: string|table, aim?: string, top?: string): stampede.call  put the {obj} down on the {top} so that it points at the {aim} (obj: movable & pointable, aim: aim, top: surface)
 ---@field press fun(button: string|table): stampede.call  press the {button} (button: pressable)
+---@field press_with fun(obj: string|table, button?: string): stampede.call  press the {button} with the {obj} (obj: movable, button: pressable)
 ---@field push fun(obj: string|table, area?: string, top?: string): stampede.call  push the {obj} into the {area} (obj: movable, area: marked & container, top: surface)
 ---@field put_in fun(obj: string|table, box?: string): stampede.call  put the {obj} into the {box} (obj: movable, box: container & reach_in)
 ---@field put_on_shelf fun(obj: string|table, shelf?: string): stampede.call  put the {obj} on the {shelf} (obj: movable, shelf: container & shelf)
@@ -96,6 +102,7 @@
 ---| "clear"
 ---| "closed"
 ---| "colour"
+---| "covers"
 ---| "crowds"
 ---| "digit"
 ---| "hand_empty"
@@ -115,6 +122,7 @@
 ---| "part_of"
 ---| "pointing_at"
 ---| "pressed"
+---| "pressed_with"
 ---| "spaced"
 ---| "switched_on"
 ---| "turned"
@@ -184,6 +192,7 @@
 ---| "sorter"
 ---| "stand"
 ---| "star"
+---| "stick"
 ---| "switch"
 ---| "tap"
 ---| "television"
@@ -272,6 +281,7 @@
 ---| "green_pepper"
 ---| "grill"
 ---| "hanger_holder"
+---| "ice_fridge"
 ---| "jar"
 ---| "kitchen_scales"
 ---| "knife"
@@ -290,6 +300,7 @@
 ---| "numbered_block_3"
 ---| "outlet"
 ---| "oven"
+---| "patch"
 ---| "pedestal"
 ---| "phone"
 ---| "phone_cradle"
@@ -331,6 +342,7 @@
 ---| "square_ring"
 ---| "stacking_cup"
 ---| "steak"
+---| "stick"
 ---| "strawberry_jelly"
 ---| "sugar_box"
 ---| "table_knife"
@@ -350,6 +362,7 @@
 ---| "usb_stick"
 ---| "washing_machine"
 ---| "water_bottle"
+---| "waxed_cube"
 ---| "wide_block"
 ---| "window"
 ---| "wine_bottle"
