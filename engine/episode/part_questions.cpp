@@ -13,6 +13,8 @@ std::vector<GraspCandidate> grasps_to_go(const Rollout& rollout, const Collision
   };
   if (!follow) return grasps({});
   for (const double share : {1.0, 0.75, 0.5, 0.25, 0.125}) {
+    // Of a straight way no second grip does what the first cannot: something is before it, and has to be found.
+    if (share < 1 && follow->turn == 0) break;
     std::vector<GraspCandidate> found = grasps(first_of(*follow, share));
     for (GraspCandidate& grasp : found) grasp.reach = share == 1 ? to : from + share * (to - from);
     if (!found.empty()) return found;

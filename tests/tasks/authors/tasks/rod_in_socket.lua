@@ -1,4 +1,4 @@
--- The rod goes into a hole that somebody takes to be 2 mm beside where it is.
+-- The rod goes into a hole that somebody takes to be 4 mm beside where it is.
 return task {
   world = "tabletop",
   variations = { hole = { "searched", "plain" } },
@@ -11,7 +11,7 @@ return task {
     local x = 0.25 + (v.hole == "searched" and 0.055 or -0.055)
     return {
       act.pick("rod", "table"),
-      act.insert("rod", "socket." .. v.hole, { spot = { x + 0.002, 0.10, 0.75 + 0.011, 0, 0, 0, 1 } }),
+      act.insert("rod", "socket." .. v.hole, { spot = { x + 0.004, 0.10, 0.75 + 0.011, 0, 0, 0, 1 } }),
     }
   end,
   instructions = { "put the rod into the hole" },

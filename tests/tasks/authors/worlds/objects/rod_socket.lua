@@ -14,5 +14,5 @@ end
 
 return object {
   type = "stand", traits = {}, fixed = true, colour = wood, shapes = shapes,
-  regions = { searched = slot(0.055, { search = 0.004 }), plain = slot(-0.055) },
+  regions = { searched = slot(0.055, { search = 0.006 }), plain = slot(-0.055) },
 }
