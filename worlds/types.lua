@@ -97,7 +97,7 @@ return {
     slot = "a socket, port, tube or rack that a thing is seated in; +z is the way out",
     hook = "a hook or rod to hang things on, where their loops are then; +z is the way off",
     target = "a place for the tip to reach",
-    tool = "is held and works by its region `tip`, whose +z is the way out of it",
+    tool = "is held and works by its `tip`, whose +z is the way out of it",
     spot = "a marked place for one thing to be set down on: a square of a board, a place at a table",
     pointable = "has a front, its +x, that can be pointed at something: a remote control",
     aim = "a thing to point something at",

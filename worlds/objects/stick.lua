@@ -14,7 +14,7 @@ return object {
     box { long, thick, thick },
     box { bound, thick + 0.001, thick + 0.001, at = { bound / 2 - long / 2 + 0.005, 0, 0 }, colour = { 0.35, 0.20, 0.14 }, collides = false },
   },
-  regions = { tip = { at = { long / 2, 0, 0 }, rpy = { 0, math.pi / 2, 0 }, size = { thick, thick, 0.002 } } },
+  tip = { at = { long / 2, 0, 0 }, rpy = { 0, math.pi / 2, 0 } },
   numbers = { grip = -0.13 },
   grasps = grasps,
 }

@@ -89,7 +89,7 @@ TEST_CASE("a free body with a button keeps its momentum, whatever the spring doe
   CHECK((world.world_from_part({index, 0}).translation() - Vector3(0.5, 0, 1.2)).norm() > 1e-5);  // it did recoil
 }
 
-TEST_CASE("a free body with a button falls, comes to rest and sleeps; its button can be pressed where it lies",
+TEST_CASE("a free body with a button falls, comes to rest and sleeps, and its button can be pressed where it lies",
           "[sim]") {
   Scene scene = table_scene(0);
   add_body(scene, remote({0.5, 0, 0.06}));

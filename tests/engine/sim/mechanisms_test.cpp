@@ -243,6 +243,37 @@ TEST_CASE("a coupled needle follows a tray on a spring, and both snapshot exactl
   CHECK(world.state_hash() == end);
 }
 
+TEST_CASE("a rack comes out with its door, and a rack that is held back holds the door", "[sim]") {
+  for (const bool blocked : {false, true}) {
+    Scene scene = table_scene(0);
+    Body oven = box_body("oven", {0.02, 0.3, 0.2}, {0.9, 0.3, 0.4}, 0);
+    Part door = moving_part("door", JointKind::hinge, {0, -1, 0}, {-0.02, 0, -0.1}, 0, 1.5);
+    door.shapes.push_back(box_shape({0.02, 0.3, 0.2}, {0, 0, 0.1}));
+    set_uniform_mass(door, 1);
+    door.joint.initial = 0.2;  // it falls open from here
+    door.joint.damping = 0.3;
+    Part rack = moving_part("rack", JointKind::slider, {-1, 0, 0}, {0.25, 0, 0.15}, 0, 0.2);
+    rack.shapes.push_back(box_shape({0.1, 0.1, 0.01}));
+    set_uniform_mass(rack, 0.3);
+    rack.joint.initial = 0.02;
+    rack.joint.follows = "door";
+    rack.joint.follow_ratio = 0.1;
+    oven.parts.push_back(door);
+    oven.parts.push_back(rack);
+    add_body(scene, std::move(oven));
+    if (blocked) add_body(scene, box_body("post", {0.02, 0.1, 0.1}, {1.02, 0.3, 0.55}, 0));
+    World world(shared(scene));
+    const int body = body_index(world, "oven");
+    run(world, 3);
+    const double opened = world.joint_position({body, 1});
+    CHECK(world.joint_position({body, 2}) == Approx(0.1 * opened).margin(2e-3));
+    if (blocked)
+      CHECK(opened < 0.9);
+    else
+      CHECK(opened == Approx(1.5).margin(0.01));
+  }
+}
+
 TEST_CASE("a coupling or latch that names no other joint, and a spring too stiff for its part, are refused", "[sim]") {
   const auto complaint = [](auto&& change) {
     Scene scene = table_scene(0);
