@@ -78,7 +78,8 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
   options.kind = call.kind;
   options.stop_on_contact = call.stop_on_contact;
   options.contact_force = call.force;
-  options.tolerate_error = call.tolerate || call.stop_on_contact || call.most_force > 0;
+  const bool steered = call.press > 0 || call.search > 0;  // it says itself when it has failed
+  options.tolerate_error = call.tolerate || (!steered && (call.stop_on_contact || call.most_force > 0));
   set_contact(rollout, call.most_force, call.press, call.press_along, options);
   options.search = call.search;
   options.search_pitch = call.search_pitch;
@@ -94,7 +95,7 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
 PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const CollisionState& state,
                         const JointVector& start, FollowOptions options, RandomKey key) {
   options.kind = "follow";
-  options.tolerate_error = call.tolerate || call.most_force > 0;
+  options.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
   set_contact(rollout, call.most_force, call.press, call.press_along, options);
   const auto pieces = tool_pieces(call, rollout.view(), rollout.world().arm(call.robot).world_from_tip(start));
   return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, {}, key), std::move(options));

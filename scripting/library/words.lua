@@ -419,6 +419,7 @@ function stampede_world_view:place(thing, at) end
 ---@field search? number  where it is blocked it looks around, at most so far from the line, for a way on [m]
 ---@field pitch? number  of the spiral on which it looks (default 0.8 mm) [m]
 ---@field open? number  the hand begins to open or close to this as the line begins [m]
+---@field as_far_as_it_goes? boolean  half of it will do where the arm cannot follow to the end
 
 -- One of to, by, arc and tilt; none of them where the hand alone moves
 ---@class stampede.piece
@@ -427,7 +428,7 @@ function stampede_world_view:place(thing, at) end
 ---@field arc? number  around a line of the world: `axis` through `about`, or the axis of the joint of the part `about` [rad]
 ---@field tilt? number  about `axis` of the tool's own frame (default its z) through `about` (default the tip) [rad]
 ---@field axis? number[]
----@field about? stampede.pose|number[]|stampede.object_name  a tilt: three numbers are of the tool's frame; what is held moves along
+---@field about? stampede.pose|number[]|string  a tilt: three numbers are of the tool's frame; what is held moves along
 ---@field turn? boolean  of an arc, false: the tool keeps its orientation
 ---@field speed? number  of the tip [m/s]
 ---@field turn_speed? number  of the tool [rad/s]
@@ -447,7 +448,7 @@ function stampede_world_view:place(thing, at) end
 
 ---@class stampede.tilt_options: stampede.follow_options
 ---@field axis? number[]
----@field about? stampede.pose|number[]|stampede.object_name
+---@field about? stampede.pose|number[]|string
 ---@field name? string
 ---@field open? number
 
