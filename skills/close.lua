@@ -48,6 +48,6 @@ return skill {
     shut(c.grasp)
     local to = gripped and 0 or w:number(p.part, "closed_at")
     grips.go_on(robot, p.part, to, o, function() return w:joint(p.part) <= w:number(p.part, "closed_at") end, shut)
-    robot:open_hand()
+    if not gripped then robot:open_hand() end
   end,
 }

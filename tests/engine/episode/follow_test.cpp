@@ -59,7 +59,7 @@ TEST_CASE("an arc keeps its distance, and turns the tool with it or not") {
   }
 }
 
-TEST_CASE("a tilt about the tip leaves it where it is; about a point of the tool or the world that point stays") {
+TEST_CASE("a tilt about the tip leaves it where it is, about a point of the tool or the world that point stays") {
   const Ways ways;
   const Transform own = ways.end({{piece::Tilt{1.2, {1, 0, 0}, {0, 0, 0}, false}}});
   CHECK((own.translation() - kStart.translation()).norm() < 1e-12);
