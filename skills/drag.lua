@@ -17,27 +17,53 @@ local function sides(w, obj)
   return list
 end
 
--- The next stroke: which way and how far, and to which side the tool points. Of all ways the one on which the hand stays
--- nearest to the middle of the surface.
+-- How far out on the surface a point is: 1 at the edge.
+local function outness(w, top)
+  local from_top = w:pose(top):inverse()
+  local sx, sy = w:size(top)
+  return function(x, y)
+    local tx, ty = from_top:times(pose(x, y, 0)):position()
+    return math.max(math.abs(tx) / sx, math.abs(ty) / sy) * 2
+  end
+end
+
+-- A stroke of `way` m along a side of the object that is at x, y: to which of both sides the tool points is chosen by how far
+-- out that brings the hand, which is `reach` from the tip. `worst`: how far out hand or object come.
+local function stroke_of(side, way, x, y, reach, out)
+  local sign, best = way > 0 and 1 or -1, nil
+  for _, hand in ipairs { 1, -1 } do
+    local one = { x = sign * side.x, y = sign * side.y, way = math.abs(way), half = side.half, worst = out(x + way * side.x, y + way * side.y) }
+    one.ax, one.ay = -one.y * hand, one.x * hand -- along the tool, out of the hand
+    local back, off = side.half + gap, side.half + beyond - reach
+    for _, gone in ipairs { -back, one.way - back } do
+      one.worst = math.max(one.worst, out(x + gone * one.x + off * one.ax, y + gone * one.y + off * one.ay))
+    end
+    if not best or one.worst < best.worst then best = one end
+  end
+  return best
+end
+
+-- The next stroke: the first of those, along one side, then the other, perhaps half of the first way before and half
+-- after, on which hand and object stay nearest to the middle of the surface.
 local function next_stroke(w, p, reach)
   local x, y = w:position(p.obj)
   local goal_x, goal_y = w:position(p.area)
-  local middle_x, middle_y = w:position(p.top)
-  local best, least
-  for _, side in ipairs(sides(w, p.obj)) do
-    local way = (goal_x - x) * side.x + (goal_y - y) * side.y
-    local ux, uy = way > 0 and side.x or -side.x, way > 0 and side.y or -side.y
-    way = math.abs(way)
-    for _, hand in ipairs(way >= near and { 1, -1 } or {}) do
-      local ax, ay = -uy * hand, ux * hand -- along the tool, out of the hand
-      local worst = 0
-      for _, share in ipairs { 0, 1 } do
-        local hx, hy = x + share * way * ux - reach * ax, y + share * way * uy - reach * ay
-        worst = math.max(worst, math.sqrt((hx - middle_x) ^ 2 + (hy - middle_y) ^ 2))
+  local out, list, best, least = outness(w, p.top), sides(w, p.obj), nil, nil
+  for first = 1, 2 do
+    local way = {}
+    for i, side in ipairs(list) do way[i] = (goal_x - x) * side.x + (goal_y - y) * side.y end
+    local second = 3 - first
+    for _, share in ipairs { 1, 0.5 } do
+      local at_x, at_y, start, worst = x, y, nil, 0
+      for _, one in ipairs { { first, share }, { second, 1 }, { first, 1 - share } } do
+        local side, long = list[one[1]], way[one[1]] * one[2]
+        if math.abs(long) >= near then
+          local stroke = stroke_of(side, long, at_x, at_y, reach, out)
+          at_x, at_y = at_x + long * side.x, at_y + long * side.y
+          start, worst = start or stroke, math.max(worst, stroke.worst)
+        end
       end
-      if not best or worst < least then
-        best, least = { x = ux, y = uy, way = way, along = math.atan(ay, ax), ax = ax, ay = ay, half = side.half }, worst
-      end
+      if start and (not best or worst < least - 0.02) then best, least = start, worst end
     end
   end
   return best
@@ -53,14 +79,14 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     local tip = p.tool .. ".tip"
-    for _ = 1, 6 do
+    for _ = 1, 8 do
       local tx, ty, tz = w:pose(tip):inverse():times(robot:tip()):position()
       local stroke = next_stroke(w, p, math.sqrt(tx ^ 2 + ty ^ 2 + tz ^ 2))
       if not stroke then break end
       local x, y = w:position(p.obj)
       local out, back = stroke.half + beyond, stroke.half + gap
       local start = robot:tip_for(tip, pose(x + out * stroke.ax - back * stroke.x, y + out * stroke.ay - back * stroke.y,
-        w:bottom(p.obj) + high, 0, math.pi / 2, stroke.along))
+        w:bottom(p.obj) + high, 0, math.pi / 2, math.atan(stroke.ay, stroke.ax)))
       local way = { (stroke.way + gap - 0.008) * stroke.x, (stroke.way + gap - 0.008) * stroke.y, 0 }
       local there = start:offset(way[1], way[2], 0)
       local off = { -0.02 * stroke.x, -0.02 * stroke.y, 0.06 }

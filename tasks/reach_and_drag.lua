@@ -7,7 +7,7 @@ return task {
     return {
       target = { "patch", colour = v.colour, at = anywhere, yaw = turn },
       other = { "patch", count = 2, colour = sample_of(colours.except(v.colour), 2), at = anywhere, yaw = turn },
-      cube = { "waxed_cube" },
+      cube = { "waxed_cube", at = { between(0.04, 0.32), between(-0.28, 0.28), 0.781 }, yaw = turn },
       stick = { "stick" },
     }
   end,
