@@ -545,9 +545,5 @@ function stampede_robot_view:tip() end
 ---@param at stampede.pose
 ---@return stampede.pose
 function stampede_robot_view:tip_for(object, at) end
--- Has the arm a configuration with its tip there, whatever is in the way?
----@param at stampede.pose
----@return boolean
-function stampede_robot_view:reaches(at) end
 ---@return stampede.world_view
 function stampede_robot_view:view() end

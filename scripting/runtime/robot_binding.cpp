@@ -5,7 +5,6 @@
 
 #include "engine/base/error.h"
 #include "scripting/lua/binding.h"
-#include "scripting/lua/whitelist.h"
 #include "scripting/runtime/options.h"
 #include "scripting/runtime/piece_reader.h"
 #include "scripting/runtime/sampling_binding.h"
@@ -327,16 +326,6 @@ int tip(lua_State* state) {
   return 1;
 }
 
-// Is there a configuration of the arm for it, whatever is in the way? A pure function of where the arm is.
-int reaches(lua_State* state) {
-  constexpr std::int64_t kCost = 20'000;
-  charge(state, kCost);
-  const World& world = view_of(state).world();
-  const Transform target = finite_pose(state, 2);
-  lua_pushboolean(state, world.arm().solve(target, world.arm_position(), RandomKey("reaches")).has_value());
-  return 1;
-}
-
 int view(lua_State* state) {
   view_of(state);
   lua_getiuservalue(state, 1, 1);
@@ -372,7 +361,6 @@ constexpr luaL_Reg kMethods[] = {
     {"fail", lua_function<fail>},
     {"tip", lua_function<tip>},
     {"tip_for", lua_function<tip_for>},
-    {"reaches", lua_function<reaches>},
     {"view", lua_function<view>},
     {nullptr, nullptr},
 };
