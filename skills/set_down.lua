@@ -2,7 +2,8 @@
 return skill {
   params = { "obj: movable", "spot: spot" },
   moves = { "obj" },
-  precondition = { is.holding("obj"), is_not(exists("?y: movable", is.inside("?y", "spot"))) },
+  precondition = { is.holding("obj"), is_not(exists("?y: movable", is.inside("?y", "spot"))),
+    forall("?z: spot", any_of { is_not.rests_on("spot", "?z"), exists("?y: movable", is.inside("?y", "?z")) }) },
   effect = { is.inside("obj", "spot"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   forgets = { "on" },                                                   -- what the spot is of, or what lies below it
   continuous = { at = stream(is.inside("obj", "spot")) },               -- pose of the object

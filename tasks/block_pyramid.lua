@@ -1,6 +1,5 @@
 -- Build a pyramid of the six blocks of one colour on the mat; six of other colours stay where they are.
-local base = all_of { is.inside("block1", "mat.base1"), is.inside("block2", "mat.base2"), is.inside("block3", "mat.base3") }
-local middle = all_of { is.inside("block4", "mat.middle1"), is.inside("block5", "mat.middle2") }
+local places = each({ "base1", "base2", "base3", "middle1", "middle2", "top1" }, function(place) return "mat." .. place end)
 
 return task {
   world = "tabletop",
@@ -12,13 +11,16 @@ return task {
       other = { "cube", colour = one_of(colours.except(v.colour)), count = 6 },
     }
   end,
-  init = { is.on("block*", "table"), is.on("other*", "table") },
-  goal = in_order(base, middle, all_of { base, middle, is.inside("block6", "mat.top1"), is.hand_empty() }),
+  init = { is.on("block*", "table"), is.on("other*", "table"), is.spaced("block*", "mat"), is.spaced("other*", "mat") },
+  goal = {
+    any_order("block*", 6, function(b, i) return is.inside(b[i], places[i]) end), -- which block is where is all the same
+    is.on("other*", "table"), is.hand_empty(),
+  },
   horizon = 240, -- s
   instructions = {
     "build a pyramid of the {colour} blocks on the mat",
     "stack the six {colour} cubes: three, then two, then one",
-    "make a pyramid out of all {colour} blocks; leave the other colour alone",
+    "make a pyramid out of all {colour} blocks; leave the other colours alone",
     "on the mat a pyramid should stand, {colour} from foot to top",
   },
 }

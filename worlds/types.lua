@@ -99,6 +99,7 @@ return {
     target = "a place for the tip to reach",
     tool = "is held and works by its `tip`, whose +z is the way out of it",
     spot = "a marked place for one thing to be set down on: a square of a board, a place at a table",
+    raised = "a spot in the air: what is put there rests on what is on the spots below",
     pointable = "has a front, its +x, that can be pointed at something: a remote control",
     aim = "a thing to point something at",
     marked = "an area on a surface to push or drag things into",

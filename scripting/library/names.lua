@@ -30,6 +30,7 @@
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
+---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -63,6 +64,7 @@
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
+---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -123,6 +125,7 @@
 ---| "pointing_at"
 ---| "pressed"
 ---| "pressed_with"
+---| "rests_on"
 ---| "spaced"
 ---| "switched_on"
 ---| "turned"
@@ -220,6 +223,7 @@
 ---| "openable"
 ---| "pointable"
 ---| "pressable"
+---| "raised"
 ---| "reach_in"
 ---| "shelf"
 ---| "slot"

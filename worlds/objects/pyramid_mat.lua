@@ -6,7 +6,7 @@ for layer = 0, 2 do
   for i = 1, 3 - layer do
     regions[({ [0] = "base", "middle", "top" })[layer] .. i] = { -- a cube's middle is within 11 mm of its place
       at = { 0, (i - (4 - layer) / 2) * pitch, thick + (layer + 0.5) * cube }, size = { 0.022, 0.022, cube + 0.004 },
-      traits = { "container", "spot" }, numbers = { folds = 4 },
+      traits = { "container", "spot", layer > 0 and "raised" or nil }, numbers = { folds = 4 },
     }
   end
 end

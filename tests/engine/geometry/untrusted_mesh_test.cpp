@@ -16,7 +16,11 @@ const std::string kHeader =
 
 std::string refused(const std::filesystem::path& file) {
   const std::string hulls = complaint(file.string(), [&] { (void)load_hulls(file); });
-  CHECK(hulls == complaint(file.string(), [&] { (void)load_drawn(file); }));
+  const std::string drawn = complaint(file.string(), [&] { (void)load_drawn(file); });
+  const auto limit = [](const std::string& text) {
+    return text.find("reading it takes more than") != std::string::npos;
+  };
+  CHECK((hulls == drawn || (limit(hulls) && limit(drawn))));  // a busy machine meets the limit of time first
   return hulls;
 }
 
