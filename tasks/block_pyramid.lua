@@ -1,5 +1,5 @@
 -- Build a pyramid of the six blocks of one colour on the mat; six of other colours stay where they are.
-local places = each({ "base1", "base2", "base3", "middle1", "middle2", "top1" }, function(place) return "mat." .. place end)
+local places = { "mat.base1", "mat.base2", "mat.base3", "mat.middle1", "mat.middle2", "mat.top1" }
 
 return task {
   world = "tabletop",
@@ -11,7 +11,8 @@ return task {
       other = { "cube", colour = one_of(colours.except(v.colour)), count = 6 },
     }
   end,
-  init = { is.on("block*", "table"), is.on("other*", "table"), is.spaced("block*", "mat"), is.spaced("other*", "mat") },
+  init = { is.on("block*", "table"), is.on("other*", "table"),
+    is.spaced("block*", "mat"), is.spaced("other*", "mat") }, -- room for a hand
   goal = {
     any_order("block*", 6, function(b, i) return is.inside(b[i], places[i]) end), -- which block is where is all the same
     is.on("other*", "table"), is.hand_empty(),

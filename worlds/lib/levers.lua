@@ -61,7 +61,7 @@ function levers.lever(fields)
     shapes = {
       cylinder { 0.009, 0.045, at = { -0.0225, 0, 0 }, rpy = { 0, math.pi / 2, 0 } },
       fields.hanging and box { 0.016, 0.016, 0.110, at = { -0.045, 0, -0.050 } }
-        or cylinder { 0.008, 0.110, at = { -0.045, -0.050, 0 }, rpy = { math.pi / 2, 0, 0 } }, -- round: a grip from above does not slip
+        or cylinder { 0.008, 0.110, at = { -0.045, -0.050, 0 }, rpy = { math.pi / 2, 0, 0 } }, -- round: grips from above hold
     },
   }
 end

@@ -1,4 +1,4 @@
--- What is put on the spot rests on what is on the other one: the next below, and a thing on it would reach under the spot.
+-- What is put on the spot rests on what is on the other one, which is the next below and reaches under it.
 return predicate {
   params = { "spot: raised", "below: spot" },
   label = "what is on the {spot} rests on what is on the {below}",
