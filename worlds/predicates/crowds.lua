@@ -3,11 +3,10 @@
 local finger, palm = 0.05, 0.10 -- m to either side: the middle of an open finger, the end of the palm
 local below_palm = 0.03 -- m: the palm stays this far above the middle of what the hand takes
 
--- The distance of a point of the object's plan from the other thing's box, seen from above.
+-- The distance of a point of the object's plan from the other thing's box (wherever its frame is in it), seen from above.
 local function gap(w, other, obj, x, y)
-  local px, py = w:pose(other):inverse():times(w:pose(obj):along(x, y, 0)):position()
-  local length, width = w:size(other)
-  return math.sqrt(math.max(math.abs(px) - length / 2, 0) ^ 2 + math.max(math.abs(py) - width / 2, 0) ^ 2)
+  local px, py = w:pose(obj):along(x, y, 0):position()
+  return w:region_distance(other, px, py, (w:bottom(other) + w:top(other)) / 2)
 end
 
 return predicate {
