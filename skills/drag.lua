@@ -70,7 +70,7 @@ local function next_stroke(w, p, reach)
 end
 
 return skill {
-  params = { "tool: tool", "obj: movable", "area: marked", "top: surface" },
+  params = { "tool: tool", "obj: movable", "area: pad", "top: surface" },
   moves = { "obj" },
   precondition = { is.holding("tool"), is.on("obj", "top"), is_not.covers("obj", "area") },
   effect = { is.covers("obj", "area") },

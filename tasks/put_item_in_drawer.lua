@@ -9,7 +9,7 @@ return task {
     item = { "cube", colour = one_of(colours.names) },
   },
   init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),
-    is.on("item", "table"), is_not.inside("item", "chest.front") },
+    is.on("item", "table"), is.outside("item", "chest.front") },
   goal = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer"), is.hand_empty() } end,
   instructions = {
     "store the cube in the {level} drawer of the chest",

@@ -102,6 +102,7 @@ return {
     raised = "a spot in the air: what is put there rests on what is on the spots below",
     pointable = "has a front, its +x, that can be pointed at something: a remote control",
     aim = "a thing to point something at",
+    pad = "a marked area without an inside: things lie on it",
     marked = "an area on a surface to push or drag things into",
     floating = "a place in the air to hold something in",
   },

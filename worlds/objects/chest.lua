@@ -43,6 +43,6 @@ return object {
   },
   parts = { bottom_drawer = drawer(0.055), middle_drawer = drawer(0.14), top_drawer = drawer(0.225) },
   regions = { -- where drawers come out and hands beside them, at the height of what stands on the table
-    front = { at = { -0.27, 0, 0.02 }, size = { 0.32, 0.46, 0.04 }, traits = { "container" } },
+    front = { at = { -0.27, 0, 0.02 }, size = { 0.27, 0.41, 0.04 }, traits = { "marked" } },
   },
 }

@@ -28,5 +28,5 @@ return object {
       shapes = { box { 0.018, width, 0.058 } },
     },
   },
-  regions = { front = { at = { -depth / 2 - 0.16, 0, 0.02 }, size = { 0.36, width + 0.10, 0.04 }, traits = { "container" } } }, -- where the flap comes down
+  regions = { front = { at = { -depth / 2 - 0.16, 0, 0.02 }, size = { 0.36, width + 0.22, 0.04 }, traits = { "container" } } }, -- where the flap comes down
 }

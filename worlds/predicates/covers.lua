@@ -1,6 +1,6 @@
--- The object rests in the marked area, its middle within the area's outline. (`inside` is for what has an inside.)
+-- The object rests on the pad, its middle within the area's outline. (`inside` is for what has an inside.)
 return predicate {
-  params = { "obj: movable", "area: marked" },
+  params = { "obj: movable", "area: pad" },
   label = "the {obj} lies on the {area}",
   settle = 0.1, -- s
   ends_when = "moved",
