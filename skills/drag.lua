@@ -1,5 +1,5 @@
--- Drag an object along the surface into a marked area with the tip of a tool: its last few centimetres lie flat along a side of
--- the object, so that it does not turn; one side after the other.
+-- Drag an object along the surface into a marked area with the tip of a tool: its last few centimetres lie flat along a
+-- side of the object, so that it does not turn; one side after the other.
 local gap = 0.020    -- m from the side of the object to the middle of the tool, before it is touched
 local high = 0.024   -- m above the surface: the middle of the tool
 local beyond = 0.015 -- m that the tip reaches beyond the middle of the object's side, and half of that
@@ -32,7 +32,8 @@ end
 local function stroke_of(side, way, x, y, reach, out)
   local sign, best = way > 0 and 1 or -1, nil
   for _, hand in ipairs { 1, -1 } do
-    local one = { x = sign * side.x, y = sign * side.y, way = math.abs(way), half = side.half, worst = out(x + way * side.x, y + way * side.y) }
+    local one = { x = sign * side.x, y = sign * side.y, way = math.abs(way), half = side.half }
+    one.worst = out(x + way * side.x, y + way * side.y)
     one.ax, one.ay = -one.y * hand, one.x * hand -- along the tool, out of the hand
     local back, off = side.half + gap, side.half + beyond - reach
     for _, gone in ipairs { -back, one.way - back } do
@@ -85,13 +86,15 @@ return skill {
       if not stroke then break end
       local x, y = w:position(p.obj)
       local out, back = stroke.half + beyond, stroke.half + gap
-      local start = robot:tip_for(tip, pose(x + out * stroke.ax - back * stroke.x, y + out * stroke.ay - back * stroke.y,
-        w:bottom(p.obj) + high, 0, math.pi / 2, math.atan(stroke.ay, stroke.ax)))
+      local sx, sy = x + out * stroke.ax - back * stroke.x, y + out * stroke.ay - back * stroke.y
+      local along = math.atan(stroke.ay, stroke.ax)
+      local start = robot:tip_for(tip, pose(sx, sy, w:bottom(p.obj) + high, 0, math.pi / 2, along))
       local way = { (stroke.way + gap - 0.008) * stroke.x, (stroke.way + gap - 0.008) * stroke.y, 0 }
       local there = start:offset(way[1], way[2], 0)
       local off = { -0.02 * stroke.x, -0.02 * stroke.y, 0.06 }
       robot:move_through {
-        { "approach", start:offset(0, 0, 0.06) }, { "goal", start }, { "ahead", there }, { "ahead", there:offset(off[1], off[2], off[3]) },
+        { "approach", start:offset(0, 0, 0.06) }, { "goal", start },
+        { "ahead", there }, { "ahead", there:offset(off[1], off[2], off[3]) },
       }
       robot:move_line(way, { speed = c.speed, most_force = 20 })
       robot:move_line(off)

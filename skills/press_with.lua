@@ -15,7 +15,8 @@ return skill {
     local w = robot:view()
     local place = w:exists(p.button .. ".spot") and p.button .. ".spot" or p.button
     local _, most = w:joint_range(p.button)
-    local pressed = w:part_at(p.button, (w:number(p.button, "on_at") + most) / 2):times(w:pose(p.button):inverse()):times(w:pose(place))
+    local down_there = w:part_at(p.button, (w:number(p.button, "on_at") + most) / 2) -- the button, between its switch and its stop
+    local pressed = down_there:times(w:pose(p.button):inverse()):times(w:pose(place))
     local x, y, z = w:position(place)
     local px, py, pz = pressed:position()
     local further = 1 + c.clear / math.sqrt((px - x) ^ 2 + (py - y) ^ 2 + (pz - z) ^ 2)

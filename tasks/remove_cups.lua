@@ -1,14 +1,14 @@
 -- Take one or two of the three mugs off the mug tree and put them on the table; the others stay where they hang.
-local spokes = { "first_spoke", "second_spoke", "third_spoke" }
-
 return task {
   world = "tabletop",
   variations = { count = { 1, 2 } },
   objects = {
-    tree = { "mug_tree", at = { between(0.18, 0.25), between(-0.13, 0.13), 0.75 }, yaw = between(-math.pi, math.pi) },
+    tree = { "mug_tree", at = { between(0.18, 0.25), between(-0.13, 0.13), 0.75 },
+      yaw = between(-1.6, -0.4) }, -- the first two of its spokes do not point at the robot
     mug = { "mug", count = 3 },
   },
-  init = each(spokes, function(spoke, i) return is.hanging("mug" .. i, "tree." .. spoke) end),
+  init = { is.hanging("mug1", "tree.first_spoke"), is.hanging("mug2", "tree.second_spoke"),
+    is.hanging("mug3", "tree.third_spoke") },
   goal = function(v)
     return { is.hand_empty(), any_order("mug*", 3, function(mug, i)
       return i <= v.count and is.on(mug[i], "table") or exists("?h: hook", is.hanging(mug[i], "?h"))
@@ -16,11 +16,9 @@ return task {
   end,
   instructions = function(v)
     local what = ({ "one of the mugs", "two of the mugs" })[v.count]
-    return {
-      "fetch " .. what .. " from the mug tree to the table",
+    return { "fetch " .. what .. " from the mug tree to the table",
       "stand " .. what .. " that hang there on the table",
       "unhook " .. what .. " from the wooden tree; the table is where mugs go",
-      "the table needs " .. what .. " that the tree bears",
-    }
+      "the table needs " .. what .. " that the tree bears" }
   end,
 }

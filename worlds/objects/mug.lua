@@ -7,13 +7,14 @@ local rest = math.rad(24)                        -- from the level up to its axi
 
 local shapes = {
   lathe { { radius, 0.004 }, { radius, height }, wall = wall },
-  cylinder { radius, 0.010, at = { 0, 0, 0.005 } }, -- heavy: so it hangs with its mouth up,
+  cylinder { radius, 0.010, at = { 0, 0, 0.005 } }, -- heavy: it hangs with its mouth up
 }
 for i = 1, 6 do -- the arc: a hole of 25 x 43 mm between it and the wall
   local a, b = math.pi * (i - 1) / 6, math.pi * i / 6
-  local ay, az, by, bz = from - out * math.sin(a), up + half * math.cos(a), from - out * math.sin(b), up + half * math.cos(b)
-  shapes[#shapes + 1] = capsule { tube, math.sqrt((by - ay) ^ 2 + (bz - az) ^ 2), at = { 0, (ay + by) / 2, (az + bz) / 2 },
-    rpy = { math.atan(ay - by, bz - az), 0, 0 } }
+  local ay, az = from - out * math.sin(a), up + half * math.cos(a)
+  local by, bz = from - out * math.sin(b), up + half * math.cos(b)
+  shapes[#shapes + 1] = capsule { tube, math.sqrt((by - ay) ^ 2 + (bz - az) ^ 2),
+    at = { 0, (ay + by) / 2, (az + bz) / 2 }, rpy = { math.atan(ay - by, bz - az), 0, 0 } }
 end
 
 local grasps = {} -- the rim between the fingers, one of them inside; not where the handle is (-y)
@@ -35,11 +36,12 @@ for _, lean in ipairs { 25, 45 } do -- over the handle: from above, when it hang
 end
 
 return object {
-  type = "cup", traits = { "movable", "graspable" }, colour = { 0.18, 0.36, 0.52 }, mass = 0.25, friction = 0.6, rolling = 0.006,
+  type = "cup", traits = { "movable", "graspable" }, colour = { 0.18, 0.36, 0.52 },
+  mass = 0.25, friction = 0.6, rolling = 0.006, -- it soon stops to swing
   shapes = shapes,
   regions = { -- its -x is up when it hangs
     loop = { at = { 0, -0.0525, up }, rpy = { math.pi / 2, rest, math.pi / 2 }, size = { 0.020, 0.008, 0.020 } },
   },
-  numbers = { stands = 1, swing = math.rad(45) },
+  numbers = { stands = 1, room = 0.15, swing = math.rad(45) },
   grasps = grasps,
 }

@@ -26,5 +26,6 @@ for i = 1, #names do
 end
 
 return object {
-  type = "stand", traits = {}, fixed = true, colour = { 0.62, 0.44, 0.26 }, friction = 0.8, shapes = shapes, regions = regions,
+  type = "stand", traits = {}, fixed = true, colour = { 0.62, 0.44, 0.26 }, friction = 0.8,
+  shapes = shapes, regions = regions,
 }
