@@ -1,6 +1,6 @@
 -- A wooden box whose lid swings up towards +x. Its frame is below it; it stands on the table as furniture does.
 local lids = require "worlds.lib.lids"
-local wood, inner = { 0.72, 0.53, 0.33 }, { 0.80, 0.64, 0.44 }
+local wood, inner = { 0.30, 0.42, 0.47 }, { 0.80, 0.70, 0.52 } -- painted, so that it stands out from the table
 local length, width, height, wall = 0.25, 0.32, 0.08, 0.010 -- m
 
 return object {
@@ -16,7 +16,7 @@ return object {
     lid = lids.lid {
       at = { length / 2, 0, height + 0.001 }, front = length, mass = 0.4, open = 90, colour = wood,
       shapes = { box { length, width, 0.012, at = { -length / 2, 0, 0.006 } } },
-      grip = { z = 0.006, colour = { 0.30, 0.20, 0.12 } },
+      grip = { z = 0.006, colour = { 0.86, 0.72, 0.42 } },
     },
   },
   numbers = { hand_front = -0.03, hand_back = 0.01, hand_side = 0.08, hand_turn = 0.1 },
