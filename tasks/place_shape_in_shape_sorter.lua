@@ -1,20 +1,27 @@
 -- Put the solid that is named through its hole into the shape sorter; the other four stay on the table.
+local forms = { "cube", "cylinder", "prism", "star", "moon" }
 local words = { cube = "cube", cylinder = "cylinder", prism = "triangular prism", star = "star", moon = "moon" }
 
 return task {
   world = "tabletop",
-  variations = { form = { "cube", "cylinder", "prism", "star", "moon" } },
+  variations = { form = forms },
   objects = {
     sorter = { "shape_sorter" }, cube = { "sorter_cube" }, cylinder = { "sorter_cylinder" }, prism = { "sorter_prism" },
     star = { "sorter_star" }, moon = { "sorter_moon" },
   },
   init = function(v)
     local parts = { is.on("sorter", "table") }
-    for _, form in ipairs { "cube", "cylinder", "prism", "star", "moon" } do parts[#parts + 1] = is.on(form, "table") end
+    for _, form in ipairs(forms) do parts[#parts + 1] = is.on(form, "table") end
     parts[#parts + 1] = is_not.crowds("sorter", v.form)
     return parts
   end,
-  goal = function(v) return { is.in_slot(v.form, "sorter." .. v.form .. "_hole"), is.hand_empty() } end,
+  goal = function(v)
+    local goal = { is.in_slot(v.form, "sorter." .. v.form .. "_hole"), is.hand_empty() }
+    for _, form in ipairs(forms) do
+      if form ~= v.form then goal[#goal + 1] = is.on(form, "table") end
+    end
+    return goal
+  end,
   instructions = function(v)
     local what = words[v.form]
     return { "put the " .. what .. " into the shape sorter", "post the " .. what .. " through the hole that fits it",

@@ -1,4 +1,4 @@
--- Put one, two or all three books that stand on the table on the shelf beside it.
+-- Put one, two or all three books that stand on the table on the shelf beside it; the others stay where they are.
 local places = require "worlds.lib.places"
 
 local names = { "red_book", "green_book", "blue_book" }
@@ -15,12 +15,14 @@ return task {
     is.apart("blue_book", "red_book"), is.apart("blue_book", "green_book"), is.on("blue_book", "table") },
   goal = function(v)
     local parts = { is.hand_empty() }
-    for i = 1, v.count do parts[#parts + 1] = is.inside(names[i], "bookshelf.shelf") end
+    for i, name in ipairs(names) do
+      parts[#parts + 1] = i <= v.count and is.inside(name, "bookshelf.shelf") or is.on(name, "table")
+    end
     return parts
   end,
   instructions = function(v)
     local what = words[v.count]
     return { "put the " .. what .. " on the bookshelf", "the " .. what .. " must go back to the bookshelf",
-      "clear the " .. what .. " off the table, onto the shelf for books", "shelve the " .. what }
+      "clear the " .. what .. " off the table and onto the shelf", "shelve the " .. what }
   end,
 }
