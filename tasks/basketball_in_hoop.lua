@@ -8,6 +8,6 @@ return task {
     "score with the toy basketball",
     "send the basketball down through the net and into the box",
     "hold the orange ball over the ring and let go",
-    "get the basketball into the box by way of its hoop",
+    "get the basketball through the hoop and into its box",
   },
 }

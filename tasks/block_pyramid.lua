@@ -22,6 +22,6 @@ return task {
     "build a pyramid of the {colour} blocks on the mat",
     "stack the six {colour} cubes: three, then two, then one",
     "make a pyramid out of all {colour} blocks; leave the other colours alone",
-    "on the mat a pyramid should stand, {colour} from foot to top",
+    "a pyramid should stand on the mat, {colour} from foot to top",
   },
 }

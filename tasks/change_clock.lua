@@ -8,6 +8,6 @@ return task {
     "put the clock forward by a quarter of an hour",
     "turn the minute hand from the top to the red mark",
     "the clock is fifteen minutes slow: set it right",
-    "make the desk clock show a quarter past by its knob",
+    "turn the knob of the desk clock until it shows a quarter past",
   },
 }

@@ -15,7 +15,7 @@ return task {
   instructions = {
     "push the {level} drawer back into the chest",
     "the {level} drawer stands open: push it home",
-    "leave no gap at the {level} drawer of the chest",
+    "close the {level} drawer of the chest until no gap is left",
     "make sure that the {level} drawer ends up closed",
   },
 }

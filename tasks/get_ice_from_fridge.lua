@@ -12,7 +12,7 @@ return task {
   instructions = {
     "get ice from the fridge into the cup",
     "hold the cup against the lever of the fridge until ice comes",
-    "the drink wants ice: take the cup to the dispenser in the fridge's front and push its lever",
+    "the drink needs ice: push the lever in the front of the fridge back with the cup",
     "press the lever in the niche of the fridge with the cup, and keep hold of it",
   },
 }

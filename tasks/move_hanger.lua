@@ -11,7 +11,7 @@ return task {
   instructions = {
     "move the hanger to the other rail",
     "take the clothes hanger off its rail and hang it on the empty one",
-    "the empty rail should get the hanger",
-    "hang the hanger over there, on the second rod",
+    "the hanger belongs on the empty rail",
+    "hang the hanger on the rod that bears nothing yet",
   },
 }

@@ -17,6 +17,6 @@ return task {
     "pull out the {level} drawer of the chest",
     "the {level} drawer is wanted: open it by its handle",
     "open the {level} drawer and leave the others shut",
-    "get the {level} drawer of the cabinet to stand open",
+    "let the {level} drawer of the chest stand open",
   },
 }

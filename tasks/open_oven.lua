@@ -9,7 +9,7 @@ return task {
   instructions = {
     "open the oven",
     "swing the flap of the oven down",
-    "the oven must air: open it",
+    "let the oven air: open its door",
     "pull the door of the oven down until it lies level",
   },
 }

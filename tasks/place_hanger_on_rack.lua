@@ -10,7 +10,7 @@ return task {
   goal = { is.hanging("hanger", "rack.rod"), is.hand_empty() },
   instructions = {
     "hang the clothes hanger on the rack",
-    "put the hanger from its holder on the tall rail",
+    "take the hanger out of its holder and put it on the tall rail",
     "the rail has no hanger yet: give it the one from the holder",
     "place the hanger on the rod of the rack",
   },

@@ -8,7 +8,7 @@ return task {
   instructions = {
     "flip the switch",
     "press down the raised end of the rocker switch",
-    "switch it over with a fingertip",
+    "flip the rocker over with a fingertip",
     "push the end of the switch that bears a red mark down until it stays",
   },
 }

@@ -14,7 +14,7 @@ return task {
   instructions = {
     "push the {colour} button",
     "press down the {colour} button on the table",
-    "let the closed fingers push the {colour} cap down",
-    "there is a {colour} button: operate it",
+    "push the {colour} cap down with a fingertip",
+    "find the {colour} button and press it",
   },
 }

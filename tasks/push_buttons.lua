@@ -36,7 +36,7 @@ return task {
   end,
   instructions = function(v)
     local what = words[v.count]
-    return { "operate " .. what, "press down " .. what, "let a finger push down " .. what,
+    return { "push " .. what, "press down " .. what, "with a fingertip push down " .. what,
       "buttons to press, in this order and no others: " .. orders[v.count] }
   end,
 }
