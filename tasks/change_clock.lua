@@ -4,6 +4,7 @@ return task {
   objects = { clock = { "desk_clock", at = { between(0.12, 0.30), between(-0.22, 0.22), 0.75 }, yaw = between(-math.pi, math.pi) } },
   init = { is_not.turned("clock.minute_hand") },
   goal = { is.turned("clock.minute_hand"), is.hand_empty() },
+  also = function(w) return w:joint("clock.minute_hand") < deg(96) end, -- and not past the mark: at most a minute
   instructions = {
     "put the clock forward by a quarter of an hour",
     "turn the minute hand from the top to the red mark",

@@ -11,9 +11,9 @@ return task {
   init = { is.on("block1", "table"), is.on("block2", "table"), is.on("block3", "table") },
   goal = function(v) return { is.holding("block" .. v.digit), is.inside("block" .. v.digit, "space") } end,
   instructions = {
-    "raise the cube marked {digit} off the table",
-    "find the cube that says {digit} and raise it",
+    "raise the cube marked {digit} well off the table",
+    "find the cube that says {digit} and raise it high",
     "of the three blocks hold number {digit} well above the table",
-    "only the block numbered {digit} goes up in the air",
+    "only the block numbered {digit} goes high up in the air",
   },
 }

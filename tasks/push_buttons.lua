@@ -1,4 +1,4 @@
--- Press one to three buttons in the order that the instruction says; a later one before its turn fails the episode.
+-- Press one to three buttons in the order that the instruction says, and no others; a later one before its turn fails.
 local function sequences()
   local names, list = colours.names, {}
   for i = 1, 50 do
@@ -30,8 +30,12 @@ return task {
   init = { is.spaced("button1", "button2"), is.spaced("button1", "button3"), is.spaced("button2", "button3"),
     is_not.pressed("button1.cap"), is_not.pressed("button2.cap"), is_not.pressed("button3.cap") },
   goal = function(v)
-    local parts = {}
-    for i = 1, v.count do parts[i] = is.pressed("button" .. i .. ".cap") end
+    local parts, others = {}, {}
+    for i = 1, 3 do
+      if i <= v.count then parts[i] = is.pressed("button" .. i .. ".cap") end
+      if i > v.count then others[#others + 1] = is_not.pressed("button" .. i .. ".cap") end
+    end
+    parts[v.count] = all_of { parts[v.count], all_of(others) }
     return in_order(parts)
   end,
   instructions = function(v)
