@@ -9,7 +9,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
----@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: marked)
+---@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: pad)
 ---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
@@ -43,7 +43,7 @@
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
----@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: marked)
+---@field covers fun(obj: string, area: string): stampede.literal  the {obj} lies on the {area} (obj: movable, area: pad)
 ---@field crowds fun(other: string, obj: string): stampede.literal  the {other} leaves no room for a hand around the {obj} (other: anything, obj: movable)
 ---@field digit fun(obj: string, value: string): stampede.literal  the digit of the {obj} is {value} (obj: anything, value: value)
 ---@field hand_empty fun(): stampede.literal  the hand is empty
@@ -71,7 +71,7 @@
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
----@field drag fun(tool: string|table, obj?: string, area?: string, top?: string): stampede.call  drag the {obj} onto the {area} with the {tool} (tool: tool, obj: movable, area: marked, top: surface)
+---@field drag fun(tool: string|table, obj?: string, area?: string, top?: string): stampede.call  drag the {obj} onto the {area} with the {tool} (tool: tool, obj: movable, area: pad, top: surface)
 ---@field drop fun(obj: string|table, box?: string): stampede.call  drop the {obj} into the {box} (obj: movable, box: container & hollow)
 ---@field extract fun(obj: string|table, slot?: string): stampede.call  pull the {obj} out of the {slot} (obj: movable & graspable, slot: slot)
 ---@field hang fun(obj: string|table, hook?: string): stampede.call  hang the {obj} on the {hook} (obj: movable, hook: hook)
@@ -221,6 +221,7 @@
 ---| "marked"
 ---| "movable"
 ---| "openable"
+---| "pad"
 ---| "pointable"
 ---| "pressable"
 ---| "raised"
