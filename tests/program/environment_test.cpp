@@ -554,7 +554,7 @@ TEST_CASE("an episode that ends between two frames is recorded to the next one, 
   const Folder folder;
   const Said made = say({"run", "push_buttons", "--root", kRoot, "--behaviour", "random_applicable", "--skills", "6",
                          "--episodes", "6", "--out", folder / "d.db"});
-  CHECK(made.code == kDone);
+  CHECK((made.code == kDone || made.code == kNo));  // whether or not one of them succeeds by chance
   const Said out_of_order =
       say({"query", folder / "d.db", "SELECT count(*) FROM episodes WHERE reason = 'out_of_order'"});
   CHECK_FALSE(says(out_of_order.out, " 0"));
