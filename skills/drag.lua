@@ -1,31 +1,11 @@
 -- Drag an object along the surface into a marked area with the tip of a tool: its last few centimetres lie flat along a
 -- side of the object, so that it does not turn; one side after the other.
+local strokes = require "worlds.lib.strokes"
+
 local gap = 0.020    -- m from the side of the object to the middle of the tool, before it is touched
 local high = 0.024   -- m above the surface: the middle of the tool
 local beyond = 0.015 -- m that the tip reaches beyond the middle of the object's side, and half of that
 local near = 0.010   -- m: what is left when it is there
-
--- The level axes of the object, and how far it reaches along each.
-local function sides(w, obj)
-  local at, size, list = w:pose(obj), { w:size(obj) }, {}
-  local x, y = at:position()
-  for i, axis in ipairs { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } do
-    local ax, ay = at:along(axis[1], axis[2], axis[3]):position()
-    local length = math.sqrt((ax - x) ^ 2 + (ay - y) ^ 2)
-    if length > 0.9 then list[#list + 1] = { x = (ax - x) / length, y = (ay - y) / length, half = size[i] / 2 } end
-  end
-  return list
-end
-
--- How far out on the surface a point is: 1 at the edge.
-local function outness(w, top)
-  local from_top = w:pose(top):inverse()
-  local sx, sy = w:size(top)
-  return function(x, y)
-    local tx, ty = from_top:times(pose(x, y, 0)):position()
-    return math.max(math.abs(tx) / sx, math.abs(ty) / sy) * 2
-  end
-end
 
 -- A stroke of `way` m along a side of the object that is at x, y: to which of both sides the tool points is chosen by how far
 -- out that brings the hand, which is `reach` from the tip. `worst`: how far out hand or object come.
@@ -49,7 +29,7 @@ end
 local function next_stroke(w, p, reach)
   local x, y = w:position(p.obj)
   local goal_x, goal_y = w:position(p.area)
-  local out, list, best, least = outness(w, p.top), sides(w, p.obj), nil, nil
+  local out, list, best, least = strokes.outness(w, p.top), strokes.sides(w, p.obj), nil, nil
   for first = 1, 2 do
     local way = {}
     for i, side in ipairs(list) do way[i] = (goal_x - x) * side.x + (goal_y - y) * side.y end

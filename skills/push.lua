@@ -1,37 +1,17 @@
 -- Slide an object along the surface into a marked area with the closed fingers: side by side, so that it does not turn.
+local strokes = require "worlds.lib.strokes"
+
 local gap = 0.024    -- m from the side of the object back to the tip, before it is touched
 local safe = 0.75     -- how far out on a surface an object's middle may be; 1 is the edge
 local near = 0.012   -- m: what is left when it is there
-
--- The level axes of the object, and how far it reaches along each.
-local function sides(w, obj)
-  local at, size, list = w:pose(obj), { w:size(obj) }, {}
-  local x, y = at:position()
-  for i, axis in ipairs { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } do
-    local ax, ay = at:along(axis[1], axis[2], axis[3]):position()
-    local length = math.sqrt((ax - x) ^ 2 + (ay - y) ^ 2)
-    if length > 0.9 then list[#list + 1] = { x = (ax - x) / length, y = (ay - y) / length, half = size[i] / 2 } end
-  end
-  return list
-end
-
--- How far out on the surface a point is: 1 at the edge.
-local function outness(w, top)
-  local from_top = w:pose(top):inverse()
-  local sx, sy = w:size(top)
-  return function(x, y)
-    local tx, ty = from_top:times(pose(x, y, 0)):position()
-    return math.max(math.abs(tx) / sx, math.abs(ty) / sy) * 2
-  end
-end
 
 -- The side to push next, and how far: of two ways round, the one on which hand and object stay nearer to the middle.
 -- Where both lead over the edge, the object goes a part of the way only: the rest in steps.
 local function next_push(w, p, goal_x, goal_y)
   local x, y = w:position(p.obj)
-  local out = outness(w, p.top)
+  local out = strokes.outness(w, p.top)
   local best, least
-  local all = sides(w, p.obj)
+  local all = strokes.sides(w, p.obj)
   for i, side in ipairs(all) do
     local way = (goal_x - x) * side.x + (goal_y - y) * side.y
     if math.abs(way) >= near then

@@ -25,11 +25,7 @@ struct Way {
   Transform from;
 
   std::function<Transform(double)> operator()(const piece::Line& line) const {
-    const Quaternion first(from.linear()), last(line.target.linear());
-    return [from = from, to = line.target, first, last](double share) {
-      return make_transform((1 - share) * from.translation() + share * to.translation(),
-                            first.slerp(share, last).normalized());
-    };
+    return [from = from, to = line.target](double share) { return between(from, to, share); };
   }
   std::function<Transform(double)> operator()(const piece::Offset& offset) const {
     return [from = from, by = offset.by](double share) { return Transform(translation(Vector3(share * by)) * from); };

@@ -126,9 +126,7 @@ JointVector planning_start(const World& world, int robot) {
 PartWay way_of_part(const Rollout& rollout, const std::string& name, double position, double pivot) {
   const WorldView& view = rollout.view();
   const PartRef part = view.part_of(name);
-  const Scene& scene = view.scene();
-  const Body& body = part.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(part.body)];
-  const Joint& joint = body.parts[static_cast<std::size_t>(part.part)].joint;
+  const Joint& joint = view.scene().body_at(part.body).parts[static_cast<std::size_t>(part.part)].joint;
   const double here = rollout.world().joint_position(part);
   const Transform part_from_world = view.world_from(name).inverse();
   PartWay way;

@@ -123,7 +123,7 @@ void FactTracker::index_arguments(const WorldView& view) {
     indices[thing.name] = static_cast<int>(i);
     radii_.push_back(view.size(thing.name).norm() / 2);
     for (int body = -1; body < static_cast<int>(scene.bodies.size()); ++body) {
-      const auto& parts = body < 0 ? scene.robot.body.parts : scene.bodies[static_cast<std::size_t>(body)].parts;
+      const auto& parts = scene.body_at(body).parts;
       for (int part = 0; part < static_cast<int>(parts.size()); ++part)
         if (view.owns(thing, {body, part}))
           owners_[static_cast<std::size_t>(body + 1)].push_back({part, static_cast<int>(i)});

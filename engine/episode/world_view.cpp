@@ -168,8 +168,7 @@ double WorldView::joint_velocity(std::string_view part) const { return world_->j
 
 std::pair<double, double> WorldView::joint_range(std::string_view name) const {
   const PartRef ref = part_of(name);
-  const Body& body = ref.body < 0 ? scene().robot.body : scene().bodies[static_cast<std::size_t>(ref.body)];
-  const Joint& joint = body.parts[static_cast<std::size_t>(ref.part)].joint;
+  const Joint& joint = scene().body_at(ref.body).parts[static_cast<std::size_t>(ref.part)].joint;
   return {joint.lower, joint.upper};
 }
 
@@ -180,7 +179,7 @@ double WorldView::joint_fraction(std::string_view part) const {
 
 Transform WorldView::part_at(std::string_view name, double position) const {
   const PartRef ref = part_of(name);
-  const Body& body = ref.body < 0 ? scene().robot.body : scene().bodies[static_cast<std::size_t>(ref.body)];
+  const Body& body = scene().body_at(ref.body);
   const Part& part = body.parts[static_cast<std::size_t>(ref.part)];
   PartRef parent{ref.body, part.parent};
   if (part.parent < 0) {

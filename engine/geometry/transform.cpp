@@ -47,4 +47,9 @@ double angle_between(const Quaternion& a, const Quaternion& b) {
   return 2.0 * std::atan2(difference.vec().norm(), std::abs(difference.w()));
 }
 
+Transform between(const Transform& from, const Transform& to, double share) {
+  const Quaternion a(from.linear()), b(to.linear());
+  return make_transform((1 - share) * from.translation() + share * to.translation(), a.slerp(share, b).normalized());
+}
+
 }  // namespace stampede

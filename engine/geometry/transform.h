@@ -43,4 +43,8 @@ inline Transform product(const Transform& a, const Transform& b) {
 // Angle of the rotation between two frames, rad in [0, pi].
 double angle_between(const Quaternion& a, const Quaternion& b);
 
+// The pose at a share of the straight way: lerp of positions, slerp of rotations (Shoemake 1985,
+// doi:10.1145/325334.325242).
+Transform between(const Transform& from, const Transform& to, double share);
+
 }  // namespace stampede

@@ -59,7 +59,7 @@ int semantic_of(const Scene& scene, const std::string& class_name) {
 }
 
 MaskEntry entry_of(const Scene& scene, int body, std::size_t part) {
-  const Body& owner = body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(body)];
+  const Body& owner = scene.body_at(body);
   const std::string& body_name = body < 0 ? scene.robot.name : owner.name;
   MaskEntry entry;
   entry.instance = owner.parts[part].instance;

@@ -116,6 +116,9 @@ void grow_by_shape(std::array<Vector3, 2>& bounds, const Shape& shape) {
 
 int Body::part_index(std::string_view part_name) const { return index_of(parts, part_name); }
 int Scene::body_index(std::string_view body) const { return index_of(bodies, body); }
+const Body& Scene::body_at(int index) const {
+  return index < 0 ? robot.body : bodies.at(static_cast<std::size_t>(index));
+}
 int Scene::region_index(std::string_view region) const { return index_of(regions, region); }
 
 const Object* Scene::object(std::string_view object_name) const {

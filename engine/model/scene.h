@@ -227,6 +227,7 @@ struct Scene {
   int frame_hz = 20;
 
   int body_index(std::string_view name) const;  // -1: none; the robot is not among bodies
+  const Body& body_at(int index) const;         // below 0: the robot's
   int region_index(std::string_view name) const;
   const Object* object(std::string_view name) const;
 };

@@ -87,7 +87,7 @@ Causes causes_of(std::span<const Looked> looked) {
 }
 
 std::string name_of_part(const Scene& scene, PartRef ref) {
-  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies.at(static_cast<std::size_t>(ref.body));
+  const Body& body = scene.body_at(ref.body);
   const std::string& name = ref.body < 0 ? scene.robot.name : body.name;
   if (ref.part < 0 || (ref.part == 0 && ref.body >= 0) || ref.part >= static_cast<int>(body.parts.size())) return name;
   const std::string& part = body.parts[static_cast<std::size_t>(ref.part)].name;

@@ -79,9 +79,7 @@ PathSpeedLimit limit_of(const Arm& arm, const std::vector<ToolPiece>& pieces, co
   return [&arm, &pieces, ends, first = stretch.first](const PathPoint& point) {
     const auto at = std::upper_bound(ends.begin(), ends.end() - 1, point.s);
     const ToolPiece& piece = pieces[first + static_cast<std::size_t>(at - ends.begin())];
-    const Eigen::Matrix<double, 6, 1> twist = arm.jacobian(point.position) * point.tangent;
-    return std::min(piece.speed / std::max(1e-9, twist.head<3>().norm()),
-                    piece.turn_speed / std::max(1e-9, twist.tail<3>().norm()));
+    return tool_limit(arm, point, piece.speed, piece.turn_speed);
   };
 }
 

@@ -26,8 +26,11 @@ struct ToolPath {
 ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
                      int samples, RandomKey key, const std::vector<JointVector>& near = {});
 
-// World pose at a share of the straight way (slerp), and how many samples that way needs.
-Transform between(const Transform& from, const Transform& to, double share);
+// The path speed at a point at which the tool goes no faster than `speed` (m/s) and turns no faster than `turn_speed`
+// (rad/s).
+double tool_limit(const Arm& arm, const PathPoint& point, double speed, double turn_speed);
+
+// How many samples the straight way between two poses of the tip needs.
 int samples_between(const Transform& from, const Transform& to);
 
 // Leaves out waypoints from which the polyline differs by less than `tolerance_rad` (Douglas, Peucker 1973,

@@ -144,11 +144,7 @@ PlannedMotion plan_to_tail(const CollisionState& state, const JointVector& start
 
 // The path speed at which the tool keeps its own limits.
 PathSpeedLimit line_limit(const Arm& arm, const LineOptions& line) {
-  return [&arm, line](const PathPoint& point) {
-    const Eigen::Matrix<double, 6, 1> twist = arm.jacobian(point.position) * point.tangent;
-    const double linear = std::max(1e-9, twist.head<3>().norm()), angular = std::max(1e-9, twist.tail<3>().norm());
-    return std::min(line.tool_speed / linear, line.tool_turn / angular);
-  };
+  return [&arm, line](const PathPoint& point) { return tool_limit(arm, point, line.tool_speed, line.tool_turn); };
 }
 
 }  // namespace
@@ -160,9 +156,10 @@ std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, dou
   return kept;
 }
 
-Transform between(const Transform& from, const Transform& to, double share) {
-  const Quaternion a(from.linear()), b(to.linear());
-  return make_transform((1 - share) * from.translation() + share * to.translation(), a.slerp(share, b).normalized());
+double tool_limit(const Arm& arm, const PathPoint& point, double speed, double turn_speed) {
+  const Eigen::Matrix<double, 6, 1> twist = arm.jacobian(point.position) * point.tangent;
+  const double linear = std::max(1e-9, twist.head<3>().norm()), angular = std::max(1e-9, twist.tail<3>().norm());
+  return std::min(speed / linear, turn_speed / angular);
 }
 
 int samples_between(const Transform& from, const Transform& to) {

@@ -17,6 +17,13 @@ constexpr double kLargestTurn = 0.785398163397448;  // rad a step
 
 }  // namespace
 
+Matrix3 turned_by(const Matrix3& rotation, const Vector3& spin, double dt) {
+  const double speed = spin.norm();
+  if (speed * dt < 1e-15) return rotation;
+  const Matrix3 turned = Eigen::AngleAxisd(std::min(speed * dt, kLargestTurn), spin / speed) * rotation;
+  return turned * (1.5 * Matrix3::Identity() - 0.5 * turned.transpose() * turned);  // stays a rotation
+}
+
 int Articulation::add(const Link& link) {
   Place place;
   const bool root = floating_ && links_.empty();
@@ -57,13 +64,7 @@ void Articulation::move(double dt) {
   if (floating_) {
     first = kFloatingDofs;
     world_from_base_.translation() += dt * Vector3(velocity[0], velocity[1], velocity[2]);
-    const Vector3 spin(velocity[3], velocity[4], velocity[5]);
-    const double speed = spin.norm();
-    if (speed * dt >= 1e-15) {
-      Matrix3 turned = Eigen::AngleAxisd(std::min(speed * dt, kLargestTurn), spin / speed) * world_from_base_.linear();
-      turned = turned * (1.5 * Matrix3::Identity() - 0.5 * turned.transpose() * turned);  // stays a rotation
-      world_from_base_.linear() = turned;
-    }
+    world_from_base_.linear() = turned_by(world_from_base_.linear(), {velocity[3], velocity[4], velocity[5]}, dt);
   }
   for (std::size_t i = first; i < position.size(); ++i) position[i] += dt * velocity[i];
   place();

@@ -10,6 +10,9 @@ class btCollisionObject;
 
 namespace stampede {
 
+// A rotation after `dt` s of turning with `spin` (rad/s, world axes); an eighth of a turn at most.
+Matrix3 turned_by(const Matrix3& rotation, const Vector3& spin, double dt);
+
 class Articulation {
  public:
   struct Link {

@@ -19,13 +19,12 @@ constexpr double kErp = 0.2;  // share of an error in position that a step takes
 constexpr double kKept = 1, kKeptBesideRobot = 0.85, kKeptOnRobot = 0.4;
 // What settles without a robot comes to rest, and sleeps, if iterations suffice: five stacked cubes need 200.
 constexpr int kPatience = 200;
-constexpr double kStopImpulse = 100;                // N s at most
-constexpr double kSettled = 1e-6;                   // m/s or rad/s: an iteration that changes no more is the last
-constexpr double kBounceSpeed = 0.2;                // m/s: nothing bounces below
-constexpr double kFastestJoint = 100;               // m/s or rad/s
-constexpr double kLargestTurn = 0.785398163397448;  // rad a step
-constexpr double kSlowSpin = 1e-4;                  // rad/s: gyroscopic torque is left out below
-constexpr int kTorsionPoints = 2;                   // more points between two free bodies resist turning by themselves
+constexpr double kStopImpulse = 100;   // N s at most
+constexpr double kSettled = 1e-6;      // m/s or rad/s: an iteration that changes no more is the last
+constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
+constexpr double kFastestJoint = 100;  // m/s or rad/s
+constexpr double kSlowSpin = 1e-4;     // rad/s: gyroscopic torque is left out below
+constexpr int kTorsionPoints = 2;      // more points between two free bodies resist turning by themselves
 constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;  // m/s, rad/s: slower is at rest
 constexpr double kTrembling = 10, kSettling = 100;     // times that
 constexpr double kSmoothing = 0.125;                   // of the speeds that are looked at: resting things tremble
@@ -59,15 +58,6 @@ void tangents(const Vector3& normal, Vector3& one, Vector3& other) {
     one = {-normal.y() * scale, normal.x() * scale, 0};
   }
   other = normal.cross(one);
-}
-
-void turn_by(btCollisionObject& object, const Vector3& spin, double dt) {
-  const double speed = spin.norm();
-  if (speed * dt < 1e-15) return;
-  const double angle = std::min(speed * dt, kLargestTurn);
-  Matrix3 turned = Eigen::AngleAxisd(angle, spin / speed) * from_bullet(object.getWorldTransform()).linear();
-  turned = turned * (1.5 * Matrix3::Identity() - 0.5 * turned.transpose() * turned);  // stays a rotation
-  object.getWorldTransform().setBasis(to_bullet(turned));
 }
 
 }  // namespace
@@ -347,10 +337,8 @@ void Dynamics::find_touching() {
     if (movers_[m].island != static_cast<int>(m) || movers_[m].asleep) continue;
     const auto begin = next;
     while (next != touching_.end() && next->island == static_cast<int>(m)) ++next;
-    const bool in_bond = std::any_of(bonds_.begin(), bonds_.end(), [&](const Bond& bond) {
-      return bond.holds &&
-             movers_[static_cast<std::size_t>(node_of(bond.body->object).mover)].island == static_cast<int>(m);
-    });
+    const bool in_bond = std::any_of(bonds_.begin(), bonds_.end(),
+                                     [&](const Bond& bond) { return holds_in(bond, static_cast<int>(m)); });
     if (begin != next || movers_[m].tree || in_bond)
       islands_.push_back({static_cast<int>(m), static_cast<int>(begin - touching_.begin()),
                           static_cast<int>(next - touching_.begin())});
@@ -382,8 +370,7 @@ void Dynamics::solve_island(const Island& island, int iterations) {
     if (mover.tree && mover.island == island.number) add_joints(mover);
   const std::size_t joints = joints_.size();
   for (const Bond& bond : bonds_)
-    if (bond.holds && movers_[static_cast<std::size_t>(node_of(bond.body->object).mover)].island == island.number)
-      add_bond_rows(bond);
+    if (holds_in(bond, island.number)) add_bond_rows(bond);
   if (settling) iterations = std::max(iterations, kPatience);
   const SolverIsland rows{numbers_.data(), velocities_.data(), rows_.data(), joints_.data(),         contacts_.data(),
                           link_contacts,   contacts_.size(),   joints,       joints_.size() - joints};
@@ -646,8 +633,9 @@ void Dynamics::move() {
       FreeBody& body = *mover.free;
       body.linear = {speeds[0], speeds[1], speeds[2]};
       body.angular = {speeds[3], speeds[4], speeds[5]};
-      body.object->getWorldTransform().getOrigin() += to_bullet(Vector3(dt_ * body.linear));
-      turn_by(*body.object, body.angular, dt_);
+      btTransform& world_from_body = body.object->getWorldTransform();
+      world_from_body.getOrigin() += to_bullet(Vector3(dt_ * body.linear));
+      world_from_body.setBasis(to_bullet(turned_by(from_bullet(world_from_body).linear(), body.angular, dt_)));
       continue;
     }
     Articulation& tree = *mover.tree;

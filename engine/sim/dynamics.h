@@ -149,6 +149,9 @@ class Dynamics {
   bool asleep(const Node& node) const {
     return node.mover >= 0 && movers_[static_cast<std::size_t>(node.mover)].asleep;
   }
+  bool holds_in(const Bond& bond, int island) const {
+    return bond.holds && movers_[static_cast<std::size_t>(node_of(bond.body->object).mover)].island == island;
+  }
   void set_asleep(Mover& mover, bool asleep);
   Vector3 velocity_at(const Node& node, const Vector3& point) const;
   bool meet(const btPersistentManifold& manifold) const;

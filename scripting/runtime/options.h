@@ -80,9 +80,7 @@ inline std::optional<double> opening_field(lua_State* state, int index, double m
 // The joint of a part. Throws Error for a thing that has none.
 inline const Joint& joint_of(const WorldView& view, const std::string& name, const std::string& place = {}) {
   const PartRef ref = view.part_of(name);
-  const Scene& scene = view.scene();
-  const Body& body = ref.body < 0 ? scene.robot.body : scene.bodies[static_cast<std::size_t>(ref.body)];
-  const Part& part = body.parts[static_cast<std::size_t>(ref.part)];
+  const Part& part = view.scene().body_at(ref.body).parts[static_cast<std::size_t>(ref.part)];
   if (part.parent < 0 || part.joint.kind == JointKind::fixed) throw Error(place, "'" + name + "' has no joint");
   return part.joint;
 }

@@ -44,7 +44,7 @@ int number_of(lua_State* state) {
 int below(lua_State* state) {
   const WorldView& view = view_of(state);
   const PartRef ref = view.part_of(check_text(state, 2));
-  const Body& body = ref.body < 0 ? view.scene().robot.body : view.scene().bodies[static_cast<std::size_t>(ref.body)];
+  const Body& body = view.scene().body_at(ref.body);
   lua_pushnumber(state, -bounding_box(body.parts[static_cast<std::size_t>(ref.part)])[0].z());
   return 1;
 }

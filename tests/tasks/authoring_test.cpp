@@ -10,17 +10,10 @@ using namespace stampede::test;
 
 namespace {
 
-std::shared_ptr<const Library> authors() {
-  static const std::shared_ptr<const Library> shared =
-      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/authors"}});
-  return shared;
-}
-
 EpisodeRecord run_authors(const std::string& task, std::int64_t seed = 3) {
   RunOptions options;
   options.seed = seed;
-  EpisodeScripts scripts(authors(), task, "", options.seed);
-  return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+  return run_task(task, "", options, authors());
 }
 
 bool has_action(const Domain& domain, const std::string& name) { return domain.action(name) != nullptr; }

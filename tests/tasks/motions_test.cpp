@@ -8,18 +8,11 @@ using namespace stampede::test;
 
 namespace {
 
-std::shared_ptr<const Library> authored() {
-  static const std::shared_ptr<const Library> shared =
-      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/authors"}});
-  return shared;
-}
-
 EpisodeRecord run_authored(const std::string& task, const std::string& variation, std::uint64_t seed) {
   RunOptions options;
   options.seed = seed;
   options.on_failure = OnFailure::stop;
-  EpisodeScripts scripts(authored(), task, variation, options.seed);
-  return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
+  return run_task(task, variation, options, authors());
 }
 
 int motions_of(const EpisodeRecord& episode, const std::string& kind) {
@@ -93,7 +86,7 @@ TEST_CASE("a wipe in a skill holds its force at a surface that is not where it w
     options.seed = 3;
     options.on_failure = OnFailure::stop;
     options.set["rub"].values = {{"wrong", 0, {wrong}}};
-    EpisodeScripts scripts(authored(), "rub_the_patch", "", options.seed);
+    EpisodeScripts scripts(authors(), "rub_the_patch", "", options.seed);
     const EpisodeRecord episode = run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
     INFO(wrong << " " << verdict(episode));
     REQUIRE(episode.outcome == Outcome::success);

@@ -24,6 +24,13 @@ inline std::shared_ptr<const Library> shipped() {
   return shared;
 }
 
+// What ships, with skills, things and tasks that authors asked for.
+inline std::shared_ptr<const Library> authors() {
+  static const std::shared_ptr<const Library> shared =
+      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/authors"}});
+  return shared;
+}
+
 // Every `parts`-th of what ships, from number `part` on.
 inline std::vector<std::string> shipped_tasks(int part, int parts) {
   std::vector<std::string> names;
@@ -33,8 +40,9 @@ inline std::vector<std::string> shipped_tasks(int part, int parts) {
   return names;
 }
 
-inline EpisodeRecord run_task(const std::string& task, const std::string& variation, RunOptions options) {
-  EpisodeScripts scripts(all_tasks(), task, variation, options.seed);
+inline EpisodeRecord run_task(const std::string& task, const std::string& variation, RunOptions options,
+                              const std::shared_ptr<const Library>& library = all_tasks()) {
+  EpisodeScripts scripts(library, task, variation, options.seed);
   return run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
 }
 
