@@ -23,10 +23,12 @@ return object {
       at = { -depth / 2 - 0.001, 0, foot }, width = width, height = height - foot - 0.06, colour = dark,
       shapes = { box { 0.001, width - 0.10, height - foot - 0.15, at = { -0.0185, 0, 0.11 }, colour = { 0.30, 0.22, 0.15 }, collides = false } },
     },
-    panel = { -- above the flap
-      type = "fixture", fixed = { at = { -depth / 2 - 0.009, 0, height - 0.029 } }, mass = 1, colour = steel,
-      shapes = { box { 0.018, width, 0.058 } },
+    panel = { -- above the flap, flush with the walls: the wrist passes below it
+      type = "fixture", fixed = { at = { -depth / 2 + wall / 2, 0, height - wall - 0.022 } }, mass = 1, colour = steel,
+      shapes = { box { wall, width - 2 * wall, 0.044 } },
     },
   },
-  regions = { front = { at = { -depth / 2 - 0.16, 0, 0.02 }, size = { 0.36, width + 0.22, 0.04 }, traits = { "container" } } }, -- where the flap comes down
+  regions = { -- where the flap comes down, and as far again as half a baking tray
+    front = { at = { -depth / 2 - 0.19, 0, 0.02 }, size = { 0.42, width + 0.26, 0.04 }, traits = { "container" } },
+  },
 }

@@ -26,7 +26,9 @@ local function shelf_spots(w, obj, shelf, rng)
     local room = wide / 2 - math.max(half_y + 0.035, 0.115) -- beside the open fingers and the hand, which is 21 cm wide
     if not held then room = 0.75 * room end -- so that it is easily taken off again
     local side = rng:between(-1, 1) * math.max(room, 0)
-    local spot = frame:along(-deep / 2 + margin + half_x, side, w:below(obj) - high / 2 + 0.001)
+    local front = -deep / 2 + margin + half_x
+    local back = math.max(deep / 2 - half_x, 0) -- what is as deep as the shelf, turned, goes in its middle
+    local spot = frame:along(math.min(front, back), side, w:below(obj) - high / 2 + 0.001)
     local x, y, z = spot:position()
     local free = true
     for _, other in ipairs(w:objects("movable")) do
