@@ -8,7 +8,9 @@ return skill {
   label = "stack the {obj} on the {below}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))
-    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
+    local over = down:offset(0, 0, 0.05)                                -- a cup goes into another one from there on
+    robot:move_through { { "approach", over:offset(0, 0, 0.03) }, { "over", over }, { "ahead", down } }
+    robot:move_line(down, { speed = 0.12, most_force = 20 })            -- it may hang askew
     robot:wait(0.2)                                                     -- let the swing die before letting go
     robot:open_hand()
     robot:retreat(0.10)
