@@ -15,6 +15,6 @@ return task {
     "store the cube in the {level} drawer of the chest",
     "the block belongs in the {level} drawer: open it and put the block there",
     "pull out the {level} drawer and lay the cube in it",
-    "make the {level} drawer hold the block",
+    "stow the block away in the {level} drawer",
   },
 }

@@ -14,6 +14,6 @@ return task {
     "deposit the bundle of money on the {shelf} shelf inside the safe",
     "store the banknotes in the safe, {shelf} shelf",
     "the cash belongs on the {shelf} shelf of the safe: put it away",
-    "from the table into the safe with the banknotes, onto its {shelf} shelf",
+    "take the banknotes from the table and lay them on the {shelf} shelf of the safe",
   },
 }

@@ -6,12 +6,13 @@ return task {
   variations = { colour = colours.names },
   objects = function(v)
     local others = colours.except(v.colour)
-    local slots = { { "first_slot", others[1 + #v.colour % 4] }, { "target_slot", v.colour }, { "last_slot", others[6 + #v.colour % 3] } }
-    local rack = racks(slots)
+    local row = { others[1 + #v.colour % 4], others[6 + #v.colour % 3] }
+    table.insert(row, 1 + #v.colour % 3, v.colour) -- not always in the middle
+    local rack = racks(each(row, function(colour) return { colour .. "_slot", colour } end))
     return { rack = { "dish_rack", shapes = rack.shapes, regions = rack.regions }, stand = { "plate_stand" }, plate = { "plate" } }
   end,
   init = { is.on("rack", "table"), is.on("stand", "table"), is.apart("stand", "rack"), is.in_slot("plate", "stand.slot") },
-  goal = { is.in_slot("plate", "rack.target_slot"), is.hand_empty() },
+  goal = function(v) return { is.in_slot("plate", "rack." .. v.colour .. "_slot"), is.hand_empty() } end,
   instructions = {
     "put the plate between the {colour} posts of the dish rack",
     "the plate belongs in the {colour} slot of the rack",

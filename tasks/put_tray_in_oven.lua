@@ -12,7 +12,7 @@ return task {
   instructions = {
     "put the tray in the oven",
     "open the oven and push the baking tray in",
-    "bake what is on the tray: it has to go into the oven",
+    "the oven is for the tray that lies on the table: open it and put the tray in",
     "the tray belongs on the shelf of the oven",
   },
 }

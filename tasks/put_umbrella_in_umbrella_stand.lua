@@ -11,6 +11,6 @@ return task {
     "put the umbrella into its stand",
     "the umbrella may drip: stand it in the tube",
     "lower the umbrella into the umbrella stand",
-    "let the tube of the stand hold the umbrella",
+    "stow the umbrella upright in the tube of its stand",
   },
 }

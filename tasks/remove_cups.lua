@@ -16,9 +16,11 @@ return task {
   end,
   instructions = function(v)
     local what = ({ "one of the mugs", "two of the mugs" })[v.count]
-    return { "fetch " .. what .. " from the mug tree to the table",
+    return {
+      "fetch " .. what .. " from the mug tree to the table",
       "stand " .. what .. " that hang there on the table",
       "unhook " .. what .. " from the wooden tree; the table is where mugs go",
-      "the table needs " .. what .. " that the tree bears" }
+      "take " .. what .. " off the tree and set " .. (v.count == 1 and "it" or "them") .. " down on the table",
+    }
   end,
 }

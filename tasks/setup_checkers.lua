@@ -47,10 +47,14 @@ return task {
     end
     return goal
   end,
-  instructions = {
-    "complete the board: put what lies beside it back on its squares",
-    "set up the game of checkers; {count} of the men still lie on the table",
-    "the men beside the board, {count} in number, belong on empty squares of their own side",
-    "get the board ready for a game",
-  },
+  instructions = function(v)
+    local n = ({ "one", "two", "three" })[v.count]
+    local men = v.count == 1 and "one man that lies" or n .. " men that lie"
+    return {
+      "set up the game of checkers: put the " .. men .. " on the table back on the board",
+      "complete the rows of the checkers board with the " .. men .. " beside it",
+      n .. (v.count == 1 and " checker has" or " checkers have") .. " left the board: fill the gaps on the side of the same colour",
+      "get the checkers board ready for a game",
+    }
+  end,
 }

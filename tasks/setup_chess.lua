@@ -31,10 +31,13 @@ return task {
     for _, man in ipairs(men) do goal[#goal + 1] = is.inside(man.name, "board." .. man.square) end
     return goal
   end,
-  instructions = {
-    "set up the chess board: {count} of the pieces do not stand where they belong",
-    "put the {count} chess pieces in the middle back on their squares",
-    "prepare a game of chess; what stands astray, {count} in number, goes home",
-    "complete both sides of the chess board",
-  },
+  instructions = function(v)
+    local n = ({ "one", "two", "three" })[v.count]
+    return {
+      "set up the chess board: " .. n .. (v.count == 1 and " piece is" or " pieces are") .. " not where a game begins",
+      "put the " .. (v.count == 1 and "chess piece" or n .. " chess pieces") .. " in the middle of the board back home",
+      "prepare a game of chess: " .. n .. " of the pieces must go back to " .. (v.count == 1 and "its square" or "their squares"),
+      "complete the two rows of each side of the chess board",
+    }
+  end,
 }

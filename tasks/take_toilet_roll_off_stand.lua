@@ -12,7 +12,7 @@ return task {
   instructions = {
     "pull the roll of paper from its rod",
     "slip the paper roll off the end of its holder",
-    "bare the rod of the stand: take its roll",
+    "take the toilet roll off the rod that it hangs on",
     "the stand must be free of paper: draw the roll off it",
   },
 }

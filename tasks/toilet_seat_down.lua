@@ -8,6 +8,6 @@ return task {
     "put the toilet seat down",
     "somebody left the seat up: lower it",
     "bring the seat of the toilet down onto the bowl",
-    "let the toilet be fit to sit on again",
+    "somebody wants to sit down: fold the seat of the toilet down",
   },
 }

@@ -8,10 +8,13 @@ return task {
     return { is.turned("basin." .. v.side .. "_tap"), is_not.turned("basin." .. (v.side == "left" and "right" or "left") .. "_tap"),
       is.hand_empty() }
   end,
-  instructions = {
-    "turn the {side} tap on",
-    "open the {side} tap of the basin by a quarter turn",
-    "let the water run from the {side} tap",
-    "grip the bar of the {side} tap and turn it until it is open",
-  },
+  instructions = function(v) -- the basin may stand any way round: the mark says which side is meant
+    local mark = v.side == "left" and "red" or "blue"
+    return {
+      "turn the " .. v.side .. " tap on, the one with the " .. mark .. " mark",
+      "open the tap with the " .. mark .. " mark by a quarter turn",
+      "let the " .. (v.side == "left" and "hot" or "cold") .. " water run: its tap bears the " .. mark .. " mark",
+      "grip the bar of the " .. v.side .. " tap of the basin, marked " .. mark .. ", and turn it until it is open",
+    }
+  end,
 }

@@ -12,6 +12,6 @@ return task {
     "free the socket by pulling out the charger",
     "pull the charger's plug clear of the wall",
     "the charger draws power for nothing: unplug it",
-    "part the charger from its outlet",
+    "pull the charger out of the outlet",
   },
 }
