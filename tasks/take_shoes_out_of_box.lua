@@ -5,8 +5,7 @@ return task {
     box = { "lidded_box", at = { between(0.16, 0.26), between(-0.05, 0.05), 0.75 }, yaw = between(deg(-22), deg(22)) },
     left = { "shoe" }, right = { "shoe" },
   },
-  init = { is.closed("box.lid"), is.inside("left", "box"), is.inside("right", "box"),
-    is_not.crowds("left", "right"), is_not.crowds("right", "left") },
+  init = { is.closed("box.lid"), is.inside("left", "box"), is.inside("right", "box"), is.spaced("left", "right") },
   told = { is.inside("left", "box"), is.inside("right", "box") },
   goal = { is.on("left", "table"), is.on("right", "table"), is.hand_empty() },
   instructions = {
