@@ -18,7 +18,7 @@ end
 local function bar(x, y) return box { x, y, 0.0004, at = { 0, 0, 0.0062 } } end
 
 local function across(x, yaw) -- from above, beside the buttons
-  return { at = { x, 0, between(-0.004, 0.002) }, rpy = { math.pi, between(-0.12, 0.12), yaw }, width = width }
+  return { at = { x, 0, between(-0.002, 0.004) }, rpy = { math.pi, between(-0.12, 0.12), yaw }, width = width }
 end
 
 return object {
