@@ -36,6 +36,7 @@ return skill {
   moves = { "obj" },
   precondition = { is.hand_empty(), is.on("obj", "top"), is_not.inside("obj", "area") },
   effect = { is.inside("obj", "area") },
+  forgets = { "covers" },                                               -- of this area or of another on the way
   continuous = { speed = { 0.12, min = 0.02, max = 0.2, unit = "m/s" } },
   label = "push the {obj} into the {area}",
   run = function(robot, p, c)
