@@ -5,7 +5,7 @@ local long, thick, bound = 0.26, 0.020, 0.06 -- m
 local grasps = {} -- across it, from above, where it is bound
 for _, x in ipairs { -0.105, -0.095, -0.085 } do
   for _, yaw in ipairs { 0, math.pi } do
-    grasps[#grasps + 1] = { at = { x, 0, 0.004 }, rpy = { math.pi, 0, yaw }, width = thick, approach = 0.08, force = 40 }
+    grasps[#grasps + 1] = { at = { x, 0, 0.004 }, rpy = { math.pi, 0, yaw }, width = thick, approach = 0.08, force = 30 }
   end
 end
 
