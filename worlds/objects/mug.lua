@@ -42,6 +42,6 @@ return object {
   regions = { -- its -x is up when it hangs
     loop = { at = { 0, -0.0525, up }, rpy = { math.pi / 2, rest, math.pi / 2 }, size = { 0.020, 0.008, 0.020 } },
   },
-  numbers = { stands = 1, room = 0.13, behind = 0.002, swing = math.rad(45) }, -- `behind`: a hand takes it from any side
+  numbers = { stands = 1, room = 0.13, swing = math.rad(45) },
   grasps = grasps,
 }
