@@ -9,7 +9,6 @@ namespace stampede {
 namespace {
 
 constexpr double kFollowsReference = 0.02;  // rad: further off, contact holds the arm
-constexpr double kShut = 0.005;             // m: a hand that is told to be no wider grasps nothing
 
 template <typename... Cases>
 struct Overloaded : Cases... {
@@ -196,7 +195,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
   options.robot = robot;
   const auto space = [&] { return planning_space(rollout, touchable); };
   const auto free_space = [&] {  // a hand that is shut is not about to grasp anything
-    const bool shut = !rollout.keep && world.commanded_opening(robot) < kShut;
+    const bool shut = !rollout.keep && world.commanded_opening(robot) < kShut_m;
     return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
   };
   return std::visit(

@@ -140,7 +140,7 @@ Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& conte
     fact.arguments.push_back(argument(context.info->parameters, context.arguments, name));
   const auto space = planning_space(rollout, touchable(rollout, context));
   const PlaceTrial trial(rollout, *space, context.key.with("ik"));
-  int wanted = context.attempt % 6;
+  int wanted = context.attempt % kPlaceCandidates;
   std::optional<Transform> tight;
   std::vector<Looked> looked, turned_down;
   const bool explain = context.mode.explain || impasse != nullptr;
@@ -234,22 +234,6 @@ bool set_value(const Rollout& rollout, const SkillContext& context, const Contin
 
 }  // namespace
 
-namespace {
-
-// The parts whose joints hang on the last of `parts`: the lever on a door.
-void add_mounted(const Scene& scene, std::vector<PartRef>& parts) {
-  const PartRef on = parts.back();
-  if (on.body < 0) return;
-  const std::vector<Part>& all = scene.bodies[static_cast<std::size_t>(on.body)].parts;
-  for (int i = on.part + 1; i < static_cast<int>(all.size()); ++i) {
-    int above = all[static_cast<std::size_t>(i)].parent;
-    while (above > on.part) above = all[static_cast<std::size_t>(above)].parent;
-    if (above == on.part) parts.push_back({on.body, i});
-  }
-}
-
-}  // namespace
-
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context) {
   std::vector<std::string> names;
   if (rollout.keep) {
@@ -263,10 +247,15 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
   for (const std::string& name : names) {
     const Object* thing = rollout.view().scene().object(name);
     if (thing == nullptr || thing->body.empty()) continue;
-    const bool region = thing->kind == ObjectKind::region;  // then: the part that it is fixed to
-    parts.push_back(region ? PartRef{rollout.view().scene().body_index(thing->body), thing->part}
-                           : rollout.view().part_of(name));
-    if (thing->kind == ObjectKind::part) add_mounted(rollout.view().scene(), parts);
+    const Scene& scene = rollout.view().scene();
+    if (thing->kind == ObjectKind::part) {
+      const std::vector<PartRef> all = with_mounted(scene, rollout.view().part_of(name));
+      parts.insert(parts.end(), all.begin(), all.end());
+    } else if (thing->kind == ObjectKind::region) {  // the part that it is fixed to
+      parts.push_back({scene.body_index(thing->body), thing->part});
+    } else {
+      parts.push_back(rollout.view().part_of(name));
+    }
   }
   return parts;
 }

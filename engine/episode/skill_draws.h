@@ -19,7 +19,7 @@ Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& c
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context);
 
-// How many grasps are looked at; a random call takes any of them.
-inline constexpr int kGraspCandidates = 6;
+// How many grasps and places are told apart; a random call takes any of them.
+inline constexpr int kGraspCandidates = 6, kPlaceCandidates = 16;
 
 }  // namespace stampede

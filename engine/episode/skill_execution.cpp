@@ -102,7 +102,8 @@ void SkillExecution::start(SkillContext context, int parent) {
   if (const auto set = options_.set.find(context_.info->name); set != options_.set.end())
     context_.given.push_back({set->second, ChosenBy::caller});
   result_ = {};
-  calls_ = questions_ = 0;
+  calls_ = questions_ = redraws_ = 0;
+  arm_moved_ = false;
   step_asked_ = false;
   phase_ = Phase::calling;
   const Facts before = rollout_.facts().facts();
@@ -120,12 +121,7 @@ void SkillExecution::start(SkillContext context, int parent) {
   Impasse impasse;
   const Reason drawn =
       draw_continuous(rollout_, symbols_, context_, call, detail, options_.witness ? &impasse : nullptr);
-  SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
-  segment.controller = std::string(to_string(call.controller));
-  for (const ContinuousValue& value : call.continuous) segment.parameters.push_back(value.record);
-  for (const GivenSettings& given : context_.given)
-    if (given.set.controller == call.controller)
-      segment.parameters.push_back({"controller", {}, segment.controller, {}, {}, given.by});
+  note_parameters(call);
   if (drawn != Reason::none) {
     SkillResult failed{drawn, detail};
     name_blockers(rollout_, context_, failed, [&] {
@@ -144,10 +140,44 @@ void SkillExecution::start(SkillContext context, int parent) {
     looked_at_ = std::move(impasse);
   }
   controller_ = {call.controller, call.stiffness};
-  call_ = call;
   rollout_.world().apply(controller_);
-  run_ = skills_.start(call, rollout_.view());
+  start_run(std::move(call));
   if (reference_moves(rollout_.world())) follow(make_brake());
+}
+
+void SkillExecution::note_parameters(const SkillCall& call) {
+  SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
+  segment.controller = std::string(to_string(call.controller));
+  segment.parameters.clear();
+  for (const ContinuousValue& value : call.continuous) segment.parameters.push_back(value.record);
+  for (const GivenSettings& given : context_.given)
+    if (given.set.controller == call.controller)
+      segment.parameters.push_back({"controller", {}, segment.controller, {}, {}, given.by});
+}
+
+void SkillExecution::start_run(SkillCall call) {
+  call_ = std::move(call);
+  run_ = skills_.start(call_, rollout_.view());
+}
+
+// Where the arm cannot get to the grasp or the place that was drawn, the run begins anew with the next one, as long as
+// no more than fingers have moved. False: all have had their turn, or it is too late.
+bool SkillExecution::draw_again() {
+  const auto streamed = [](const ContinuousValue& value) { return value.record.chosen_by == ChosenBy::stream; };
+  if (arm_moved_ || redraws_ + 1 >= kPlaceCandidates || std::ranges::none_of(call_.continuous, streamed)) return false;
+  if (redraws_++ == 0) first_drawn_ = call_.continuous;
+  ++context_.attempt;
+  SkillCall call = undrawn_call();
+  std::string ignored;
+  if (draw_continuous(rollout_, symbols_, context_, call, ignored) != Reason::none) return false;
+  const auto same = [](const ContinuousValue& a, const ContinuousValue& b) {
+    return a.record.values == b.record.values;
+  };
+  for (const auto* before : {&first_drawn_, &call_.continuous})
+    if (std::ranges::equal(call.continuous, *before, same)) return false;
+  note_parameters(call);
+  start_run(std::move(call));
+  return true;
 }
 
 void SkillExecution::tell(Impasse impasse, const SkillResult& failed) const {
@@ -267,6 +297,7 @@ bool SkillExecution::ask_script() {
 }
 
 bool SkillExecution::start_policy(const robot_call::Policy& call) {
+  arm_moved_ = true;
   PolicyCall told{.skill = context_.info->name, .parameters = call.with};
   for (std::size_t i = 0; i < context_.arguments.size(); ++i)
     told.arguments[context_.info->parameters[i].name] = context_.arguments[i];
@@ -320,6 +351,7 @@ bool SkillExecution::start_asked_skill(const AgentAction& asked, RandomKey key) 
 }
 
 bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
+  arm_moved_ = true;
   const SkillInfo* info = skills_.skill(call.skill);
   if (info == nullptr || info->actions.empty())
     return finish({Reason::script_error, "there is no skill '" + call.skill + "'"});
@@ -341,12 +373,15 @@ bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
   const auto plan = [&] { return plan_call(rollout_, call, touchable(rollout_, context_), key); };
   PlannedCall planned = plan();
   if (!planned.motion) {
+    const bool of_draw = planned.reason == Reason::no_path || planned.reason == Reason::unreachable;
+    if (of_draw && draw_again()) return false;
     SkillResult failed{planned.reason, planned.detail};
     name_blockers(rollout_, context_, failed, [&] { return plan().motion != nullptr; });
     return finish(std::move(failed));
   }
   const auto* hand = std::get_if<robot_call::Hand>(&call);
   hand_ = hand == nullptr ? std::nullopt : std::optional(*hand);
+  arm_moved_ = arm_moved_ || (hand == nullptr && !std::holds_alternative<robot_call::Wait>(call));
   follow(std::move(planned.motion));
   if (moves_fingers(call)) opening_before_ = rollout_.world().opening();
   SegmentRecord& segment = rollout_.recorder().segment(motion_segment_);

@@ -55,6 +55,9 @@ class SkillExecution {
 
   void start(SkillContext context, int parent);
   SkillCall undrawn_call() const;
+  void note_parameters(const SkillCall& call);
+  void start_run(SkillCall call);
+  bool draw_again();
   void tell(Impasse impasse, const SkillResult& failed) const;
   void open_segment(int parent, const Facts& before);
   bool step_due();
@@ -93,6 +96,9 @@ class SkillExecution {
   std::unique_ptr<SkillRun> run_;
   operation::Controller controller_;  // of this call; a child may have had another
   int calls_ = 0, questions_ = 0;     // asked for so far
+  int redraws_ = 0;
+  std::vector<ContinuousValue> first_drawn_;
+  bool arm_moved_ = false;  // or something else was done that other draws cannot take back
   std::unique_ptr<SkillExecution> child_;
   std::unique_ptr<SkillPolicy> policy_;  // the script waits for it
   SkillCall call_;                       // as it was drawn

@@ -57,6 +57,9 @@ class WorldView {
   // Grasped, and nothing but the hand touches it. Margin: how deep it could fall; while it is not in the hand, that of
   // grasped().
   Judged carried(std::string_view object) const;
+  // Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way? As
+  // costly as looking for a grasp: a few milliseconds.
+  bool can_grasp(std::string_view object) const;
   std::string grasped_object() const;  // or empty
   double opening() const;              // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?

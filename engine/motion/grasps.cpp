@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kDepth_m = 0.030;  // the palm is 37 mm behind the tip
 constexpr double kApproach_m = 0.08;
+constexpr double kHair_m =
+    0.001;  // between the open hand and what is beside it: the arm is not quite where it should be
 constexpr double kNarrow_m = 0.02;  // wider than the object, where wide open fingers meet something
 constexpr std::size_t kMostTested = 96;
 
@@ -78,7 +80,7 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
               const std::optional<PartWay>& follow) {
   const Arm& arm = state.arm();
   // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
-  if (!state.hand_free(grasp.world_from_tip) || !state.hand_free(grasp.world_from_approach)) return false;
+  if (!state.hand_free(grasp.world_from_tip, kHair_m) || !state.hand_free(grasp.world_from_approach)) return false;
   for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, 3, 12)) {
     if (!state.free(q)) continue;
     const auto approach = [&](double way) {

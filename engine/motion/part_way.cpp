@@ -1,6 +1,7 @@
 #include "engine/motion/part_way.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -76,8 +77,18 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count);
     const Transform moved = way.moved(share);
-    CollisionState there = holding;
-    if (way.part.body >= 0) there.move_part(way.part, moved);
+    const auto at = [&](double place) {
+      CollisionState there = holding;
+      if (way.part.body >= 0) there.move_part(way.part, way.moved(place));
+      return there;
+    };
+    const double last = static_cast<double>(k - 1) / static_cast<double>(count);
+    const std::array<std::pair<double, CollisionState>, 3> on_the_way{
+        {{1.0 / 3, at(last + (share - last) / 3)}, {2.0 / 3, at(last + 2 * (share - last) / 3)}, {1.0, at(share)}}};
+    const auto free = [&](const JointVector& from, const JointVector& to) {
+      return std::ranges::all_of(
+          on_the_way, [&](const auto& place) { return place.second.free(from + place.first * (to - from)); });
+    };
     const std::vector<Node>& before = layers[k - 1];
     bool any = false;
     for (int j = -most; j <= most; ++j) {
@@ -90,7 +101,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
         const auto q = arm.solve(tip, from.q, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost < node.cost && (share > way.stop || there.free(*q))) node = {*q, cost, i + most};
+        if (cost < node.cost && (share > way.stop || free(from.q, *q))) node = {*q, cost, i + most};
       }
       any = any || node.from >= 0;
     }
@@ -131,6 +142,18 @@ bool free_at_end(const CollisionState& state, const JointVector& start, const Pa
   CollisionState there = with_part_held(state, start, way);
   if (way.part.body >= 0) there.move_part(way.part, way.moved(1));
   return there.free(q);
+}
+
+std::vector<PartRef> with_mounted(const Scene& scene, PartRef part) {
+  std::vector<PartRef> parts{part};
+  if (part.body < 0) return parts;
+  const std::vector<Part>& all = scene.bodies[static_cast<std::size_t>(part.body)].parts;
+  for (int i = part.part + 1; i < static_cast<int>(all.size()); ++i) {
+    int above = all[static_cast<std::size_t>(i)].parent;
+    while (above > part.part) above = all[static_cast<std::size_t>(above)].parent;
+    if (above == part.part) parts.push_back({part.body, i});
+  }
+  return parts;
 }
 
 PartWay first_of(const PartWay& way, double share) {

@@ -43,6 +43,9 @@ std::optional<ArmWay> furthest_with_part(const CollisionState& state, const Join
 // not count here either.
 bool free_at_end(const CollisionState& state, const JointVector& start, const PartWay& way, const JointVector& q);
 
+// A part and all whose joints hang on it: a door and its lever.
+std::vector<PartRef> with_mounted(const Scene& scene, PartRef part);
+
 // The first `share` of a way.
 PartWay first_of(const PartWay& way, double share);
 

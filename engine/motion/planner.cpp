@@ -140,9 +140,38 @@ PlannedMotion certify(const CollisionState& state, const std::vector<JointVector
   return motion;
 }
 
-PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                          const MotionLimits& limits, RandomKey key) {
-  check_limits(limits);
+namespace {
+
+bool touches_only_itself(const CollisionState& state, const JointVector& q) {
+  const auto all = state.contacts(q);
+  return std::ranges::all_of(all,
+                             [](const CollisionPair& pair) { return pair.robot_part.body < 0 && pair.other.body < 0; });
+}
+
+// The shortest turn of one joint after which an arm that is folded into itself, by a line that was followed so far, is
+// clear; nothing: it is clear, or touches something else too, or no turn helps.
+std::optional<JointVector> way_out_of_itself(const CollisionState& state, const JointVector& start) {
+  constexpr double kStep = 0.01, kFarthest = 0.3, kClear = 0.02;  // rad
+  if (state.free(start) || !touches_only_itself(state, start)) return std::nullopt;
+  const Arm& arm = state.arm();
+  std::vector<JointVector> ways;
+  for (int joint = 0; joint < arm.joints(); ++joint)
+    for (const double sign : {1.0, -1.0}) ways.push_back(sign * JointVector::Unit(arm.joints(), joint));
+  for (double far = kStep; far < kFarthest && !ways.empty(); far += kStep) {
+    std::erase_if(ways, [&](const JointVector& way) {
+      const JointVector q = start + far * way;
+      return !arm.within_limits(q, 0) || !touches_only_itself(state, q);
+    });
+    for (const JointVector& way : ways) {
+      const JointVector clear = start + (far + kClear) * way;
+      if (state.free(start + far * way) && state.free(clear) && arm.within_limits(clear, 0)) return clear;
+    }
+  }
+  return std::nullopt;
+}
+
+PlannedMotion plan_from(const CollisionState& state, const JointVector& start, const JointVector& goal,
+                        const MotionLimits& limits, RandomKey key) {
   PlannedMotion motion;
   const JointPath ends = check_ends(state, start, goal);
   motion.reason = ends.reason;
@@ -157,6 +186,34 @@ PlannedMotion plan_joints(const CollisionState& state, const JointVector& start,
     if (motion.reason == Reason::none) return motion;
   }
   return motion;
+}
+
+}  // namespace
+
+PlannedMotion plan_after_way_out(const CollisionState& state, const JointVector& start, const MotionLimits& limits,
+                                 const std::function<PlannedMotion(const JointVector& from)>& plan) {
+  const std::optional<JointVector> out = way_out_of_itself(state, start);
+  if (!out) return plan(start);
+  PlannedMotion motion = plan(*out);
+  if (motion.reason != Reason::none) return motion;
+  Trajectory first = time_path(state.arm(), {start, *out}, limits, state.scene().physics_hz);
+  const std::int64_t later = first.steps();
+  for (std::size_t i = 0; i < motion.trajectory.knots.size(); ++i) {
+    Trajectory::Knot& knot = motion.trajectory.knots[i];
+    knot.step += later;
+    if (i > 0) first.knots.push_back(std::move(knot));
+  }
+  motion.trajectory = std::move(first);
+  for (PlannedVia& via : motion.vias) via.step += later;
+  for (PlannedHand& hand : motion.hands) hand.step += later;
+  return motion;
+}
+
+PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
+                          const MotionLimits& limits, RandomKey key) {
+  check_limits(limits);
+  return plan_after_way_out(state, start, limits,
+                            [&](const JointVector& from) { return plan_from(state, from, goal, limits, key); });
 }
 
 std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz) {

@@ -57,11 +57,13 @@ Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, 
 
 // A planned motion through all targets, stopping only at the last. Free motion up to the first target; between
 // targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
+// Lines ahead are to be free too, but for what an empty hand has taken by then, and for the part that a fist pushes.
 // `then`: from the last target, the arm must be able to go with this part, the hand `then->opening` wide.
 PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
                            const PartWay* then = nullptr);
 
+constexpr double kShut_m = 0.005;         // a hand that is no wider grasps nothing: it pushes
 constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go
 
 // How far the hand may open where it is, up to `wanted_m`, before a finger meets what it does not touch yet; at least a

@@ -17,6 +17,11 @@ constexpr int kMostCare = 2;
 // Nothing wrong with both ends: reason none.
 JointPath check_ends(const CollisionState& state, const JointVector& start, const JointVector& goal);
 
+// A motion that `plan` makes from where an arm that starts folded into itself has first been turned clear; from `start`
+// where it need not be, or cannot.
+PlannedMotion plan_after_way_out(const CollisionState& state, const JointVector& start, const MotionLimits& limits,
+                                 const std::function<PlannedMotion(const JointVector& from)>& plan);
+
 // Configurations from `start` (left out of the result) along a tool path. `near`: as of LineOptions.
 struct ToolPath {
   Reason reason = Reason::none;

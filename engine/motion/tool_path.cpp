@@ -54,6 +54,18 @@ struct Tail {
   std::vector<JointVector> at_target;
 };
 
+// What must not be touched on the lines ahead: what an empty hand has taken by then comes along, and a fist pushes a
+// part.
+CollisionState obstacles_ahead(const CollisionState& state, const PartWay* pushed) {
+  CollisionState then = state;
+  if (state.held()) return then;
+  if (state.opening() < kShut_m && pushed != nullptr)
+    for (const PartRef part : with_mounted(state.scene(), pushed->part)) then.allow(part);
+  for (const PartRef part : state.allowed())
+    if (part.body >= 0 && state.scene().body_at(part.body).free) then.remove(part);
+  return then;
+}
+
 Tail make_tail(const CollisionState& state, const JointVector& first, const std::vector<ToolTarget>& targets,
                const PartWay* then, const MotionLimits& limits, RandomKey key) {
   Tail tail;
@@ -86,14 +98,27 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
     tail.at_target.push_back(tail.waypoints.back());
   }
   JointVector from = tail.waypoints.back();
+  std::optional<CollisionState> then_free;
   for (; i < targets.size(); ++i) {
+    if (!then_free) then_free = obstacles_ahead(state, then);
     const Transform here = targets[i - 1].world_from_tip, there = targets[i].world_from_tip;
     const ToolPath line = follow_tool(
         state.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
         key.with(static_cast<std::int64_t>(i)));
     tail.reason = line.reason;
-    tail.detail = "on from " + targets[i - 1].name + ": " + line.detail;
-    if (tail.reason != Reason::none) return tail;
+    tail.detail = "on from " + targets[i - 1].name + ": ";
+    if (tail.reason != Reason::none) {
+      tail.detail += line.detail;
+      return tail;
+    }
+    std::vector<JointVector> dense{from};
+    dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
+    Checker checker(*then_free, 0, {});
+    if (const auto touch = first_touch(checker, dense, certified_step(limits))) {
+      tail.reason = Reason::no_path;
+      tail.detail += checker.contact(*touch);
+      return tail;
+    }
     from = line.waypoints.back();
   }
   if (then != nullptr && !way_with_part(state, from, *then, key.with("then"))) {
@@ -139,6 +164,38 @@ PlannedMotion plan_to_tail(const CollisionState& state, const JointVector& start
   for (std::size_t i = 0; i + 1 < tail.at_target.size(); ++i)
     motion.vias.push_back({targets[i].name, targets[i].world_from_tip,
                            nearest_step(motion.trajectory, tail.at_target[i], state.scene().physics_hz)});
+  return motion;
+}
+
+PlannedMotion plan_through_from(const CollisionState& state, const JointVector& start,
+                                const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
+                                const PartWay* then) {
+  PlannedMotion motion;
+  const JointPath ends = check_ends(state, start, start);
+  motion.reason = ends.reason;
+  motion.detail = ends.detail;
+  if (motion.reason == Reason::start_in_collision) return motion;
+  std::vector<JointVector> solutions =
+      state.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
+  bool searched = then == nullptr;  // who has to go on with a part needs the right one: then more are looked for
+  motion.reason = Reason::unreachable;
+  motion.detail = "no joint configuration reaches " + targets[0].name;
+  for (std::size_t i = 0;; ++i) {
+    if (i == solutions.size() && !std::exchange(searched, true)) {
+      const auto more = state.arm().solutions(targets[0].world_from_tip, start, key.with("more"), kMoreSolutions, 200);
+      solutions.insert(solutions.end(), more.begin(), more.end());
+    }
+    if (i >= solutions.size()) break;
+    const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
+    const Tail tail = make_tail(state, solutions[i], targets, then, limits, query.with("tail"));
+    if (tail.reason != Reason::none) {
+      motion.reason = tail.reason;
+      motion.detail = tail.detail;
+      continue;
+    }
+    motion = plan_to_tail(state, start, tail, targets, limits, query);
+    if (motion.reason == Reason::none) return motion;
+  }
   return motion;
 }
 
@@ -193,33 +250,9 @@ PlannedMotion plan_through(const CollisionState& state, const JointVector& start
                            const PartWay* then) {
   if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
-  PlannedMotion motion;
-  const JointPath ends = check_ends(state, start, start);
-  motion.reason = ends.reason;
-  motion.detail = ends.detail;
-  if (motion.reason == Reason::start_in_collision) return motion;
-  std::vector<JointVector> solutions =
-      state.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
-  bool searched = then == nullptr;  // who has to go on with a part needs the right one: then more are looked for
-  motion.reason = Reason::unreachable;
-  motion.detail = "no joint configuration reaches " + targets[0].name;
-  for (std::size_t i = 0;; ++i) {
-    if (i == solutions.size() && !std::exchange(searched, true)) {
-      const auto more = state.arm().solutions(targets[0].world_from_tip, start, key.with("more"), kMoreSolutions, 200);
-      solutions.insert(solutions.end(), more.begin(), more.end());
-    }
-    if (i >= solutions.size()) break;
-    const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
-    const Tail tail = make_tail(state, solutions[i], targets, then, limits, query.with("tail"));
-    if (tail.reason != Reason::none) {
-      motion.reason = tail.reason;
-      motion.detail = tail.detail;
-      continue;
-    }
-    motion = plan_to_tail(state, start, tail, targets, limits, query);
-    if (motion.reason == Reason::none) return motion;
-  }
-  return motion;
+  return plan_after_way_out(state, start, limits, [&](const JointVector& from) {
+    return plan_through_from(state, from, targets, limits, key, then);
+  });
 }
 
 PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,

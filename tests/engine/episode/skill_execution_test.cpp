@@ -244,3 +244,52 @@ TEST_CASE("the literals of a precondition: instances of forall, ways of a choice
   action.precondition = {};
   CHECK(ground_precondition(action, {"a", "b"}, facts, domain, objects).empty());
 }
+
+TEST_CASE("a place that the arm cannot get to is drawn again, as long as it has not moved") {
+  struct Skills : plain::PlainSkills {  // the first ways to each place lead where no arm reaches
+    int bad = 0, started = 0;
+    bool after_a_move = false;
+    std::unique_ptr<SkillRun> start(const SkillCall& call, const WorldView& view) override {
+      if (call.skill != "place" || started++ >= bad) return plain::PlainSkills::start(call, view);
+      std::vector<RobotCall> calls{robot_call::MoveThrough{{{"far", translation(0, 0, 9)}}}};
+      if (after_a_move) calls.insert(calls.begin(), robot_call::MoveLine{translation(0, 0, 0.02)});
+      return std::make_unique<plain::CallList>(calls);
+    }
+  };
+  const PlanStep place{"place", {"cube1", "table", "panda.hand"}};
+  Skills skills;
+  Running running;
+  running.execution.emplace(*running.rollout, running.symbols, skills, running.options);
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+
+  skills.bad = 100;
+  skills.after_a_move = true;
+  REQUIRE_FALSE(running.execution->begin(running.request(place)));
+  CHECK(run_to_end(*running.execution, *running.rollout).reason == Reason::unreachable);
+  CHECK(skills.started == 1);
+  const auto first = running.parameter("spot").values;
+
+  skills.started = 0;
+  skills.after_a_move = false;
+  REQUIRE_FALSE(running.execution->begin(running.request(place)));
+  CHECK(run_to_end(*running.execution, *running.rollout).reason == Reason::unreachable);
+  CHECK((skills.started > 3 && skills.started < 20));
+
+  skills.started = 0;
+  skills.bad = 2;
+  REQUIRE_FALSE(running.execution->begin(running.request(place)));
+  CHECK(run_to_end(*running.execution, *running.rollout).ok());
+  CHECK(skills.started == 3);
+  const auto& spot = running.parameter("spot").values;  // what it says is where the cube went
+  CHECK(spot != first);
+  CHECK((running.rollout->view().world_from("cube1").translation() - Vector3(spot[0], spot[1], spot[2])).norm() < 0.01);
+}
+
+TEST_CASE("a hand can grasp what is within its reach") {
+  Running running;
+  CHECK(running.rollout->view().can_grasp("cube1"));
+  World& world = running.rollout->world();
+  world.apply(operation::Place{world.scene().body_index("cube1"), translation(2, 0, 0.1)});
+  CHECK_FALSE(running.rollout->view().can_grasp("cube1"));
+}

@@ -163,3 +163,34 @@ TEST_CASE("joints that are not numbers are refused") {
   CHECK_THROWS_AS(plan_joints(state, state.arm().home(), bad, {}, RandomKey("a")), Error);
   CHECK_THROWS_AS(plan_path(state, JointVector::Zero(3), bad, {}, RandomKey("a")), Error);
 }
+
+TEST_CASE("an arm that a line left folded into itself is turned clear first, and then goes its way") {
+  const World world(cluttered_scene());
+  const CollisionState state = world.collision_state();
+  Random random(RandomKey("folded"));
+  int folded = 0, solved = 0;
+  for (int k = 0; folded < 12 && k < 4000; ++k) {
+    const JointVector from = random_free(state, random), to = random_free(state, random);
+    JointVector q = from;
+    for (double way = 0; state.free(q) && way < 1; way += 0.005) q = from + way * (to - from);
+    const auto contacts = state.contacts(q);
+    const bool itself = std::all_of(contacts.begin(), contacts.end(), [](const CollisionPair& pair) {
+      return pair.robot_part.body < 0 && pair.other.body < 0;
+    });
+    if (contacts.empty() || !itself) continue;
+    ++folded;
+    const PlannedMotion motion = plan_joints(state, q, from, {}, RandomKey("out").with(k));
+    if (motion.reason != Reason::none) continue;
+    ++solved;
+    CHECK(motion.trajectory.knots.front().position == q);
+    CHECK(motion.trajectory.knots.back().position == from);
+    bool out = false;  // once clear it stays so
+    for (std::int64_t step = 0; step <= motion.trajectory.steps(); ++step) {
+      const bool free = state.free(evaluate(motion.trajectory, static_cast<double>(step), kHz).position);
+      REQUIRE((free || !out));
+      out = out || free;
+    }
+  }
+  CHECK(folded == 12);
+  CHECK(solved >= 11);
+}

@@ -126,3 +126,27 @@ TEST_CASE("targets out of reach and lines into the table say so") {
   CHECK(beyond.reason == Reason::unreachable);
   CHECK(beyond.trajectory.knots.empty());
 }
+
+TEST_CASE("lines ahead are to be free: nothing is grasped that cannot be taken away") {
+  Scene scene = table_scene(0);
+  Shape post;
+  post.size = Vector3(0.04, 0.04, 0.2);
+  Part part;
+  part.name = "post";
+  part.shapes = {post};
+  Body body;
+  body.name = "post";
+  body.parts = {part};
+  body.world_from_body = translation(0.5, 0.2, 0.1);
+  scene.bodies.insert(scene.bodies.begin(), body);
+  const World world(std::make_shared<const Scene>(scene));
+  const CollisionState state = world.collision_state();
+  const auto plan = [&](double aside) {
+    return plan_through(state, state.arm().home(),
+                        {{"grasp", above(0.5, 0, 0.1)}, {"ahead", above(0.5, aside, 0.1), true}}, {}, RandomKey("l"));
+  };
+  CHECK(plan(0.03).reason == Reason::none);
+  const PlannedMotion into_post = plan(0.18);
+  CHECK(into_post.reason == Reason::no_path);
+  CHECK_THAT(into_post.detail, Catch::StartsWith("on from grasp: ") && Catch::EndsWith(" touches post"));
+}
