@@ -24,14 +24,14 @@ local function push(robot, part, grasp, c, pivot)
     robot:move_part(part, to,
       { speed = speed, most_force = 25, pivot = pivot, retreat = away, as_far_as_it_goes = not whole })
   end
-  on(whole and 0 or grasp.reach, c.speed) -- but for the gap
-  if whole then on(past, math.min(c.speed, 0.05)) end
+  on(whole and math.min(-past / 2, w:joint(part)) or grasp.reach, c.speed) -- the last 1.5 cm slowly: no blow at the stop
+  if whole then on(past, math.min(c.speed, 0.03)) end
   robot:retreat(away, { as_far_as_it_goes = true })
 end
 
 return skill {
   params = { "part: openable" },
-  precondition = { is.hand_empty(), is_not.closed("part") },
+  precondition = { is.hand_empty(), is_not.closed("part"), is_not.blocked("part") },
   effect = { is.closed("part"), is_not.open("part") },
   continuous = {
     grasp = stream("grasps", "part", "closed_at"),                      -- where to touch or take it

@@ -31,6 +31,13 @@ inline std::shared_ptr<const Library> authors() {
   return shared;
 }
 
+// What ships, but for the knowledge that an open drawer covers those below it.
+inline std::shared_ptr<const Library> unaware() {
+  static const std::shared_ptr<const Library> shared =
+      Library::load(Roots{{STAMPEDE_SOURCE_DIR, STAMPEDE_SOURCE_DIR "/tests/tasks/unaware"}});
+  return shared;
+}
+
 // Every `parts`-th of what ships, from number `part` on.
 inline std::vector<std::string> shipped_tasks(int part, int parts) {
   std::vector<std::string> names;

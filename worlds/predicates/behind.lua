@@ -1,9 +1,6 @@
 -- The door, lid or drawer must be open for the hand to get at the place: shut, it is in the way out (out of a shelf or drawer
 -- straight forwards, out of another container or slot straight up), or the place is in the drawer.
-local function whole(name)
-  local dot = string.find(name, ".")
-  return dot and string.sub(name, 1, dot - 1) or name
-end
+local whole = require "worlds.lib.whole"
 
 local function forwards(w, place) return w:has_trait(place, "shelf") or w:has_trait(place, "openable") end
 

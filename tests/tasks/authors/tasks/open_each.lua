@@ -5,7 +5,7 @@ return task {
   goal = {
     forall("?f: furniture", is.open("?f.top_drawer")),
     forall("?f: furniture", is_not.open("?f.middle_drawer")),
-    is_not(exists("?part: drawer", all_of(is.part_of("?part", "chest"), is.blocked("?part")))),
+    is_not(exists("?part: drawer", all_of(is.part_of("?part", "chest"), is.behind("?part", "chest.bottom_drawer")))),
     is.hand_empty(),
   },
   instructions = { "open each top drawer" },
