@@ -2,7 +2,7 @@
 return task {
   world = "tabletop",
   objects = { hoop = { "basketball_hoop" }, ball = { "basketball" } },
-  init = { is.on("hoop", "table"), is.apart("ball", "hoop"), is.on("ball", "table") },
+  init = { is.on("hoop", "table"), is.apart("ball", "hoop"), is.on("ball", "table"), is.reachable("ball") },
   goal = { is.inside("ball", "hoop"), is.on("hoop", "table"), is.hand_empty() },
   instructions = {
     "score with the toy basketball",

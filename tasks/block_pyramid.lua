@@ -12,7 +12,7 @@ return task {
     }
   end,
   init = { is.on("block*", "table"), is.on("other*", "table"),
-    is.spaced("block*", "mat"), is.spaced("other*", "mat") }, -- room for a hand
+    is.spaced("block*", "mat"), is.spaced("other*", "mat"), is.reachable("block*") },
   goal = {
     any_order("block*", 6, function(b, i) return is.inside(b[i], places[i]) end), -- which block is where is all the same
     is.on("other*", "table"), is.hand_empty(),

@@ -8,7 +8,8 @@ return task {
     tv = { "television", place = places.beside_the_table(0.16, 0.3, 0.75) },
     remote = { "remote_control" },
   },
-  init = { is.on("remote", "table"), is_not.pointing_at("remote", "tv"), is_not.pressed("remote.plus_button"), is_not.pressed("remote.minus_button") },
+  init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"),
+    is_not.pressed("remote.plus_button"), is_not.pressed("remote.minus_button") },
   goal = function(v)
     local button, other = "remote.plus_button", "remote.minus_button"
     if v.channel == "previous" then button, other = other, button end

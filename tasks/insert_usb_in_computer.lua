@@ -5,7 +5,7 @@ return task {
     computer = { "desktop_computer", at = { between(0.16, 0.24), between(-0.16, 0.16), 0.75 }, yaw = between(-math.pi, math.pi) },
     stick = { "usb_stick", colour = one_of { "red", "blue", "green", "orange", "magenta" } },
   },
-  init = { is.on("stick", "table"), is_not.crowds("computer", "stick") },
+  init = { is.on("stick", "table"), is_not.crowds("computer", "stick"), is.reachable("stick") },
   goal = { any_of { is.in_slot("stick", "computer.left_port"), is.in_slot("stick", "computer.right_port") }, is.hand_empty() },
   instructions = {
     "plug the memory stick into the computer",

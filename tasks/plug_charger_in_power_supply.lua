@@ -5,7 +5,7 @@ return task {
     outlet = { "outlet", at = { between(0.18, 0.34), between(-0.20, 0.20), 0.75 }, yaw = between(-0.42 * math.pi, 0.42 * math.pi) },
     charger = { "charger" },
   },
-  init = { is.on("charger", "table"), is_not.crowds("outlet", "charger") },
+  init = { is.on("charger", "table"), is_not.crowds("outlet", "charger"), is.reachable("charger") },
   goal = { is.in_slot("charger", "outlet.socket"), is.hand_empty() },
   instructions = {
     "plug the charger into the wall",

@@ -12,7 +12,8 @@ return task {
     red_book = { "book", colour = "red" }, green_book = { "book", colour = "green" }, blue_book = { "book", colour = "blue" },
   },
   init = { is.on("red_book", "table"), is.apart("green_book", "red_book"), is.on("green_book", "table"),
-    is.apart("blue_book", "red_book"), is.apart("blue_book", "green_book"), is.on("blue_book", "table") },
+    is.apart("blue_book", "red_book"), is.apart("blue_book", "green_book"), is.on("blue_book", "table"),
+    is.reachable("red_book"), is.reachable("green_book"), is.reachable("blue_book") },
   goal = function(v)
     local parts = { is.hand_empty() }
     for i, name in ipairs(names) do

@@ -15,7 +15,7 @@ return task {
     return things
   end,
   init = function(v)
-    local parts = { is.on(v.item, "table") }
+    local parts = { is.on(v.item, "table"), is.reachable(v.item) }
     for _, name in ipairs(groceries) do
       if name ~= v.item then
         parts[#parts + 1] = is.apart(name, v.item)

@@ -7,7 +7,7 @@ return task {
     tv = { "television", place = places.beside_the_table(0.16, 0.3, 0.75) },
     remote = { "remote_control" },
   },
-  init = { is.on("remote", "table"), is_not.pointing_at("remote", "tv"), is_not.pressed("remote.power_button") },
+  init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"), is_not.pressed("remote.power_button") },
   goal = in_order { is.pointing_at("remote", "tv"),
     all_of { is.pressed("remote.power_button"), is.pointing_at("remote", "tv"), is.hand_empty() } },
   instructions = {

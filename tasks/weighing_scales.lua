@@ -6,7 +6,8 @@ return task {
     scales = { "kitchen_scales", at = { between(0.14, 0.30), between(-0.20, 0.20), 0.75 }, yaw = between(math.pi - 0.8, math.pi + 0.8) },
     green_pepper = { "green_pepper" }, red_pepper = { "red_pepper" }, yellow_pepper = { "yellow_pepper" },
   },
-  init = { is.on("green_pepper", "table"), is.on("red_pepper", "table"), is.on("yellow_pepper", "table") },
+  init = { is.on("green_pepper", "table"), is.on("red_pepper", "table"), is.on("yellow_pepper", "table"),
+    is.reachable("green_pepper"), is.reachable("red_pepper"), is.reachable("yellow_pepper") },
   goal = function(v)
     local goal = { is.on(v.colour .. "_pepper", "scales.tray"), is.hand_empty() }
     for _, colour in ipairs { "green", "red", "yellow" } do

@@ -5,7 +5,7 @@
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
 ---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
----@field blocked fun(place: string): stampede.literal  something shut is before the {place} (place: anything)
+---@field blocked fun(place: string): stampede.literal  something is before or above the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
@@ -30,16 +30,18 @@
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
+---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
+---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
 
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
 ---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
----@field blocked fun(place: string): stampede.literal  something shut is before the {place} (place: anything)
+---@field blocked fun(place: string): stampede.literal  something is before or above the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
 ---@field colour fun(obj: string, value: string): stampede.literal  the colour of the {obj} is {value} (obj: anything, value: value)
@@ -64,10 +66,12 @@
 ---@field pointing_at fun(obj: string, aim: string): stampede.literal  the {obj} points at the {aim} (obj: pointable, aim: aim)
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
+---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
+---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
@@ -125,10 +129,12 @@
 ---| "pointing_at"
 ---| "pressed"
 ---| "pressed_with"
+---| "reachable"
 ---| "rests_on"
 ---| "spaced"
 ---| "switched_on"
 ---| "turned"
+---| "under"
 
 ---@alias stampede.type_name
 ---| "area"

@@ -304,6 +304,10 @@ function stampede_world_view:grasped(thing) end
 ---@return boolean carried
 ---@return number margin
 function stampede_world_view:carried(thing) end
+-- Could the arm, from where it is, take it with two of its grasps at least, nothing in the way?
+---@param thing string
+---@return boolean
+function stampede_world_view:can_grasp(thing) end
 ---@return string|nil
 function stampede_world_view:grasped_object() end
 -- Of the hand

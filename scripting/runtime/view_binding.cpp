@@ -322,6 +322,7 @@ constexpr luaL_Reg kMethods[] = {
     {"at_rest", lua_function<single_test<&WorldView::at_rest>>},
     {"grasped", lua_function<judged<&WorldView::grasped>>},
     {"carried", lua_function<judged<&WorldView::carried>>},
+    {"can_grasp", lua_function<single_test<&WorldView::can_grasp>>},
     {"grasped_object", lua_function<grasped_object>},
     {"opening", lua_function<opening>},
     {"inside", lua_function<inside>},
