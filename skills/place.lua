@@ -8,7 +8,7 @@ return skill {
   label = "put the {obj} on the {to}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in
-    robot:move_through { approach = down:offset(0, 0, 0.08), place = down }
+    robot:move_through { approach = down:offset(0, 0, 0.08), place = down, ahead = down:along(0, 0, -0.08) }
     robot:wait(0.1)
     robot:open_hand(robot:view():opening() + 0.02)                      -- no wider: there may be neighbours
     local _, _, z = robot:tip():position()

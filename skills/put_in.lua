@@ -8,7 +8,8 @@ return skill {
   label = "put the {obj} into the {box}",
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.005))
-    robot:move_through { approach = down:offset(0, 0, 0.14), place = down }
+    robot:move_through { { "approach", down:offset(0, 0, 0.14) }, { "over", down:offset(0, 0, 0.06) }, { "ahead", down } }
+    robot:move_line(down, { speed = 0.12, most_force = 20 })            -- what hangs askew in the hand may meet a wall
     robot:wait(0.1)
     robot:open_hand()
     robot:lift(0.14)

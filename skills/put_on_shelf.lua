@@ -13,7 +13,9 @@ return skill {
     out_x, out_y = out_x - x, out_y - y
     local down = robot:tip_for(p.obj, c.spot)
     local over = down:offset(0, 0, 0.015)
-    robot:move_through { { "before", over:offset(out_x, out_y, 0) }, { "over", over } }
+    robot:move_through {
+      { "before", over:offset(out_x, out_y, 0) }, { "over", over }, { "ahead", down }, { "ahead", down:offset(out_x, out_y, 0) },
+    }
     robot:move_line(down, { speed = 0.1, most_force = 15 })             -- it sags a little in a slanting hand
     robot:wait(0.1)
     robot:open_hand()

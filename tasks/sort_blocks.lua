@@ -18,12 +18,13 @@ return task {
       a = { "sorting_block", colour = v.first, count = 10 },
       b = { "sorting_block", colour = v.second, count = 10 },
       c = { "sorting_block", colour = v.third, count = 10 },
-      a_tray = { "tray", colour = v.first, at = { 0.325, -0.25, 0.755 } },
-      b_tray = { "tray", colour = v.second, at = { 0.325, 0, 0.755 } },
-      c_tray = { "tray", colour = v.third, at = { 0.325, 0.25, 0.755 } },
+      a_tray = { "tray", colour = v.first, at = { 0.315, -0.25, 0.755 } },
+      b_tray = { "tray", colour = v.second, at = { 0.315, 0, 0.755 } },
+      c_tray = { "tray", colour = v.third, at = { 0.315, 0.25, 0.755 } },
     }
   end,
-  init = { is.on("a*", "table"), is.on("b*", "table"), is.on("c*", "table") },
+  init = { is.on("a*", "table"), is.on("b*", "table"), is.on("c*", "table"),
+    is.reachable("a*"), is.reachable("b*"), is.reachable("c*") },
   goal = { is.on("a*", "a_tray"), is.on("b*", "b_tray"), is.on("c*", "c_tray"), is.hand_empty() },
   subgoals = {
     { "first_colour", is.on("a*", "a_tray") },

@@ -83,6 +83,25 @@ local function handy(w, obj, box, spots)
   return kept
 end
 
+-- What the hand holds goes where `handy` allows, the hand along the sides of the box: first with its fingers to either
+-- side, then to front and back. In a box that more than one thing goes into, its number `hand_aside` is the least |y|.
+local function handed(w, obj, box, rng)
+  local _, _, high = w:size(inner(w, box))
+  local x, y = w:tip():position()
+  local finger_x, finger_y = w:tip():along(0, 1, 0):position()
+  local _, _, yaw = w:pose(obj):rpy()
+  local off = yaw - math.atan(finger_y - y, finger_x - x) + math.pi / 2 -- of the object, its fingers to either side of the box
+  local least, most, turn = w:number(box, "hand_aside", 0), w:number(box, "hand_side"), w:number(box, "hand_turn")
+  local poses = {}
+  for i = 1, 48 do
+    local quarter = (i % 2 * 2 + (i > 24 and 1 or 0)) * math.pi / 2
+    local side = (i % 4 < 2 and 1 or -1) * rng:between(least, most)
+    poses[i] = w:pose(inner(w, box)):along(rng:between(w:number(box, "hand_front"), w:number(box, "hand_back")), side,
+      w:below(obj) - high / 2 + 0.003):rotated(0, 0, off + quarter + rng:between(-turn, turn))
+  end
+  return poses
+end
+
 -- On a spot that says how things lie there: `folds` is how many ways round they may (1: as the spot, 2: or the other way, …).
 local function aligned(w, obj, spot, folds, rng)
   local _, _, high = w:size(spot)
@@ -109,6 +128,7 @@ return predicate {
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
     local folds = w:number(box, "folds", 0)
     if folds > 0 then return aligned(w, obj, box, folds, rng) end
+    if w:grasped(obj) and w:number(box, "hand_side", 0) > 0 then return handed(w, obj, box, rng) end
     return handy(w, obj, box, w:region_spots(inner(w, box), obj, rng))
   end,
 }

@@ -1,12 +1,12 @@
 -- The object rests on the support, which bears it from below. While the hand holds it too, it is on the support until it
 -- leaves it: the fact ends at the frame in which pictures show a gap, not when the fingers close.
--- Spots with room for fingers around them, where the object asks for it (number `room`: m from centre to centre, and
--- most of it to the edge of what stands up beside it); all spots where there are none such.
+-- First the spots with room for fingers around them, where the object asks for it (number `room`: m from centre to centre,
+-- and most of it to the edge of what stands up beside it), then the others.
 local function roomy(w, obj, below, spots)
   local room = w:number(obj, "room", 0)
   if room == 0 or #spots == 0 then return spots end
   local _, _, z = spots[1]:position()
-  local others, edges, kept = {}, {}, {}
+  local others, edges, kept, rest = {}, {}, {}, {}
   for _, other in ipairs(w:objects("movable")) do
     if other ~= obj then others[#others + 1] = { w:position(other) } end
   end
@@ -25,9 +25,10 @@ local function roomy(w, obj, below, spots)
       local along, across = edge.from:times(spot):position()
       free = free and (math.abs(along) >= edge.x or math.abs(across) >= edge.y)
     end
-    if free then kept[#kept + 1] = spot end
+    if free then kept[#kept + 1] = spot else rest[#rest + 1] = spot end
   end
-  return #kept > 0 and kept or spots
+  for _, spot in ipairs(rest) do kept[#kept + 1] = spot end
+  return kept
 end
 
 -- What always stands on its foot (number `stands`) does so however the hand holds it.
