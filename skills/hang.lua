@@ -23,7 +23,8 @@ return skill {
     local away = 0.03 / (length / 2 + c.clear)                          -- and a little further at first
     local before = over:offset(ox - x, oy - y, oz - z)
     robot:move_through {
-      { "approach", before:offset(away * (ox - x), away * (oy - y), away * (oz - z) + 0.03) }, { "goal", before }, { "ahead", over }, { "ahead", hung },
+      { "approach", before:offset(away * (ox - x), away * (oy - y), away * (oz - z) + 0.03) }, { "goal", before },
+      { "ahead", over }, { "ahead", hung }, { "ahead", hung:along(0, 0, -0.10) }, -- and back again
     }
     robot:move_line(over, { speed = c.speed, keep_clear = true })       -- of all but the hook
     robot:move_line(hung, { speed = 0.5 * c.speed, keep_clear = true, tolerate = true })

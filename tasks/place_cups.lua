@@ -7,7 +7,7 @@ return task {
       yaw = between(-math.pi / 2, math.pi / 2) },
     mug = { "mug", count = 3 },
   },
-  init = { is.on("mug*", "table"), is_not.crowds("tree", "mug*") },
+  init = { is.on("mug*", "table"), is_not.crowds("tree", "mug*"), is.reachable("mug*") },
   goal = function(v)
     return { is.hand_empty(), any_order("mug*", v.count, function(mug, i)
       return exists("?h: hook", is.hanging(mug[i], "?h"))

@@ -7,7 +7,7 @@ return task {
     oven = { "oven", place = places.round_the_table(0.14, 0.28, 0.75) },
     tray = { "baking_tray" },
   },
-  init = { is.closed("oven.door"), is.on("tray", "table"), is_not.inside("tray", "oven.front") },
+  init = { is.closed("oven.door"), is.on("tray", "table"), is.outside("tray", "oven.front") },
   goal = { is.inside("tray", "oven.shelf"), is.hand_empty() },
   instructions = {
     "put the tray in the oven",

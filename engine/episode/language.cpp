@@ -6,8 +6,12 @@
 namespace stampede {
 namespace {
 
+// `red_square2`: red square 2; `c8` stays.
 std::string spaced(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
+  const std::size_t digits = text.find_last_not_of("0123456789") + 1;
+  const std::size_t word = text.rfind(' ', digits) + 1;  // 0: the first
+  if (digits < text.size() && digits > word + 1) text.insert(digits, " ");
   return text;
 }
 

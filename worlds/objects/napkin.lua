@@ -12,5 +12,8 @@ return object {
     box { 0.19, 0.012, 0.0004, at = { 0, 0.095, thick }, colour = { 0.40, 0.52, 0.36 }, collides = false },
     box { 0.19, 0.012, 0.0004, at = { 0, -0.095, thick }, colour = { 0.40, 0.52, 0.36 }, collides = false },
   },
-  regions = { left = place(0.07), middle = place(0), right = place(-0.07) },
+  regions = {
+    left = place(0.07), middle = place(0), right = place(-0.07),
+    outline = { at = { 0, 0, 0.02 }, size = { 0.20, 0.23, 0.04 }, traits = { "marked" } },
+  },
 }

@@ -28,7 +28,7 @@ return object {
       shapes = { box { wall, width - 2 * wall, 0.044 } },
     },
   },
-  regions = { -- where the flap comes down, and as far again as half a baking tray
-    front = { at = { -depth / 2 - 0.19, 0, 0.02 }, size = { 0.42, width + 0.26, 0.04 }, traits = { "container" } },
+  regions = { -- a baking tray that lies wholly outside is clear of the flap
+    front = { at = { -depth / 2 - 0.19, 0, 0.02 }, size = { 0.14, width - 0.02, 0.04 }, traits = { "marked" } },
   },
 }

@@ -64,13 +64,12 @@ local function looks_open(w, box)
   return not shut
 end
 
--- Spots that a hand can get at from above, where the container says which (numbers `hand_back` and `hand_side`: greatest x
--- and |y| in its frame, m). What lies in it at the start must be taken out too: it keeps `hand_front` (least x) and is
--- turned at most `hand_turn` (rad) out of the box's own directions, so that the palm has room.
+-- Spots that a hand can get at from above, where the container says which (numbers `hand_front` and `hand_back`: least and
+-- greatest x in its frame, `hand_side`: greatest |y|, m), turned at most `hand_turn` (rad) out of its own directions, so that
+-- the palm has room.
 local function handy(w, obj, box, spots)
-  local back, side = w:number(box, "hand_back", 1), w:number(box, "hand_side", 1)
-  local front, turn = -1, math.pi
-  if not w:grasped(obj) then front, turn = w:number(box, "hand_front", -1), w:number(box, "hand_turn", math.pi) end
+  local front, back, side = w:number(box, "hand_front", -1), w:number(box, "hand_back", 1), w:number(box, "hand_side", 1)
+  local turn = w:number(box, "hand_turn", math.pi)
   local kept, from = {}, w:pose(box):inverse()
   for _, spot in ipairs(spots) do
     local inside = from:times(spot)

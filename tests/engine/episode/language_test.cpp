@@ -49,3 +49,11 @@ TEST_CASE("things above each other are told apart by that") {
   put(scene, "cube3", {0.5, 0, 0.2});
   CHECK(phrases(scene, 3) == Words{"upper cube", "lower cube", "middle cube"});
 }
+
+TEST_CASE("a number at the end of a name stands apart, the name of a square of a chess board does not") {
+  const Scene scene = table_scene(0);
+  CHECK(phrase(scene, "red_square12") == "red square 12");
+  CHECK(phrase(scene, "socket3") == "socket 3");
+  CHECK(phrase(scene, "c8") == "c8");
+  CHECK(phrase(scene, "row c8") == "row c8");
+}
