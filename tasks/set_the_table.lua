@@ -16,8 +16,7 @@ return task {
   init = {
     is.inside("fork", "napkin.left"), is.inside("knife", "napkin.middle"), is.inside("spoon", "napkin.right"),
     is.on("bowl", "table"), is.on("glass", "table"), is.spaced("bowl", "mat.left"), is.spaced("bowl", "mat.right"),
-    is.spaced("glass", "mat.left"), is.spaced("glass", "mat.right"), is.outside("glass", "mat.outline"),
-    is.outside("bowl", "napkin.outline"), is.outside("glass", "napkin.outline"),
+    is.outside("glass", "mat.outline"), is.outside("bowl", "napkin.outline"), is.outside("glass", "napkin.outline"),
     is_not.crowds("bowl", "fork"), is_not.crowds("glass", "fork"), is_not.crowds("bowl", "spoon"), is_not.crowds("glass", "spoon"),
   },
   goal = {

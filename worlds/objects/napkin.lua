@@ -14,6 +14,6 @@ return object {
   },
   regions = {
     left = place(0.07), middle = place(0), right = place(-0.07),
-    outline = { at = { 0, 0, 0.02 }, size = { 0.20, 0.23, 0.04 }, traits = { "marked" } },
+    outline = { at = { 0, 0, 0.02 }, size = { 0.17, 0.20, 0.04 }, traits = { "marked" } }, -- less what a round thing lacks at its corners
   },
 }

@@ -14,7 +14,7 @@ return object {
   },
   regions = {
     middle = place(0.03, -0.01, 0.036, 12), left = place(0.045, -0.145, 0.016, 1), right = place(0.045, 0.125, 0.016, 1),
-    outline = { at = { 0, 0, 0.02 }, size = { 0.29, 0.42, 0.04 }, traits = { "marked" } }, -- and 2 cm round it
+    outline = { at = { 0, 0, 0.02 }, size = { 0.27, 0.40, 0.04 }, traits = { "marked" } }, -- and 1 cm round it
     outer_right = place(0.045, 0.165, 0.016, 1), corner = place(-0.08, 0.09, 0.090, 12),
   },
 }
