@@ -39,10 +39,17 @@ std::optional<std::vector<double>> from_json_numbers(std::string_view json);
 inline constexpr std::size_t kJointsARow = 12, kChannelsARow = 16, kComponentsARow = 8;
 std::string numbered(const std::string& name, std::size_t count);  // name_0, name_1 …
 template <typename Value>  // those of a part, of all; none: there is no such part
-sql::Wide<Value> part_of(std::span<const Value> values, std::size_t part, std::size_t a_row) {
+sql::Wide<Value> part_of(std::span<const Value> values, std::size_t part, std::size_t a_row,
+                         sql::UnknownValues unknown = sql::UnknownValues::refused) {
   const std::size_t first = std::min(part * a_row, values.size());
-  return {values.subspan(first, std::min(a_row, values.size() - first)), a_row};
+  return {values.subspan(first, std::min(a_row, values.size() - first)), a_row, unknown};
 }
+
+// What a real recording does not know is NaN in its record and NULL in the file.
+inline sql::UnknownValues unknown_values_of(const EpisodeRecord& episode) {
+  return episode.real ? sql::UnknownValues::allowed : sql::UnknownValues::refused;
+}
+inline std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 // A row of camera; the ordinal is not read.
 inline constexpr const char* kCameraColumns =

@@ -93,8 +93,8 @@ void EpisodeReader::take_part(const sql::Statement& row, int column, std::size_t
   const std::size_t first = part * a_row;
   if (part >= all.size() || first >= all.size()) damaged(table);
   for (double& value : all.subspan(first, std::min(a_row, all.size() - first))) {
-    if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL) damaged(table);
-    value = sqlite3_column_double(row.handle(), column++);
+    if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL && !record_.real) damaged(table);
+    value = known_or_nan(row, column++);
   }
 }
 
@@ -102,17 +102,20 @@ void EpisodeReader::read_episode() {
   sql::Statement row(
       database_,
       "SELECT e.key, e.task, e.world, coalesce(e.variation, ''), coalesce(e.seed, 0), e.split, e.outcome, "
-      "e.reason, e.detail, e.beside_goal, e.physics_hz, e.frame_hz, e.steps, e.draws, coalesce(e.state_hash, ''), "
+      "e.reason, e.detail, e.beside_goal, e.physics_hz, e.frame_hz, e.steps, coalesce(e.draws, 1), "
+      "coalesce(e.state_hash, ''), "
       "e.engine_run, coalesce(s.document, ''), coalesce(t.wall_s, 0), coalesce(t.physics_wall_s, 0), "
-      "e.frames, (SELECT count(*) FROM frame f WHERE f.episode = e.id) FROM episode e LEFT JOIN scene s ON s.hash = "
+      "e.frames, (SELECT count(*) FROM frame f WHERE f.episode = e.id), e.source FROM episode e LEFT JOIN scene s ON "
+      "s.hash = "
       "e.scene "
       "LEFT JOIN timing t ON t.episode = e.id WHERE e.id = ?1");
   if (!row.start(id_).step()) throw_no_episode(database_, id_);
   EpisodeRecord& e = record_;
-  std::string split, outcome, reason, scene;
+  std::string split, outcome, reason, scene, source;
   std::int64_t frames = 0, stored = 0, physics_hz = 0, frame_hz = 0;
   row.read(e.key, e.task, e.world, e.variation, e.seed, split, outcome, reason, e.detail, e.beside_goal, physics_hz,
-           frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames, stored);
+           frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames, stored, source);
+  e.real = source == "real";
   const std::string here = "episode " + std::to_string(id_) + ", ";
   require_within(database_.path(), here + "physics_hz", physics_hz, 1, kMostHz);
   require_within(database_.path(), here + "frame_hz", frame_hz, 1, physics_hz);
@@ -247,6 +250,7 @@ void EpisodeReader::read_frames() {
     row.read(frame);
     FrameRecord& f = at(record_.frames, frame, "frame");
     row.read(frame, f.step, f.reward, f.done);
+    f.reward = known_or_nan(row, 2);
   });
   each("frame, part, " + numbered("position", kJointsARow) + ", " + numbered("velocity", kJointsARow) + ", " +
            numbered("effort", kJointsARow),
@@ -267,8 +271,13 @@ void EpisodeReader::read_frames() {
          std::int64_t frame = 0, hand = 0;
          row.read(frame, hand);
          HandRecord& h = at(at(record_.frames, frame, "hand_state").hands, hand, "hand_state");
-         row.read(frame, hand, h.tip, h.twist[0], h.twist[1], h.twist[2], h.twist[3], h.twist[4], h.twist[5], h.opening,
-                  h.touch[0], h.touch[1]);
+         int column = 2;
+         const auto take = [&](auto& values) {
+           for (double& value : values) value = known_or_nan(row, column++);
+         };
+         take(h.tip.position), take(h.tip.quaternion), take(h.twist);
+         h.opening = known_or_nan(row, column++);
+         take(h.touch);
        });
   read_poses();
 }

@@ -1,6 +1,7 @@
 // Reads one stored episode, table by table. Inside this room only.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -11,6 +12,12 @@
 namespace stampede {
 
 inline Outcome outcome_from(const std::string& text) { return text == "success" ? Outcome::success : Outcome::failure; }
+
+// What a real recording does not know is NULL in the file.
+inline double known_or_nan(const sql::Statement& row, int column) {
+  if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL) return std::numeric_limits<double>::quiet_NaN();
+  return sqlite3_column_double(row.handle(), column);
+}
 
 inline constexpr const char* kPoseColumns = "x, y, z, qx, qy, qz, qw";
 
@@ -38,6 +45,7 @@ class EpisodeReader {
     read_facts();
     read_passages();
     read_language();
+    read_streams();
     return std::move(record_);
   }
 
@@ -97,6 +105,7 @@ class EpisodeReader {
   void read_passages();
   void read_language();
   void read_documents();
+  void read_streams();
   SegmentRecord& owner(bool undone, std::int64_t ordinal);
 
   const sql::Database& database_;

@@ -111,7 +111,7 @@ void EpisodeWriter::prepare_labels() {
                 "passed_qx, passed_qy, passed_qz, passed_qw, step, speed, tool_speed");
   fact_ = insert("fact",
                  "episode, ordinal, predicate, arg1, arg2, arg3, arg4, fact, start_step, end_step, first_frame, "
-                 "end_frame, open_start, open_end, observed, margin");
+                 "end_frame, open_start, open_end, observed, margin, labelled_by");
   observed_fact_ =
       insert("observed_fact",
              "episode, ordinal, predicate, arg1, arg2, arg3, arg4, fact, start_step, end_step, first_frame, "
@@ -119,12 +119,16 @@ void EpisodeWriter::prepare_labels() {
   contact_ =
       insert("contact", "episode, ordinal, object_a, part_a, object_b, part_b, first_frame, end_frame, peak_force");
   grasp_ = insert("grasp", "episode, ordinal, segment, object, x, y, z, qx, qy, qz, qw, width, held");
-  language_ = insert("language", "episode, ordinal, level, segment, text, source");
+  language_ = insert("language", "episode, ordinal, level, segment, text, source, grain, model");
   document_ = insert("document", "episode, ordinal, kind, text");
   verdict_ = insert("verdict", "episode, dialect, theirs, ours, disagreements");
   keyframe_ = insert("keyframe", "episode, method, frame");
   mask_ = insert("mask", "episode, instance, name, object, class, semantic, colour");
   image_ = insert("image", "episode, frame, camera, kind, width, height, data");
+  stream_ = insert("stream",
+                   "episode, ordinal, kind, name, file, clock, offset_s, drift_ppm, reference_s, origin_s, rate_hz, "
+                   "readings, longest_gap_s, missing, rule");
+  image_time_ = insert("image_time", "episode, frame, camera, kind, time_s");
   visible_ = insert("mask_pixels", "episode, frame, camera, instance, pixels");
 }
 

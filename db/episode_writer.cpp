@@ -79,10 +79,20 @@ void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const E
   write_cameras(episode);  // their mounts are named by masks and objects
   write_frames(episode);
   write_images(episode);
+  write_streams(episode);
   write_labels(episode);
 }
 
+void EpisodeWriter::write_streams(const EpisodeRecord& episode) {
+  int ordinal = 0;
+  for (const StreamRecord& s : episode.streams)
+    stream_.run(id_, ordinal++, s.kind, s.name, s.file, s.clock, s.offset_s, s.drift_ppm, s.reference_s, s.origin_s,
+                s.rate_hz, s.readings, s.longest_gap_s, s.missing, s.rule);
+  for (const ImageTimeRecord& i : episode.image_times) image_time_.run(id_, i.frame, i.camera, i.kind, i.time_s);
+}
+
 void EpisodeWriter::write_variation(const EpisodeRecord& episode) {
+  if (episode.real) return;
   variation_.run(episode.task, episode.variation);
   for (const auto& [axis, value] : episode.axes) variation_axis_.run(episode.task, episode.variation, axis, value);
 }
@@ -126,9 +136,12 @@ void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engi
   std::optional<std::string> scene;  // a start that could not be made has none
   if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
   const double duration = e.duration_s();
-  episode_.run(id_, e.key, e.task, e.world, e.variation, e.seed, to_string(e.split),
+  const auto simulated = [&](const auto& value) { return e.real ? std::nullopt : std::optional(value); };
+  const auto variation = simulated(e.variation), state_hash = simulated(e.state_hash);
+  episode_.run(id_, e.key, e.task, e.world, variation, simulated(e.seed), to_string(e.split),
                e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
-               e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, e.draws, e.state_hash, "sim", scene, run);
+               e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, simulated(e.draws), state_hash,
+               e.real ? "real" : "sim", scene, run);
   timing_.run(id_, e.wall_s, e.physics_wall_s);
 }
 

@@ -31,6 +31,7 @@ class EpisodeWriter {
   void write_names(const EpisodeRecord& episode);
   void write_cameras(const EpisodeRecord& episode);
   void write_camera(int ordinal, const Camera& camera);
+  void write_streams(const EpisodeRecord& episode);
 
   // write_frames.cpp: what was observed and commanded
   void write_frames(const EpisodeRecord& episode);
@@ -73,7 +74,7 @@ class EpisodeWriter {
   sql::Statement episode_, timing_, object_, object_trait_, object_attribute_, posed_, joint_, hand_, camera_;
   sql::Statement frame_, joint_state_, hand_state_, object_state_, camera_pose_, action_channel_, action_,
       agent_action_, command_, channel_, component_, sample_;
-  sql::Statement mask_, image_, visible_, stored_image_, mount_link_;
+  sql::Statement mask_, image_, visible_, stream_, image_time_, stored_image_, mount_link_;
   sql::Statement segment_, parameter_, precondition_, effect_, effects_held_, undeclared_, via_, fact_, observed_fact_,
       contact_, grasp_, language_, document_, verdict_, keyframe_;
 };

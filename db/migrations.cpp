@@ -33,8 +33,8 @@ struct Parts {
   std::string copied, in_place, written;
 };
 Parts parts_of(const std::string& text, const std::string& old) {
-  const std::size_t views = std::min(text.find("\n-- in place"), text.size());
   const std::size_t tables = std::min(text.find("\n-- to write"), text.size());
+  const std::size_t views = std::min(text.find("\n-- in place"), tables);  // where there are none: no such part
   Parts parts{text.substr(0, views), text.substr(views, tables - views), text.substr(tables)};
   const std::string from = "FROM old.";
   for (std::size_t at = 0; (at = parts.in_place.find(from, at)) != std::string::npos; at += from.size())
@@ -53,7 +53,8 @@ void copy_table(const sql::Database& database, const std::string& table) {
 
 const std::vector<Release>& earlier_releases() {
   static const std::vector<Release> releases = {{5, "b42eca7836102aadf68a7328d44acb2f"},
-                                                {6, "46e3d1c4dfe2701f86da6280a2a0bfaf"}};
+                                                {6, "46e3d1c4dfe2701f86da6280a2a0bfaf"},
+                                                {7, "309c69e3b94417272c25c283956be2db"}};
   return releases;
 }
 

@@ -14,7 +14,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Columns of a row from `first` on.
 void take(const sql::Statement& row, int first, std::size_t count, double* to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] = sqlite3_column_double(row.handle(), first + static_cast<int>(i));
+  for (std::size_t i = 0; i < count; ++i) to[i] = known_or_nan(row, first + static_cast<int>(i));
 }
 
 class ArrayReader : private EpisodeReader {
@@ -48,12 +48,13 @@ void ArrayReader::read_head() {
   sql::Statement row(database_,
                      "SELECT task, coalesce(variation, ''), coalesce(seed, 0), physics_hz, frame_hz, frames, "
                      "(SELECT count(*) FROM frame f WHERE f.episode = e.id), "
-                     "(SELECT count(*) FROM action_channel a WHERE a.episode = e.id AND a.space = 'joint_position') "
+                     "(SELECT count(*) FROM action_channel a WHERE a.episode = e.id AND a.space = 'joint_position'), "
+                     "source = 'real' "
                      "FROM episode e WHERE id = ?1");
   if (!row.start(id_).step()) throw_no_episode(database_, id_);
   std::int64_t frames = 0, rows = 0, commanded = 0;
-  row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, rows,
-           commanded);
+  row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, rows, commanded,
+           record_.real);
   if (frames != rows || record_.physics_hz < 1 || record_.frame_hz < 1) damaged("episode");
   tables_.frames = static_cast<std::size_t>(frames);
   tables_.commanded = static_cast<std::size_t>(commanded);
@@ -64,7 +65,7 @@ void ArrayReader::read_frame_rows() {
     double reward = 0;
     bool done = false;
     row.read(tables_.step.emplace_back(), reward, done);
-    tables_.reward.push_back(reward);
+    tables_.reward.push_back(known_or_nan(row, 1));
     tables_.done.push_back(done ? 1 : 0);
   });
   if (tables_.step.size() != tables_.frames) damaged("frame");

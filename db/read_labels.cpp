@@ -22,14 +22,15 @@ Fact fact_from(const std::string& text) {  // (on block1 table)
 constexpr const char* kSegmentColumns =
     "undone, coalesce(was_ordinal, ordinal), coalesce(before_segment, 0), try_number, kind, coalesce(parent, -1), "
     "robot, skill, case_name, arguments, controller, start_step, end_step, first_frame, end_frame, outcome, reason, "
-    "detail, precondition_held, effect_held, missing_effects, forgotten, searched_for, label";
+    "detail, precondition_held, effect_held, missing_effects, forgotten, searched_for, label, labelled_by";
 
 void read_segment(const sql::Database& database, sql::Statement& row, AttemptRecord& a, bool& undone) {
   SegmentRecord& s = a.segment;
-  std::string kind, arguments, outcome, reason, missing, forgotten, searched;
+  std::string kind, arguments, outcome, reason, missing, forgotten, searched, labelled_by;
   row.read(undone, s.ordinal, a.before_segment, a.try_number, kind, s.parent, s.robot, s.skill, s.case_name, arguments,
            s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason,
-           s.detail, s.precondition_held, s.effect_held, missing, forgotten, searched, s.label);
+           s.detail, s.precondition_held, s.effect_held, missing, forgotten, searched, s.label, labelled_by);
+  s.labelled_by = labeller_from(labelled_by).value_or(Labeller::simulator);
   s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
   s.arguments = from_json_list(database, arguments);
   s.outcome = outcome_from(outcome);
@@ -99,12 +100,13 @@ void EpisodeReader::read_segment_details() {
 }
 
 void EpisodeReader::read_facts() {
-  each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end, observed, margin", "fact", "ordinal",
-       [&](sql::Statement& row) {
+  each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end, observed, margin, labelled_by",
+       "fact", "ordinal", [&](sql::Statement& row) {
          FactRecord& f = record_.facts.emplace_back();
-         std::string fact;
+         std::string fact, labelled_by;
          row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
-                  f.margin);
+                  f.margin, labelled_by);
+         f.labelled_by = labeller_from(labelled_by).value_or(Labeller::simulator);
          f.fact = fact_from(fact);
        });
   each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end", "observed_fact", "ordinal",
@@ -147,12 +149,15 @@ void EpisodeReader::read_documents() {
 }
 
 void EpisodeReader::read_language() {
-  each("level, text, coalesce(segment, -1)", "language", "ordinal", [&](sql::Statement& row) {
-    LanguageRecord& l = record_.language.emplace_back();
-    std::string level;
-    row.read(level, l.text, l.segment);
-    l.level = language_level_from(level).value_or(LanguageLevel::task);
-  });
+  each("level, text, coalesce(segment, -1), source, coalesce(grain, ''), coalesce(model, '')", "language", "ordinal",
+       [&](sql::Statement& row) {
+         LanguageRecord& l = record_.language.emplace_back();
+         std::string level, source, grain;
+         row.read(level, l.text, l.segment, source, grain, l.model);
+         l.level = language_level_from(level).value_or(LanguageLevel::task);
+         l.source = language_source_from(source).value_or(LanguageSource::pattern);
+         l.grain = language_grain_from(grain);
+       });
   read_documents();
   each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {
     VerdictRecord& v = record_.verdicts.emplace_back();
@@ -165,6 +170,21 @@ void EpisodeReader::read_language() {
     std::int64_t frame = 0;
     row.read(method, frame);
     record_.keyframes[method].push_back(frame);
+  });
+}
+
+void EpisodeReader::read_streams() {
+  each(
+      "kind, name, file, clock, offset_s, drift_ppm, reference_s, origin_s, rate_hz, readings, longest_gap_s, missing, "
+      "rule",
+      "stream", "ordinal", [&](sql::Statement& row) {
+        StreamRecord& s = record_.streams.emplace_back();
+        row.read(s.kind, s.name, s.file, s.clock, s.offset_s, s.drift_ppm, s.reference_s, s.origin_s, s.rate_hz,
+                 s.readings, s.longest_gap_s, s.missing, s.rule);
+      });
+  each("frame, camera, kind, time_s", "image_time", "frame, camera, kind", [&](sql::Statement& row) {
+    ImageTimeRecord& i = record_.image_times.emplace_back();
+    row.read(i.frame, i.camera, i.kind, i.time_s);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,11 +20,13 @@ struct Blob {
   std::string_view bytes;
 };
 
-// Values for so many places; those that are left are NULL.
+// Values for so many places; those that are left are NULL, and where that is `allowed`, NaN too.
+enum class UnknownValues { refused, allowed };
 template <typename Value>
 struct Wide {
   std::span<const Value> values;
   std::size_t places = 0;
+  UnknownValues unknown = UnknownValues::refused;
 };
 
 class Database {
@@ -84,13 +87,20 @@ class Statement {
   void bind(bool value) { bind(static_cast<std::int64_t>(value)); }
   void bind(std::size_t value) { bind(static_cast<std::int64_t>(value)); }
   void bind(double value);
+  void bind(double value, UnknownValues unknown) {
+    if (unknown == UnknownValues::allowed && std::isnan(value))
+      bind(std::nullopt);
+    else
+      bind(value);
+  }
+  void bind(const std::optional<double>& value, UnknownValues) { bind(value); }
   void bind(std::string_view value);
   void bind(const std::string& value) { bind(std::string_view(value)); }
   void bind(const char* value) { bind(std::string_view(value)); }
   void bind(Blob value);
   template <typename Value>
   void bind(const Wide<Value>& wide) {
-    for (const Value& value : wide.values) bind(value);
+    for (const Value& value : wide.values) bind(value, wide.unknown);
     for (std::size_t i = wide.values.size(); i < wide.places; ++i) bind(std::nullopt);
   }
   void bind(std::nullopt_t);

@@ -8,6 +8,17 @@
 namespace stampede {
 namespace {
 
+constexpr std::size_t kHandColumns = 16;
+std::array<double, kHandColumns> columns_of(const HandRecord& hand) {
+  std::array<double, kHandColumns> values{};
+  auto next = std::copy(hand.tip.position.begin(), hand.tip.position.end(), values.begin());
+  next = std::copy(hand.tip.quaternion.begin(), hand.tip.quaternion.end(), next);
+  next = std::copy(hand.twist.begin(), hand.twist.end(), next);
+  *next++ = hand.opening;
+  std::copy(hand.touch.begin(), hand.touch.end(), next);
+  return values;
+}
+
 constexpr std::array<const char*, 7> kPoseNames{"x", "y", "z", "qx", "qy", "qz", "qw"};
 
 std::optional<std::string> text_where(bool there, const std::string& text) {
@@ -38,6 +49,7 @@ std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::strin
 }  // namespace
 
 void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
+  const sql::UnknownValues unknown = unknown_values_of(episode);
   const auto skill = running(episode, "skill"), motion = running(episode, "motion"),
              subgoal = running(episode, "subgoal");
   std::map<int, std::string_view> names;
@@ -47,22 +59,24 @@ void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
   };
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
-    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, frame.reward, frame.done,
-               skill[i], motion[i], subgoal[i], name_of(motion[i]), name_of(subgoal[i]));
+    const std::optional<double> reward = unknown == sql::UnknownValues::allowed ? known(frame.reward) : frame.reward;
+    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, reward, frame.done, skill[i],
+               motion[i], subgoal[i], name_of(motion[i]), name_of(subgoal[i]));
   }
   // Table by table: each grows at its end.
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     for (std::size_t part = 0; part * kJointsARow < episode.joints.size(); ++part)
-      joint_state_.run(id_, i, part, part_of<double>(frame.joint_position, part, kJointsARow),
-                       part_of<double>(frame.joint_velocity, part, kJointsARow),
-                       part_of<double>(frame.joint_effort, part, kJointsARow));
+      joint_state_.run(id_, i, part, part_of<double>(frame.joint_position, part, kJointsARow, unknown),
+                       part_of<double>(frame.joint_velocity, part, kJointsARow, unknown),
+                       part_of<double>(frame.joint_effort, part, kJointsARow, unknown));
   }
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     int hand = 0;
-    for (const HandRecord& h : episode.frames[i].hands)
-      hand_state_.run(id_, i, hand++, h.tip, h.twist[0], h.twist[1], h.twist[2], h.twist[3], h.twist[4], h.twist[5],
-                      h.opening, h.touch[0], h.touch[1]);
+    for (const HandRecord& h : episode.frames[i].hands) {
+      const std::array<double, kHandColumns> values = columns_of(h);
+      hand_state_.run(id_, i, hand++, sql::Wide<double>{values, kHandColumns, unknown});
+    }
   }
   write_poses(episode);
   write_actions(episode);
@@ -163,7 +177,8 @@ void EpisodeWriter::write_channels(const EpisodeRecord& episode) {
     for (std::size_t i = 0; i < channel.steps.size(); ++i) {
       const auto values = std::span(channel.values).subspan(i * width, width);
       for (std::size_t part = 0; part * kComponentsARow < width; ++part)
-        sample_.run(id_, ordinal, i, part, channel.steps[i], part_of<double>(values, part, kComponentsARow));
+        sample_.run(id_, ordinal, i, part, channel.steps[i],
+                    part_of<double>(values, part, kComponentsARow, unknown_values_of(episode)));
     }
     ++ordinal;
   }

@@ -30,7 +30,7 @@ void run_segment(sql::Statement& statement, std::int64_t episode, bool undone, i
                 s.robot, s.skill, s.case_name, arg1, arg2, arg3, arg4, list, s.controller, s.span.start_step,
                 s.span.end_step, s.span.first_frame, s.span.end_frame,
                 s.outcome == Outcome::success ? "success" : "failure", to_string(s.reason), s.detail,
-                s.precondition_held, s.effect_held, missing, forgotten, searched, s.label, "simulator");
+                s.precondition_held, s.effect_held, missing, forgotten, searched, s.label, to_string(s.labelled_by));
 }
 
 // From 1: the tries of the same at its place that were undone go before it.
@@ -117,7 +117,7 @@ void EpisodeWriter::write_facts(const EpisodeRecord& episode) {
     const auto arg1 = argument(f.fact.arguments, 0), arg2 = argument(f.fact.arguments, 1),
                arg3 = argument(f.fact.arguments, 2), arg4 = argument(f.fact.arguments, 3);
     fact_.run(id_, ordinal++, f.fact.predicate, arg1, arg2, arg3, arg4, to_text(f.fact), f.start_step, f.end_step,
-              f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed, f.margin);
+              f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed, f.margin, to_string(f.labelled_by));
   }
   ordinal = 0;
   for (const FactRecord& f : episode.observed_facts) {
@@ -144,7 +144,9 @@ void EpisodeWriter::write_language(const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const LanguageRecord& l : episode.language) {
     const std::optional<std::int64_t> segment = index(l.segment);
-    language_.run(id_, ordinal++, to_string(l.level), segment, l.text, "template");
+    const auto grain = l.grain ? std::optional(to_string(*l.grain)) : std::nullopt;
+    const auto model = l.model.empty() ? std::nullopt : std::optional(l.model);
+    language_.run(id_, ordinal++, to_string(l.level), segment, l.text, to_string(l.source), grain, model);
   }
   ordinal = 0;
   for (const DocumentRecord& d : episode.documents)

@@ -16,11 +16,11 @@ CREATE TABLE episode (
   detail TEXT NOT NULL,
   beside_goal TEXT NOT NULL,  -- what success asks and the PDDL goal does not say
   frames INTEGER NOT NULL,
-  steps INTEGER NOT NULL,
+  steps INTEGER NOT NULL,      -- of physics; of a real episode: ticks, physics_hz a second
   duration_s REAL NOT NULL,
   physics_hz INTEGER NOT NULL,
   frame_hz INTEGER NOT NULL,
-  draws REAL NOT NULL,
+  draws REAL,                 -- NULL: a real episode, whose start nobody drew
   state_hash TEXT,
   source TEXT NOT NULL CHECK (source IN ('sim', 'real')),
   scene TEXT REFERENCES scene (hash),
@@ -29,6 +29,7 @@ CREATE TABLE episode (
   CHECK ((source = 'real') = (variation IS NULL)),
   CHECK ((source = 'real') = (seed IS NULL)),
   CHECK ((source = 'real') = (state_hash IS NULL)),
+  CHECK ((source = 'real') = (draws IS NULL)),
   CHECK (seed < 1000000 OR split = 'test'),
   CHECK ((outcome = 'success') = (reason = 'none'))
 ) STRICT;

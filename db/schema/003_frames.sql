@@ -4,7 +4,7 @@ CREATE TABLE frame (
   frame INTEGER NOT NULL,
   step INTEGER NOT NULL,
   time_s REAL NOT NULL,
-  reward REAL NOT NULL,
+  reward REAL,             -- NULL: a real episode
   done INTEGER NOT NULL CHECK (done IN (0, 1)),
   skill_segment INTEGER,   -- innermost segments that run here
   motion_segment INTEGER,
@@ -30,16 +30,16 @@ CREATE TABLE joint_state (  -- twelve joints a row: joint 12 * part + i is in th
   PRIMARY KEY (episode, frame, part)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE hand_state (
+CREATE TABLE hand_state (  -- NULL: not known of a real episode
   episode INTEGER NOT NULL,
   frame INTEGER NOT NULL,
   hand INTEGER NOT NULL,
-  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
-  linear_x REAL NOT NULL, linear_y REAL NOT NULL, linear_z REAL NOT NULL,
-  angular_x REAL NOT NULL, angular_y REAL NOT NULL, angular_z REAL NOT NULL,
-  opening REAL NOT NULL,
-  touch_1 REAL NOT NULL,
-  touch_2 REAL NOT NULL,
+  x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,
+  linear_x REAL, linear_y REAL, linear_z REAL,
+  angular_x REAL, angular_y REAL, angular_z REAL,
+  opening REAL,
+  touch_1 REAL,
+  touch_2 REAL,
   PRIMARY KEY (episode, frame, hand),
   FOREIGN KEY (episode, hand) REFERENCES hand (episode, ordinal)
 ) STRICT, WITHOUT ROWID;

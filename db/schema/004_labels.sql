@@ -123,6 +123,7 @@ CREATE TABLE fact (
   open_end INTEGER NOT NULL CHECK (open_end IN (0, 1)),
   observed INTEGER NOT NULL CHECK (observed IN (0, 1)),  -- known all the time
   margin REAL,
+  labelled_by TEXT NOT NULL DEFAULT 'simulator' CHECK (labelled_by IN ('simulator', 'person', 'model')),
   PRIMARY KEY (episode, ordinal),
   CHECK (start_step <= end_step AND first_frame <= end_frame)
 ) STRICT, WITHOUT ROWID;
@@ -173,10 +174,12 @@ CREATE TABLE grasp (
 CREATE TABLE language (
   episode INTEGER NOT NULL REFERENCES episode (id),
   ordinal INTEGER NOT NULL,
-  level TEXT NOT NULL CHECK (level IN ('task', 'world', 'skill')),
+  level TEXT NOT NULL CHECK (level IN ('task', 'world', 'subgoal', 'skill', 'motion')),
   segment INTEGER,
   text TEXT NOT NULL,
-  source TEXT NOT NULL CHECK (source IN ('template', 'model')),
+  source TEXT NOT NULL CHECK (source IN ('template', 'model', 'person')),
+  grain TEXT CHECK (grain IN ('goal', 'steps', 'motions')),  -- how much of the way it says
+  model TEXT,  -- which model said it
   PRIMARY KEY (episode, ordinal)
 ) STRICT, WITHOUT ROWID;
 

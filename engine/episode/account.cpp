@@ -49,7 +49,8 @@ EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptio
   record.options = options.as_text();
   record.options.merge(observed(task, options).as_text());
   record.beside_goal = beside_goal(task);
-  for (const std::string& sentence : task.instructions) record.language.push_back({LanguageLevel::task, sentence, -1});
+  for (const std::string& sentence : task.instructions)
+    record.language.push_back({.level = LanguageLevel::task, .text = sentence});
   for (const Predicate& predicate : symbols.domain().predicates)
     if (predicate.kind != PredicateKind::start)
       record.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
@@ -71,7 +72,7 @@ void describe_scene(const Scene& scene, EpisodeRecord& record) {
 
 void describe_beginning(const Rollout& rollout, EpisodeRecord& record) {
   for (const std::string& sentence : describe_world(rollout.facts().facts(), rollout.domain(), rollout.view().scene()))
-    record.language.push_back({LanguageLevel::world, sentence, -1});
+    record.language.push_back({.level = LanguageLevel::world, .text = sentence});
   write_problem(rollout.task(), rollout.domain(), rollout, record);
 }
 
@@ -96,7 +97,7 @@ void close_record(Rollout& rollout, const SkillResult& verdict, const std::strin
   recorder.finish(record, record.steps);
   for (const SegmentRecord& segment : record.segments)
     if (segment.kind == SegmentKind::skill && !segment.label.empty())
-      record.language.push_back({LanguageLevel::skill, segment.label, segment.ordinal});
+      record.language.push_back({.level = LanguageLevel::skill, .text = segment.label, .segment = segment.ordinal});
   record.keyframes["stopped"] = stopped_keyframes(record);
   for (DocumentRecord& document : record.documents)
     if (document.kind == DocumentKind::plan) document.text = plan;

@@ -5,7 +5,10 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kChosenBy{"default", "stream", "planner", "agent", "task", "caller"};
 constexpr std::array<std::string_view, 3> kSegmentKinds{"subgoal", "skill", "motion"};
-constexpr std::array<std::string_view, 3> kLanguageLevels{"task", "world", "skill"};
+constexpr std::array<std::string_view, 3> kLabellers{"simulator", "person", "model"};
+constexpr std::array<std::string_view, 5> kLanguageLevels{"task", "world", "subgoal", "skill", "motion"};
+constexpr std::array<std::string_view, 3> kLanguageSources{"template", "model", "person"};
+constexpr std::array<std::string_view, 3> kLanguageGrains{"goal", "steps", "motions"};
 constexpr std::array<std::string_view, 8> kDocumentKinds{"pddl_domain", "pddl_problem",   "plan",
                                                          "failed_plan", "ordered_domain", "ordered_problem",
                                                          "bddl_libero", "bddl_behavior"};
@@ -28,6 +31,19 @@ std::optional<ChosenBy> chosen_by_from(std::string_view name) { return value_of<
 std::string_view to_string(SegmentKind kind) { return kSegmentKinds.at(static_cast<std::size_t>(kind)); }
 std::optional<SegmentKind> segment_kind_from(std::string_view name) {
   return value_of<SegmentKind>(kSegmentKinds, name);
+}
+
+std::string_view to_string(Labeller value) { return kLabellers.at(static_cast<std::size_t>(value)); }
+std::optional<Labeller> labeller_from(std::string_view name) { return value_of<Labeller>(kLabellers, name); }
+
+std::string_view to_string(LanguageSource source) { return kLanguageSources.at(static_cast<std::size_t>(source)); }
+std::optional<LanguageSource> language_source_from(std::string_view name) {
+  return value_of<LanguageSource>(kLanguageSources, name);
+}
+
+std::string_view to_string(LanguageGrain grain) { return kLanguageGrains.at(static_cast<std::size_t>(grain)); }
+std::optional<LanguageGrain> language_grain_from(std::string_view name) {
+  return value_of<LanguageGrain>(kLanguageGrains, name);
 }
 
 std::string_view to_string(LanguageLevel level) { return kLanguageLevels.at(static_cast<std::size_t>(level)); }

@@ -44,6 +44,11 @@ enum class SegmentKind { subgoal, skill, motion };
 std::string_view to_string(SegmentKind kind);
 std::optional<SegmentKind> segment_kind_from(std::string_view name);
 
+// Whose word a segment or a fact is.
+enum class Labeller { simulator, person, model };
+std::string_view to_string(Labeller value);
+std::optional<Labeller> labeller_from(std::string_view name);
+
 struct ParameterRecord {  // a continuous parameter of a segment
   std::string name;       // `height`, `grasp`, `controller`
   std::vector<double> values;
@@ -87,6 +92,7 @@ struct SegmentRecord {
   std::vector<std::string> missing_effects;            // literals that did not come true
   std::vector<std::string> searched_for;               // hidden facts that the plan assumed, and this skill showed
   std::string label;                                   // `pick up the red block`
+  Labeller labelled_by = Labeller::simulator;
   std::vector<ParameterRecord> parameters;
 };
 
@@ -114,6 +120,7 @@ struct FactRecord {
   bool open_start = false, open_end = false;
   bool observed = true;          // known all the time
   std::optional<double> margin;  // the greatest while it held
+  Labeller labelled_by = Labeller::simulator;
 };
 
 struct ContactRecord {
@@ -143,7 +150,8 @@ struct ActionRecord {                  // commanded over [frame, frame+1)
   double gripper = 0;                  // commanded opening, m
 };
 
-// Row t: the observation before action t, the reward and done after it; the last frame has no action.
+// Row t: the observation before action t, the reward and done after it; the last frame has no action. Of a real episode
+// NaN stands for what is not known: the reward, positions in a gap of the recording, touches.
 struct FrameRecord {
   std::int64_t step = 0;
   double reward = 0;
@@ -163,14 +171,27 @@ struct JointName {
   bool driven = false;
 };
 
-enum class LanguageLevel { task, world, skill };
+enum class LanguageLevel { task, world, subgoal, skill, motion };
 std::string_view to_string(LanguageLevel level);
 std::optional<LanguageLevel> language_level_from(std::string_view name);
+
+enum class LanguageSource { pattern, model, person };  // a pattern is stored as `template`
+std::string_view to_string(LanguageSource source);
+std::optional<LanguageSource> language_source_from(std::string_view name);
+
+// How much of the way a sentence says.
+enum class LanguageGrain { goal, steps, motions };
+std::string_view to_string(LanguageGrain grain);
+std::optional<LanguageGrain> language_grain_from(std::string_view name);
 
 struct LanguageRecord {
   LanguageLevel level = LanguageLevel::task;
   std::string text;
-  int segment = -1;  // skill level: the segment
+  int segment = -1;  // levels subgoal, skill and motion: the segment
+  LanguageSource source = LanguageSource::pattern;
+  std::optional<LanguageGrain> grain = {};  // nothing: nobody said
+  std::string model = {};                   // which model said it; empty: none
+  friend bool operator==(const LanguageRecord&, const LanguageRecord&) = default;
 };
 
 enum class DocumentKind {
@@ -209,6 +230,32 @@ struct ChannelRecord {
   std::vector<double> values;
 };
 
+// A stream that a real episode was recorded as, and how it became frames. Time on the recording's time line =
+// stamp + offset_s + drift_ppm / 1e6 * (stamp - reference_s).
+struct StreamRecord {
+  std::string kind;   // joints gripper command wrench channel rgb depth
+  std::string name;   // of the camera or channel; of the others their kind
+  std::string file;   // in the recording folder
+  std::string clock;  // empty: the recording's own
+  double offset_s = 0, drift_ppm = 0, reference_s = 0;
+  double origin_s = 0;        // that time at frame 0
+  double rate_hz = 0;         // by the median way between two readings
+  std::int64_t readings = 0;  // within the episode
+  double longest_gap_s = 0;   // between two of them
+  std::int64_t missing = 0;   // frames that have no value of it
+  std::string rule;           // linear nearest hold kept
+  friend bool operator==(const StreamRecord&, const StreamRecord&) = default;
+};
+
+// When the picture of a frame was taken, s from the start of the episode.
+struct ImageTimeRecord {
+  std::int64_t frame = 0;
+  int camera = 0;    // index in EpisodeRecord::cameras
+  std::string kind;  // rgb depth
+  double time_s = 0;
+  friend bool operator==(const ImageTimeRecord&, const ImageTimeRecord&) = default;
+};
+
 // Source of a definition that took part, for the catalogue's definition tables.
 struct DefinitionRecord {
   std::string kind;  // task skill predicate object world robot types
@@ -219,7 +266,10 @@ enum class Split { train, test };
 std::string_view to_string(Split split);
 std::optional<Split> split_from(std::string_view name);
 
+// Of a real episode there are no variation, seed, draws, state hash or commands; its steps are ticks of a clock of
+// physics_hz, as many a frame as make about a microsecond each.
 struct EpisodeRecord {
+  bool real = false;
   std::string key;  // hash of definitions, task, variation, seed and every option that alters data
   std::string task, world, variation;
   std::map<std::string, std::string> axes;  // of the variation
@@ -256,6 +306,8 @@ struct EpisodeRecord {
   std::vector<LanguageRecord> language;
   std::vector<DocumentRecord> documents;
   std::vector<VerdictRecord> verdicts;
+  std::vector<StreamRecord> streams;                           // of a real episode
+  std::vector<ImageTimeRecord> image_times;                    // likewise, by frame, camera and kind
   std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
   std::shared_ptr<const ImageStore> images;                    // null: none were made
   std::string state_hash;                                      // World::state_hash at the end

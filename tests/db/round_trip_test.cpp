@@ -32,6 +32,7 @@ void check_segment(const SegmentRecord& a, const SegmentRecord& b) {
   CHECK(a.searched_for == b.searched_for);
   CHECK(a.missing_effects == b.missing_effects);
   CHECK(a.label == b.label);
+  CHECK(a.labelled_by == b.labelled_by);
   REQUIRE(a.parameters.size() == b.parameters.size());
   for (std::size_t i = 0; i < a.parameters.size(); ++i) {
     const ParameterRecord &p = a.parameters[i], &q = b.parameters[i];
@@ -182,4 +183,40 @@ TEST_CASE("a record that contradicts itself, or holds no number, leaves nothing 
   CHECK(catalogue.episodes().empty());
   CHECK(catalogue.content_hash() == empty);
   CHECK(catalogue.add(sample_episode("lift", "colour=red", 1), kEngine) == 1);
+}
+
+TEST_CASE("a real episode comes back with what it does not know, and with who labelled it") {
+  const Folder folder;
+  EpisodeRecord a = real_episode();
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  const EpisodeRecord b = catalogue.read_episode(catalogue.add(a, kEngine));
+  CHECK((b.real && b.variation.empty() && b.state_hash.empty() && b.steps == a.steps));
+  CHECK(std::isnan(b.frames[2].joint_position[0]));
+  CHECK(b.frames[2].joint_position[1] == a.frames[2].joint_position[1]);
+  CHECK(std::isnan(b.frames[0].reward));
+  CHECK((std::isnan(b.frames[3].hands[0].tip.position[0]) && std::isnan(b.frames[3].hands[0].touch[1])));
+  CHECK(std::isnan(b.channels.at(0).values.at(1)));
+  CHECK(b.streams == a.streams);
+  CHECK(b.image_times == a.image_times);
+  CHECK(b.segments[0].labelled_by == Labeller::person);
+  CHECK(b.facts[0].labelled_by == Labeller::model);
+  CHECK(b.language == a.language);
+  const auto row = catalogue.query("SELECT source, variation, seed, draws, state_hash FROM episodes").rows.at(0);
+  CHECK(std::get<std::string>(row[0]) == "real");
+  for (std::size_t i = 1; i < row.size(); ++i) CHECK(std::holds_alternative<std::monostate>(row[i]));
+  CHECK(catalogue.query("SELECT * FROM streams").rows.size() == 1);
+  CHECK(catalogue.query("SELECT * FROM hands WHERE x IS NULL").rows.size() == 1);
+  CHECK(catalogue.query("SELECT * FROM instructions WHERE grain = 'goal' AND model = 'small' AND source = 'model'")
+            .rows.size() == 1);
+  const EpisodeArrays arrays = catalogue.read_arrays(1);
+  for (const ArrayColumn& column : arrays.columns)
+    if (column.name == "reward") CHECK(std::isnan(std::get<std::vector<double>>(column.data).at(0)));
+}
+
+TEST_CASE("what a simulated episode does not know is refused still") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  EpisodeRecord astray = sample_episode("lift", "colour=red", 7);
+  astray.frames[3].hands[0].tip.position[0] = std::nan("");
+  CHECK_THROWS_WITH(catalogue.add(astray, kEngine), Catch::Matchers::Contains("NaN"));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "db/sqlite.h"
@@ -201,6 +202,29 @@ EpisodeRecord sample_episode(const std::string& task, const std::string& variati
   add_commands(e);
   add_agent_actions(e);
   add_labels(e);
+  return e;
+}
+
+EpisodeRecord real_episode() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  EpisodeRecord e = sample_episode("pour_tea", "", 0);
+  e.real = true;
+  e.key = content_hash("pour_tea, recorded");
+  e.variation.clear(), e.axes.clear(), e.state_hash.clear();
+  e.commands.clear(), e.agent_actions.clear(), e.attempts.clear(), e.contacts.clear();
+  for (FrameRecord& frame : e.frames) {
+    frame.reward = kUnknown;
+    for (HandRecord& hand : frame.hands) hand.touch = {kUnknown, kUnknown};
+  }
+  e.frames[2].joint_position[0] = kUnknown;
+  e.frames[3].hands[0].tip.position = {kUnknown, kUnknown, kUnknown};
+  e.channels.at(0).values.at(1) = kUnknown;
+  e.segments.at(0).labelled_by = Labeller::person;
+  e.facts.at(0).labelled_by = Labeller::model;
+  e.language.push_back({LanguageLevel::subgoal, "pour", 0, LanguageSource::person, {}, {}});
+  e.language.push_back({LanguageLevel::task, "tea", -1, LanguageSource::model, LanguageGrain::goal, "small"});
+  e.streams = {{"joints", "joints", "joints.csv", "arm", 0.013, 40, 1.7e9, 1.7e9, 100, 31, 0.02, 1, "linear"}};
+  e.image_times = {{1, 0, "rgb", 0.041}, {1, 1, "rgb", 0.06}};
   return e;
 }
 

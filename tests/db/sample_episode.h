@@ -14,6 +14,7 @@ namespace stampede::test {
 struct SampleSize {
   int frames = 12, joints = 3, objects = 2;
 };
+EpisodeRecord real_episode();  // with gaps, labels and streams
 EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
                              const SampleSize& size = {});
 

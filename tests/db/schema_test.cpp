@@ -67,7 +67,12 @@ TEST_CASE("the lists of C++ and the checks of SQL are the same") {
   CHECK(enumeration(catalogue, "segment", "kind") == std::set<std::string>{"subgoal", "skill", "motion", "control"});
   CHECK(enumeration(catalogue, "object", "kind") == std::set<std::string>{"body", "part", "region", "hand"});
   CHECK(enumeration(catalogue, "joint", "kind") == std::set<std::string>{"fixed", "hinge", "slider", "screw"});
-  CHECK(enumeration(catalogue, "language", "level") == std::set<std::string>{"task", "world", "skill"});
+  CHECK(enumeration(catalogue, "language", "level") ==
+        std::set<std::string>{"task", "world", "subgoal", "skill", "motion"});
+  CHECK(enumeration(catalogue, "language", "source") == std::set<std::string>{"template", "model", "person"});
+  CHECK(enumeration(catalogue, "language", "grain") == std::set<std::string>{"goal", "steps", "motions"});
+  for (const char* table : {"segment", "fact"})
+    CHECK(enumeration(catalogue, table, "labelled_by") == std::set<std::string>{"simulator", "person", "model"});
 }
 
 TEST_CASE("checks refuse what is on no list") {
