@@ -69,6 +69,21 @@ std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, 
   }
 }
 
+void Catalogue::set_labels(std::int64_t id, const EpisodeRecord& labelled) {
+  const sql::Database& database = impl_->database;
+  if (!impl_->writable) database.fail(SQLITE_READONLY);
+  check_record(labelled);
+  if (!impl_->writer) impl_->writer = std::make_unique<EpisodeWriter>(database);
+  try {
+    database.run("BEGIN IMMEDIATE");
+    impl_->writer->set_labels(id, labelled);
+    database.run("COMMIT");
+  } catch (...) {
+    roll_back(database);
+    throw;
+  }
+}
+
 // Not by query(): what limits that to reading has SQLite compile all kept statements anew, an episode's fifty.
 std::vector<std::string> Catalogue::keys_after(std::int64_t& last_id) const {
   sql::Statement statement(impl_->database, "SELECT id, key FROM episode WHERE id > ?1 ORDER BY id");

@@ -83,6 +83,10 @@ class Catalogue {
   // The same, but nothing where the key is there already: another run may write to the file too.
   std::optional<std::int64_t> add_if_new(const EpisodeRecord& episode, const EngineInfo& engine);
 
+  // Segments, facts, sentences and keyframes of a real episode become those of the record; all or nothing. Throws Error
+  // for a simulated one: what its segments say is what was done.
+  void set_labels(std::int64_t id, const EpisodeRecord& labelled);
+
   // Pictures made later, in one transaction; all or nothing. ImageRecord::camera counts in `cameras`. A camera that the
   // episode does not have is added to it; one of a known name must be the known one, at any size. Throws Error for
   // another camera of that name, a frame that is not there, and where other bytes are stored already.

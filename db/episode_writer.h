@@ -18,6 +18,7 @@ class EpisodeWriter {
  public:
   explicit EpisodeWriter(const sql::Database& database);
   void write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine);
+  void set_labels(std::int64_t id, const EpisodeRecord& episode);
   AddedImages add_images(std::int64_t id, const ImageStore& images, const std::vector<CameraTrack>& cameras);
 
  private:
@@ -35,6 +36,7 @@ class EpisodeWriter {
 
   // write_frames.cpp: what was observed and commanded
   void write_frames(const EpisodeRecord& episode);
+  void set_running(const EpisodeRecord& episode);  // which segments run at stored frames
   void write_poses(const EpisodeRecord& episode);
   void write_camera_poses(int camera, std::size_t frames, const std::function<const Pose*(std::size_t)>& pose_at);
   void write_actions(const EpisodeRecord& episode);
@@ -59,6 +61,7 @@ class EpisodeWriter {
   void write_facts(const EpisodeRecord& episode);
   void write_passages(const EpisodeRecord& episode);  // vias, grasps, contacts
   void write_language(const EpisodeRecord& episode);
+  void write_sentences(const EpisodeRecord& episode);
 
   // episode_statements.cpp
   sql::Statement insert(const std::string& table, const std::string& columns, const std::string& ending = "") const;

@@ -46,22 +46,40 @@ std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::strin
   return at;
 }
 
+// Which segments run at each frame, and their names.
+struct Running {
+  explicit Running(const EpisodeRecord& episode)
+      : skill(running(episode, "skill")), motion(running(episode, "motion")), subgoal(running(episode, "subgoal")) {
+    for (const SegmentRecord& segment : episode.segments) names.emplace(segment.ordinal, segment.skill);
+  }
+  std::optional<std::string_view> name_of(const std::optional<int>& segment) const {
+    return segment ? std::optional(names.at(*segment)) : std::nullopt;
+  }
+  std::vector<std::optional<int>> skill, motion, subgoal;
+  std::map<int, std::string_view> names;
+};
+
 }  // namespace
+
+void EpisodeWriter::set_running(const EpisodeRecord& episode) {
+  const Running runs(episode);
+  sql::Statement frame(database_,
+                       "UPDATE frame SET skill_segment = ?3, motion_segment = ?4, subgoal_segment = ?5, motion = ?6, "
+                       "subgoal = ?7 WHERE episode = ?1 AND frame = ?2");
+  for (std::size_t i = 0; i < episode.frames.size(); ++i)
+    frame.run(id_, i, runs.skill[i], runs.motion[i], runs.subgoal[i], runs.name_of(runs.motion[i]),
+              runs.name_of(runs.subgoal[i]));
+}
 
 void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
   const sql::UnknownValues unknown = unknown_values_of(episode);
-  const auto skill = running(episode, "skill"), motion = running(episode, "motion"),
-             subgoal = running(episode, "subgoal");
-  std::map<int, std::string_view> names;
-  for (const SegmentRecord& segment : episode.segments) names.emplace(segment.ordinal, segment.skill);
-  const auto name_of = [&](const std::optional<int>& segment) {
-    return segment ? std::optional(names.at(*segment)) : std::nullopt;
-  };
+  const Running runs(episode);
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     const std::optional<double> reward = unknown == sql::UnknownValues::allowed ? known(frame.reward) : frame.reward;
-    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, reward, frame.done, skill[i],
-               motion[i], subgoal[i], name_of(motion[i]), name_of(subgoal[i]));
+    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, reward, frame.done,
+               runs.skill[i], runs.motion[i], runs.subgoal[i], runs.name_of(runs.motion[i]),
+               runs.name_of(runs.subgoal[i]));
   }
   // Table by table: each grows at its end.
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {

@@ -54,6 +54,29 @@ void EpisodeWriter::write_labels(const EpisodeRecord& episode) {
     for (const std::int64_t frame : frames) keyframe_.run(id_, method, frame);
 }
 
+void EpisodeWriter::set_labels(std::int64_t id, const EpisodeRecord& episode) {
+  id_ = id;
+  sql::Statement found(database_, "SELECT source = 'real' FROM episode WHERE id = ?1");
+  if (!found.start(id).step()) throw_no_episode(database_, id);
+  bool real = false;
+  found.read(real);
+  sqlite3_reset(found.handle());
+  if (!real)
+    throw Error("episode " + std::to_string(id), "it is simulated: its labels are the simulator's",
+                "label episodes whose source is real");
+  for (const char* table : {"segment", "segment_parameter", "segment_precondition", "segment_effect",
+                            "undeclared_change", "fact", "language", "keyframe"})
+    sql::Statement(database_, std::string("DELETE FROM ") + table + " WHERE episode = ?1").run(id);
+  write_segments(episode);
+  write_facts(episode);
+  effects_held_.run(id_);
+  undeclared_.run(id_);
+  write_sentences(episode);
+  for (const auto& [method, frames] : episode.keyframes)
+    for (const std::int64_t frame : frames) keyframe_.run(id_, method, frame);
+  set_running(episode);
+}
+
 void EpisodeWriter::write_segments(const EpisodeRecord& episode) {
   for (const SegmentRecord& segment : episode.segments) {
     run_segment(segment_, id_, false, segment.ordinal, std::nullopt, std::nullopt, try_number(episode, segment),
@@ -140,7 +163,7 @@ void EpisodeWriter::write_passages(const EpisodeRecord& episode) {
     grasp_.run(id_, ordinal++, g.segment, g.object, g.object_from_tip, g.width, g.held);
 }
 
-void EpisodeWriter::write_language(const EpisodeRecord& episode) {
+void EpisodeWriter::write_sentences(const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const LanguageRecord& l : episode.language) {
     const std::optional<std::int64_t> segment = index(l.segment);
@@ -148,7 +171,11 @@ void EpisodeWriter::write_language(const EpisodeRecord& episode) {
     const auto model = l.model.empty() ? std::nullopt : std::optional(l.model);
     language_.run(id_, ordinal++, to_string(l.level), segment, l.text, to_string(l.source), grain, model);
   }
-  ordinal = 0;
+}
+
+void EpisodeWriter::write_language(const EpisodeRecord& episode) {
+  write_sentences(episode);
+  int ordinal = 0;
   for (const DocumentRecord& d : episode.documents)
     document_.run(id_, ordinal++, to_string(d.kind), write_text(d.text));
   for (const VerdictRecord& v : episode.verdicts)

@@ -12,12 +12,22 @@ constexpr std::size_t kInMemory = 8'000'000;  // bytes; an episode of five camer
   throw Error("images", "the temporary file for pictures cannot be written", "free space in /tmp, or set TMPDIR");
 }
 
+std::vector<std::uint8_t> whole(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  std::error_code code;
+  std::vector<std::uint8_t> bytes(file ? static_cast<std::size_t>(std::filesystem::file_size(path, code)) : 0);
+  if (!file || code || std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+    throw Error(path.string(), "it cannot be read", "it must stay as it is until it is stored");
+  return bytes;
+}
+
 }  // namespace
 
 struct ImageStore::Impl {
   struct Place {
     std::int64_t begin = 0;
     std::size_t size = 0;
+    std::filesystem::path elsewhere = {};
   };
   ~Impl() {
     if (file != nullptr) std::fclose(file);
@@ -42,8 +52,13 @@ ImageStore::~ImageStore() = default;
 
 void ImageStore::append(ImageRecord image, const std::vector<std::uint8_t>& bytes) {
   if (impl_->memory.size() + bytes.size() > kInMemory) impl_->spill();
-  impl_->places.push_back({impl_->in_file + static_cast<std::int64_t>(impl_->memory.size()), bytes.size()});
+  impl_->places.push_back({impl_->in_file + static_cast<std::int64_t>(impl_->memory.size()), bytes.size(), {}});
   impl_->memory.insert(impl_->memory.end(), bytes.begin(), bytes.end());
+  impl_->records.push_back(std::move(image));
+}
+
+void ImageStore::append_file(ImageRecord image, std::filesystem::path file) {
+  impl_->places.push_back({0, 0, std::move(file)});
   impl_->records.push_back(std::move(image));
 }
 
@@ -53,6 +68,7 @@ const ImageRecord& ImageStore::record(std::size_t index) const { return impl_->r
 
 std::vector<std::uint8_t> ImageStore::read(std::size_t index) const {
   const Impl::Place& place = impl_->places.at(index);
+  if (!place.elsewhere.empty()) return whole(place.elsewhere);
   std::vector<std::uint8_t> bytes(place.size);
   if (place.begin >= impl_->in_file) {
     const auto first = impl_->memory.begin() + (place.begin - impl_->in_file);

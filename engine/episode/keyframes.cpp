@@ -23,7 +23,8 @@ std::vector<std::int64_t> stopped_keyframes(const EpisodeRecord& episode) {
   const auto still = [&](std::int64_t i) {
     const FrameRecord& frame = episode.frames[static_cast<std::size_t>(i)];
     for (std::size_t j = 0; j < episode.joints.size(); ++j)
-      if (episode.joints[j].driven && episode.joints[j].kind == "hinge" && std::abs(frame.joint_velocity[j]) > kStill)
+      if (episode.joints[j].driven && episode.joints[j].kind == "hinge" &&
+          !(std::abs(frame.joint_velocity[j]) <= kStill))
         return false;
     return true;
   };

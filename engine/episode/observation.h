@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,8 +69,10 @@ class ImageStore {
   ImageStore(const ImageStore&) = delete;
   ImageStore& operator=(const ImageStore&) = delete;
   void append(ImageRecord image, const std::vector<std::uint8_t>& bytes);  // throws Error when the disk is full
+  // A picture that stays where it is: read when it is asked for. The file must not change as long as the store lives.
+  void append_file(ImageRecord image, std::filesystem::path file);
   std::size_t count() const;
-  std::int64_t bytes() const;
+  std::int64_t bytes() const;  // that the store holds itself
   const ImageRecord& record(std::size_t index) const;
   std::vector<std::uint8_t> read(std::size_t index) const;
 

@@ -1,5 +1,7 @@
 // Pictures of recorded frames.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include "engine/base/error.h"
@@ -38,13 +40,23 @@ void check_observation(const Scene& scene, const Observation& observation) {
                   "choose 1 to " + std::to_string(kMostPixels));
 }
 
+// Of a real episode, where a joint is not known at a frame, its last known position; nothing before the first.
+std::optional<double> last_known(const EpisodeRecord& episode, std::int64_t frame, std::size_t joint) {
+  for (; frame >= 0; --frame) {
+    const double position = episode.frames[static_cast<std::size_t>(frame)].joint_position.at(joint);
+    if (!std::isnan(position)) return position;
+  }
+  return std::nullopt;
+}
+
 SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64_t frame) {
   const FrameRecord& recorded = episode.frames.at(static_cast<std::size_t>(frame));
   SceneState state = initial_state(scene);
   for (std::size_t i = 0; i < episode.joints.size(); ++i) {
     const PartRef ref = episode.joints[i].part;
     auto& positions = ref.body < 0 ? state.robot_position : state.joint_position.at(static_cast<std::size_t>(ref.body));
-    positions.at(static_cast<std::size_t>(ref.part)) = recorded.joint_position.at(i);
+    if (const auto position = last_known(episode, frame, i))
+      positions.at(static_cast<std::size_t>(ref.part)) = *position;
   }
   for (std::size_t i = 0; i < episode.posed.size(); ++i) {
     const Object* object = scene.object(episode.posed[i]);

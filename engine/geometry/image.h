@@ -1,4 +1,4 @@
-// Pictures from bytes; inside this folder.
+// Pictures from bytes.
 #pragma once
 
 #include <string>

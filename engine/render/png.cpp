@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/geometry/image.h"
 #include "engine/render/picture_deflate.h"
 
 namespace stampede {
@@ -222,6 +223,16 @@ Bytes to_png(const Picture& picture, PictureKind kind) {
   require(ids.size() == count, kind == PictureKind::instance ? "it has no instances" : "it has no classes");
   put_values(ids, width, Filter::none, with.rows);
   return png_of_rows(picture.width, picture.height, 16, ColourType::grey, with, true);
+}
+
+void from_file(std::span<const std::uint8_t> file, PictureKind kind, Picture& picture) {
+  if (kind != PictureKind::rgb || file.size() < 3 || file[0] != 0xff || file[1] != 0xd8)
+    return from_png(file, kind, picture);
+  const Image image = image_from_bytes({reinterpret_cast<const char*>(file.data()), file.size()}, "picture");
+  picture.width = image.width, picture.height = image.height;
+  const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  picture.rgb.resize(3 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) std::copy_n(&image.rgba[4 * i], 3, &picture.rgb[3 * i]);
 }
 
 void from_png(std::span<const std::uint8_t> png, PictureKind kind, Picture& picture) {

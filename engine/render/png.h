@@ -20,6 +20,9 @@ inline constexpr double kDepthUnit = 1e-4;  // m: depth PNGs hold 0.1 mm; 0 noth
 Bytes to_png(const Picture& picture, PictureKind kind);
 void from_png(std::span<const std::uint8_t> png, PictureKind kind, Picture& picture);  // fills size and that kind
 
+// As it is stored: real cameras' colours may be JPEG (ISO/IEC 10918-1).
+void from_file(std::span<const std::uint8_t> file, PictureKind kind, Picture& picture);
+
 Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace stampede

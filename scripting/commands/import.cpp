@@ -9,6 +9,7 @@
 #include "db/catalogue_writer.h"
 #include "engine/base/temporary_folder.h"
 #include "scripting/commands/commands.h"
+#include "scripting/commands/import_kinds.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
@@ -194,8 +195,9 @@ void print(const std::vector<Judged>& judged, const fs::path& path, const Import
   console.out << json.end().end().text();
 }
 
-ExitCode do_import(const Arguments& arguments, Console& console) {
-  const std::string file = arguments.text("FILE"), world = arguments.text("--world");
+ExitCode import_problem(const Arguments& arguments, Console& console) {
+  const std::string file = arguments.text("FILE");
+  const std::string world = arguments.has("--world") ? arguments.text("--world") : "tabletop";
   BddlReading reading = read_bddl(read_text_file(file), file);
   for (const std::string& warning : reading.warnings) console.err << warning << "\n";
   const std::string name = task_name(arguments, reading.problem);
@@ -223,31 +225,77 @@ ExitCode do_import(const Arguments& arguments, Console& console) {
   return interrupted || (none && *arguments.integer("--episodes") > 0) ? kNo : kDone;
 }
 
+// Options that belong to one kind.
+void refuse(const Arguments& arguments, const std::vector<const char*>& options, const std::string& of) {
+  for (const char* option : options)
+    if (arguments.has(option)) throw UsageError(std::string(option) + " is of import " + of, "leave it out");
+}
+
+ExitCode do_import(const Arguments& arguments, Console& console) {
+  const std::vector<std::string>& words = arguments.list("FILE");
+  if (words[0] == "recording" || words[0] == "labels")
+    refuse(arguments, {"--task", "--mapping", "--episodes", "--seed"}, "PROBLEM.bddl");
+  if (words[0] == "recording") {
+    refuse(arguments, {"--episode"}, "labels");
+    return import_recordings(arguments, console);
+  }
+  refuse(arguments, {"--frame-hz", "--workers"}, "recording");
+  if (words[0] == "labels") {
+    refuse(arguments, {"--world", "--out"}, "recording");
+    return import_labels(arguments, console);
+  }
+  refuse(arguments, {"--episode"}, "labels");
+  if (words.size() > 1) throw UsageError("one BDDL problem at a time", "name one file");
+  return import_problem(arguments, console);
+}
+
 }  // namespace
 
 CommandRow import_command() {
-  return {"import",
-          "Make a BDDL problem of LIBERO or BEHAVIOR a task, run it, and judge it by their rule and by ours",
-          "The task's file goes to tasks/ under the last --path, or under --root where there is none; it keeps the "
-          "problem, so `stampede run` judges its episodes too: view `verdicts` has both verdicts and where they "
-          "differ. Of LIBERO, every predicate is judged by its own geometry; of BEHAVIOR, the rule for counting and "
-          "pairing is theirs and the atoms are ours. What its words mean here, and what could not be kept, is told on "
-          "stderr. The exit code is 1 when it cannot be a task here, or no episode succeeded.",
-          {{"FILE", "the BDDL problem", true, false}},
-          {{"--task", "NAME", "the task's name; default: from the problem's", Takes::text, "", {}, false},
-           {"--world", "NAME", "where it takes place", Takes::text, "tabletop", {}, false},
-           {"--mapping",
-            "FILE",
-            "a Lua file with our words for theirs, which go before those of worlds/bddl; see worlds/bddl/README.md",
-            Takes::path,
-            "",
-            {},
-            false},
-           {"--episodes", "N", "how many to run; 0: only write the task", Takes::integer, "1", {}, false},
-           {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
-           {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false}},
-          {"stampede import problem0.bddl --task clear_table --path ~/my_tasks --episodes 5"},
-          do_import};
+  return {
+      "import",
+      "Make recordings of a real robot episodes, or a BDDL problem of LIBERO or BEHAVIOR a task",
+      "recording FOLDER…: each folder with a recording.json becomes an episode with source `real` "
+      "(scripting/recording/README.md); one that is there already is not added again. labels FILE CATALOGUE: what "
+      "people or models say happens in a real episode takes the place of its labels of the same sort. "
+      "PROBLEM.bddl: a task, run, and judged by their rule and by ours. The task's file goes to tasks/ under the last "
+      "--path, or under --root where there is none; it keeps the "
+      "problem, so `stampede run` judges its episodes too: view `verdicts` has both verdicts and where they "
+      "differ. Of LIBERO, every predicate is judged by its own geometry; of BEHAVIOR, the rule for counting and "
+      "pairing is theirs and the atoms are ours. What its words mean here, and what could not be kept, is told on "
+      "stderr. The exit code is 1 when it cannot be a task here, or no episode succeeded.",
+      {{"FILE", "PROBLEM.bddl; or recording FOLDER…; or labels FILE CATALOGUE", true, true}},
+      {{"--task", "NAME", "the task's name; default: from the problem's", Takes::text, "", {}, false},
+       {"--world",
+        "NAME",
+        "where it takes place; default: of a problem tabletop, of a recording what it says",
+        Takes::text,
+        "",
+        {},
+        false},
+       {"--mapping",
+        "FILE",
+        "a Lua file with our words for theirs, which go before those of worlds/bddl; see worlds/bddl/README.md",
+        Takes::path,
+        "",
+        {},
+        false},
+       {"--episodes", "N", "how many to run; 0: only write the task", Takes::integer, "1", {}, false},
+       {"--seed", "S", "the first seed", Takes::integer, "0", {}, false},
+       {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
+       {"--frame-hz", "N", "recording: frames a second; default: what it says, or 30", Takes::integer, "", {}, false},
+       {"--workers",
+        "W",
+        "recording: threads that check pictures; default: a core each",
+        Takes::integer,
+        "",
+        {},
+        false},
+       {"--episode", "N", "labels: the episode that they are of", Takes::integer, "", {}, false}},
+      {"stampede import recording lab/0001 lab/0002 --out real.db",
+       "stampede import labels labels.json real.db --episode 1",
+       "stampede import problem0.bddl --task clear_table --path ~/my_tasks --episodes 5"},
+      do_import};
 }
 
 }  // namespace stampede::program

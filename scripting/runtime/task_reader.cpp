@@ -175,6 +175,38 @@ void TaskReader::read_looks(const Value& world, const std::filesystem::path& fol
     drawn_.task.randomisation = randomisation_from(world["randomise"], {colours_, folder, assets_, drawn, {}});
     builder_->add_drawn(drawn);
   }
+  set_classes();
+}
+
+Stage TaskReader::read_stage(lua_State* state, const StageRequest& request) {
+  state_ = state;
+  luaL_checkstack(state_, 64, "stage");
+  colours_ = read_colours(state_, key_);
+  builder_ = std::make_unique<SceneBuilder>(request.world.empty() ? "none" : request.world, colours_);
+  Value name;
+  name.kind = Value::Kind::text, name.text = request.robot, name.place = request.where;
+  if (request.urdf.empty()) {
+    read_robot(name);
+  } else {
+    const UrdfBody& urdf = assets_.urdf(request.urdf);
+    builder_->add_drawn(urdf.drawn);
+    builder_->set_robot(build_robot(request.robot, request.robot_fields, urdf.body, Transform::Identity(), colours_));
+  }
+  if (!request.world.empty()) {
+    name.text = request.world;
+    const Value world = definition(DefinitionKind::world, name.text, "", name);
+    for (const auto& [key, spec] : world["fixtures"].fields)
+      builder_->add_fixture(source_of(spec, key, "fixtures." + key));
+    for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
+    builder_->set_light(world["light"]);
+  }
+  set_classes();
+  Stage stage{builder_->build(), drawn_.files};
+  stage.scene.robot.body.world_from_body = request.world_from_base;
+  return stage;
+}
+
+void TaskReader::set_classes() {
   // All that a scene of this library could have, so that a class has one number in all of its tasks.
   const Library& library = scripts_.library();
   std::vector<std::string> classes = {"hand", "region", "part"};

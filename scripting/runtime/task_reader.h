@@ -4,6 +4,7 @@
 #include "scripting/library/formula_reader.h"
 #include "scripting/runtime/lua_task.h"
 #include "scripting/runtime/scene_builder.h"
+#include "scripting/runtime/stage.h"
 
 namespace stampede {
 
@@ -12,6 +13,9 @@ class TaskReader {
   TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
              RandomKey key, Assets& assets, int further_things);
   LuaTask::Drawn read(lua_State* state);
+  // What stands around whatever the task: a world's fixtures, or nothing, and a robot. `file` is then the world's or
+  // the robot's own.
+  Stage read_stage(lua_State* state, const StageRequest& request);
 
  private:
   Value field(const char* name);  // of the task, drawn
@@ -20,6 +24,7 @@ class TaskReader {
   void read_world(const Value& world);
   void read_robot(const Value& robot);
   void read_looks(const Value& world, const std::filesystem::path& folder);  // light, randomisation, classes
+  void set_classes();
   void read_calibration(const Value& file, const std::filesystem::path& folder);
   void forget_absent_classes();
   void read_objects();

@@ -134,7 +134,7 @@ PictureFrames CatalogueReader::pictures(std::int64_t episode, const std::string&
   std::vector<Picture> pictures(files.size());
   each_in_threads(files.size(), request.threads, [&](std::size_t i) {
     if (!files[i].empty())
-      from_png({reinterpret_cast<const std::uint8_t*>(files[i].data()), files[i].size()}, wanted->kind, pictures[i]);
+      from_file({reinterpret_cast<const std::uint8_t*>(files[i].data()), files[i].size()}, wanted->kind, pictures[i]);
   });
   PictureRequest drawn{.camera = wanted->camera, .rgb = false};
   drawn.rgb = wanted->kind == PictureKind::rgb;

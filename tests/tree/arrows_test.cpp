@@ -58,8 +58,9 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 };
 
 // Rooms in one line: each may include all before it, and what is left of the first.
-const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library", "scripting/runtime",
-                                             "scripting/session", "scripting/program", "scripting/commands"};
+const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library",   "scripting/runtime",
+                                             "scripting/session", "scripting/recording", "scripting/program",
+                                             "scripting/commands"};
 
 std::map<std::string, std::set<std::string>> all_arrows() {
   std::map<std::string, std::set<std::string>> arrows = kArrows;

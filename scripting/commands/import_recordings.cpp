@@ -1,0 +1,128 @@
+// Recordings of real robots, and labels by people or models.
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "db/catalogue.h"
+#include "scripting/commands/commands.h"
+#include "scripting/commands/import_kinds.h"
+#include "scripting/program/json_text.h"
+#include "scripting/recording/import_recording.h"
+#include "scripting/recording/label_file.h"
+#include "scripting/recording/recording_file.h"
+#include "scripting/session/numerics.h"
+
+namespace stampede::program {
+namespace {
+
+struct Imported {
+  std::string folder;
+  std::int64_t episode = 0;
+  bool added = false;  // false: it was there already
+  std::int64_t frames = 0, pictures = 0;
+  double duration_s = 0;
+  std::vector<StreamRecord> streams;
+};
+
+Imported import_one(const std::string& folder, Catalogue& catalogue, const std::shared_ptr<const Library>& library,
+                    const ImportOptions& options) {
+  const EpisodeRecord record = record_of(folder, library, options);
+  Imported one;
+  one.folder = folder;
+  one.frames = static_cast<std::int64_t>(record.frames.size());
+  one.pictures = record.images ? static_cast<std::int64_t>(record.images->count()) : 0;
+  one.duration_s = record.duration_s();
+  one.streams = record.streams;
+  const auto id = catalogue.add_if_new(record, {STAMPEDE_VERSION, numerics_probe()});
+  one.added = id.has_value();
+  one.episode = id ? *id : catalogue.find(record.key).value_or(0);
+  return one;
+}
+
+void print(const Imported& one, Console& console) {
+  console.out << fmt::format("{}: episode {}{}, {:.1f} s, {} frames, {} pictures\n", one.folder, one.episode,
+                             one.added ? "" : " (there already)", one.duration_s, one.frames, one.pictures);
+  for (const StreamRecord& stream : one.streams) {
+    const std::string name = stream.name == stream.kind ? stream.kind : stream.kind + " " + stream.name;
+    console.err << fmt::format("  {}: {} readings, {:.1f} Hz, longest gap {:.3f} s", name, stream.readings,
+                               stream.rate_hz, stream.longest_gap_s);
+    if (stream.rule != "kept") console.err << fmt::format(", {} frames without", stream.missing);
+    console.err << "\n";
+  }
+}
+
+void print_json(const std::vector<Imported>& all, Console& console) {
+  JsonText json;
+  json.object().key("recordings").array();
+  for (const Imported& one : all) {
+    json.object().field("folder", one.folder).field("episode", one.episode).field("added", one.added);
+    json.field("duration_s", one.duration_s).field("frames", one.frames).field("pictures", one.pictures);
+    json.key("streams").array();
+    for (const StreamRecord& stream : one.streams)
+      json.object()
+          .field("kind", stream.kind)
+          .field("name", stream.name)
+          .field("readings", stream.readings)
+          .field("rate_hz", stream.rate_hz)
+          .field("longest_gap_s", stream.longest_gap_s)
+          .field("missing", stream.missing)
+          .end();
+    json.end().end();
+  }
+  console.out << json.end().end().text();
+}
+
+}  // namespace
+
+ExitCode import_recordings(const Arguments& arguments, Console& console) {
+  std::vector<std::string> folders = arguments.list("FILE");
+  folders.erase(folders.begin());
+  if (folders.empty())
+    throw UsageError("stampede import recording needs a FOLDER", "name folders with a recording.json");
+  ImportOptions options;
+  options.workers = workers_of(arguments);
+  if (arguments.has("--frame-hz"))
+    options.frame_hz = static_cast<int>(in_range(arguments, "--frame-hz", 1, kMostFrameHz));
+  if (arguments.has("--world")) options.world = arguments.text("--world");
+  const auto library = load_usable_library(arguments);
+  Catalogue catalogue = Catalogue::write(arguments.text("--out"));
+  std::vector<Imported> all;
+  for (const std::string& folder : folders) {
+    if (console.stopped()) break;
+    all.push_back(import_one(folder, catalogue, library, options));
+    if (!arguments.flag("--json")) print(all.back(), console);
+  }
+  catalogue.close();
+  if (arguments.flag("--json")) print_json(all, console);
+  if (console.stopped()) console.err << "interrupted: what is stored stays, and the same command goes on from there\n";
+  return console.stopped() ? kNo : kDone;
+}
+
+ExitCode import_labels(const Arguments& arguments, Console& console) {
+  const std::vector<std::string>& words = arguments.list("FILE");
+  if (words.size() != 3) throw UsageError("write: stampede import labels FILE CATALOGUE --episode N");
+  if (!arguments.has("--episode")) throw UsageError("stampede import labels needs --episode N");
+  const std::int64_t id = in_range(arguments, "--episode", 1, std::int64_t{1} << 40);
+  if (!std::filesystem::exists(words[2])) Catalogue::open(words[2]);  // says what is wrong
+  Catalogue catalogue = Catalogue::write(words[2]);
+  EpisodeRecord episode = catalogue.read_episode(id);
+  if (!episode.real)
+    throw UsageError("episode " + std::to_string(id) + " is simulated: its labels are the simulator's",
+                     "name an episode whose source is real");
+  const Labels labels = read_labels(words[1], words[1], episode);
+  put_labels(labels, episode);
+  catalogue.set_labels(id, episode);
+  catalogue.close();
+  if (arguments.flag("--json")) {
+    JsonText json;
+    json.object().field("episode", id).field("segments", static_cast<std::int64_t>(labels.segments.size()));
+    json.field("facts", static_cast<std::int64_t>(labels.facts.size()));
+    console.out << json.field("sentences", static_cast<std::int64_t>(labels.language.size())).end().text();
+  } else {
+    console.out << fmt::format("episode {}: {} segments, {} facts, {} sentences\n", id, labels.segments.size(),
+                               labels.facts.size(), labels.language.size());
+  }
+  return kDone;
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,232 @@
+#include "scripting/recording/import_recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/episode/account.h"
+#include "engine/episode/keyframes.h"
+#include "engine/episode/observation.h"
+#include "scripting/recording/label_file.h"
+#include "scripting/recording/picture_stream.h"
+#include "scripting/recording/recording_scene.h"
+#include "scripting/recording/robot_track.h"
+
+namespace stampede {
+namespace {
+
+constexpr int kTicks = 1'000'000;  // a second, about: steps of a real episode
+constexpr std::size_t kMostFrames = 10'000'000;
+constexpr double kSameMoment = 1e-6;  // s
+
+std::string seconds(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f s", value);
+  return text.data();
+}
+
+class Importer {
+ public:
+  Importer(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
+           const ImportOptions& options)
+      : recording_(read_recording(folder)), library_(library), options_(options) {
+    if (options.frame_hz) recording_.frame_hz = *options.frame_hz;
+    if (options.world) recording_.world = *options.world;
+    hasher_.text("recording 1").text(recording_.text).number(recording_.frame_hz).text(recording_.world);
+  }
+  EpisodeRecord import() {
+    scene_ = scene_of(recording_, library_, hasher_);
+    read_robot();
+    set_times();
+    describe();
+    fill_frames(scene_.stage.scene, tracks_, times_, record_);
+    describe_robot_streams();
+    for (const RecordedStream& stream : recording_.streams) {
+      if (stream.kind == StreamKind::wrench || stream.kind == StreamKind::channel) add_channel(stream);
+      if (stream.pictures()) add_camera(stream);
+    }
+    std::sort(record_.image_times.begin(), record_.image_times.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.frame, a.camera, a.kind) < std::tie(b.frame, b.camera, b.kind);
+    });
+    if (images_->count() > 0) record_.images = images_;
+    record_.key = hasher_.digest();
+    record_.keyframes["stopped"] = stopped_keyframes(record_);
+    if (!recording_.labels.empty()) {
+      const std::filesystem::path file = recording_.path_of(recording_.labels, recording_.shown);
+      put_labels(read_labels(file, recording_.shown_path(recording_.labels), record_, {&recording_, times_.begin}),
+                 record_);
+    }
+    return std::move(record_);
+  }
+
+ private:
+  const RecordedStream* stream_of(StreamKind kind) const {
+    for (const RecordedStream& stream : recording_.streams)
+      if (stream.kind == kind) return &stream;
+    return nullptr;
+  }
+
+  void read_robot() {
+    const Robot& robot = scene_.stage.scene.robot;
+    const RecordedStream& joints = *stream_of(StreamKind::joints);
+    joints_ = read_track(recording_, joints, joint_columns(robot), hasher_);
+    check_joint_limits(recording_, joints, joints_, robot);
+    tracks_.joints = &joints_;
+    if (const RecordedStream* gripper = stream_of(StreamKind::gripper)) {
+      gripper_ = read_track(recording_, *gripper, {{"opening_m", true}, {"effort_n", false}}, hasher_);
+      check_openings(recording_, *gripper, gripper_, robot);
+      tracks_.gripper = &gripper_;
+    }
+    if (const RecordedStream* command = stream_of(StreamKind::command)) {
+      command_ = read_track(recording_, *command, command_columns(robot), hasher_);
+      check_joint_limits(recording_, *command, command_, robot);
+      check_openings(recording_, *command, command_, robot);
+      tracks_.command = &command_;
+    }
+  }
+
+  void set_times() {
+    const double begin = recording_.start_s.value_or(joints_.time.front());
+    const double end = recording_.end_s.value_or(joints_.time.back());
+    const double count = std::floor((end - begin) * recording_.frame_hz + kSameMoment * recording_.frame_hz) + 1;
+    if (!(count >= 2))
+      throw Error(recording_.shown, "it has no two frames: from " + seconds(begin) + " to " + seconds(end),
+                  "record joint states for longer, or correct start_s and end_s");
+    if (count > static_cast<double>(kMostFrames))
+      throw Error(recording_.shown,
+                  "it would have more than 10 million frames: from " + seconds(begin) + " to " + seconds(end),
+                  "are all stamps in seconds, and start_s and end_s on the recording's time line?");
+    times_ = {begin, recording_.frame_hz, static_cast<std::size_t>(count)};
+    require_overlap(*stream_of(StreamKind::joints), joints_.time);
+    if (tracks_.gripper != nullptr) require_overlap(*stream_of(StreamKind::gripper), gripper_.time);
+    if (tracks_.command != nullptr) require_overlap(*stream_of(StreamKind::command), command_.time);
+  }
+
+  void require_overlap(const RecordedStream& stream, const std::vector<double>& time) const {
+    if (time.front() <= times_.end() && time.back() >= times_.begin) return;
+    throw Error(stream.place,
+                "none of its readings lies within the recording: they are from " + seconds(time.front()) + " to " +
+                    seconds(time.back()) + ", and its frames from " + seconds(times_.begin) + " to " +
+                    seconds(times_.end()),
+                "give its clock's offset_s: by how much its stamps are too small");
+  }
+
+  void describe() {
+    Scene& scene = scene_.stage.scene;
+    const int ticks = std::max(1, kTicks / recording_.frame_hz);
+    scene.physics_hz = ticks * recording_.frame_hz;
+    describe_scene(scene, record_);
+    record_.real = true;
+    record_.task = recording_.task;
+    record_.outcome = recording_.outcome;
+    record_.reason = recording_.reason;
+    record_.detail = recording_.detail;
+    record_.steps = static_cast<std::int64_t>(times_.count - 1) * ticks;
+    if (!recording_.source.empty()) record_.options["recording"] = recording_.source;
+    std::string uncalibrated;
+    for (const std::string& name : scene_.uncalibrated) uncalibrated += (uncalibrated.empty() ? "" : ",") + name;
+    if (!uncalibrated.empty()) record_.options["uncalibrated"] = uncalibrated;
+    for (const ScriptFile* file : scene_.stage.files)
+      record_.definitions.push_back(
+          {std::string(to_string(file->kind)), file->name, file->shown_path, file->source, file->hash});
+  }
+
+  StreamRecord& describe_stream(const RecordedStream& stream, const std::vector<double>& time, const char* rule) {
+    StreamRecord& record = record_.streams.emplace_back();
+    record.kind = to_string(stream.kind);
+    record.name = stream.name;
+    record.file = stream.file;
+    record.clock = stream.clock.name;
+    record.offset_s = stream.clock.offset_s;
+    record.drift_ppm = stream.clock.drift_ppm;
+    record.reference_s = stream.clock.reference_s;
+    record.origin_s = times_.begin;
+    record.rule = rule;
+    describe_times(time, times_.begin - kSameMoment, times_.end() + kSameMoment, record);
+    return record;
+  }
+
+  void describe_robot_streams() {
+    const auto missing = [&](const auto& is_there) {
+      std::int64_t count = 0;
+      for (std::size_t i = 0; i < record_.frames.size(); ++i) count += is_there(record_.frames[i]) ? 0 : 1;
+      return count;
+    };
+    describe_stream(*stream_of(StreamKind::joints), joints_.time, "linear").missing =
+        missing([](const FrameRecord& frame) { return !std::isnan(frame.hands[0].tip.position[0]); });
+    if (tracks_.gripper != nullptr)
+      describe_stream(*stream_of(StreamKind::gripper), gripper_.time, "linear").missing =
+          missing([](const FrameRecord& frame) { return !std::isnan(frame.hands[0].opening); });
+    if (tracks_.command != nullptr)
+      describe_stream(*stream_of(StreamKind::command), command_.time, "hold").missing =
+          missing([](const FrameRecord& frame) { return frame.action.has_value(); }) - 1;  // the last has none
+  }
+
+  void add_channel(const RecordedStream& stream) {
+    std::vector<TrackColumn> columns;
+    if (stream.kind == StreamKind::wrench) {
+      const Robot& robot = scene_.stage.scene.robot;
+      if (robot.body.part_index(stream.link) < 0)
+        throw Error(stream.place, robot.name + " has no link '" + stream.link + "'", "name a link of its URDF");
+      for (const char* name : {"force_x_n", "force_y_n", "force_z_n", "torque_x_nm", "torque_y_nm", "torque_z_nm"})
+        columns.push_back({name, true});
+    }
+    const Track track = read_track(recording_, stream, columns, hasher_);
+    require_overlap(stream, track.time);
+    ChannelRecord channel;
+    channel.name = stream.name;
+    channel.unit = stream.unit;
+    for (const TrackColumn& column : track.columns)  // `force_x_n` is force_x: the channel has the unit
+      channel.components.push_back(stream.kind == StreamKind::wrench ? column.name.substr(0, column.name.rfind('_'))
+                                                                     : column.name);
+    for (std::size_t i = 0; i < track.time.size(); ++i) {
+      if (track.time[i] < times_.begin - kSameMoment || track.time[i] > times_.end() + kSameMoment) continue;
+      const auto step = static_cast<std::int64_t>(std::llround((track.time[i] - times_.begin) * record_.physics_hz));
+      channel.steps.push_back(std::clamp<std::int64_t>(step, 0, record_.steps));
+      channel.values.insert(channel.values.end(), track.values.begin() + static_cast<std::ptrdiff_t>(i * track.width()),
+                            track.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * track.width()));
+    }
+    channel.rate_hz = describe_stream(stream, track.time, "kept").rate_hz;
+    record_.channels.push_back(std::move(channel));
+  }
+
+  void add_camera(const RecordedStream& stream) {
+    const PictureStream pictures = read_picture_stream(recording_, stream);
+    require_overlap(stream, pictures.time);
+    const std::vector<std::int64_t> chosen = nearest(pictures.time, times_);
+    const auto camera = std::find_if(record_.cameras.begin(), record_.cameras.end(),
+                                     [&](const Camera& one) { return one.name == stream.name; });
+    const int index = static_cast<int>(camera - record_.cameras.begin());
+    StreamRecord& described = describe_stream(stream, pictures.time, "nearest");
+    for (std::size_t frame = 0; frame < chosen.size(); ++frame) {
+      if (chosen[frame] < 0) {
+        ++described.missing;
+        continue;
+      }
+      const double time = pictures.time[static_cast<std::size_t>(chosen[frame])] - times_.begin;
+      record_.image_times.push_back(
+          {static_cast<std::int64_t>(frame), index, std::string(to_string(stream.kind)), time});
+    }
+    hasher_.text(add_pictures(stream, pictures, chosen, *camera, index, std::max(1, options_.workers), *images_));
+    for (const double time : pictures.time) hasher_.number(time);
+  }
+
+  RecordingFile recording_;
+  const std::shared_ptr<const Library>& library_;
+  ImportOptions options_;
+  Hasher hasher_;
+  RecordingScene scene_;
+  Track joints_, gripper_, command_;
+  RobotTracks tracks_;
+  FrameTimes times_;
+  EpisodeRecord record_;
+  std::shared_ptr<ImageStore> images_ = std::make_shared<ImageStore>();
+};
+
+}  // namespace
+
+EpisodeRecord record_of(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
+                        const ImportOptions& options) {
+  return Importer(folder, library, options).import();
+}
+
+}  // namespace stampede

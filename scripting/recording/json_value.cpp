@@ -1,0 +1,69 @@
+#include "scripting/recording/json_value.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/nearest.h"
+#include "scripting/library/naming.h"
+
+namespace stampede {
+namespace {
+
+using Json = nlohmann::json;
+
+Value converted(const Json& json, const std::string& file, const std::string& path) {
+  Value value;
+  value.place = file + (path.empty() ? "" : ": " + path);
+  if (json.is_boolean()) {
+    value.kind = Value::Kind::boolean, value.boolean = json.get<bool>();
+  } else if (json.is_number()) {
+    value.kind = Value::Kind::number, value.number = json.get<double>(), value.integer = json.is_number_integer();
+  } else if (json.is_string()) {
+    value.kind = Value::Kind::text, value.text = json.get<std::string>();
+  } else if (json.is_array()) {
+    value.kind = Value::Kind::table;
+    for (std::size_t i = 0; i < json.size(); ++i)
+      value.items.push_back(converted(json[i], file, path + "[" + std::to_string(i) + "]"));
+  } else if (json.is_object()) {
+    value.kind = Value::Kind::table;
+    for (const auto& [name, field] : json.items())
+      value.fields.emplace(name, converted(field, file, path.empty() ? name : path + "." + name));
+  }
+  return value;
+}
+
+}  // namespace
+
+Value value_from_json(const std::string& text, const std::string& shown_file) {
+  try {
+    return converted(Json::parse(text), shown_file, "");
+  } catch (const Json::parse_error& error) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = 1 + std::count(text.begin(), end, '\n');
+    throw Error(shown_file + ":" + std::to_string(line), "this is no JSON",
+                "a comma, quote or bracket is missing here");
+  } catch (const Json::exception& error) {
+    throw Error(shown_file, "this is no JSON: " + std::string(error.what()), "write it as UTF-8");
+  }
+}
+
+void require_fields(const Value& object, const std::vector<std::string>& known) {
+  if (!object.is_table() || !object.items.empty()) object.expected("an object: { … }");
+  for (const auto& [name, field] : object.fields)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(object.place, "there is no field '" + name + "'", did_you_mean(name, known));
+}
+
+const Value& required(const Value& object, const std::string& field, const std::string& cure) {
+  const Value& value = object[field];
+  if (!value.present()) throw Error(object.place, "the field '" + field + "' is missing", cure);
+  return value;
+}
+
+const std::string& plain_name(const Value& value) {
+  const std::string& name = value.as_text();
+  if (const auto fault = name_fault(name)) throw Error(value.place, "'" + name + "' cannot be a name: it " + *fault);
+  return name;
+}
+
+}  // namespace stampede

@@ -1,0 +1,22 @@
+// A JSON file as the same tree of values that Lua definitions are read into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scripting/library/value.h"
+
+namespace stampede {
+
+// Every value knows its place: `lab/recording.json: streams[2].clock`. Throws Error, with the line, where it is no
+// JSON.
+Value value_from_json(const std::string& text, const std::string& shown_file);
+
+// Throws Error for a value that is no object, and for fields that are not known, with the nearest name.
+void require_fields(const Value& object, const std::vector<std::string>& known);
+const Value& required(const Value& object, const std::string& field, const std::string& cure);  // throws Error
+
+// `a-z0-9_`, beginning with a letter: of tasks, cameras, channels. Throws Error.
+const std::string& plain_name(const Value& value);
+
+}  // namespace stampede

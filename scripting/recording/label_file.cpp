@@ -1,0 +1,239 @@
+#include "scripting/recording/label_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+#include "scripting/recording/label_rows.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::size_t kMostArguments = 4;
+
+const std::vector<std::string>& kinds() {
+  static const std::vector<std::string> all = {"subgoal", "skill", "motion", "fact", "language"};
+  return all;
+}
+
+void check_word(const std::string& word, const std::string& place) {
+  if (word.empty() || word.find_first_of(" ()\t\n\"") != std::string::npos)
+    throw Error(place, "'" + word + "' cannot be a name", "names hold no spaces, quotes or brackets");
+}
+
+class LabelReader {
+ public:
+  LabelReader(const EpisodeRecord& episode, std::vector<LabelRow> rows)
+      : episode_(episode),
+        rows_(std::move(rows)),
+        ticks_(episode.physics_hz / episode.frame_hz),
+        frames_(static_cast<std::int64_t>(episode.frames.size())) {}
+  Labels read() {
+    for (const LabelRow& row : rows_) {
+      if (std::find(kinds().begin(), kinds().end(), row.kind) == kinds().end())
+        throw Error(row.place, "there is no kind of label '" + row.kind + "'", did_you_mean(row.kind, kinds()));
+      labeller(row);
+      if (segment_kind_from(row.kind)) add_segment(row);
+      if (row.kind == "fact") add_fact(row);
+    }
+    order_segments();
+    for (const LabelRow& row : rows_)
+      if (row.kind == "language") add_sentence(row);
+    return std::move(labels_);
+  }
+
+ private:
+  static Labeller labeller(const LabelRow& row) {
+    const auto found = labeller_from(row.labelled_by);
+    if (found && *found != Labeller::simulator) return *found;
+    throw Error(row.place, "'" + row.labelled_by + "' cannot have labelled it", "write person or model");
+  }
+
+  std::int64_t step_of(double time, const LabelRow& row) const {
+    const double last = static_cast<double>(episode_.steps) / episode_.physics_hz;
+    if (!(time >= 0)) throw Error(row.place, "it begins before the first frame", "seconds count from frame 0");
+    if (time > last + 1.0 / episode_.frame_hz)
+      throw Error(row.place, "it ends after the episode, whose last frame is at " + std::to_string(last) + " s",
+                  "seconds count from frame 0, not from the beginning of the recording");
+    return std::min<std::int64_t>(std::llround(time * episode_.physics_hz), episode_.steps);
+  }
+  void check_frame(std::int64_t frame, const LabelRow& row) const {
+    if (frame < 0 || frame > frames_)
+      throw Error(row.place,
+                  "there is no frame " + std::to_string(frame) + ": the episode has " + std::to_string(frames_));
+  }
+
+  // Of a row without a span: the whole episode, where that is allowed.
+  Span span_of(const LabelRow& row, bool may_be_missing) const {
+    const LabelSpan& given = row.span;
+    if (!given.given()) {
+      if (may_be_missing) return {0, episode_.steps, 0, frames_};
+      throw Error(row.place, "it has no span", "give start_s and end_s, or first_frame and end_frame");
+    }
+    Span span;
+    if (given.start_s && given.end_s && !given.first_frame && !given.end_frame) {
+      span.start_step = step_of(*given.start_s, row), span.end_step = step_of(*given.end_s, row);
+      span.first_frame = (span.start_step + ticks_ - 1) / ticks_;
+      span.end_frame = span.end_step == episode_.steps ? frames_ : (span.end_step + ticks_ - 1) / ticks_;
+    } else if (given.first_frame && given.end_frame && !given.start_s && !given.end_s) {
+      check_frame(*given.first_frame, row), check_frame(*given.end_frame, row);
+      span.first_frame = *given.first_frame, span.end_frame = *given.end_frame;
+      span.start_step = std::min(span.first_frame * ticks_, episode_.steps);
+      span.end_step = std::min(span.end_frame * ticks_, episode_.steps);
+    } else {
+      throw Error(row.place, "its span is given in part, or twice",
+                  "give start_s and end_s, or first_frame and end_frame");
+    }
+    if (span.start_step >= span.end_step)
+      throw Error(row.place, "it ends before it has begun", "end_s lies after start_s");
+    return span;
+  }
+
+  void add_segment(const LabelRow& row) {
+    SegmentRecord segment;
+    segment.kind = *segment_kind_from(row.kind);
+    check_word(row.name, row.place);
+    for (const std::string& word : row.arguments) check_word(word, row.place);
+    segment.skill = row.name;
+    segment.arguments = row.arguments;
+    segment.robot = episode_.hands.empty() ? "" : episode_.hands[0].substr(0, episode_.hands[0].find('.'));
+    segment.span = span_of(row, false);
+    if (row.outcome != "success" && row.outcome != "failure")
+      throw Error(row.place, "there is no outcome '" + row.outcome + "'", "write success or failure");
+    if (row.outcome == "failure") {
+      segment.outcome = Outcome::failure;
+      segment.reason = reason_from(row.reason.empty() ? "failed_by_task" : row.reason).value_or(Reason::none);
+      if (segment.reason == Reason::none) throw Error(row.place, "there is no reason '" + row.reason + "'");
+    }
+    segment.label = row.text;
+    segment.labelled_by = labeller(row);
+    segment.ordinal = static_cast<int>(labels_.segments.size());  // in the file
+    labels_.segments.push_back(std::move(segment));
+    segment_rows_.push_back(&row);
+  }
+
+  // By start, then depth; each part of the innermost that holds it.
+  void order_segments() {
+    std::vector<SegmentRecord>& list = labels_.segments;
+    std::stable_sort(list.begin(), list.end(), [](const SegmentRecord& a, const SegmentRecord& b) {
+      return std::tie(a.span.start_step, a.kind) < std::tie(b.span.start_step, b.kind);
+    });
+    ordinal_of_.resize(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const LabelRow& row = *segment_rows_[static_cast<std::size_t>(list[i].ordinal)];
+      ordinal_of_[static_cast<std::size_t>(list[i].ordinal)] = static_cast<int>(i);
+      for (std::size_t j = 0; j < list.size(); ++j) {
+        const Span &own = list[i].span, &other = list[j].span;
+        if (i == j || own.start_step >= other.end_step || other.start_step >= own.end_step) continue;
+        const std::string whom = std::string(to_string(list[j].kind)) + " " + list[j].skill;
+        if (list[j].kind == list[i].kind && j < i)
+          throw Error(row.place, "it overlaps the " + whom, "one of a kind runs at a time");
+        if (list[j].kind >= list[i].kind) continue;
+        if (own.start_step < other.start_step || own.end_step > other.end_step)
+          throw Error(row.place, "it lies partly within the " + whom, "let it begin and end within it, or outside");
+        if (list[i].parent < 0 || list[static_cast<std::size_t>(list[i].parent)].kind < list[j].kind)
+          list[i].parent = static_cast<int>(j);
+      }
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const LabelRow& row = *segment_rows_[static_cast<std::size_t>(list[i].ordinal)];
+      list[i].ordinal = static_cast<int>(i);
+      if (!list[i].label.empty()) say(row, *language_level_from(row.kind), static_cast<int>(i), list[i].label);
+    }
+  }
+
+  void add_fact(const LabelRow& row) {
+    FactRecord fact;
+    check_word(row.name, row.place);
+    for (const std::string& word : row.arguments) check_word(word, row.place);
+    if (row.arguments.size() > kMostArguments)
+      throw Error(row.place, "a fact has 4 arguments at most, and this has " + std::to_string(row.arguments.size()));
+    fact.fact = {row.name, row.arguments};
+    const Span span = span_of(row, true);
+    fact.start_step = span.start_step, fact.end_step = span.end_step;
+    fact.first_frame = span.first_frame, fact.end_frame = span.end_frame;
+    fact.open_start = span.start_step == 0;
+    fact.open_end = span.end_step == episode_.steps;
+    fact.labelled_by = labeller(row);
+    for (const FactRecord& other : labels_.facts)
+      if (other.fact == fact.fact && fact.start_step < other.end_step && other.start_step < fact.end_step)
+        throw Error(row.place, "this fact holds twice at once", "join the two spans");
+    labels_.facts.push_back(std::move(fact));
+  }
+
+  void say(const LabelRow& row, LanguageLevel level, int segment, const std::string& text) {
+    LanguageRecord sentence;
+    sentence.level = level;
+    sentence.text = text;
+    sentence.segment = segment;
+    sentence.source = labeller(row) == Labeller::model ? LanguageSource::model : LanguageSource::person;
+    sentence.model = row.model;
+    if (!row.grain.empty()) {
+      sentence.grain = language_grain_from(row.grain);
+      if (!sentence.grain)
+        throw Error(row.place, "there is no grain '" + row.grain + "'", "write goal, steps or motions");
+    }
+    labels_.language.push_back(std::move(sentence));
+  }
+
+  void add_sentence(const LabelRow& row) {
+    const auto level = language_level_from(row.name);
+    if (!level)
+      throw Error(row.place, "there is no level '" + row.name + "'", "levels: task, world, subgoal, skill, motion");
+    if (row.text.empty()) throw Error(row.place, "the sentence is empty", "write its text");
+    const bool of_all = *level == LanguageLevel::task || *level == LanguageLevel::world;
+    say(row, *level, of_all ? -1 : segment_of(row), row.text);
+  }
+
+  int segment_of(const LabelRow& row) const {
+    if (row.segment) {
+      const auto which = static_cast<std::size_t>(*row.segment);
+      if (*row.segment >= 0 && which < ordinal_of_.size()) {
+        const int ordinal = ordinal_of_[which];
+        if (to_string(labels_.segments[static_cast<std::size_t>(ordinal)].kind) == row.name) return ordinal;
+      }
+      throw Error(row.place, "the file's segment " + std::to_string(*row.segment) + " is no " + row.name,
+                  "segments count from 0, in the file's order");
+    }
+    if (row.span.given()) {
+      const Span span = span_of(row, false);
+      for (const SegmentRecord& segment : labels_.segments)
+        if (to_string(segment.kind) == row.name && segment.span.start_step == span.start_step &&
+            segment.span.end_step == span.end_step)
+          return segment.ordinal;
+    }
+    throw Error(row.place, "it does not say which " + row.name + " it is of",
+                "give `segment`, or in a CSV the span of a segment of that kind");
+  }
+
+  const EpisodeRecord& episode_;
+  std::vector<LabelRow> rows_;
+  std::int64_t ticks_, frames_;
+  Labels labels_;
+  std::vector<const LabelRow*> segment_rows_;  // by place in the file
+  std::vector<int> ordinal_of_;                // likewise
+};
+
+}  // namespace
+
+Labels read_labels(const std::filesystem::path& file, const std::string& shown, const EpisodeRecord& episode,
+                   const LabelClock& clock) {
+  return LabelReader(episode, label_rows(file, shown, clock)).read();
+}
+
+void put_labels(Labels labels, EpisodeRecord& episode) {
+  if (!labels.segments.empty()) {
+    // Sentences of segments that are gone would name others.
+    std::erase_if(episode.language, [](const LanguageRecord& sentence) { return sentence.segment >= 0; });
+    episode.segments = std::move(labels.segments);
+  }
+  if (!labels.facts.empty()) episode.facts = std::move(labels.facts);
+  const auto replaced = [&](const LanguageRecord& sentence) {
+    return std::any_of(labels.language.begin(), labels.language.end(),
+                       [&](const LanguageRecord& other) { return other.level == sentence.level; });
+  };
+  std::erase_if(episode.language, replaced);
+  episode.language.insert(episode.language.end(), labels.language.begin(), labels.language.end());
+}
+
+}  // namespace stampede

@@ -1,0 +1,43 @@
+// Pictures of a recording: which there are, when each was taken, and whether each is whole.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/episode/observation.h"
+#include "engine/model/camera.h"
+#include "scripting/recording/recording_file.h"
+#include "scripting/recording/resample.h"
+
+namespace stampede {
+
+struct PictureStream {
+  std::vector<std::filesystem::path> files;  // in the order of time
+  std::vector<std::string> shown;
+  std::vector<double> time;  // s, on the recording's time line, strictly rising
+};
+
+// Throws Error: stamps that do not rise, files that are not there, names that are no stamps, no pictures.
+PictureStream read_picture_stream(const RecordingFile& recording, const RecordedStream& stream);
+
+// Width and height of the first picture, by its header. Throws Error.
+std::array<int, 2> first_size(const RecordingFile& recording, const RecordedStream& stream);
+
+// What the bytes of a picture say of themselves. Throws Error, which names `where`, for what is no whole PNG or JPEG
+// file of the right kind: every chunk of a PNG must agree with its checksum, a JPEG must end where it says.
+struct PictureHeader {
+  int width = 0, height = 0;
+};
+PictureHeader check_picture(std::string_view bytes, StreamKind kind, const std::string& where);
+
+// Pictures of the frames, those that are chosen[frame] >= 0, into the store: colours byte by byte as they were
+// recorded, depths in our unit, cut to the stream's range. Works in `workers` threads; the store is filled in order.
+// Result: a digest of the recorded bytes. Throws Error for pictures that are not whole, or of another size than the
+// camera's.
+std::string add_pictures(const RecordedStream& stream, const PictureStream& pictures,
+                         const std::vector<std::int64_t>& chosen, const Camera& camera, int camera_index, int workers,
+                         ImageStore& images);
+
+}  // namespace stampede
