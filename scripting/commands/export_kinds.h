@@ -27,6 +27,7 @@ struct ExportCount {
 using ExportFunction = ExportCount (*)(const ExportJob& job);
 ExportCount export_pddl(const ExportJob& job);
 ExportCount export_bddl_files(const ExportJob& job);
+ExportCount export_recordings(const ExportJob& job);
 
 // index.csv and index.json.
 void write_index(const std::filesystem::path& folder, const QueryResult& index);

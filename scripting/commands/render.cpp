@@ -10,7 +10,7 @@
 #include "engine/base/text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
-#include "scripting/commands/render_output.h"
+#include "scripting/commands/render_overlay.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/ordered_work.h"
 
@@ -96,15 +96,16 @@ class Shelf {
   mutable std::mutex mutex_;
 };
 
-// Exactly one of --out, --into, --video, --sheet.
+// Exactly one of --out, --into, --video, --sheet, --overlay.
 std::string place_of(const Arguments& arguments) {
   std::string place;
-  for (const char* option : {"--out", "--into", "--video", "--sheet"}) {
+  for (const char* option : {"--out", "--into", "--video", "--sheet", "--overlay"}) {
     if (!arguments.has(option)) continue;
     if (!place.empty()) throw UsageError(place + " and " + option + " at once", "render twice");
     place = option;
   }
-  if (place.empty()) throw UsageError("where to?", "say --out FOLDER, --into FILE, --video FILE or --sheet FILE");
+  if (place.empty())
+    throw UsageError("where to?", "say --out FOLDER, --into FILE, --video FILE, --sheet FILE or --overlay FOLDER");
   for (const char* option : {"--kinds", "--noise"})
     if ((place == "--video" || place == "--sheet") && arguments.has(option))
       throw UsageError(std::string(option) + " is for --out and --into: films and sheets are for people");
@@ -134,6 +135,7 @@ class Rendering {
   }
 
   ExitCode run() {
+    if (place_ == "--overlay") return render_overlays(arguments_, request_, console_);
     std::vector<std::int64_t> wanted;
     for (const std::string& text : arguments_.list("EPISODE")) wanted.push_back(episode_number(text));
     Shelf shelf(arguments_.text("FILE"), place_ == "--into" ? target_ : fs::path());
@@ -268,6 +270,15 @@ CommandRow render_command() {
         "",
         {},
         false},
+       {"--overlay",
+        "FOLDER",
+        "the robot at the recorded joint states, tinted and outlined over the stored pictures, and by how many pixels "
+        "its "
+        "outline is off in each camera; 20 frames unless --frames says which",
+        Takes::path,
+        "",
+        {},
+        false},
        {"--frames",
         "WHICH",
         "all, keyframes, or numbers such as 0,10-20; default: as the episode was run, else all",
@@ -277,7 +288,8 @@ CommandRow render_command() {
         false}},
       {"stampede render demos.db --camera front --size 512x512 --kinds rgb,depth --out pictures",
        "stampede render demos.db --into demos.db --frames keyframes", "stampede render demos.db 3 --video demo.mp4",
-       "stampede render demos.db 1 2 3 --sheet sheet.png"},
+       "stampede render demos.db 1 2 3 --sheet sheet.png",
+       "stampede render real.db 1 --overlay over --camera-file measured.json"},
       do_render};
   for (OptionRow& option : picture_options(PictureUse::render)) row.options.push_back(std::move(option));
   row.options.push_back(

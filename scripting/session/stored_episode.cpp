@@ -24,7 +24,7 @@ std::filesystem::path file_in(const Roots& roots, const std::string& shown_path)
 StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id) {
   StoredEpisode stored{id, std::move(episode), nullptr, {}};
   if (stored.episode.scene_document.empty()) {
-    stored.why_not = "it has no scene: it is a real one, or no start was found";
+    stored.why_not = "it has no scene: no start was found";
   } else if (stored.episode.frames.empty()) {
     stored.why_not = "it has no frames: no start was found";
   } else {
