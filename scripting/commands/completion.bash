@@ -12,9 +12,9 @@ _stampede() {
     query) words="--format --list --hash --root --path --json --help" ;;
     merge) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
-    import) words="--task --world --mapping --episodes --seed --out --root --path --json --help" ;;
+    import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;
-    render) words="--out --into --video --sheet --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --root --path --json --help" ;;
+    render) words="--out --into --video --sheet --overlay --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --root --path --json --help" ;;
     new) words="--root --path --json --help" ;;
     doc) words="--check --root --path --json --help" ;;
   esac

@@ -288,8 +288,7 @@ CommandRow render_command() {
         false}},
       {"stampede render demos.db --camera front --size 512x512 --kinds rgb,depth --out pictures",
        "stampede render demos.db --into demos.db --frames keyframes", "stampede render demos.db 3 --video demo.mp4",
-       "stampede render demos.db 1 2 3 --sheet sheet.png",
-       "stampede render real.db 1 --overlay over --camera-file measured.json"},
+       "stampede render demos.db 1 2 3 --sheet sheet.png"},
       do_render};
   for (OptionRow& option : picture_options(PictureUse::render)) row.options.push_back(std::move(option));
   row.options.push_back(

@@ -86,7 +86,9 @@ class Painter {
 std::string header(const EpisodeRecord& episode, const TimelineStyle& style) {
   std::string text = style.title.empty() ? "" : style.title + "\n";
   text += episode.task + (episode.variation.empty() ? "" : " (" + episode.variation + ")");
-  text += fmt::format(", seed {}, {}, world {}\n", episode.seed, to_string(episode.split), episode.world);
+  text += episode.real
+              ? fmt::format(", recorded, world {}\n", episode.world)
+              : fmt::format(", seed {}, {}, world {}\n", episode.seed, to_string(episode.split), episode.world);
   for (const LanguageRecord& language : episode.language) {
     if (language.level != LanguageLevel::task) continue;
     text += "“" + language.text + "”\n";

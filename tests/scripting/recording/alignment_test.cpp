@@ -1,0 +1,143 @@
+// Pictures drawn by one camera, compared with what another would see.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "db/catalogue.h"
+#include "engine/base/random.h"
+#include "engine/model/camera.h"
+#include "engine/model/scene_poses.h"
+#include "engine/render/edge_alignment.h"
+#include "engine/render/png.h"
+#include "engine/render/renderer.h"
+#include "lab.h"
+#include "scripting/recording/overlay.h"
+
+using namespace stampede;
+using namespace stampede::test;
+
+namespace {
+
+struct Measured {
+  Alignment alignment;
+  double true_px = 0;  // mean way of the outline along its normal, of the points that were compared
+};
+
+struct Bench {
+  Lab lab;
+  StoredEpisode stored = stored_of(lab.import());
+  std::unique_ptr<Renderer> renderer = make_renderer();
+
+  Bench() {
+    Scene scene = *stored.scene;
+    Camera& camera = scene.cameras.at(0);
+    camera = with_size(camera);
+    camera.distortion = {0.08, -0.12, 0.0006, -0.0009, 0.01};
+    stored.scene = std::make_shared<const Scene>(scene);
+  }
+  static Camera with_size(const Camera& camera) { return resized(camera, 640, 480); }
+
+  Picture draw(const std::shared_ptr<const Scene>& scene, const ScenePoses& poses, const View& view, bool rgb) {
+    renderer->load(scene);
+    DrawOptions options;
+    options.kinds = PictureKinds::none();
+    for (const PictureKind kind : kPictureKinds)
+      if (rgb ? kind == PictureKind::rgb : (kind == PictureKind::instance || kind == PictureKind::depth))
+        options.kinds.add(kind);
+    options.samples = rgb ? 3 : 1;
+    std::vector<Picture> pictures;
+    renderer->draw(poses, {&view, 1}, options, pictures);
+    return pictures[0];
+  }
+
+  Measured measure(const Transform& camera_from_moved) {
+    Scene other_light = *stored.scene;
+    other_light.light.direction = {0.4, -0.6, -1};
+    other_light.light.ambient = 0.4;
+    const auto real_scene = std::make_shared<const Scene>(other_light);
+    Measured result;
+    std::vector<OutlinePoint> all;
+    Random random(RandomKey("noise"));
+    double sum = 0;
+    int count = 0;
+    for (const std::int64_t frame : {0, 20, 40}) {
+      const ScenePoses poses = scene_poses(*stored.scene, state_at(*stored.scene, stored.episode, frame));
+      const Camera& camera = stored.scene->cameras[0];
+      const View truth{camera, world_from_camera(*stored.scene, poses, camera)};
+      const View moved{camera, truth.world_from_camera * camera_from_moved};
+      Picture real = draw(real_scene, poses, truth, true);
+      for (std::uint8_t& value : real.rgb)
+        value = static_cast<std::uint8_t>(std::clamp(value + 3 * random.normal(), 0.0, 255.0));
+      const Picture ours = draw(stored.scene, poses, moved, false);
+      std::vector<std::uint8_t> mask(ours.instance.size());
+      for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = ours.instance[i] != 0 ? 1 : 0;
+      const auto points = outline_offsets(mask, real.rgb, real.width, real.height);
+      for (const OutlinePoint& point : points) {
+        const double x = point.at[0] - 1.5 * point.normal[0], y = point.at[1] - 1.5 * point.normal[1];
+        const float depth = ours.depth[static_cast<std::size_t>(y) * 640 + static_cast<std::size_t>(x)];
+        const auto direction = direction_of(camera, point.at);
+        if (depth <= 0 || !direction) continue;
+        const Vector3 seen(depth * (*direction)[0], depth * (*direction)[1], depth);
+        const auto there = project(camera, camera_from_moved * seen);
+        sum += std::abs((there[0] - point.at[0]) * point.normal[0] + (there[1] - point.at[1]) * point.normal[1]);
+        ++count;
+      }
+      all.insert(all.end(), points.begin(), points.end());
+    }
+    result.alignment = alignment_of(all);
+    result.true_px = sum / count;
+    return result;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the outline's offset grows with the camera's error, and agrees with the way that it moved") {
+  Bench bench;
+  const Measured none = bench.measure(Transform::Identity());
+  CHECK(none.alignment.points > 1000);
+  CHECK(none.alignment.found > none.alignment.points * 3 / 4);
+  CHECK(none.alignment.median_px < 0.35);
+  CHECK(std::hypot(none.alignment.shift_px[0], none.alignment.shift_px[1]) < 0.25);
+  double last = none.alignment.median_px;
+  for (const double millimetres : {5.0, 10.0, 20.0}) {
+    const Measured m = bench.measure(translation(millimetres / 1000, 0, 0));
+    INFO(millimetres << " mm: median " << m.alignment.median_px << ", mean " << m.alignment.mean_px << ", true "
+                     << m.true_px << ", shift " << m.alignment.shift_px[0] << " " << m.alignment.shift_px[1]);
+    CHECK(m.alignment.median_px > last);
+    CHECK(m.alignment.mean_px == Approx(m.true_px).epsilon(0.25).margin(0.6));
+    CHECK(m.alignment.shift_px[0] > 0.5 * m.true_px);
+    last = m.alignment.median_px;
+  }
+  last = none.alignment.median_px;
+  for (const double degrees : {0.2, 0.5, 1.0}) {
+    const Measured m = bench.measure(Transform(rotation_rpy(0, degrees * 3.14159265 / 180, 0)));
+    INFO(degrees << " deg: median " << m.alignment.median_px << ", mean " << m.alignment.mean_px << ", true "
+                 << m.true_px << ", shift " << m.alignment.shift_px[0] << " " << m.alignment.shift_px[1]);
+    CHECK(m.alignment.median_px > last);
+    CHECK(m.alignment.mean_px == Approx(m.true_px).epsilon(0.25).margin(0.6));
+    last = m.alignment.median_px;
+  }
+}
+
+TEST_CASE("an outline without edges has no offset") {
+  const std::vector<std::uint8_t> grey(3 * 100 * 100, 128);
+  std::vector<std::uint8_t> mask(100 * 100, 0);
+  for (std::size_t y = 40; y < 60; ++y)
+    for (std::size_t x = 40; x < 60; ++x) mask[y * 100 + x] = 1;
+  const Alignment alignment = alignment_of(outline_offsets(mask, grey, 100, 100));
+  CHECK(alignment.points > 20);
+  CHECK(alignment.found == 0);
+}
+
+TEST_CASE("an edge that was moved by two pixels is found there, to a tenth") {
+  std::vector<std::uint8_t> rgb(3 * 100 * 100, 40), mask(100 * 100, 0);
+  for (std::size_t y = 30; y < 70; ++y)
+    for (std::size_t x = 30; x < 70; ++x) {
+      mask[y * 100 + x] = 1;
+      for (std::size_t c = 0; c < 3; ++c) rgb[3 * ((y + 1) * 100 + x + 2) + c] = 200;
+    }
+  const Alignment alignment = alignment_of(outline_offsets(mask, rgb, 100, 100));
+  CHECK(alignment.found == alignment.points);
+  CHECK(alignment.shift_px[0] == Approx(2).margin(0.1));
+  CHECK(alignment.shift_px[1] == Approx(1).margin(0.1));
+}

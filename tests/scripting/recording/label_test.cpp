@@ -1,0 +1,89 @@
+#include <catch2/catch.hpp>
+
+#include "lab.h"
+#include "scripting/recording/label_file.h"
+
+using namespace stampede;
+using namespace stampede::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+EpisodeRecord two_seconds() {
+  EpisodeRecord e;
+  e.real = true;
+  e.physics_hz = 1'000'000, e.frame_hz = 20, e.steps = 2'000'000;
+  e.frames.resize(41);
+  e.hands = {"panda.hand"};
+  return e;
+}
+
+Labels labels_of(const std::string& text, const char* name = "labels.json") {
+  const Lab lab;
+  lab.write(name, text);
+  return read_labels(lab.folder() / name, name, two_seconds());
+}
+
+}  // namespace
+
+TEST_CASE("labels become segments in order, with parents, and sentences that name them") {
+  const Labels labels = labels_of(R"({ "labelled_by": "model", "model": "tagger", "segments": [
+      { "kind": "motion", "name": "move", "first_frame": 2, "end_frame": 10 },
+      { "kind": "skill", "name": "pick", "arguments": ["cup"], "start_s": 0.1, "end_s": 1, "label": "take the cup" },
+      { "kind": "subgoal", "name": "tidy", "start_s": 0, "end_s": 2, "outcome": "failure", "reason": "dropped" } ],
+    "facts": [ { "fact": ["on", "cup", "table"], "start_s": 0, "end_s": 0.5 } ],
+    "language": [ { "level": "motion", "segment": 0, "text": "reach out", "grain": "motions" } ] })");
+  REQUIRE(labels.segments.size() == 3);
+  CHECK((labels.segments[0].skill == "tidy" && labels.segments[0].parent == -1));
+  CHECK((labels.segments[1].skill == "pick" && labels.segments[1].parent == 0));
+  CHECK((labels.segments[2].skill == "move" && labels.segments[2].parent == 1));
+  CHECK(labels.segments[0].span.end_frame == 41);  // the last frame belongs to what ends there
+  CHECK((labels.segments[1].span.first_frame == 2 && labels.segments[1].span.end_frame == 20));
+  CHECK(labels.segments[0].reason == Reason::dropped);
+  CHECK(labels.segments[1].labelled_by == Labeller::model);
+  CHECK((labels.facts.at(0).open_start && !labels.facts[0].open_end && labels.facts[0].end_step == 500'000));
+  REQUIRE(labels.language.size() == 2);
+  CHECK((labels.language[0].text == "take the cup" && labels.language[0].segment == 1));
+  CHECK((labels.language[1].segment == 2 && labels.language[1].model == "tagger"));
+  CHECK(labels.language[1].grain == LanguageGrain::motions);
+}
+
+TEST_CASE("a CSV says the same") {
+  const Labels labels = labels_of(
+      "kind,name,arguments,start_s,end_s,outcome,text\nskill,pick,cup table,0.1,1,success,\"take it, gently\"\n"
+      "fact,on,cup table,,,,\nlanguage,task,,,,,tidy up\nlanguage,skill,,0.1,1,,grasp\n",
+      "labels.csv");
+  CHECK(labels.segments.at(0).arguments == std::vector<std::string>{"cup", "table"});
+  CHECK(labels.segments[0].label == "take it, gently");
+  CHECK(labels.facts.at(0).end_frame == 41);
+  REQUIRE(labels.language.size() == 3);
+  CHECK(labels.language[2].segment == 0);
+}
+
+TEST_CASE("bad labels are refused with their line") {
+  const std::string head = "kind,name,arguments,start_s,end_s\n";
+  const auto refuse = [&](const std::string& rows, const std::string& complaint) {
+    INFO(rows);
+    CHECK_THROWS_WITH(labels_of(head + rows, "labels.csv"), Contains("labels.csv:") && Contains(complaint));
+  };
+  refuse("skill,a,,0,1\nskill,b,,0.9,1.5\n", "overlaps the skill a");
+  refuse("skill,a,,0,3\n", "ends after the episode");
+  refuse("skill,a,,1,1\n", "ends before it has begun");
+  refuse("skill,a,,-1,1\n", "begins before the first frame");
+  refuse("skil,a,,0,1\n", "did you mean 'skill'?");
+  refuse("skill,a,,0,\n", "given in part");
+  refuse("skill,a,,,\n", "has no span");
+  refuse("skill,a,,0,x\n", "no finite number");
+  refuse("subgoal,g,,0,1\nskill,a,,0.5,1.5\n", "lies partly within the subgoal g");
+  refuse("fact,on,a b,0,1\nfact,on,a b,0.5,2\n", "holds twice at once");
+  refuse("fact,on,a b c d e,0,1\n", "4 arguments at most");
+  refuse("skill,a,,0\n", "this row has 4 fields");
+  CHECK_THROWS_WITH(labels_of(R"({"segments": [{"kind": "skill", "name": "a b", "start_s": 0, "end_s": 1}]})"),
+                    Contains("segments[0]") && Contains("cannot be a name"));
+  CHECK_THROWS_WITH(labels_of(R"({"language": [{"level": "skill", "segment": 4, "text": "x"}]})"),
+                    Contains("is no skill"));
+  CHECK_THROWS_WITH(labels_of(R"({"labelled_by": "simulator", "facts": [{"fact": ["on"]}]})"),
+                    Contains("person or model"));
+  CHECK_THROWS_WITH(labels_of(R"({"clock": "arm"})"), Contains("in seconds from frame 0"));
+  CHECK_THROWS_WITH(labels_of("{"), Contains("no JSON"));
+}
