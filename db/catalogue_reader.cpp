@@ -323,6 +323,7 @@ void EpisodeReader::read_actions() {
     row.read(frame, part);
     std::optional<ActionRecord>& action = at(record_.frames, frame, "action").action;
     if (!action) action.emplace();
+    if (record_.real && part == 0) action->gripper = std::nan("");  // until it is read
     each_channel(row, part, channels, [&](const ActionChannel& channel, double value) {
       if (channel.space == "joint_position") action->joint_position.push_back(value);
       if (channel.space == "gripper") action->gripper = value;

@@ -154,7 +154,7 @@ void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
     const auto& [position, quaternion] = action->tool_pose;
     values.insert(values.end(), position.begin(), position.end());
     values.insert(values.end(), quaternion.begin(), quaternion.end());
-    values.emplace_back(action->gripper);
+    values.emplace_back(episode.real ? known(action->gripper) : action->gripper);
     for (std::size_t part = 0; part * kChannelsARow < values.size(); ++part)
       action_.run(id_, i, part, part_of<std::optional<double>>(values, part, kChannelsARow));
   }

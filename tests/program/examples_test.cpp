@@ -63,6 +63,11 @@ class Workplace {
         "while read -r line; do case $line in '{\"type\":\"reset\"'*) echo "
         "'{\"space\":\"skill\",\"skill\":\"reach\",\"arguments\":[\"target\",\"panda.hand\"]}';; "
         "*'\"terminated\":true'*) ;; *) echo '{\"space\":\"hold\"}';; esac; done\n");
+    for (const char* which : {"1", "2"})
+      REQUIRE(
+          say({"export", "recording", "demos.db", "--episode", which, "--out", std::string("lab/000") + which}).code ==
+          kDone);
+    put("labels.json", "{\"language\": [{\"text\": \"push the buttons\"}]}");
     fs::create_directory("my_tasks");
     for (const char* part : {"part1.db", "part2.db", "old.db", "now.db"}) fs::copy_file("demos.db", part);
   }

@@ -140,6 +140,16 @@ TEST_CASE("an episode that is exported as a recording comes back") {
   CHECK(a.cameras[0].mount_from_camera.isApprox(b.cameras[0].mount_from_camera, 1e-12));
 }
 
+TEST_CASE("an arm without a recorded hand is stored, and its hand is not known") {
+  const Lab lab;
+  lab.change([](auto& json) { json["streams"].erase(1); });
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+  const EpisodeRecord e = catalogue.read_episode(*catalogue.add_if_new(lab.import(), kEngine));
+  CHECK(std::isnan(e.frames[3].hands.at(0).opening));
+  CHECK(std::isnan(e.frames[3].action->gripper));
+  CHECK(e.frames[3].action->joint_position.at(2) == e.frames[4].joint_position.at(2));
+}
+
 TEST_CASE("labels come later too, and take the place of those of the same sort") {
   const Lab lab;
   Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
