@@ -19,4 +19,6 @@ const std::vector<SqlFile>& embedded_derived();  // what is worked out when an e
 const std::vector<SqlFile>& embedded_views();    // by name; each makes the view of its name
 const std::vector<SqlFile>& embedded_queries();  // by name; the first line is a comment that describes it
 
+const std::vector<SqlFile>& embedded_datasets();  // by name; each one SELECT, its first line describes the table
+
 }  // namespace stampede

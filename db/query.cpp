@@ -8,6 +8,7 @@
 
 #include "db/catalogue_impl.h"
 #include "db/embedded_sql.h"
+#include "db/read_only.h"
 #include "engine/base/nearest.h"
 
 namespace stampede {
@@ -186,6 +187,17 @@ std::string text_of(std::string_view question) {
   throw Error("query", "there is no query named '" + std::string(question) + "'", names);
 }
 
+struct RowKeeper : RowReceiver {
+  void columns(const std::vector<std::string>& names) override { result.columns = names; }
+  bool row(const std::vector<SqlValue>& values) override {
+    result.cut = most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == most_rows;
+    if (!result.cut) result.rows.push_back(values);
+    return !result.cut;
+  }
+  QueryResult result;
+  std::int64_t most_rows = 0;
+};
+
 }  // namespace
 
 const std::vector<NamedQuery>& named_queries() {
@@ -207,10 +219,9 @@ const NamedQuery* find_named_query(std::string_view name) {
   return nullptr;
 }
 
-void Catalogue::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
-  sqlite3* handle = impl_->database.handle();
+void read_only_query(sqlite3* handle, const std::string& text, RowReceiver& receiver, const QueryOptions& options) {
   const ReadOnly guard(handle);
-  const Prepared statement = prepare(handle, text_of(question));
+  const Prepared statement = prepare(handle, text);
   bind(handle, statement.get(), options.parameters);
   const int columns = sqlite3_column_count(statement.get());
   std::vector<std::string> names;
@@ -225,18 +236,18 @@ void Catalogue::query(std::string_view question, RowReceiver& receiver, const Qu
   if (code != SQLITE_DONE) refuse(code, sqlite3_errmsg(handle));
 }
 
+Rows read_only_query(sqlite3* handle, std::string_view text, const std::vector<SqlValue>& parameters) {
+  RowKeeper keeper;
+  read_only_query(handle, std::string(text), keeper, {parameters, 0});
+  return std::move(keeper.result);
+}
+
+void Catalogue::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
+  read_only_query(impl_->database.handle(), text_of(question), receiver, options);
+}
+
 QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {
-  struct Keeper : RowReceiver {
-    void columns(const std::vector<std::string>& names) override { result.columns = names; }
-    bool row(const std::vector<SqlValue>& values) override {
-      result.cut = most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == most_rows;
-      if (!result.cut) result.rows.push_back(values);
-      return !result.cut;
-    }
-    QueryResult result;
-    std::int64_t most_rows = 0;
-  };
-  Keeper keeper;
+  RowKeeper keeper;
   keeper.most_rows = options.most_rows;
   query(question, keeper, {options.parameters, 0});
   return std::move(keeper.result);

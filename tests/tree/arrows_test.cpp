@@ -61,6 +61,8 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library",   "scripting/runtime",
                                              "scripting/session", "scripting/recording", "scripting/program",
                                              "scripting/commands"};
+const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library", "scripting/runtime",
+                                             "scripting/session", "scripting/research", "scripting/program", "scripting/commands"};
 
 std::map<std::string, std::set<std::string>> all_arrows() {
   std::map<std::string, std::set<std::string>> arrows = kArrows;

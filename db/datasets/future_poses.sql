@@ -1,0 +1,2 @@
+-- Where each thing is 1, 5 and 20 frames after every 40th frame (m, world).
+SELECT frame, object, x, y, z FROM poses WHERE episode = ?1 AND frame % 40 IN (0, 1, 5, 20) ORDER BY frame, object;

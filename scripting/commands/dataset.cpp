@@ -1,0 +1,87 @@
+#include "scripting/research/dataset.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+
+namespace stampede::program {
+namespace {
+
+void list_problems(bool as_json, Console& console) {
+  JsonText json;
+  json.array();
+  for (const research::ResearchProblem& problem : research::all_problems()) {
+    if (!as_json) {
+      console.out << padded(problem.name, 24) << problem.title << "\n";
+      continue;
+    }
+    json.object().field("name", problem.name).field("serves", problem.serves).field("title", problem.title);
+    for (const auto& [part, uses] : {std::pair{"given", &problem.given}, {"hidden", &problem.hidden}}) {
+      json.key(part).array();
+      for (const research::TableUse& use : *uses) json.value(use.table());
+      json.end();
+    }
+    json.field("scoring", problem.scoring).end();
+  }
+  if (as_json) console.out << json.end().text();
+}
+
+ExitCode do_dataset(const Arguments& arguments, Console& console) {
+  if (arguments.flag("--list")) {
+    list_problems(arguments.flag("--json"), console);
+    return kDone;
+  }
+  if (!arguments.has("PROBLEM") || !arguments.has("FILE"))
+    throw UsageError("stampede dataset needs a problem and a catalogue",
+                     "`stampede dataset --list` names the problems");
+  if (!arguments.has("--out")) throw UsageError("stampede dataset needs --out DIR");
+  const research::ResearchProblem& problem = research::find_problem(arguments.text("PROBLEM"));
+  const std::string out = arguments.text("--out"), hidden = arguments.text("--hidden");
+  if (!hidden.empty() && std::filesystem::weakly_canonical(out) == std::filesystem::weakly_canonical(hidden))
+    throw UsageError("--out and --hidden are the same folder", "what is hidden must lie elsewhere");
+  const research::DatasetReport report =
+      research::make_dataset(problem, {arguments.text("FILE"), out, hidden, arguments.text("--split")});
+  if (arguments.flag("--json")) {
+    JsonText json;
+    json.object().field("dataset", report.id).field("problem", problem.name).field("out", out);
+    if (!hidden.empty()) json.field("hidden", hidden);
+    json.field("train", report.train).field("validation", report.validation).field("test", report.test);
+    console.out << json.field("given_rows", report.given_rows).field("hidden_rows", report.hidden_rows).end().text();
+  } else {
+    console.out << fmt::format("{}: {} {}, {} train, {} validation, {} test, {} rows given, {} hidden{}\n", out,
+                               problem.name, report.id, report.train, report.validation, report.test, report.given_rows,
+                               report.hidden_rows, hidden.empty() ? " (not written)" : "");
+  }
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow dataset_command() {
+  return {
+      "dataset",
+      "Make a data set for a research problem of a catalogue",
+      "What a learner is given and what it is scored against, in two folders: plain SQLite files, each with a page "
+      "that says what is in it. Episodes get new numbers; nothing in the given part says what is hidden. The same "
+      "episodes make the same bytes. The exit code is 3 when the catalogue has nothing to serve.",
+      {{"PROBLEM", "which; see --list", false, false}, {"FILE", "the catalogue", false, false}},
+      {{"--list", "", "the problems", Takes::flag, "", {}, false},
+       {"--out", "DIR", "where the given part goes; made when it is not there", Takes::path, "", {}, false},
+       {"--hidden", "DIR", "where the hidden part goes; nowhere when not given", Takes::path, "", {}, false},
+       {"--split",
+        "RULE",
+        "what is kept for tests: seeds, AXIS=VALUE,…, object=CLASS,…, task=NAME,…, composition (pairs of consecutive "
+        "skills) or composition=AXIS+AXIS (pairs of values)",
+        Takes::text,
+        "seeds",
+        {},
+        false}},
+      {"stampede dataset --list", "stampede dataset segments demos.db --out given --hidden hidden",
+       "stampede dataset behaviour demos.db --out given --hidden hidden --split colour=red"},
+      do_dataset};
+}
+
+}  // namespace stampede::program

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "scripting/commands/commands.h"
+#include "scripting/program/json_text.h"
+#include "scripting/research/dataset.h"
+#include "scripting/research/scorer.h"
+#include "scripting/session/text_file.h"
+
+namespace stampede::program {
+namespace {
+
+std::string score_json(const research::Scored& scored, const std::string& answers) {
+  JsonText json;
+  json.object().field("problem", scored.problem).field("dataset", scored.dataset).field("answers", answers);
+  json.field("scored", scored.units).key("figures").array();
+  for (const research::Figure& figure : scored.figures)
+    json.object()
+        .field("name", figure.name)
+        .field("value", figure.value)
+        .field("about", figure.about)
+        .field("better", figure.higher_is_better ? "higher" : "lower")
+        .end();
+  return json.end().end().text();
+}
+
+ExitCode do_score(const Arguments& arguments, Console& console) {
+  const research::ResearchProblem& problem = research::find_problem(arguments.text("PROBLEM"));
+  const std::string answers = arguments.text("ANSWERS"), hidden = arguments.text("--hidden");
+  if (hidden.empty())
+    throw UsageError("stampede score needs --hidden DIR", "the folder that `stampede dataset --hidden` made");
+  const std::string found =
+      research::dataset_problem(PlainFile::open(std::filesystem::path(hidden) / research::kHiddenFile));
+  if (found != problem.name)
+    throw Error(hidden, "this is a data set of " + found + ", not of " + problem.name,
+                "name the problem or the folder that fits");
+  research::ScoreOptions options;
+  options.roots = roots_of(arguments);
+  options.workers = workers_of(arguments);
+  options.physics = in_range(arguments, "--physics", 0, kMostEpisodes);
+  options.figure = arguments.text("--figure");
+  const research::Scored scored = research::score(answers, hidden, options);
+  const std::string json = score_json(scored, answers);
+  if (arguments.has("--out")) write_text_file(arguments.text("--out"), json);
+  if (arguments.flag("--json")) {
+    console.out << json;
+    return kDone;
+  }
+  console.out << fmt::format("{} {}: {} scored\n", scored.problem, scored.dataset, scored.units);
+  for (const research::Figure& figure : scored.figures)
+    console.out << fmt::format("{:24} {:9.4f}{}  {}\n", figure.name, figure.value, figure.higher_is_better ? " " : "v",
+                               figure.about);
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow score_command() {
+  return {
+      "score",
+      "Score answers to a research problem",
+      "Against the hidden part of the data set that they answer. Answers are JSON or CSV, as the given part's page "
+      "says; answers for another data set, missing ones and numbers that are none are refused (exit code 3). Of "
+      "figures marked v less is better.",
+      {{"PROBLEM", "which; `stampede dataset --list` names all", true, false},
+       {"ANSWERS", "the file with answers", true, false}},
+      {{"--hidden", "DIR", "the hidden part", Takes::path, "", {}, false},
+       {"--out", "FILE", "write the figures there too, as JSON", Takes::path, "", {}, false},
+       {"--figure", "FILE", "segments: draw an episode's timeline there, as SVG", Takes::path, "", {}, false},
+       {"--physics", "N", "operators: run at most N plans that they make in physics", Takes::integer, "0", {}, false},
+       {"--workers", "W", "threads, instead of one a core", Takes::integer, "", {}, false}},
+      {"stampede score segments answers.json --hidden hidden",
+       "stampede score segments answers.json --hidden hidden --figure timeline.svg"},
+      do_score};
+}
+
+}  // namespace stampede::program

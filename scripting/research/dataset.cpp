@@ -1,0 +1,220 @@
+#include "scripting/research/dataset.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "scripting/research/answers.h"
+#include "scripting/research/datasheet.h"
+#include "scripting/session/text_file.h"
+
+namespace stampede::research {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An episode, or a piece of one, and its number in the data set.
+struct Member {
+  std::int64_t episode = 0, segment = -1, number = 0;
+  std::string key, split;
+};
+
+// By a hash of problem and key: the order says nothing of how episodes were made, nor two data sets of each other.
+void number_anew(std::vector<Member>& members, const std::string& problem) {
+  const auto lot = [&](const Member& one) {
+    return content_hash(problem + "|" + one.key + "|" + std::to_string(one.segment));
+  };
+  std::sort(members.begin(), members.end(), [&](const Member& a, const Member& b) { return lot(a) < lot(b); });
+  std::int64_t number = 0;
+  for (Member& one : members) one.number = ++number;
+}
+
+std::vector<Member> members_of(const Catalogue& catalogue, const ResearchProblem& problem,
+                               const std::vector<SplitEpisode>& episodes, const Split& split) {
+  std::vector<Member> members;
+  for (const SplitEpisode& episode : episodes) {
+    const Member whole{.episode = episode.id, .key = episode.key, .split = split.of.at(episode.id)};
+    if (problem.unit == Unit::episode) {
+      members.push_back(whole);
+      continue;
+    }
+    const Rows rows = catalogue.query(
+        "SELECT segment FROM segments WHERE episode = ?1 AND kind = 'skill' AND end_frame > first_frame ORDER BY "
+        "segment",
+        {.parameters = {episode.id}});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      members.push_back(whole);
+      members.back().segment = rows.integer(i, "segment");
+    }
+  }
+  number_anew(members, problem.name);
+  return members;
+}
+
+const char* unit_column(const ResearchProblem& problem) { return problem.unit == Unit::piece ? "piece" : "episode"; }
+
+bool takes(Part part, const std::string& split) {
+  return part == Part::all || (part == Part::test) == (split == "test");
+}
+
+// Rows of a SELECT into a table, with the unit's number before each; what is written is hashed.
+class TableFiller : public RowReceiver {
+ public:
+  TableFiller(PlainFileWriter* file, Hasher& hasher) : file_(file), hasher_(hasher) {}
+  void begin(const std::string& table, const char* unit) { table_ = table, unit_ = unit, names_.clear(); }
+  void of_unit(std::int64_t number) { number_ = number; }
+  void columns(const std::vector<std::string>& names) override {
+    if (names == names_) return;
+    if (!names_.empty()) throw Error("db/datasets", "the SELECTs of table " + table_ + " have different columns");
+    names_ = names;
+    std::vector<std::string> all = {unit_};
+    all.insert(all.end(), names.begin(), names.end());
+    hasher_.text(table_);
+    for (const std::string& name : all) hasher_.text(name);
+    if (file_) file_->table(table_, all);
+  }
+  bool row(const std::vector<SqlValue>& values) override {
+    row_.assign(1, number_);
+    row_.insert(row_.end(), values.begin(), values.end());
+    for (const SqlValue& value : row_) hash(value);
+    if (file_) file_->row(row_);
+    ++rows_;
+    return true;
+  }
+  std::int64_t rows() const { return rows_; }
+
+ private:
+  void hash(const SqlValue& value) {
+    hasher_.number(static_cast<std::int64_t>(value.index()));
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) hasher_.number(*integer);
+    if (const auto* real = std::get_if<double>(&value)) hasher_.number(*real);
+    if (const auto* text = std::get_if<std::string>(&value)) hasher_.text(*text);
+    if (const auto* blob = std::get_if<SqlBlob>(&value)) hasher_.text(blob->bytes);
+  }
+
+  PlainFileWriter* file_;
+  Hasher& hasher_;
+  std::string table_;
+  const char* unit_ = "";
+  std::vector<std::string> names_;
+  std::vector<SqlValue> row_;
+  std::int64_t number_ = 0, rows_ = 0;
+};
+
+// How many of ?1 ?2 ?3 a SELECT takes.
+std::size_t parameters_of(const std::string& select) {
+  for (const std::size_t n : {3, 2, 1})
+    if (select.find("?" + std::to_string(n)) != std::string::npos) return n;
+  return 0;
+}
+
+std::int64_t fill(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<TableUse>& uses,
+                  const std::vector<Member>& members, PlainFileWriter* file, Hasher& hasher) {
+  TableFiller filler(file, hasher);
+  std::string table;
+  for (const TableUse& use : uses) {
+    const DatasetTable* source = find_dataset_table(use.select);
+    if (!source) throw Error("db/datasets", "there is no file " + use.select + ".sql, which " + problem.name + " uses");
+    if (use.table() != table) filler.begin(table = use.table(), unit_column(problem));
+    const std::size_t wanted = parameters_of(source->select);
+    for (const Member& one : members) {
+      if (!takes(use.part, one.split)) continue;
+      std::vector<SqlValue> parameters = {one.episode, one.segment, one.split};
+      parameters.resize(wanted);
+      filler.of_unit(one.number);
+      catalogue.query(source->select, filler, {.parameters = parameters});
+    }
+  }
+  return filler.rows();
+}
+
+void write_index(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<Member>& members,
+                 PlainFileWriter& file) {
+  file.table(unit_column(problem) + std::string("s"), {unit_column(problem), "split", "frames", "frame_hz"});
+  for (const Member& one : members) {
+    const Rows rows =
+        problem.unit == Unit::episode
+            ? catalogue.query("SELECT frames, frame_hz FROM episodes WHERE episode = ?1", {.parameters = {one.episode}})
+            : catalogue.query(
+                  "SELECT s.end_frame - s.first_frame AS frames, e.frame_hz FROM segments s JOIN "
+                  "episodes e USING (episode) WHERE s.episode = ?1 AND s.segment = ?2",
+                  {.parameters = {one.episode, one.segment}});
+    file.row({one.number, one.split, rows.integer(0, "frames"), rows.integer(0, "frame_hz")});
+  }
+}
+
+void write_identity(PlainFileWriter& file, const ResearchProblem& problem, const std::string& id,
+                    const std::string& split) {
+  file.table("dataset", {"id", "problem", "split"});
+  file.row({id, problem.name, split});
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw CatalogueError(folder.string(), "this folder cannot be made" + (error ? ": " + error.message() : ""),
+                         "name another, or one that you may write in");
+}
+
+std::string text_of(const PlainFile& file, const char* column) {
+  if (!file.has("dataset"))
+    throw CatalogueError(file.path().string(), "this database is no data set of ours",
+                         "name a folder that `stampede dataset` has made");
+  return file.query("SELECT * FROM dataset").text(0, column);
+}
+
+}  // namespace
+
+std::string dataset_id(const PlainFile& file) { return text_of(file, "id"); }
+std::string dataset_problem(const PlainFile& file) { return text_of(file, "problem"); }
+
+DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest& request) {
+  const SplitRule rule = split_rule(request.split);
+  const Catalogue catalogue = Catalogue::open(request.catalogue);
+  const std::vector<SplitEpisode> episodes = episodes_to_split(catalogue, problem.demos_only);
+  if (episodes.empty())
+    throw Error(
+        request.catalogue.string(),
+        problem.demos_only ? "no episode of this catalogue succeeded" : "no episode of this catalogue has frames",
+        problem.name + " is made of " + (problem.demos_only ? "successes" : "episodes with frames") +
+            ": `stampede query FILE failures_by_reason` says why there are none");
+  const Split split = split_episodes(episodes, rule);
+  const std::vector<Member> members = members_of(catalogue, problem, episodes, split);
+  make_folder(request.given);
+  if (!request.hidden.empty()) make_folder(request.hidden);
+
+  Hasher hasher;
+  hasher.text(problem.name).text(rule.text());
+  for (const Member& one : members) hasher.number(one.number).text(one.split);
+  PlainFileWriter given(request.given / kGivenFile);
+  std::optional<PlainFileWriter> hidden;
+  if (!request.hidden.empty()) hidden.emplace(request.hidden / kHiddenFile);
+  DatasetReport report;
+  report.given_rows = fill(catalogue, problem, problem.given, members, &given, hasher);
+  report.hidden_rows = fill(catalogue, problem, problem.hidden, members, hidden ? &*hidden : nullptr, hasher);
+  report.id = hasher.digest();
+  std::vector<std::int64_t> tests;
+  for (const Member& one : members) {
+    ++(one.split == "train" ? report.train : one.split == "test" ? report.test : report.validation);
+    if (one.split == "test") tests.push_back(one.number);
+  }
+  write_index(catalogue, problem, members, given);
+  write_identity(given, problem, report.id, rule.text());
+  const DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
+  write_text_file(request.given / "answers.example.json", example_answers(problem, report.id, tests));
+  write_text_file(request.given / "README.md", given_sheet(problem, facts, report));
+  if (hidden) {
+    write_index(catalogue, problem, members, *hidden);
+    write_identity(*hidden, problem, report.id, rule.text());
+    hidden->table("held_out", {"kind", "first", "second"});
+    for (const HeldOut& one : split.held_out) hidden->row({one.kind, one.first, one.second});
+    write_text_file(request.hidden / "README.md", hidden_sheet(problem, facts, report));
+    hidden->finish();
+  }
+  given.finish();
+  return report;
+}
+
+}  // namespace stampede::research
