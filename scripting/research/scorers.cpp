@@ -69,6 +69,12 @@ void check_texts(const Answers& answers, const ResearchProblem& problem) {
 const std::vector<Scorer>& all_scorers() {
   static const std::vector<Scorer> scorers = {
       {"segments", "boundaries and labels of segments", score_segments},
+      {"facts", "named predicates", score_facts},
+      {"symbols", "learned symbols, matched with predicates", score_symbols},
+      {"clusters", "names of pieces", score_clusters},
+      {"actions", "what to command", score_actions},
+      {"rewards", "values of frames", score_rewards},
+      {"predictions", "positions to come", score_predictions},
   };
   return scorers;
 }

@@ -5,6 +5,12 @@
 
 namespace stampede::research {
 
-std::vector<Figure> score_segments(const ScoringJob& job);  // score_segments.cpp
+std::vector<Figure> score_segments(const ScoringJob& job);     // score_segments.cpp
+std::vector<Figure> score_facts(const ScoringJob& job);        // score_facts.cpp
+std::vector<Figure> score_symbols(const ScoringJob& job);      // score_facts.cpp
+std::vector<Figure> score_clusters(const ScoringJob& job);     // score_clusters.cpp
+std::vector<Figure> score_actions(const ScoringJob& job);      // score_numbers.cpp
+std::vector<Figure> score_rewards(const ScoringJob& job);      // score_numbers.cpp
+std::vector<Figure> score_predictions(const ScoringJob& job);  // score_numbers.cpp
 
 }  // namespace stampede::research
