@@ -5,6 +5,28 @@
 
 namespace stampede::research {
 
-Answers one_segment(const ResearchProblem& problem, const PlainFile& given);  // baseline_segments.cpp
+// baseline_segments.cpp
+Answers one_segment(const ResearchProblem& problem, const PlainFile& given);
+Answers equal_parts(const ResearchProblem& problem, const PlainFile& given);
+Answers keyframe_segments(const ResearchProblem& problem, const PlainFile& given);
+Answers change_points(const ResearchProblem& problem, const PlainFile& given);
+// baseline_hmm.cpp
+Answers hidden_markov(const ResearchProblem& problem, const PlainFile& given);
+// baseline_numbers.cpp
+Answers motion_clusters(const ResearchProblem& problem, const PlainFile& given);
+Answers one_cluster(const ResearchProblem& problem, const PlainFile& given);
+Answers stay_there(const ResearchProblem& problem, const PlainFile& given);
+Answers nearest_action(const ResearchProblem& problem, const PlainFile& given);
+Answers linear_action(const ResearchProblem& problem, const PlainFile& given);
+Answers random_values(const ResearchProblem& problem, const PlainFile& given);
+Answers elapsed_time(const ResearchProblem& problem, const PlainFile& given);
+Answers learned_value(const ResearchProblem& problem, const PlainFile& given);
+// baseline_predictions.cpp
+Answers nothing_moves(const ResearchProblem& problem, const PlainFile& given);
+Answers constant_velocity(const ResearchProblem& problem, const PlainFile& given);
+Answers linear_tip(const ResearchProblem& problem, const PlainFile& given);
+// baseline_facts.cpp
+Answers geometry_facts(const ResearchProblem& problem, const PlainFile& given);
+Answers geometry_symbols(const ResearchProblem& problem, const PlainFile& given);
 
 }  // namespace stampede::research

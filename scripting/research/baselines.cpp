@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "scripting/research/baseline.h"
@@ -8,7 +10,36 @@ namespace stampede::research {
 
 const std::vector<Baseline>& all_baselines() {
   static const std::vector<Baseline> baselines = {
-      {"one_segment", {"segments", "segments_supervised"}, "the whole episode is one segment", one_segment},
+      {"one_segment", {"segments"}, "the whole episode is one segment", one_segment},
+      {"equal_parts", {"segments"}, "a boundary every 45 frames", equal_parts},
+      {"keyframes",
+       {"segments"},
+       "where the gripper opens or closes or the arm stands still (James, Davison, RA-L 2022)",
+       keyframe_segments},
+      {"change_points",
+       {"segments"},
+       "PELT on speeds, opening and forces (Killick et al., JASA 2012), named by k-means",
+       change_points},
+      {"hmm",
+       {"segments_supervised", "controllers"},
+       "hidden Markov model of four phases a label, Viterbi",
+       hidden_markov},
+      {"one_cluster", {"motions"}, "all are the same", one_cluster},
+      {"k_means", {"motions"}, "k-means on ten points of each piece", motion_clusters},
+      {"stay", {"behaviour", "transfer"}, "the command is where the arm is", stay_there},
+      {"nearest", {"behaviour", "transfer"}, "what was commanded in the nearest state of training", nearest_action},
+      {"linear", {"behaviour", "transfer"}, "ridge regression of the command", linear_action},
+      {"random", {"rewards"}, "a number by chance", random_values},
+      {"time", {"rewards"}, "frames since the start", elapsed_time},
+      {"learned_value", {"rewards"}, "ridge regression of how much of a success has passed", learned_value},
+      {"still", {"transition_models"}, "nothing moves", nothing_moves},
+      {"constant_velocity", {"transition_models"}, "all goes on as it does", constant_velocity},
+      {"linear_tip",
+       {"transition_models"},
+       "ridge regression of the tip on its speed and command, with what it carries",
+       linear_tip},
+      {"geometry", {"concepts"}, "bounding boxes and fingers", geometry_facts},
+      {"geometry_symbols", {"symbols"}, "bounding boxes and fingers, under names of its own", geometry_symbols},
   };
   return baselines;
 }

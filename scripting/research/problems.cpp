@@ -85,6 +85,7 @@ std::vector<ResearchProblem> make_problems() {
        .given = Uses{{"piece_skill", Part::all, "skills"},
                      {"piece_poses", Part::all, "poses"},
                      {"piece_joints_around", Part::all, "joints"},
+                     {"piece_hands_around", Part::all, "hands"},
                      {"objects"}},
        .hidden = Uses{{"piece_facts", Part::all, "facts"}} + kSources,
        .answer = {kPiece,

@@ -1,0 +1,206 @@
+// Baselines that answer with numbers or names of pieces: motions, actions, rewards, predictions.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/base/random.h"
+#include "scripting/research/baseline_functions.h"
+#include "scripting/research/signals.h"
+
+namespace stampede::research {
+namespace {
+
+constexpr std::int64_t kActionEvery = 20, kValueEvery = 10;  // frames that are asked about
+
+// A piece as one row: ten points along it of how far the tip has come, its height, its speed and the opening; its
+// length.
+Eigen::RowVectorXd piece_row(const Signals& signals) {
+  constexpr Eigen::Index kPoints = 10;
+  const Eigen::Index frames = signals.hand.rows();
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(kPoints * 4 + 1);
+  if (frames == 0) return row;
+  for (Eigen::Index i = 0; i < kPoints; ++i) {
+    const Eigen::Index at = i * (frames - 1) / (kPoints - 1);
+    row.segment(i * 4, 4) << (signals.hand.row(at).head(3) - signals.hand.row(0).head(3)).norm(),
+        signals.hand(at, 2) - signals.hand(0, 2), signals.hand.row(at).segment(7, 3).norm(), signals.hand(at, 13);
+  }
+  row(kPoints * 4) = std::log(static_cast<double>(frames));
+  return row;
+}
+
+// What an action is learned from, and its target beside the present position.
+struct Steps {
+  Eigen::MatrixXd features, targets;
+};
+
+Eigen::MatrixXd state_features(const Signals& signals) {
+  Eigen::MatrixXd features(signals.hand.rows(),
+                           signals.position.cols() + signals.velocity.cols() + signals.hand.cols());
+  features << signals.position, signals.velocity, signals.hand;
+  return features;
+}
+
+Steps steps_of(const PlainFile& given, const std::vector<Signals>& all) {
+  std::vector<Eigen::MatrixXd> features, targets;
+  for (const Signals& signals : all) {
+    const Rows rows = given.query(
+        "SELECT * FROM actions WHERE episode = ?1 AND action_j1 IS NOT NULL AND action_gripper IS "
+        "NOT NULL ORDER BY frame",
+        {signals.unit});
+    const Eigen::MatrixXd state = state_features(signals);
+    Eigen::MatrixXd some(static_cast<Eigen::Index>(rows.size()), state.cols());
+    Eigen::MatrixXd wanted(static_cast<Eigen::Index>(rows.size()), 8);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const std::int64_t frame = rows.integer(i, "frame");  // training episodes have every frame
+      some.row(row) = state.row(frame);
+      for (int j = 0; j < 7; ++j) {
+        const std::string name = "action_j" + std::to_string(j + 1);
+        const bool there = j < signals.position.cols() && !rows.is_null(i, name);
+        wanted(row, j) = there ? rows.real(i, name) - signals.position(frame, j) : 0;
+      }
+      wanted(row, 7) = rows.real(i, "action_gripper");
+    }
+    features.push_back(some), targets.push_back(wanted);
+  }
+  return {stacked(features), stacked(targets)};
+}
+
+template <typename Guess>  // of a row of features: eight numbers, joints beside the present ones
+Answers actions_by(const PlainFile& given, Guess guess) {
+  Answers answers;
+  for (const Signals& signals : signals_of(given, {"test"})) {
+    const Eigen::MatrixXd state = state_features(signals);
+    for (std::size_t i = 0; i < signals.frames.size(); ++i) {
+      if (signals.frames[i] % kActionEvery != 0) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::RowVectorXd wanted = guess(signals, row, state.row(row));
+      std::vector<SqlValue> answer = {signals.unit, signals.frames[i]};
+      for (Eigen::Index j = 0; j < 7; ++j)
+        answer.emplace_back(wanted(j) + (j < signals.position.cols() ? signals.position(row, j) : 0));
+      answer.emplace_back(wanted(7));
+      answers.rows.rows.push_back(answer);
+    }
+  }
+  return answers;
+}
+
+// How many things have moved since the start, and how far the farthest: by frame.
+Eigen::MatrixXd moved_things(const PlainFile& given, const Signals& signals) {
+  constexpr double kMoved = 0.02;  // m
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(signals.hand.rows(), 2);
+  std::map<std::string, Eigen::Vector3d> start;
+  const Rows rows =
+      given.query("SELECT frame, object, x, y, z FROM poses WHERE episode = ?1 ORDER BY frame", {signals.unit});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Vector3d at(rows.real(i, "x"), rows.real(i, "y"), rows.real(i, "z"));
+    const double distance = (at - start.emplace(rows.text(i, "object"), at).first->second).norm();
+    const auto frame = rows.integer(i, "frame");
+    if (frame >= moved.rows()) continue;
+    moved(frame, 0) += distance > kMoved ? 1 : 0;
+    moved(frame, 1) = std::max(moved(frame, 1), distance);
+  }
+  return moved;
+}
+
+Eigen::MatrixXd value_features(const PlainFile& given, const Signals& signals) {
+  Eigen::MatrixXd features(signals.hand.rows(), signals.hand.cols() + 3);
+  features << signals.hand, moved_things(given, signals),
+      Eigen::VectorXd::LinSpaced(signals.hand.rows(), 0, static_cast<double>(signals.hand.rows() - 1) / 100);
+  return features;
+}
+
+void add_values(Answers& answers, const Signals& signals, const Eigen::VectorXd& values) {
+  for (Eigen::Index frame = 0; frame < values.size(); ++frame)
+    if (frame % kValueEvery == 0) answers.rows.rows.push_back({signals.unit, std::int64_t{frame}, values(frame)});
+}
+
+}  // namespace
+
+Answers motion_clusters(const ResearchProblem&, const PlainFile& given) {
+  constexpr int kClusters = 8;
+  const std::vector<Signals> all = signals_of(given, {"train", "validation", "test"});
+  std::vector<Eigen::MatrixXd> rows;
+  for (const Signals& signals : all) rows.emplace_back(piece_row(signals));
+  const Eigen::MatrixXd table = stacked(rows);
+  const std::vector<int> names = k_means(Scale(table).of(table), kClusters);
+  Answers answers;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].split == "test") answers.rows.rows.push_back({all[i].unit, "c" + std::to_string(names[i])});
+  return answers;
+}
+
+Answers one_cluster(const ResearchProblem&, const PlainFile& given) {
+  Answers answers;
+  for (const Signals& signals : signals_of(given, {"test"}))
+    answers.rows.rows.push_back({signals.unit, std::string("a")});
+  return answers;
+}
+
+Answers stay_there(const ResearchProblem&, const PlainFile& given) {
+  return actions_by(given, [](const Signals& signals, Eigen::Index row, const auto&) -> Eigen::RowVectorXd {
+    Eigen::RowVectorXd wanted = Eigen::RowVectorXd::Zero(8);
+    wanted(7) = signals.opening()(row);
+    return wanted;
+  });
+}
+
+Answers nearest_action(const ResearchProblem&, const PlainFile& given) {
+  const Steps steps = steps_of(given, signals_of(given, {"train", "validation"}));
+  const Scale scale(steps.features);
+  const Eigen::MatrixXd known = scale.of(steps.features);
+  return actions_by(given, [&](const Signals&, Eigen::Index, const auto& state) -> Eigen::RowVectorXd {
+    Eigen::Index nearest = 0;
+    (known.rowwise() - scale.of(state).row(0)).rowwise().squaredNorm().minCoeff(&nearest);
+    return steps.targets.row(nearest);
+  });
+}
+
+Answers linear_action(const ResearchProblem&, const PlainFile& given) {
+  const Steps steps = steps_of(given, signals_of(given, {"train", "validation"}));
+  const Scale scale(steps.features);
+  const Eigen::MatrixXd weights = ridge(scale.of(steps.features), steps.targets, 1.0);
+  return actions_by(given, [&](const Signals&, Eigen::Index, const auto& state) -> Eigen::RowVectorXd {
+    return apply_ridge(scale.of(state), weights).row(0);
+  });
+}
+
+Answers random_values(const ResearchProblem&, const PlainFile& given) {
+  Answers answers;
+  for (const Signals& signals : signals_of(given, {"test"})) {
+    Random random(RandomKey("random_values").with(signals.unit));
+    Eigen::VectorXd values(signals.hand.rows());
+    for (double& value : values) value = random.uniform();
+    add_values(answers, signals, values);
+  }
+  return answers;
+}
+
+Answers elapsed_time(const ResearchProblem&, const PlainFile& given) {
+  Answers answers;
+  for (const Signals& signals : signals_of(given, {"test"}))
+    add_values(answers, signals,
+               Eigen::VectorXd::LinSpaced(signals.hand.rows(), 0, static_cast<double>(signals.hand.rows() - 1)));
+  return answers;
+}
+
+// Regression of the share of a success that has passed; of a failure nothing has.
+Answers learned_value(const ResearchProblem&, const PlainFile& given) {
+  std::vector<Eigen::MatrixXd> features, targets;
+  for (const Signals& signals : signals_of(given, {"train", "validation"})) {
+    const Rows rows = given.query("SELECT max(reward) AS most FROM rewards WHERE episode = ?1", {signals.unit});
+    const bool success = rows.size() > 0 && !rows.is_null(0, "most") && rows.real(0, "most") > 0;
+    const double end = success ? 1 : 0.3;  // a failure ends somewhere on the way
+    features.push_back(value_features(given, signals));
+    targets.emplace_back(Eigen::VectorXd::LinSpaced(signals.hand.rows(), 0, end));
+  }
+  const Scale scale(stacked(features));
+  const Eigen::MatrixXd weights = ridge(scale.of(stacked(features)), stacked(targets), 1.0);
+  Answers answers;
+  for (const Signals& signals : signals_of(given, {"test"}))
+    add_values(answers, signals, apply_ridge(scale.of(value_features(given, signals)), weights).col(0));
+  return answers;
+}
+
+}  // namespace stampede::research
