@@ -11,7 +11,7 @@ namespace {
 
 struct Thing {
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Zero();  // m; box as authored
-  bool movable = false, there = false;
+  bool movable = false, surface = false, container = false, there = false;
   double top() const { return at.z() + size.z() / 2; }
   double bottom() const { return at.z() - size.z() / 2; }
 };
@@ -35,7 +35,8 @@ Scene scene_at(const PlainFile& given, const std::string& unit, std::int64_t num
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Thing& thing = scene.things[objects.text(i, "object")];
     thing.size = {objects.real(i, "size_x"), objects.real(i, "size_y"), objects.real(i, "size_z")};
-    thing.movable = objects.text(i, "traits").find("\"movable\"") != std::string::npos;
+    const auto has = [&](const char* trait) { return objects.text(i, "traits").find(trait) != std::string::npos; };
+    thing.movable = has("\"movable\""), thing.surface = has("\"surface\""), thing.container = has("\"container\"");
   }
   const std::string where = " WHERE " + unit + " = ?1 AND " + moment_column + " = ?2";
   const Rows poses = given.query("SELECT object, x, y, z FROM poses" + where, {number, moment});
@@ -51,16 +52,19 @@ Scene scene_at(const PlainFile& given, const std::string& unit, std::int64_t num
   return scene;
 }
 
+bool stands_above(const Thing& above, const Thing& below) {
+  const Eigen::Vector3d beside = (above.at - below.at).cwiseAbs();
+  return above.movable && below.there && beside.x() < below.size.x() / 2 && beside.y() < below.size.y() / 2;
+}
+
 bool rests_on(const Thing& above, const Thing& below) {
   constexpr double kGap = 0.012;  // m
-  const Eigen::Vector3d beside = (above.at - below.at).cwiseAbs();
-  return above.movable && below.there && std::abs(above.bottom() - below.top()) < kGap &&
-         beside.x() < below.size.x() / 2 && beside.y() < below.size.y() / 2;
+  return below.movable && stands_above(above, below) && std::abs(above.bottom() - below.top()) < kGap;
 }
 
 bool lies_in(const Thing& inner, const Thing& outer) {
   const Eigen::Vector3d beside = (inner.at - outer.at).cwiseAbs();
-  return inner.movable && outer.there && (beside.array() < outer.size.array() / 2).all();
+  return inner.movable && outer.container && outer.there && (beside.array() < outer.size.array() / 2).all();
 }
 
 // Atoms by name; a vocabulary that has others goes without.
@@ -80,16 +84,19 @@ std::set<std::string> atoms_of(const Scene& scene) {
     atoms.insert("(holding " + hand.name + " " + nearest + ")");
     held.insert(nearest);
   }
-  for (const auto& [name, thing] : scene.things)
+  for (const auto& [name, thing] : scene.things) {
+    if (!thing.there || !thing.movable || held.contains(name)) continue;
+    std::string support;  // a thing first; else what lies below all
     for (const auto& [other, below] : scene.things) {
-      if (name == other || !thing.there) continue;
-      if (rests_on(thing, below) && !held.contains(name)) {
-        atoms.insert("(on " + name + " " + other + ")");
-        covered.insert(other);
-      } else if (lies_in(thing, below)) {
-        atoms.insert("(inside " + name + " " + other + ")");
-      }
+      if (name == other) continue;
+      if (lies_in(thing, below)) atoms.insert("(inside " + name + " " + other + ")");
+      if (rests_on(thing, below)) support = other;
+      if (support.empty() && below.surface && !below.movable && stands_above(thing, below)) support = other;
     }
+    if (support.empty()) continue;
+    atoms.insert("(on " + name + " " + support + ")");
+    covered.insert(support);
+  }
   for (const std::string& name : held) atoms.insert("(lifted " + name + ")");
   for (const auto& [name, thing] : scene.things)
     if (thing.movable && !covered.contains(name)) atoms.insert("(clear " + name + ")");

@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "scripting/research/answers.h"
+#include "scripting/research/computed_tables.h"
 #include "scripting/research/datasheet.h"
 #include "scripting/session/text_file.h"
 
@@ -109,21 +110,30 @@ std::size_t parameters_of(const std::string& select) {
   return 0;
 }
 
+void ask(const Catalogue& catalogue, const std::string& table, const Member& one, RowReceiver& receiver) {
+  if (const ComputedTable* computed = find_computed_table(table)) {
+    const Rows rows = computed->rows(catalogue, one.episode);
+    receiver.columns(rows.columns);
+    for (const auto& row : rows.rows) receiver.row(row);
+    return;
+  }
+  const DatasetTable* source = find_dataset_table(table);
+  if (!source) throw Error("db/datasets", "there is no file " + table + ".sql");
+  std::vector<SqlValue> parameters = {one.episode, one.segment, one.split};
+  parameters.resize(parameters_of(source->select));
+  catalogue.query(source->select, receiver, {.parameters = parameters});
+}
+
 std::int64_t fill(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<TableUse>& uses,
                   const std::vector<Member>& members, PlainFileWriter* file, Hasher& hasher) {
   TableFiller filler(file, hasher);
   std::string table;
   for (const TableUse& use : uses) {
-    const DatasetTable* source = find_dataset_table(use.select);
-    if (!source) throw Error("db/datasets", "there is no file " + use.select + ".sql, which " + problem.name + " uses");
     if (use.table() != table) filler.begin(table = use.table(), unit_column(problem));
-    const std::size_t wanted = parameters_of(source->select);
     for (const Member& one : members) {
       if (!takes(use.part, one.split)) continue;
-      std::vector<SqlValue> parameters = {one.episode, one.segment, one.split};
-      parameters.resize(wanted);
       filler.of_unit(one.number);
-      catalogue.query(source->select, filler, {.parameters = parameters});
+      ask(catalogue, use.select, one, filler);
     }
   }
   return filler.rows();

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "scripting/research/computed_tables.h"
+
 namespace stampede::research {
 namespace {
 
@@ -24,9 +26,8 @@ std::string tables_text(const std::vector<TableUse>& uses, const ResearchProblem
       "test), frames, frames a second |\n| `dataset` | – | id, problem and split |\n",
       unit);
   for (const TableUse& use : uses) {
-    const DatasetTable* source = find_dataset_table(use.select);
     const char* part = use.part == Part::all ? "all" : use.part == Part::train ? "train, validation" : "test";
-    text += fmt::format("| `{}` | {} | {} |\n", use.table(), part, source ? source->description : "");
+    text += fmt::format("| `{}` | {} | {} |\n", use.table(), part, describe_table(use.select));
   }
   return text;
 }

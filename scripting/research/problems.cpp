@@ -202,12 +202,15 @@ std::vector<ResearchProblem> make_problems() {
        .title = "how far an episode has come, from observations, sparse rewards and language",
        .demos_only = false,
        .given = kObservations + Uses{{"rewards", Part::train}, {"instructions"}},
-       .hidden = Uses{{"progress"}, {"tasks"}} + kSources,
+       .hidden = Uses{{"progress"}, {"goal_share"}, {"tasks"}} + kSources,
        .answer = {kEpisode, kFrame, number("value", "reward or value there: the more, the further")},
-       .scoring =
-           "Rank correlation with progress at every 10th frame: Spearman within each episode (mean) and over all test "
-           "frames together, Kendall's tau-b over all; and how often the last frame of a success is above that of a "
-           "failure (AUC).",
+       .scoring = "Rank correlation at every 10th frame: with the plan's progress within each success (Spearman, mean) "
+                  "and over "
+                  "all of them together, with the share of the goal that holds over all test frames (Spearman, "
+                  "Kendall's tau-b); "
+                  "and how often the last frame of a success is above that of a failure (AUC). Answer at least every "
+                  "10th frame "
+                  "of each test episode.",
        .scorer = "rewards"},
       {.name = "transition_models",
        .serves = "transition models",

@@ -63,6 +63,27 @@ struct Mean {
   double value() const { return count > 0 ? sum / count : 0; }
 };
 
+// True and answered values of frames.
+struct Ranked {
+  std::vector<double> there, said;
+  void add(const Ranked& more) {
+    there.insert(there.end(), more.there.begin(), more.there.end());
+    said.insert(said.end(), more.said.begin(), more.said.end());
+  }
+};
+
+Ranked ranked(const ScoringJob& job, const std::map<Place, std::size_t>& places, std::int64_t episode,
+              const std::string& select) {
+  Ranked result;
+  const Rows rows =
+      job.hidden.query(select + " WHERE episode = ?1 AND frame % ?2 = 0 ORDER BY frame", {episode, kRewardEvery});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = row_about(job, places, {episode, rows.integer(i, "frame"), ""});
+    result.there.push_back(rows.real(i, "value")), result.said.push_back(job.answers.rows.real(row, "value"));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Figure> score_actions(const ScoringJob& job) {
@@ -92,27 +113,25 @@ std::vector<Figure> score_actions(const ScoringJob& job) {
 std::vector<Figure> score_rewards(const ScoringJob& job) {
   refuse_beyond_the_end(job);
   const std::map<Place, std::size_t> places = places_of(job, false);
-  std::vector<double> truth, answers, last_of_successes, last_of_failures;
+  Ranked planned, goals;
   Mean within;
+  std::vector<double> last_of_successes, last_of_failures;
   for (const std::int64_t episode : job.test_units) {
-    const Rows rows =
-        job.hidden.query("SELECT frame, progress FROM progress WHERE episode = ?1 ORDER BY frame", {episode});
+    const Ranked plan = ranked(job, places, episode, "SELECT frame, progress AS value FROM progress");
+    const Ranked goal = ranked(job, places, episode, "SELECT frame, share AS value FROM goal_share");
+    planned.add(plan), goals.add(goal);
+    if (const auto rank = spearman(plan.there, plan.said)) within.add(*rank);
     const Rows task = job.hidden.query("SELECT outcome FROM tasks WHERE episode = ?1", {episode});
-    std::vector<double> here, said;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows.integer(i, "frame") % kRewardEvery != 0) continue;
-      const std::size_t row = row_about(job, places, {episode, rows.integer(i, "frame"), ""});
-      here.push_back(rows.real(i, "progress")), said.push_back(job.answers.rows.real(row, "value"));
-    }
-    if (here.empty()) continue;
-    (task.text(0, "outcome") == "success" ? last_of_successes : last_of_failures).push_back(said.back());
-    if (const auto rank = spearman(here, said)) within.add(*rank);
-    truth.insert(truth.end(), here.begin(), here.end()), answers.insert(answers.end(), said.begin(), said.end());
+    if (!goal.said.empty())
+      (task.text(0, "outcome") == "success" ? last_of_successes : last_of_failures).push_back(goal.said.back());
   }
   std::vector<Figure> figures = {
-      {"spearman_within", within.value(), "rank correlation with progress within an episode, mean"},
-      {"spearman", spearman(truth, answers).value_or(0), "rank correlation with progress over all test frames"},
-      {"kendall", kendall(truth, answers).value_or(0), "Kendall's tau-b with progress over all test frames"}};
+      {"spearman_within", within.value(), "rank correlation with the plan's progress within a success, mean"},
+      {"spearman", spearman(planned.there, planned.said).value_or(0), "the same over all successes together"},
+      {"spearman_goal", spearman(goals.there, goals.said).value_or(0),
+       "rank correlation with the share of the goal, all frames"},
+      {"kendall_goal", kendall(goals.there, goals.said).value_or(0),
+       "Kendall's tau-b with the share of the goal, all frames"}};
   if (!last_of_successes.empty() && !last_of_failures.empty())
     figures.push_back({"auc", area_under_curve(last_of_successes, last_of_failures),
                        "how often the last frame of a success is above that of a failure"});
