@@ -40,6 +40,7 @@ ExitCode do_score(const Arguments& arguments, Console& console) {
   options.workers = workers_of(arguments);
   options.physics = in_range(arguments, "--physics", 0, kMostEpisodes);
   options.figure = arguments.text("--figure");
+  if (arguments.has("--episode")) options.figure_episode = in_range(arguments, "--episode", 1, kMostEpisodes);
   const research::Scored scored = research::score(answers, hidden, options);
   const std::string json = score_json(scored, answers);
   if (arguments.has("--out")) write_text_file(arguments.text("--out"), json);
@@ -68,6 +69,13 @@ CommandRow score_command() {
       {{"--hidden", "DIR", "the hidden part", Takes::path, "", {}, false},
        {"--out", "FILE", "write the figures there too, as JSON", Takes::path, "", {}, false},
        {"--figure", "FILE", "segments: draw an episode's timeline there, as SVG", Takes::path, "", {}, false},
+       {"--episode",
+        "N",
+        "of the figure: an episode of the test split, instead of its first",
+        Takes::integer,
+        "",
+        {},
+        false},
        {"--physics", "N", "operators: run at most N plans that they make in physics", Takes::integer, "0", {}, false},
        {"--workers", "W", "threads, instead of one a core", Takes::integer, "", {}, false}},
       {"stampede score segments answers.json --hidden hidden",

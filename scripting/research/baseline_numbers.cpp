@@ -105,9 +105,8 @@ Eigen::MatrixXd moved_things(const PlainFile& given, const Signals& signals) {
 }
 
 Eigen::MatrixXd value_features(const PlainFile& given, const Signals& signals) {
-  Eigen::MatrixXd features(signals.hand.rows(), signals.hand.cols() + 3);
-  features << signals.hand, moved_things(given, signals),
-      Eigen::VectorXd::LinSpaced(signals.hand.rows(), 0, static_cast<double>(signals.hand.rows() - 1) / 100);
+  Eigen::MatrixXd features(signals.hand.rows(), signals.hand.cols() + 2);
+  features << signals.hand, moved_things(given, signals);
   return features;
 }
 

@@ -104,14 +104,12 @@ std::vector<std::int64_t> pelt(const Eigen::MatrixXd& rows, double penalty, std:
   return cuts;
 }
 
-// Where joint speeds, the tip and the hand behave differently.
+// Where joint speeds, the tip and the hand behave differently. The penalty is the BIC's: two numbers a column and cut.
 std::vector<std::int64_t> changes_of(const Signals& signals, const Scale& scale) {
-  constexpr std::int64_t kShortest = 6;  // frames
-  constexpr double kPenalty = 8;         // in BICs, chosen on training episodes with labels
+  constexpr std::int64_t kShortest = 12;  // frames
   const Eigen::MatrixXd features = scale.of(motion_features(signals));
-  const double bic =
-      2.0 * static_cast<double>(features.cols()) * std::log(std::max<double>(2, static_cast<double>(features.rows())));
-  return pelt(features, kPenalty * bic / 8, kShortest);
+  const double frames = std::max<double>(2, static_cast<double>(features.rows()));
+  return pelt(features, 2 * static_cast<double>(features.cols()) * std::log(frames), kShortest);
 }
 
 Scale scale_of(const std::vector<Signals>& all) {

@@ -9,6 +9,7 @@
 #include "scripting/research/matching.h"
 #include "scripting/research/scorers.h"
 #include "scripting/research/segmentation.h"
+#include "scripting/research/timeline_svg.h"
 
 namespace stampede::research {
 namespace {
@@ -191,6 +192,7 @@ std::vector<Figure> score_segments(const ScoringJob& job) {
   const AnswerColumn& label = job.problem.answer.back();
   const Segmentations truth = true_segments(job.hidden, job.test_units, label.name);
   Segmentations answers = answered_segments(job, label.name);
+  if (!job.options.figure.empty()) draw_timeline(job, truth, answers);
   std::vector<Both> all;
   for (const auto& [episode, one] : truth) all.push_back({one, answers.at(episode)});
   std::vector<Figure> figures;

@@ -24,6 +24,7 @@ struct ScoreOptions {
   Roots roots = {};                   // tasks, skills and worlds, for scorers that run plans
   int workers = 1;                    // threads
   std::int64_t physics = 0;           // plans to run in physics, at most; 0: none
+  std::int64_t figure_episode = 0;    // of the data set; 0: the first of the test split
   std::filesystem::path figure = {};  // where to draw one, for scorers that can; empty: nowhere
 };
 
