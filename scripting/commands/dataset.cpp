@@ -80,7 +80,7 @@ CommandRow dataset_command() {
         {},
         false}},
       {"stampede dataset --list", "stampede dataset segments demos.db --out given --hidden hidden",
-       "stampede dataset behaviour demos.db --out given --hidden hidden --split colour=red"},
+       "stampede dataset behaviour demos.db --out behaviour --hidden behaviour_hidden --split count=2"},
       do_dataset};
 }
 

@@ -12,7 +12,7 @@
 namespace stampede::research {
 namespace {
 
-constexpr double kLeft = 70, kWidth = 1080, kRight = 20;  // pixels
+constexpr double kLeft = 80, kWidth = 1080, kRight = 20;  // pixels
 constexpr double kGripperTop = 60, kSpeedTop = 170, kPanel = 90, kBandTop = 280, kBand = 34;
 constexpr double kHeight = 420;
 constexpr const char* kBandColours[] = {"#8dd3c7", "#fdb462", "#bebada", "#fb8072",

@@ -1,0 +1,83 @@
+// Answers as JSON and CSV, and each way in which they can be wrong.
+#include "scripting/research/answers.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/temporary_folder.h"
+#include "scripting/session/text_file.h"
+
+namespace stampede::research {
+namespace {
+
+Answers read(const std::string& text, const std::string& problem = "segments_supervised") {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "answers", text);
+  return read_answers(folder.path() / "answers", find_problem(problem));
+}
+
+void refused(const std::string& text, const std::string& why, const std::string& problem = "segments_supervised") {
+  INFO(text);
+  CHECK_THROWS_WITH(read(text, problem), Catch::Contains(why));
+}
+
+}  // namespace
+
+TEST_CASE("JSON and CSV say the same") {
+  const Answers json = read(
+      R"({"dataset": "abc", "problem": "segments_supervised", "answers": [
+          {"episode": 3, "first_frame": 0, "end_frame": 10.0, "skill": "pick, \"up\""}]})");
+  const Answers csv = read("# dataset: abc\r\nskill,episode,first_frame,end_frame\r\n\"pick, \"\"up\"\"\",3,0,10\r\n");
+  CHECK(json.dataset == "abc");
+  CHECK(csv.dataset == "abc");
+  CHECK(json.rows.rows == csv.rows.rows);
+  CHECK(json.rows.text(0, "skill") == "pick, \"up\"");
+  CHECK(json.rows.integer(0, "end_frame") == 10);
+}
+
+TEST_CASE("what is written is read again, optional columns and texts included") {
+  Answers answers = read(R"({"dataset": "d", "problem": "segments_and_conditions", "domain": "define", "answers":
+      [{"episode": 1, "first_frame": 0, "end_frame": 5}, {"episode": 1, "first_frame": 5, "end_frame": 9, "skill": "a"}]})",
+                         "segments_and_conditions");
+  CHECK(answers.rows.is_null(0, "skill"));
+  const Answers again = read(answers_text(answers), "segments_and_conditions");
+  CHECK(again.rows.rows == answers.rows.rows);
+  CHECK(again.texts == answers.texts);
+}
+
+TEST_CASE("every problem's example can be read") {
+  for (const ResearchProblem& problem : all_problems()) {
+    INFO(problem.name);
+    const Answers answers = read(example_answers(problem, "id", {4, 7, 9}), problem.name);
+    CHECK(answers.dataset == "id");
+    CHECK(answers.rows.size() == (problem.answer.empty() ? 0 : 2));
+    CHECK(answers.texts.size() == problem.answer_texts.size());
+  }
+}
+
+TEST_CASE("answers that are wrong are refused with their place") {
+  refused("", "empty");
+  refused("{\"answers\": [", "no JSON");
+  refused("[1, 2]", "one JSON object");
+  refused("{\"dataset\": 3}", "'dataset' is a text");
+  refused("{\"answers\": {}}", "list of objects");
+  refused("{\"answers\": [3]}", "answer 1: an answer is an object");
+  refused("{\"answers\": [{\"episode\": 1, \"first_frame\": 0, \"skill\": \"a\"}]}", "'end_frame' is missing");
+  refused("{\"answers\": [{\"episode\": 1, \"first_frame\": 0, \"end_frame\": 2, \"skill\": \"a\", \"x\": 1}]}",
+          "no column 'x'");
+  refused("{\"answers\": [{\"episode\": \"1\", \"first_frame\": 0, \"end_frame\": 2, \"skill\": \"a\"}]}",
+          "whole number");
+  refused("{\"answers\": [{\"episode\": 1.5, \"first_frame\": 0, \"end_frame\": 2, \"skill\": \"a\"}]}",
+          "whole number");
+  refused("{\"answers\": [{\"episode\": 1,\n \"first_frame\": NaN, \"end_frame\": 2, \"skill\": \"a\"}]}",
+          ":2: a number is not finite");
+  refused("episode,first_frame\n1,0\n", "'end_frame' is missing");
+  refused("episode,first_frame,end_frame,skill,more\n", "no column 'more'");
+  refused("episode,first_frame,end_frame,skill\n1,0,2\n", ":2: 3 cells");
+  refused("episode,first_frame,end_frame,skill\n1,0,two,pick\n", "'end_frame' is a whole number, not 'two'");
+  refused("episode,frame,value\n1,0,nan\n", "finite", "rewards");
+  refused("episode,frame,value\n1,0,1e999\n", "finite", "rewards");
+  refused("{\"answers\": [{\"episode\": 1, \"frame\": 0, \"value\": 1e999}]}", "", "rewards");
+}
+
+}  // namespace stampede::research
