@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using research::all_problems;
 using research::ResearchProblem;
 
-// Demonstrations and failures, made once.
+// Demonstrations and failures, made once; data sets of them, when they are asked for.
 class Made {
  public:
   Made() {
@@ -29,21 +29,26 @@ class Made {
       INFO(run.err);
       REQUIRE((run.code == kDone || run.code == kNo));
     }
-    for (const ResearchProblem& problem : all_problems()) {
-      const Said said = dataset(problem.name, folder_ / "demos.db", problem.name);
-      INFO(problem.name << said.err);
-      REQUIRE(said.code == kDone);
-    }
   }
   Said dataset(const std::string& problem, const std::string& catalogue, const std::string& name,
                const std::string& split = "seeds") const {
-    return say({"dataset", problem, catalogue, "--out", given(name), "--hidden", hidden(name), "--split", split});
+    const std::string to = folder_ / name;
+    return say({"dataset", problem, catalogue, "--out", to + "/given", "--hidden", to + "/hidden", "--split", split});
   }
-  std::string given(const std::string& name) const { return folder_ / (name + "/given"); }
-  std::string hidden(const std::string& name) const { return folder_ / (name + "/hidden"); }
+  // Folders of a problem's data set.
+  std::string given(const std::string& problem) const { return ready(problem) + "/given"; }
+  std::string hidden(const std::string& problem) const { return ready(problem) + "/hidden"; }
   std::string path(const std::string& name) const { return folder_ / name; }
 
  private:
+  std::string ready(const std::string& problem) const {
+    if (!fs::exists(folder_ / (problem + "/given/given.db"))) {
+      const Said said = dataset(problem, folder_ / "demos.db", problem);
+      INFO(problem << said.err);
+      REQUIRE(said.code == kDone);
+    }
+    return folder_ / problem;
+  }
   Folder folder_;
 };
 
@@ -68,25 +73,217 @@ std::string answers_file(const std::string& name, const std::string& text) {
   return made().path(name);
 }
 
+// An answer for each of the test split, in rows that end alike.
+std::string rows_of(const std::string& problem, const std::string& rest) {
+  const Rows rows = given_file(problem).query("SELECT episode FROM episodes WHERE split = 'test'");
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) text += std::to_string(rows.integer(i, "episode")) + "," + rest + "\n";
+  return text;
+}
+
 std::string id_of(const std::string& name) { return research::dataset_id(given_file(name)); }
 
 }  // namespace
 
-TEST_CASE("every problem has both parts, a page for each, and an example of answers") {
-  for (const ResearchProblem& problem : all_problems()) {
-    INFO(problem.name);
-    const PlainFile given = given_file(problem.name), hidden = hidden_file(problem.name);
-    CHECK(research::dataset_id(given) == research::dataset_id(hidden));
-    CHECK(research::dataset_problem(given) == problem.name);
-    const std::string page = file_text(made().given(problem.name) + "/README.md");
-    for (const std::string& part :
-         {problem.title, problem.serves, research::dataset_id(given), std::string("## Splits")})
-      CHECK(says(page, part));
-    for (const std::string& table : given.tables()) CHECK(says(page, "`" + table + "`"));
-    CHECK(says(file_text(made().hidden(problem.name) + "/README.md"), "pick_and_lift, stack_blocks"));
-    CHECK(fs::exists(made().given(problem.name) + "/answers.example.json"));
-    for (const research::TableUse& use : problem.hidden)
-      if (use.table() != "images") CHECK(hidden.has(use.table()));
+// One test case: each is a program of its own, and what is made would be made again.
+TEST_CASE("data sets for research problems") {
+  SECTION("every problem has both parts, a page for each, and an example of answers") {
+    for (const ResearchProblem& problem : all_problems()) {
+      INFO(problem.name);
+      const PlainFile given = given_file(problem.name), hidden = hidden_file(problem.name);
+      CHECK(research::dataset_id(given) == research::dataset_id(hidden));
+      CHECK(research::dataset_problem(given) == problem.name);
+      const std::string page = file_text(made().given(problem.name) + "/README.md");
+      for (const std::string& part :
+           {problem.title, problem.serves, research::dataset_id(given), std::string("## Splits")})
+        CHECK(says(page, part));
+      for (const std::string& table : given.tables()) CHECK(says(page, "`" + table + "`"));
+      CHECK(says(file_text(made().hidden(problem.name) + "/README.md"), "pick_and_lift, stack_blocks"));
+      CHECK(fs::exists(made().given(problem.name) + "/answers.example.json"));
+      for (const research::TableUse& use : problem.hidden)
+        if (use.table() != "images") CHECK(hidden.has(use.table()));
+    }
+  }
+  SECTION("nothing of the given part names an episode's source: no keys, seeds, variations, scenes") {
+    for (const ResearchProblem& problem : all_problems()) {
+      INFO(problem.name);
+      const PlainFile given = given_file(problem.name);
+      const std::string bytes = file_text(made().given(problem.name) + "/given.db");
+      for (const std::string& key : texts_of(hidden_file(problem.name), "SELECT key FROM sources"))
+        CHECK_FALSE(says(bytes, key));
+      std::set<std::string> tables;
+      for (const research::TableUse& use : problem.given) tables.insert(use.table());
+      for (const char* table : {"dataset", "episodes", "pieces"}) tables.insert(table);
+      for (const std::string& table : given.tables()) {
+        CHECK(tables.contains(table));
+        const Rows columns = given.query("SELECT name FROM pragma_table_info('" + table + "')");
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          for (const char* banned :
+               {"key", "seed", "scene", "state_hash", "label", "subgoal", "step", "time_s", "segment"}) {
+            INFO(table);
+            CHECK(columns.text(i, "name") != banned);
+          }
+      }
+    }
+  }
+  SECTION(
+      "hidden labels are nowhere in the given part of segments: no names, and nothing that changes where skills do") {
+    const PlainFile given = given_file("segments"), hidden = hidden_file("segments");
+    CHECK(given.tables() == std::vector<std::string>{"dataset", "episodes", "hands", "joints"});
+    const std::set<std::string> skills = texts_of(hidden, "SELECT skill FROM skills");
+    CHECK(skills.contains("pick"));
+    std::set<std::string> told;
+    for (const std::string& table : given.tables()) told.merge(texts_of(given, "SELECT * FROM " + table));
+    for (const std::string& skill : skills) CHECK_FALSE(told.contains(skill));
+    // Every frame has the same rows, without gaps, NULLs or other names: only measured numbers differ from frame to
+    // frame.
+    const Rows uneven = given.query(
+        "SELECT e.episode FROM episodes e JOIN (SELECT episode, frame, count(*) AS n, group_concat(joint) AS names "
+        "FROM "
+        "joints "
+        "GROUP BY episode, frame) j ON j.episode = e.episode GROUP BY e.episode "
+        "HAVING count(*) <> e.frames OR max(j.frame) <> e.frames - 1 OR min(j.n) <> max(j.n) OR count(DISTINCT names) "
+        "<> "
+        "1");
+    CHECK(uneven.size() == 0);
+    for (const std::string table : {"joints", "hands"}) {
+      const Rows columns = given.query("SELECT name FROM pragma_table_info('" + table + "')");
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        CHECK(given.query("SELECT count(*) AS n FROM " + table + " WHERE " + columns.text(i, "name") + " IS NULL")
+                  .integer(0, "n") == 0);
+    }
+    // Whole numbers are frames and counts alone: no column counts segments.
+    const Rows whole =
+        given.query("SELECT DISTINCT typeof(velocity) AS t FROM joints UNION SELECT typeof(opening) FROM hands");
+    CHECK(whole.size() == 1);
+    CHECK(whole.text(0, "t") == "real");
+  }
+  SECTION("where labels are given, it is for training alone") {
+    for (const auto& [problem, table] : {std::pair{"segments_supervised", "skills"},
+                                         {"conditions_supervised", "effects"},
+                                         {"behaviour", "plans"},
+                                         {"behaviour", "actions"},
+                                         {"controllers", "controls"},
+                                         {"rewards", "rewards"}}) {
+      INFO(problem << " " << table);
+      const PlainFile given = given_file(problem);
+      const std::string of =
+          std::string("SELECT count(*) AS n FROM ") + table + " JOIN episodes USING (episode) WHERE split ";
+      CHECK(given.query(of + "<> 'test'").integer(0, "n") > 0);
+      CHECK(given.query(of + "= 'test'").integer(0, "n") == 0);
+    }
+    // Of test episodes moments so far apart that one does not tell what was done in the one before.
+    const Rows moments =
+        given_file("behaviour")
+            .query("SELECT max(frame % 20) AS off FROM joints JOIN episodes USING (episode) WHERE split = 'test'");
+    CHECK(moments.integer(0, "off") == 0);
+    const Rows future =
+        given_file("transition_models")
+            .query(
+                "SELECT count(*) AS n FROM poses JOIN episodes USING (episode) WHERE split = 'test' AND "
+                "frame % 40 NOT IN (39, 0)");
+    CHECK(future.integer(0, "n") == 0);
+  }
+  SECTION("numbers of two data sets do not tell which episodes are the same, nor in which order they were made") {
+    const auto seeds = [](const std::string& problem) {
+      const Rows rows = hidden_file(problem).query("SELECT task, seed FROM sources ORDER BY episode");
+      std::vector<std::string> list;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        list.push_back(rows.text(i, "task") + std::to_string(rows.integer(i, "seed")));
+      return list;
+    };
+    const std::vector<std::string> here = seeds("segments"), there = seeds("behaviour");
+    CHECK(std::set(here.begin(), here.end()) == std::set(there.begin(), there.end()));
+    CHECK(here != there);
+    CHECK_FALSE(std::is_sorted(here.begin(), here.end()));
+  }
+  SECTION("every baseline answers from the given part, and its answers are scored") {
+    std::set<std::string> answered;
+    for (const research::Baseline& baseline : research::all_baselines())
+      for (const std::string& problem : baseline.problems) {
+        INFO(baseline.name << " " << problem);
+        const std::string file = made().path(baseline.name + "_" + problem + ".json");
+        const Said said = say({"baseline", baseline.name, made().given(problem), "--out", file});
+        INFO(said.err);
+        REQUIRE(said.code == kDone);
+        const Said scored = say({"score", problem, file, "--hidden", made().hidden(problem), "--json"});
+        INFO(scored.err);
+        REQUIRE(scored.code == kDone);
+        const auto json = nlohmann::json::parse(scored.out);
+        CHECK(json["dataset"] == id_of(problem));
+        CHECK(json["figures"].size() > 2);
+        for (const auto& figure : json["figures"]) CHECK(figure["value"].is_number());
+        answered.insert(problem);
+      }
+    for (const std::string problem :
+         {"segments", "segments_supervised", "motions", "behaviour", "rewards", "transition_models"})
+      CHECK(answered.contains(problem));
+  }
+  SECTION("a timeline is drawn, and scores go to a file") {
+    const std::string answers = made().path("k.json"), figure = made().path("k.svg"), out = made().path("score.json");
+    REQUIRE(say({"baseline", "keyframes", made().given("segments"), "--out", answers}).code == kDone);
+    const Said said =
+        say({"score", "segments", answers, "--hidden", made().hidden("segments"), "--figure", figure, "--out", out});
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    CHECK(says(said.out, "f1_within_5"));
+    const std::string svg = file_text(figure);
+    CHECK(svg.starts_with("<svg"));
+    CHECK(svg.ends_with("</svg>\n"));
+    for (const char* part : {"gripper opening", "rad/s", ">pick<", "stroke-dasharray"}) CHECK(says(svg, part));
+    CHECK(nlohmann::json::parse(file_text(out))["problem"] == "segments");
+  }
+  SECTION("data sets that cannot be made say why") {
+    const std::string demos = made().path("demos.db");
+    const auto refused = [&](const std::vector<std::string>& words, ExitCode code, const std::string& why) {
+      const Said said = say(words);
+      INFO(said.err);
+      CHECK(said.code == code);
+      CHECK(says(said.err, why));
+    };
+    refused({"dataset", "segment", demos, "--out", made().path("x")}, kBadInput, "did you mean 'segments'");
+    refused({"dataset", "segments", demos}, kUsage, "--out");
+    refused({"dataset", "segments"}, kUsage, "a catalogue");
+    refused({"dataset", "segments", demos, "--out", made().path("x"), "--hidden", made().path("x")}, kUsage,
+            "the same folder");
+    refused({"dataset", "segments", made().path("none.db"), "--out", made().path("x")}, kCatalogue, "no such file");
+    refused({"dataset", "segments", demos, "--out", made().path("x"), "--split", "shape=round"}, kBadInput,
+            "axis 'shape'");
+    refused({"dataset", "segments", demos, "--out", demos + "/x"}, kCatalogue, "cannot be made");
+    refused({"baseline", "keyframe", made().given("segments"), "--out", made().path("x.json")}, kBadInput,
+            "did you mean 'keyframes'");
+    refused({"baseline", "keyframes", made().given("motions"), "--out", made().path("x.json")}, kBadInput,
+            "does not answer motions");
+    refused({"baseline", "keyframes", made().path("nowhere"), "--out", made().path("x.json")}, kCatalogue,
+            "no such file");
+    CHECK_FALSE(fs::exists(made().path("x.json")));
+  }
+  SECTION("answers that cannot be scored say why") {
+    const auto refused = [&](const std::string& problem, const std::string& text, const std::string& why) {
+      const Said said = say({"score", problem, answers_file("wrong", text), "--hidden", made().hidden(problem)});
+      INFO(text << "\n" << said.err);
+      CHECK(said.code == kBadInput);
+      CHECK(says(said.err, why));
+    };
+    const auto head = [](const std::string& problem) { return "# dataset: " + id_of(problem) + "\n"; };
+    refused("segments", "# dataset: 0123\nepisode,first_frame,end_frame\n", "answers for another data set");
+    refused("segments", "episode,first_frame,end_frame\n", "does not say which data set");
+    refused("segments", head("segments") + "episode,first_frame,end_frame\n", "there is no answer for episode");
+    refused("motions", head("motions") + "piece,cluster\n9999,a\n", "no piece 9999");
+    refused("rewards", head("rewards") + "episode,frame,value\n" + rows_of("rewards", "100000,0.5"), "is not there");
+    refused("rewards", head("rewards") + "episode,frame,value\n" + rows_of("rewards", "0,0.5"),
+            "no answer for frame 10");
+    refused("rewards", head("rewards") + "episode,frame,value\n1,0,nan\n", "finite number");
+    refused("concepts", head("concepts") + "episode,frame,fact\n1,0,(onn block1 table)\n", "did you mean 'on'");
+    refused("concepts", head("concepts") + "episode,frame,fact\n1,0,on block1\n", "no ground atom");
+    refused("symbols", head("symbols") + "piece,moment,symbol\n1,during,(s)\n", "no moment");
+    refused("symbols", "{\"dataset\": \"" + id_of("symbols") + "\", \"answers\": [], \"more\": \"x\"}",
+            "no field 'more'");
+    const Said mixed = say({"score", "motions", answers_file("wrong", "x"), "--hidden", made().hidden("segments")});
+    CHECK(mixed.code == kBadInput);
+    CHECK(says(mixed.err, "a data set of segments, not of motions"));
+    CHECK(say({"score", "segments", made().path("wrong"), "--hidden", made().given("segments")}).code == kCatalogue);
+    CHECK(say({"score", "segments", made().path("wrong")}).code == kUsage);
   }
 }
 
@@ -101,166 +298,8 @@ TEST_CASE("the same episodes make the same bytes, in whatever order they are sto
   for (const std::string problem : {"segments", "motions", "transition_models"}) {
     REQUIRE(made().dataset(problem, other, "again").code == kDone);
     for (const std::string part : {"given/given.db", "hidden/hidden.db", "given/README.md"})
-      CHECK(file_text(made().path("again/" + part)) == file_text(made().path(problem + "/" + part)));
+      CHECK(file_text(made().path("again/" + part)) == file_text(fs::path(made().given(problem)).parent_path() / part));
   }
-}
-
-TEST_CASE("nothing of the given part names an episode's source: no keys, seeds, variations, scenes") {
-  for (const ResearchProblem& problem : all_problems()) {
-    INFO(problem.name);
-    const PlainFile given = given_file(problem.name);
-    const std::string bytes = file_text(made().given(problem.name) + "/given.db");
-    for (const std::string& key : texts_of(hidden_file(problem.name), "SELECT key FROM sources"))
-      CHECK_FALSE(says(bytes, key));
-    std::set<std::string> tables;
-    for (const research::TableUse& use : problem.given) tables.insert(use.table());
-    for (const char* table : {"dataset", "episodes", "pieces"}) tables.insert(table);
-    for (const std::string& table : given.tables()) {
-      CHECK(tables.contains(table));
-      const Rows columns = given.query("SELECT name FROM pragma_table_info('" + table + "')");
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        for (const char* banned :
-             {"key", "seed", "scene", "state_hash", "label", "subgoal", "step", "time_s", "segment"}) {
-          INFO(table);
-          CHECK(columns.text(i, "name") != banned);
-        }
-    }
-  }
-}
-
-TEST_CASE(
-    "hidden labels are nowhere in the given part of segments: no names, and nothing that changes where skills do") {
-  const PlainFile given = given_file("segments"), hidden = hidden_file("segments");
-  CHECK(given.tables() == std::vector<std::string>{"dataset", "episodes", "hands", "joints"});
-  const std::set<std::string> skills = texts_of(hidden, "SELECT skill FROM skills");
-  CHECK(skills.contains("pick"));
-  std::set<std::string> told;
-  for (const std::string& table : given.tables()) told.merge(texts_of(given, "SELECT * FROM " + table));
-  for (const std::string& skill : skills) CHECK_FALSE(told.contains(skill));
-  // Every frame has the same rows, without gaps, NULLs or other names: only measured numbers differ from frame to
-  // frame.
-  const Rows uneven = given.query(
-      "SELECT e.episode FROM episodes e JOIN (SELECT episode, frame, count(*) AS n, group_concat(joint) AS names FROM "
-      "joints "
-      "GROUP BY episode, frame) j ON j.episode = e.episode GROUP BY e.episode "
-      "HAVING count(*) <> e.frames OR max(j.frame) <> e.frames - 1 OR min(j.n) <> max(j.n) OR count(DISTINCT names) <> "
-      "1");
-  CHECK(uneven.size() == 0);
-  for (const std::string table : {"joints", "hands"}) {
-    const Rows columns = given.query("SELECT name FROM pragma_table_info('" + table + "')");
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      CHECK(given.query("SELECT count(*) AS n FROM " + table + " WHERE " + columns.text(i, "name") + " IS NULL")
-                .integer(0, "n") == 0);
-  }
-  // Whole numbers are frames and counts alone: no column counts segments.
-  const Rows whole =
-      given.query("SELECT DISTINCT typeof(velocity) AS t FROM joints UNION SELECT typeof(opening) FROM hands");
-  CHECK(whole.size() == 1);
-  CHECK(whole.text(0, "t") == "real");
-}
-
-TEST_CASE("where labels are given, it is for training alone") {
-  for (const auto& [problem, table] : {std::pair{"segments_supervised", "skills"},
-                                       {"conditions_supervised", "effects"},
-                                       {"behaviour", "plans"},
-                                       {"behaviour", "actions"},
-                                       {"controllers", "controls"},
-                                       {"rewards", "rewards"}}) {
-    INFO(problem << " " << table);
-    const PlainFile given = given_file(problem);
-    const std::string of =
-        std::string("SELECT count(*) AS n FROM ") + table + " JOIN episodes USING (episode) WHERE split ";
-    CHECK(given.query(of + "<> 'test'").integer(0, "n") > 0);
-    CHECK(given.query(of + "= 'test'").integer(0, "n") == 0);
-  }
-  // Of test episodes moments so far apart that one does not tell what was done in the one before.
-  const Rows moments =
-      given_file("behaviour")
-          .query("SELECT max(frame % 20) AS off FROM joints JOIN episodes USING (episode) WHERE split = 'test'");
-  CHECK(moments.integer(0, "off") == 0);
-  const Rows future = given_file("transition_models")
-                          .query(
-                              "SELECT count(*) AS n FROM poses JOIN episodes USING (episode) WHERE split = 'test' AND "
-                              "frame % 40 NOT IN (39, 0)");
-  CHECK(future.integer(0, "n") == 0);
-}
-
-TEST_CASE("numbers of two data sets do not tell which episodes are the same, nor in which order they were made") {
-  const auto seeds = [](const std::string& problem) {
-    const Rows rows = hidden_file(problem).query("SELECT task, seed FROM sources ORDER BY episode");
-    std::vector<std::string> list;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      list.push_back(rows.text(i, "task") + std::to_string(rows.integer(i, "seed")));
-    return list;
-  };
-  const std::vector<std::string> here = seeds("segments"), there = seeds("behaviour");
-  CHECK(std::set(here.begin(), here.end()) == std::set(there.begin(), there.end()));
-  CHECK(here != there);
-  CHECK_FALSE(std::is_sorted(here.begin(), here.end()));
-}
-
-TEST_CASE("every baseline answers from the given part, and its answers are scored") {
-  std::set<std::string> answered;
-  for (const research::Baseline& baseline : research::all_baselines())
-    for (const std::string& problem : baseline.problems) {
-      INFO(baseline.name << " " << problem);
-      const std::string file = made().path(baseline.name + "_" + problem + ".json");
-      const Said said = say({"baseline", baseline.name, made().given(problem), "--out", file});
-      INFO(said.err);
-      REQUIRE(said.code == kDone);
-      const Said scored = say({"score", problem, file, "--hidden", made().hidden(problem), "--json"});
-      INFO(scored.err);
-      REQUIRE(scored.code == kDone);
-      const auto json = nlohmann::json::parse(scored.out);
-      CHECK(json["dataset"] == id_of(problem));
-      CHECK(json["figures"].size() > 2);
-      for (const auto& figure : json["figures"]) CHECK(figure["value"].is_number());
-      answered.insert(problem);
-    }
-  for (const std::string problem :
-       {"segments", "segments_supervised", "motions", "behaviour", "rewards", "transition_models"})
-    CHECK(answered.contains(problem));
-}
-
-TEST_CASE("a timeline is drawn, and scores go to a file") {
-  const std::string answers = made().path("k.json"), figure = made().path("k.svg"), out = made().path("score.json");
-  REQUIRE(say({"baseline", "keyframes", made().given("segments"), "--out", answers}).code == kDone);
-  const Said said =
-      say({"score", "segments", answers, "--hidden", made().hidden("segments"), "--figure", figure, "--out", out});
-  INFO(said.err);
-  REQUIRE(said.code == kDone);
-  CHECK(says(said.out, "f1_within_5"));
-  const std::string svg = file_text(figure);
-  CHECK(svg.starts_with("<svg"));
-  CHECK(svg.ends_with("</svg>\n"));
-  for (const char* part : {"gripper opening", "rad/s", ">pick<", "stroke-dasharray"}) CHECK(says(svg, part));
-  CHECK(nlohmann::json::parse(file_text(out))["problem"] == "segments");
-}
-
-TEST_CASE("data sets that cannot be made say why") {
-  const std::string demos = made().path("demos.db");
-  const auto refused = [&](const std::vector<std::string>& words, ExitCode code, const std::string& why) {
-    const Said said = say(words);
-    INFO(said.err);
-    CHECK(said.code == code);
-    CHECK(says(said.err, why));
-  };
-  refused({"dataset", "segment", demos, "--out", made().path("x")}, kBadInput, "did you mean 'segments'");
-  refused({"dataset", "segments", demos}, kUsage, "--out");
-  refused({"dataset", "segments"}, kUsage, "a catalogue");
-  refused({"dataset", "segments", demos, "--out", made().path("x"), "--hidden", made().path("x")}, kUsage,
-          "the same folder");
-  refused({"dataset", "segments", made().path("none.db"), "--out", made().path("x")}, kCatalogue, "no such file");
-  refused({"dataset", "segments", demos, "--out", made().path("x"), "--split", "shape=round"}, kBadInput,
-          "axis 'shape'");
-  refused({"dataset", "segments", demos, "--out", demos + "/x"}, kCatalogue, "cannot be made");
-  refused({"baseline", "keyframe", made().given("segments"), "--out", made().path("x.json")}, kBadInput,
-          "did you mean 'keyframes'");
-  refused({"baseline", "keyframes", made().given("motions"), "--out", made().path("x.json")}, kBadInput,
-          "does not answer motions");
-  refused({"baseline", "keyframes", made().path("nowhere"), "--out", made().path("x.json")}, kCatalogue,
-          "no such file");
-  CHECK_FALSE(fs::exists(made().path("x.json")));
 }
 
 TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
@@ -271,32 +310,6 @@ TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
   CHECK(said.code == kBadInput);
   CHECK(says(said.err, "no episode of this catalogue succeeded"));
   CHECK(made().dataset("rewards", failed, "failed").code == kDone);
-}
-
-TEST_CASE("answers that cannot be scored say why") {
-  const auto refused = [&](const std::string& problem, const std::string& text, const std::string& why) {
-    const Said said = say({"score", problem, answers_file("wrong", text), "--hidden", made().hidden(problem)});
-    INFO(text << "\n" << said.err);
-    CHECK(said.code == kBadInput);
-    CHECK(says(said.err, why));
-  };
-  const auto head = [](const std::string& problem) { return "# dataset: " + id_of(problem) + "\n"; };
-  refused("segments", "# dataset: 0123\nepisode,first_frame,end_frame\n", "answers for another data set");
-  refused("segments", "episode,first_frame,end_frame\n", "does not say which data set");
-  refused("segments", head("segments") + "episode,first_frame,end_frame\n", "there is no answer for episode");
-  refused("motions", head("motions") + "piece,cluster\n9999,a\n", "no piece 9999");
-  refused("rewards", head("rewards") + "episode,frame,value\n1,100000,0.5\n", "is not there");
-  refused("rewards", head("rewards") + "episode,frame,value\n1,0,nan\n", "finite number");
-  refused("concepts", head("concepts") + "episode,frame,fact\n1,0,(onn block1 table)\n", "did you mean 'on'");
-  refused("concepts", head("concepts") + "episode,frame,fact\n1,0,on block1\n", "no ground atom");
-  refused("symbols", head("symbols") + "piece,moment,symbol\n1,during,(s)\n", "no moment");
-  refused("symbols", "{\"dataset\": \"" + id_of("symbols") + "\", \"answers\": [], \"more\": \"x\"}",
-          "no field 'more'");
-  const Said mixed = say({"score", "motions", answers_file("wrong", "x"), "--hidden", made().hidden("segments")});
-  CHECK(mixed.code == kBadInput);
-  CHECK(says(mixed.err, "a data set of segments, not of motions"));
-  CHECK(say({"score", "segments", made().path("wrong"), "--hidden", made().given("segments")}).code == kCatalogue);
-  CHECK(say({"score", "segments", made().path("wrong")}).code == kUsage);
 }
 
 TEST_CASE("the list of problems, for people and programs") {
