@@ -60,10 +60,11 @@ constexpr const char* kAnyLabels =
     "all "
     "test episodes together.";
 constexpr const char* kActionScore =
-    "Offline: root mean square error of the commanded joints (rad) and share of frames where the gripper is told to "
-    "open "
-    "or close as it was. Success is measured with the policy in the loop: `stampede evaluate TASK --policy \"…\"` on "
-    "test seeds.";
+    "Offline, at every 20th frame of the test episodes, which is all that is given of them: root mean square error of "
+    "the "
+    "commanded joints (rad) and share of frames where the gripper is told to open or close as it was. Success is "
+    "measured "
+    "with the policy in the loop: `stampede evaluate TASK --policy \"…\"`, with `--variation` for held-out values.";
 
 std::vector<ResearchProblem> make_problems() {
   return {
