@@ -96,6 +96,10 @@ std::string given_sheet(const ResearchProblem& problem, const DatasheetFacts& fa
       "an episode.\n\n{}\n",
       counts_text(problem, report), facts.successes, facts.failures, facts.pictures ? "yes" : "none",
       tables_text(problem.given, problem));
+  const bool acts = std::any_of(problem.given.begin(), problem.given.end(), [](const TableUse& use) {
+    return use.table() == "instructions" || use.table() == "tasks";
+  });
+  if (acts) text += fmt::format("Tasks: {}.\n\n", listed(facts.tasks));  // policies are tried in them
   text += fmt::format(
       "## Splits\nRule: `{}`. The column `split` says which: learn from train, choose with validation; what is "
       "scored is test.\n\n",
