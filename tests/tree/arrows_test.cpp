@@ -49,6 +49,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"engine/motion", {"engine/base", "engine/geometry", "engine/model", "engine/sim"}},
     {"engine/symbolic", {"engine/base"}},
     {"engine/bddl", {"engine/base", "engine/symbolic"}},
+    {"engine/learning", {"engine/base", "engine/symbolic"}},
     {"engine/episode",
      {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/sim", "engine/motion",
       "engine/symbolic"}},
