@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/learning/counts.h"
 #include "engine/learning/truth_table.h"
 #include "engine/symbolic/symbols.h"
 

@@ -41,13 +41,23 @@ struct History {
 // The facts of a frame.
 Facts facts_at(const History& history, std::int64_t frame);
 
+std::vector<std::int64_t> change_frames(const History& history);  // where facts begin or end to hold, ascending
+
 // Transitions without labels: changes that follow each other within `gap` frames are one event, from the frame before
 // its first to that of its last; what changes and changes back inside of it is none. Events without a net change are
 // left out.
 std::vector<Transition> events(const History& history, std::int64_t gap);
 
-// The gap that tells changes of one event from those of the next best: the threshold between the logarithms of all gaps
-// that leaves the least variance on both sides (Otsu, IEEE Trans. SMC 9, 1979). 1 where there are fewer than two gaps.
+// The same with the frames of their first and last change.
+struct TimedEvent {
+  std::int64_t first = 0, last = 0;
+  Transition transition;
+};
+std::vector<TimedEvent> timed_events(const History& history, std::int64_t gap);
+
+// The gap with which what happened is told in the fewest bits (Rissanen, Automatica 14, 1978): of each kind of event its
+// effects, of each event its kind, moment and objects. Too small a gap tells one skill as many events, too great a one
+// runs skills together into ever new kinds. 1 where nothing changes.
 std::int64_t natural_gap(const std::vector<History>& histories);
 
 }  // namespace stampede::learning

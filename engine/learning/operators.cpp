@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/learning/clusters.h"
+#include "engine/learning/literals.h"
 
 namespace stampede::learning {
 namespace {
@@ -113,6 +114,23 @@ LearnedOperators learn_operators(const Experience& experience, const LearningOpt
     learned.seen.push_back(static_cast<int>(clusters[i].members.size()));
   }
   return learned;
+}
+
+std::string like_action(const Transition& transition, const Domain& learned) {
+  const LiftedChange change = lifted_change(transition.before, transition.after, {}, LearningOptions{}.further);
+  if (change.orders.empty()) return {};
+  for (const Action& action : learned.actions) {
+    const ActionLiterals literals = literals_of(action);
+    Facts added, removed;  // places as objects, so that they get the same order
+    for (const LiftedLiteral& one : literals.effect) {
+      Fact fact{one.atom.predicate, {}};
+      for (const int slot : one.atom.slots) fact.arguments.push_back(action.parameters[static_cast<std::size_t>(slot)].name);
+      (one.negated ? removed : added).insert(std::move(fact));
+    }
+    const LiftedChange its = lifted_change(removed, added, {}, LearningOptions{}.further);
+    if (its.added == change.added && its.removed == change.removed) return action.name;
+  }
+  return {};
 }
 
 }  // namespace stampede::learning

@@ -37,4 +37,7 @@ struct LearnedOperators {
 // Repeatable: a pure function of its arguments; actions are sorted by name.
 LearnedOperators learn_operators(const Experience& experience, const LearningOptions& options = {});
 
+// The action of a learned domain whose effects are just what a transition changed; empty: none.
+std::string like_action(const Transition& transition, const Domain& learned);
+
 }  // namespace stampede::learning

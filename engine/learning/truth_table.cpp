@@ -1,7 +1,9 @@
 #include "engine/learning/truth_table.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
 
 namespace stampede::learning {
 namespace {
@@ -50,27 +52,6 @@ void complete(std::vector<JudgedFrame>& frames) {
       Fact begun{predicate, {}};
       if (!said.denied) add_denials(frame, predicate, said, begun);
     }
-}
-
-std::map<std::string, Confusion> score_predicates(const std::vector<JudgedFrame>& frames) {
-  std::map<std::string, Confusion> scores;
-  for (const JudgedFrame& frame : frames) {
-    std::set<std::string> asked;
-    for (const Facts* said : {&frame.yes, &frame.no})
-      for (const Fact& fact : *said) asked.insert(fact.predicate);
-    for (const Fact& fact : frame.yes) {
-      Confusion& score = scores[fact.predicate];
-      (frame.truth.contains(fact) ? score.both : score.only_said) += 1;
-    }
-    for (const Fact& fact : frame.no) {
-      Confusion& score = scores[fact.predicate];
-      (frame.truth.contains(fact) ? score.only_true : score.neither) += 1;
-    }
-    for (const Fact& fact : frame.truth)
-      if (asked.contains(fact.predicate) && !frame.yes.contains(fact) && !frame.no.contains(fact))
-        ++scores[fact.predicate].only_true;
-  }
-  return scores;
 }
 
 }  // namespace stampede::learning

@@ -1,11 +1,8 @@
 // What classifiers say of frames, beside what was so.
 #pragma once
 
-#include <map>
-#include <string>
 #include <vector>
 
-#include "engine/learning/counts.h"
 #include "engine/learning/experience.h"
 
 namespace stampede::learning {
@@ -20,9 +17,5 @@ struct JudgedFrame {
 // A predicate of which nothing is ever said to be false is taken to be false of all other objects of the frame that
 // are, place by place, of types that it is said of somewhere, no object twice: what is not said does not hold.
 void complete(std::vector<JudgedFrame>& frames);
-
-// Classifiers that go by the true names. What holds of a predicate that is asked in the frame, and is in neither set, is
-// missed.
-std::map<std::string, Confusion> score_predicates(const std::vector<JudgedFrame>& frames);
 
 }  // namespace stampede::learning

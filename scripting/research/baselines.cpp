@@ -40,6 +40,14 @@ const std::vector<Baseline>& all_baselines() {
        linear_tip},
       {"geometry", {"concepts"}, "bounding boxes and fingers", geometry_facts},
       {"geometry_symbols", {"symbols"}, "bounding boxes and fingers, under names of its own", geometry_symbols},
+      {"operators",
+       {"conditions", "conditions_supervised"},
+       "calls with equal effects are cases, what held before all is the precondition (Silver et al., IROS 2021)",
+       operators_with_labels},
+      {"operators_unlabelled",
+       {"segments_and_conditions"},
+       "changes of facts close in time are events, events with equal effects are actions (after Silver et al., 2021)",
+       operators_without_labels},
   };
   return baselines;
 }

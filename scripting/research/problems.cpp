@@ -59,6 +59,10 @@ constexpr const char* kAnyLabels =
     "Labels may be any: they are matched with the true ones one to one, such that most frames agree (Kuhn 1955), over "
     "all "
     "test episodes together.";
+constexpr const char* kOperatorScore =
+    "Actions go by name, else by likeness (Kuhn 1955). Preconditions and effects as lifted literals, as written and with "
+    "what holds anyway; calls that can be taken in held-out states, and what they change; plans of held-out problems: "
+    "sound, complete, how dear, and with --physics N run by the engine.";
 constexpr const char* kActionScore =
     "Offline, at every 20th frame of the test episodes, which is all that is given of them: root mean square error of "
     "the "
@@ -72,11 +76,27 @@ std::vector<ResearchProblem> make_problems() {
        .serves = "state and action abstractions (SAT)",
        .title = "which of a planning problem's objects, predicates and actions matter",
        .given = Uses{{"problems"}, {"plans", Part::train}},
-       .hidden = Uses{{"problems"}, {"plans"}, {"facts"}, {"tasks"}} + kSources,
+       .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
        .answer_texts = {kDomain},
        .every_unit = false,
-       .scoring =
-           "A domain (and what its predicates hold of) against the one that made the data; mapping found by itself.",
+       .scoring = kOperatorScore,
+       .scorer = "operators"},
+      {.name = "inventions",
+       .serves = "portable representations (symbols and operators)",
+       .title = "predicates and operators of one's own, from observations and labelled skills",
+       .demos_only = false,
+       .given = kObservations + Uses{{"skills"}},
+       .hidden = kFacts + Uses{{"skills"}} + kConditions + kPlanning + kSources,
+       .answer = {kEpisode,
+                  kFrame,
+                  {"fact", AnswerType::text, "an atom of a predicate (or type) of the domain", "(grasped block1)"},
+                  {"holds", AnswerType::integer, "1 or 0; left out: 1", "1", true}},
+       .answer_texts = {kDomain},
+       .every_unit = false,
+       .scoring = std::string("Learned predicates are mapped to true ones by agreement (MCC) at the frames answered, "
+                              "arguments in any order, denied or not, one to one (Kuhn 1955), two at once where one "
+                              "does not do; types by their objects. Then, in true words: ") +
+                  kOperatorScore,
        .scorer = "abstractions"},
       {.name = "symbols",
        .serves = "portable representations (symbols and operators)",
@@ -133,7 +153,7 @@ std::vector<ResearchProblem> make_problems() {
        .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
        .answer_texts = {kDomain},
        .every_unit = false,
-       .scoring = "Preconditions and effects as lifted literals: precision and recall, and plans made with them.",
+       .scoring = kOperatorScore,
        .scorer = "operators"},
       {.name = "conditions",
        .serves = "skill preconditions and effects, unsupervised",
@@ -143,7 +163,7 @@ std::vector<ResearchProblem> make_problems() {
        .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
        .answer_texts = {kDomain},
        .every_unit = false,
-       .scoring = "Preconditions and effects as lifted literals: precision and recall, and plans made with them.",
+       .scoring = kOperatorScore,
        .scorer = "operators"},
       {.name = "segments_and_conditions",
        .serves = "segments and conditions together, unsupervised",
@@ -152,8 +172,8 @@ std::vector<ResearchProblem> make_problems() {
        .hidden = Uses{{"skills"}, {"joints"}, {"hands"}} + kConditions + kPlanning + kSources,
        .answer = {kEpisode, kFirst, kEnd, {"skill", AnswerType::text, "name of an action of the domain", "a1", true}},
        .answer_texts = {kDomain},
-       .scoring = std::string(kSegmentScore) + kAnyLabels,
-       .scorer = "segments"},
+       .scoring = std::string(kSegmentScore) + kAnyLabels + " " + kOperatorScore,
+       .scorer = "segments_and_operators"},
       {.name = "motions",
        .serves = "motions from demos (VAE, GAN)",
        .title = "which skill made a piece of motion",

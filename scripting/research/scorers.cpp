@@ -75,6 +75,9 @@ const std::vector<Scorer>& all_scorers() {
       {"actions", "what to command", score_actions},
       {"rewards", "values of frames", score_rewards},
       {"predictions", "positions to come", score_predictions},
+      {"operators", "literals of operators, calls that they allow, plans made with them", score_operators},
+      {"segments_and_operators", "both", score_segments_and_operators},
+      {"abstractions", "predicates and operators of one's own, by what they mean", score_abstractions},
   };
   return scorers;
 }

@@ -13,4 +13,8 @@ std::vector<Figure> score_actions(const ScoringJob& job);      // score_numbers.
 std::vector<Figure> score_rewards(const ScoringJob& job);      // score_numbers.cpp
 std::vector<Figure> score_predictions(const ScoringJob& job);  // score_numbers.cpp
 
+std::vector<Figure> score_operators(const ScoringJob& job);               // score_operators.cpp
+std::vector<Figure> score_segments_and_operators(const ScoringJob& job);  // score_operators.cpp
+std::vector<Figure> score_abstractions(const ScoringJob& job);            // score_abstractions.cpp
+
 }  // namespace stampede::research
