@@ -55,9 +55,9 @@ struct TimedEvent {
 };
 std::vector<TimedEvent> timed_events(const History& history, std::int64_t gap);
 
-// The gap with which what happened is told in the fewest bits (Rissanen, Automatica 14, 1978): of each kind of event its
-// effects, of each event its kind, moment and objects. Too small a gap tells one skill as many events, too great a one
-// runs skills together into ever new kinds. 1 where nothing changes.
+// The gap that tells changes of one event from those of the next best: the threshold between all gaps that leaves the
+// least variance on both sides (Otsu, IEEE Trans. SMC 9, 1979). 1 where all gaps are equal. (The gap with which all is
+// told in the fewest bits, another way to choose, runs skills together that mostly follow each other.)
 std::int64_t natural_gap(const std::vector<History>& histories);
 
 }  // namespace stampede::learning

@@ -11,6 +11,8 @@
 namespace stampede::learning {
 namespace {
 
+constexpr double kAlmost = 0.8;  // an action gives way to another for so much of its best likeness
+
 struct Side {
   const Action* action;
   ActionLiterals literals;
@@ -154,8 +156,9 @@ std::vector<ActionMatch> match_actions(const Domain& learned, const Domain& trut
   for (std::size_t k = 0; k < open.size(); ++k) {
     const auto most = std::max_element(gains[k].begin(), gains[k].end());
     int at = assigned[k];
-    if (at < 0 && most != gains[k].end() && *most > 0) at = static_cast<int>(most - gains[k].begin());
-    if (at < 0) continue;
+    if (most == gains[k].end() || *most <= 0) continue;
+    if (at < 0 || gains[k][static_cast<std::size_t>(at)] < kAlmost * *most)
+      at = static_cast<int>(most - gains[k].begin());
     const auto place = static_cast<std::size_t>(at);
     matches[open[k]] = made(mine[open[k]], theirs[place], searches[k][place], false);
   }

@@ -19,7 +19,8 @@ struct ActionMatch {
 
 // An action that has a true one's name, was learned from that skill (`;@ skill`), or has that name with `_` and more
 // behind it, stands for it; the others for those that they are most like, first one for each true action
-// (best_assignment), then further ones as cases of it; below a likeness of `kLeastLike` for none. Parameters go where
+// (best_assignment), then further ones as cases of it, and so those that would have to take what they are much less
+// like; below a likeness of `kLeastLike` for none. Parameters go where
 // the literals agree most, types that cannot meet apart. What the true domain derives is left out of effects there, and
 // inequalities out of preconditions. `among`: the true actions in question.
 inline constexpr double kLeastLike = 0.3;
