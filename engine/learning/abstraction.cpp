@@ -9,10 +9,11 @@
 namespace stampede::learning {
 namespace {
 
-constexpr double kSameMeaning = 0.8;   // a second predicate with the meaning of another
-constexpr double kGoodEnough = 0.9;    // no conjunction is looked for
+constexpr double kSameMeaning = 0.8;  // a second predicate with the meaning of another
+constexpr double kGoodEnough = 0.9;   // no conjunction is looked for
 constexpr double kConjunctionGain = 0.05;
-constexpr double kFollows = 0.9;       // a part of a conjunction holds in so many of the atoms that are said to
+constexpr double kFollows = 0.9;   // a part of a conjunction holds in so many of the atoms that are said to
+constexpr double kSpokenOf = 0.5;  // and the table speaks of so many of its facts
 constexpr std::size_t kMostParts = 24;
 constexpr double kLeastOverlap = 0.5;
 
@@ -34,26 +35,32 @@ std::map<std::string, std::size_t> said_predicates(const std::vector<const Judge
 PredicateLink link_of(const std::string& learned, std::vector<LinkPart> parts, const Confusion& confusion,
                       std::size_t atoms) {
   const Counts counts = confusion.counts();
-  return {learned,           std::move(parts), std::max(0.0, confusion.mcc()), counts.precision(), counts.recall(),
+  return {learned,
+          std::move(parts),
+          std::max(0.0, confusion.mcc()),
+          counts.precision(),
+          counts.recall(),
           static_cast<std::int64_t>(atoms)};
 }
 
 // Two literals at once, where no single one will do.
-void try_conjunctions(const SaidAtoms& atoms, const std::map<std::string, Meaning>& meanings, PredicateLink& link) {
-  std::vector<const Meaning*> parts;
-  for (const auto& [truth, one] : meanings)
-    if (one.confusion.counts().recall() >= kFollows) parts.push_back(&one);
-  std::stable_sort(parts.begin(), parts.end(), [](auto* a, auto* b) { return a->agreement > b->agreement; });
+void try_conjunctions(const SaidAtoms& atoms, const NumberedFrames& frames, PredicateLink& link) {
+  std::vector<Meaning> parts;
+  atoms.each_meaning(frames, [&](Meaning one) {
+    if (one.confusion.counts().precision() >= kFollows && one.spoken_of >= kSpokenOf) parts.push_back(std::move(one));
+  });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Meaning& a, const Meaning& b) { return a.agreement > b.agreement; });
   if (parts.size() > kMostParts) parts.resize(kMostParts);
   double best = link.agreement + kConjunctionGain;
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = i + 1; j < parts.size(); ++j) {
-      Bits both = parts[i]->holds;
-      for (std::size_t word = 0; word < both.size(); ++word) both[word] &= parts[j]->holds[word];
+      Bits both = parts[i].holds;
+      for (std::size_t word = 0; word < both.size(); ++word) both[word] &= parts[j].holds[word];
       const Confusion now = confusion(atoms.said(), both, atoms.count());
       if (now.mcc() <= best || now.mcc() < atoms.least(both)) continue;
       best = now.mcc();
-      link = link_of(link.learned, {parts[i]->part, parts[j]->part}, now, atoms.count());
+      link = link_of(link.learned, {parts[i].part, parts[j].part}, now, atoms.count());
     }
 }
 
@@ -84,7 +91,7 @@ std::vector<PredicateLink> links_of(const std::map<std::string, std::size_t>& le
       const Meaning& one = meanings[i].at(truths[static_cast<std::size_t>(at)]);
       link = link_of(name, {one.part}, one.confusion, atoms[i].count());
     }
-    if (link.agreement < kGoodEnough) try_conjunctions(atoms[i], meanings[i], link);
+    if (link.agreement < kGoodEnough) try_conjunctions(atoms[i], frames, link);
     links.push_back(std::move(link));
     ++i;
   }

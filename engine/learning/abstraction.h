@@ -15,7 +15,7 @@ namespace stampede::learning {
 // A true literal as the meaning of a learned atom, or one part of it.
 struct LinkPart {
   std::string truth;
-  std::vector<int> argument_of;     // by true argument: the learned argument that stands there, -1: none does
+  std::vector<int> argument_of;      // by true argument: the learned argument that stands there, -1: none does
   std::vector<std::string> only_of;  // by true argument: where none does, the type that has one object in every scene;
                                      // empty: some object or other
   bool negated = false;
@@ -26,7 +26,7 @@ struct PredicateLink {
   std::vector<LinkPart> parts;  // all of them hold; none: it means nothing that the truth has a word for
   double agreement = 0;         // Matthews' correlation with that meaning, not negative
   double precision = 0, recall = 0;
-  std::int64_t atoms = 0;       // that it was judged on
+  std::int64_t atoms = 0;  // that it was judged on
 };
 
 struct TypeLink {
@@ -44,13 +44,13 @@ struct Mapping {
 // Every learned predicate is compared with every true one, or its negation, under every order of arguments, over all
 // atoms that the table has: where one has more arguments than the other, these are such as are fixed (the hand) or
 // anything. Matthews' correlation says how well they agree, times the share of the true facts that the table speaks of;
-// who goes with whom is decided for all together (best_assignment). Two learned predicates may mean the same: the second
-// gets what it agrees with by 0.8 or more. What agrees with no single literal by 0.9 is tried as two at once, among the
-// 24 that best follow from it, and these must agree better by 0.05. Below `kLeastAgreement` there is no meaning, nor
-// below four standard deviations of what chance gives, 4 / sqrt(n), n values without a change of the same atom counting
-// as one.
-// A row about a type of the learned domain says whose type it is; types go by their objects, from an overlap of 0.5 on.
-// `needed`: predicates of the true domain that count. At most `most` frames are used, evenly chosen.
+// who goes with whom is decided for all together (best_assignment). Two learned predicates may mean the same: the
+// second gets what it agrees with by 0.8 or more. What agrees with no single literal by 0.9 is tried as two at once,
+// among the 24 that best follow from it, and these must agree better by 0.05. Below `kLeastAgreement` there is no
+// meaning, nor below four standard deviations of what chance gives, 4 / sqrt(n), n values without a change of the same
+// atom counting as one. A row about a type of the learned domain says whose type it is; types go by their objects, from
+// an overlap of 0.5 on. `needed`: predicates of the true domain that count. At most `most` frames are used, evenly
+// chosen.
 inline constexpr double kLeastAgreement = 0.2;
 Mapping find_mapping(const Domain& learned, const Domain& truth, const std::vector<JudgedFrame>& frames,
                      const std::set<std::string>& needed, std::size_t most = 400);

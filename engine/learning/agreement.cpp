@@ -167,7 +167,8 @@ Meaning SaidAtoms::meaning(const std::string& truth, const NumberedFrames::Predi
     found.confusion = confusion(said_, found.holds, count_);
   }
   found.agreement = std::abs(mcc);
-  found.gain = facts == 0 ? 0 : found.agreement * static_cast<double>(spoken_of) / static_cast<double>(facts);
+  found.spoken_of = facts == 0 ? 0 : static_cast<double>(spoken_of) / static_cast<double>(facts);
+  found.gain = found.agreement * found.spoken_of;
   // Of meanings that agree alike, the simpler one.
   if (predicate.changes) found.gain *= 1 + 1e-6;
   if (predicate.arity == arity_) found.gain *= 1 + 1e-6;
@@ -175,18 +176,23 @@ Meaning SaidAtoms::meaning(const std::string& truth, const NumberedFrames::Predi
   return found;
 }
 
-std::map<std::string, Meaning> SaidAtoms::meanings(const NumberedFrames& frames) const {
-  std::map<std::string, Meaning> best;
+void SaidAtoms::each_meaning(const NumberedFrames& frames, const std::function<void(Meaning)>& visit) const {
   for (const auto& [truth, predicate] : frames.truths())
     each_order(predicate.arity, arity_, [&, &name = truth, &of = predicate](const std::vector<int>& argument_of) {
-      Meaning one = meaning(name, of, argument_of);
-      const auto known = best.find(name);
-      if (known == best.end()) {
-        best.insert({name, std::move(one)});
-      } else if (one.gain > known->second.gain) {
-        known->second = std::move(one);
-      }
+      visit(meaning(name, of, argument_of));
     });
+}
+
+std::map<std::string, Meaning> SaidAtoms::meanings(const NumberedFrames& frames) const {
+  std::map<std::string, Meaning> best;
+  each_meaning(frames, [&](Meaning one) {
+    const auto known = best.find(one.part.truth);
+    if (known == best.end()) {
+      best.insert({one.part.truth, std::move(one)});
+    } else if (one.gain > known->second.gain) {
+      known->second = std::move(one);
+    }
+  });
   return best;
 }
 

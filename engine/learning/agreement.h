@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,9 +41,10 @@ class NumberedFrames {
 // All that is said of one learned predicate, and each meaning that a single true literal can give it.
 struct Meaning {
   LinkPart part;
-  Bits holds;           // by atom, of the part as it is (negated or not)
+  Bits holds;            // by atom, of the part as it is (negated or not)
   double agreement = 0;  // not negative: `part.negated` takes the sign
-  double gain = 0;       // agreement times the share of true facts that the table speaks of
+  double spoken_of = 0;  // share of the true facts that the table has a row for
+  double gain = 0;       // agreement times that
   Confusion confusion;
 };
 
@@ -55,6 +57,7 @@ class SaidAtoms {
   double least(const Bits& holds) const;
   // By true predicate: the best order of arguments.
   std::map<std::string, Meaning> meanings(const NumberedFrames& frames) const;
+  void each_meaning(const NumberedFrames& frames, const std::function<void(Meaning)>& visit) const;
 
  private:
   struct Atom {

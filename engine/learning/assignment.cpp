@@ -75,7 +75,8 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& gains) 
   std::vector<int> found(gains.size(), -1);
   for (std::size_t column = 0; column < size; ++column) {
     const std::size_t row = matching.row_of(column);
-    if (row < gains.size() && column < gains[row].size() && gains[row][column] > 0) found[row] = static_cast<int>(column);
+    if (row < gains.size() && column < gains[row].size() && gains[row][column] > 0)
+      found[row] = static_cast<int>(column);
   }
   return found;
 }

@@ -13,8 +13,8 @@ std::set<Call> applicable_calls(const Action& action, const symbolic::View& view
   parts.push_back(action.precondition);
   std::set<Call> found;
   Binding binding;
-  symbolic::for_each_solution(action.parameters, symbolic::negation_normal(conjunction(std::move(parts))), view, binding,
-                              [&] {
+  symbolic::for_each_solution(action.parameters, symbolic::negation_normal(conjunction(std::move(parts))), view,
+                              binding, [&] {
                                 Call call;
                                 for (const Parameter& one : action.parameters) call.push_back(binding.at(one.name));
                                 found.insert(std::move(call));

@@ -123,7 +123,8 @@ std::vector<std::string> slot_types(const Cluster& cluster, const std::map<std::
       const std::vector<std::string> chain =
           ancestors(type_of(member.objects[slot], member.transition->objects), types);
       if (shared.empty()) shared = chain;
-      std::erase_if(shared, [&](const std::string& one) { return std::find(chain.begin(), chain.end(), one) == chain.end(); });
+      std::erase_if(shared,
+                    [&](const std::string& one) { return std::find(chain.begin(), chain.end(), one) == chain.end(); });
     }
     result.push_back(shared.empty() ? "object" : shared.front());
   }

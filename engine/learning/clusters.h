@@ -38,4 +38,11 @@ void add_only_ones(Cluster& cluster, const std::set<std::string>& changing, doub
 void deny_what_failed(const Experience& experience, std::vector<Cluster>& clusters, const LearningOptions& options,
                       LearnedOperators& counts);
 
+// What it makes true must not hold already, where a state that was seen has both this and its precondition: there the
+// action could have been taken, and never was. At most `kMostStates` states are looked at, evenly chosen.
+inline constexpr std::size_t kMostStates = 200;
+void deny_what_is_made(const Experience& experience, std::vector<Cluster>& clusters, const LearningOptions& options);
+
+Action action_of(const Cluster& cluster, const Experience& experience, const LearningOptions& options);  // unnamed
+
 }  // namespace stampede::learning

@@ -18,7 +18,8 @@ struct Counts {
 struct Confusion {
   std::int64_t both = 0, only_said = 0, only_true = 0, neither = 0;
   Counts counts() const { return {both, only_said, only_true}; }
-  // Matthews' correlation, -1 … 1: 0 is what chance gives (Matthews, BBA 405, 1975). 0 where one of the two never varies.
+  // Matthews' correlation, -1 … 1: 0 is what chance gives (Matthews, BBA 405, 1975). 0 where one of the two never
+  // varies.
   double mcc() const;
 };
 

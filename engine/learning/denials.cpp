@@ -1,7 +1,8 @@
-// Negated preconditions: what failures of a skill have in common that its successes lack.
+// Negated preconditions: what failures of a skill have in common that its successes lack, and what it makes true.
 #include <algorithm>
 #include <cmath>
 
+#include "engine/learning/calls.h"
 #include "engine/learning/clusters.h"
 
 namespace stampede::learning {
@@ -54,7 +55,30 @@ void deny(Cluster& cluster, const std::vector<Failure>& failures, const Learning
   }
 }
 
+// The atoms of `made` that hold in some state where the cluster's action can be taken.
+LiftedAtoms held_already(const Cluster& cluster, LiftedAtoms made, const Experience& experience,
+                         const LearningOptions& options) {
+  Domain domain;
+  domain.types = experience.types;
+  const Action action = action_of(cluster, experience, options);
+  LiftedAtoms found;
+  const std::size_t count = std::min(kMostStates, experience.transitions.size());
+  for (std::size_t i = 0; i < count && !made.empty(); ++i) {
+    const Transition& one = experience.transitions[i * experience.transitions.size() / count];
+    if (one.objects == nullptr) continue;
+    for (const Call& call : applicable_calls(action, {one.before, domain, *one.objects}))
+      std::erase_if(made, [&](const LiftedAtom& atom) {
+        return one.before.contains(ground(atom, call)) && found.insert(atom).second;
+      });
+  }
+  return found;
+}
+
 }  // namespace
+
+void deny_what_is_made(const Experience& experience, std::vector<Cluster>& clusters, const LearningOptions& options) {
+  for (Cluster& one : clusters) one.denied.merge(held_already(one, one.added, experience, options));
+}
 
 void deny_what_failed(const Experience& experience, std::vector<Cluster>& clusters, const LearningOptions& options,
                       LearnedOperators& counts) {

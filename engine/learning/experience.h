@@ -11,7 +11,8 @@
 
 namespace stampede::learning {
 
-using Objects = std::shared_ptr<const std::vector<TypedObject>>;  // of one scene, sorted by name; shared by what is seen
+using Objects =
+    std::shared_ptr<const std::vector<TypedObject>>;  // of one scene, sorted by name; shared by what is seen
 
 struct Transition {
   std::string skill;                   // what was done; empty: nobody says

@@ -118,7 +118,8 @@ int named(const Action& action, const std::vector<Side>& truths) {
     const std::string& name = truths[i].action->name;
     if (action.name == name || action.skill == name) return static_cast<int>(i);
     if (!action.name.starts_with(name + "_")) continue;
-    if (best < 0 || truths[static_cast<std::size_t>(best)].action->name.size() < name.size()) best = static_cast<int>(i);
+    if (best < 0 || truths[static_cast<std::size_t>(best)].action->name.size() < name.size())
+      best = static_cast<int>(i);
   }
   return best;
 }

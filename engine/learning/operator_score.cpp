@@ -78,8 +78,12 @@ class LiteralComparison {
  public:
   LiteralComparison(const Domain& learned, const Domain& truth, const ActionMatch& match,
                     const std::vector<Both>& samples)
-      : learned_(learned), truth_(truth), samples_(samples), mine_(*learned.action(match.learned)),
-        theirs_(*truth.action(match.truth)), true_of_(inverse(match.slot_of, mine_.parameters.size())) {
+      : learned_(learned),
+        truth_(truth),
+        samples_(samples),
+        mine_(*learned.action(match.learned)),
+        theirs_(*truth.action(match.truth)),
+        true_of_(inverse(match.slot_of, mine_.parameters.size())) {
     score.match = match;
     const ActionLiterals mine = literals_of(mine_), theirs = literals_of(theirs_);
     preconditions(mine, theirs);
@@ -100,8 +104,7 @@ class LiteralComparison {
       }
       ++score.preconditions.wrong;
       const Formula formula = formula_of(one, theirs_);
-      const bool implied =
-          at_truth.holds(formula, theirs_, identity(theirs_), learned_, samples_, true);
+      const bool implied = at_truth.holds(formula, theirs_, identity(theirs_), learned_, samples_, true);
       score.held.wrong += !implied;
       note(score.extra, to_text(one, theirs_), implied);
     }
@@ -164,7 +167,10 @@ class LiteralComparison {
 class CallComparison {
  public:
   CallComparison(const Domain& learned, const Domain& truth, const Action& action, const Both& sample)
-      : learned_(learned), truth_(truth), action_(action), sample_(sample),
+      : learned_(learned),
+        truth_(truth),
+        action_(action),
+        sample_(sample),
         calls_(applicable_calls(action, {sample.truth, truth, *sample.objects})) {}
 
   void add(const ActionMatch& match, CallScore& score) {

@@ -41,8 +41,8 @@ struct CallScore {
 };
 
 struct OperatorScore {
-  std::vector<LiteralScore> literals;  // by learned action
-  std::vector<CallScore> calls;        // by true action in question
+  std::vector<LiteralScore> literals;                        // by learned action
+  std::vector<CallScore> calls;                              // by true action in question
   Counts preconditions, effects, held, applicable, changes;  // sums; a true action without a case: all missed
   int samples = 0;
 };

@@ -26,23 +26,6 @@ Effect effect_of(const LiftedAtom& lifted, std::size_t arguments, bool negated) 
   return {{}, {}, std::move(one.predicate), std::move(one.terms), negated};
 }
 
-Action action_of(const Cluster& cluster, const Experience& experience, const LearningOptions& options) {
-  Action action;
-  action.skill = cluster.skill;
-  const std::vector<std::string> types = slot_types(cluster, experience.types);
-  for (std::size_t slot = 0; slot < types.size(); ++slot)
-    action.parameters.push_back({slot_name(slot, cluster.arguments), types[slot], {}});
-  std::vector<Formula> conditions;
-  for (const LiftedAtom& one : preconditions(cluster, options.tolerance))
-    conditions.push_back(formula_of(one, cluster.arguments));
-  for (const LiftedAtom& one : cluster.denied)
-    conditions.push_back(negation(formula_of(one, cluster.arguments)));
-  action.precondition = conjunction(std::move(conditions));
-  for (const LiftedAtom& one : cluster.added) action.effects.push_back(effect_of(one, cluster.arguments, false));
-  for (const LiftedAtom& one : cluster.removed) action.effects.push_back(effect_of(one, cluster.arguments, true));
-  return action;
-}
-
 // Names: the skill's, with a number where it has cases; op1 … without a skill.
 void name_actions(const std::vector<Cluster>& clusters, std::vector<Action>& actions) {
   std::map<std::string, int> cases, counted;
@@ -86,6 +69,22 @@ void check(const Experience& experience) {
 
 }  // namespace
 
+Action action_of(const Cluster& cluster, const Experience& experience, const LearningOptions& options) {
+  Action action;
+  action.skill = cluster.skill;
+  const std::vector<std::string> types = slot_types(cluster, experience.types);
+  for (std::size_t slot = 0; slot < types.size(); ++slot)
+    action.parameters.push_back({slot_name(slot, cluster.arguments), types[slot], {}});
+  std::vector<Formula> conditions;
+  for (const LiftedAtom& one : preconditions(cluster, options.tolerance))
+    conditions.push_back(formula_of(one, cluster.arguments));
+  for (const LiftedAtom& one : cluster.denied) conditions.push_back(negation(formula_of(one, cluster.arguments)));
+  action.precondition = conjunction(std::move(conditions));
+  for (const LiftedAtom& one : cluster.added) action.effects.push_back(effect_of(one, cluster.arguments, false));
+  for (const LiftedAtom& one : cluster.removed) action.effects.push_back(effect_of(one, cluster.arguments, true));
+  return action;
+}
+
 LearnedOperators learn_operators(const Experience& experience, const LearningOptions& options) {
   check(experience);
   LearnedOperators learned;
@@ -98,6 +97,7 @@ LearnedOperators learn_operators(const Experience& experience, const LearningOpt
     learned.unused -= static_cast<int>(one.members.size());
     if (one.skill.empty()) add_only_ones(one, changing, options.tolerance);
   }
+  deny_what_is_made(experience, clusters, options);
   deny_what_failed(experience, clusters, options, learned);
 
   std::vector<Action> actions;
@@ -124,7 +124,8 @@ std::string like_action(const Transition& transition, const Domain& learned) {
     Facts added, removed;  // places as objects, so that they get the same order
     for (const LiftedLiteral& one : literals.effect) {
       Fact fact{one.atom.predicate, {}};
-      for (const int slot : one.atom.slots) fact.arguments.push_back(action.parameters[static_cast<std::size_t>(slot)].name);
+      for (const int slot : one.atom.slots)
+        fact.arguments.push_back(action.parameters[static_cast<std::size_t>(slot)].name);
       (one.negated ? removed : added).insert(std::move(fact));
     }
     const LiftedChange its = lifted_change(removed, added, {}, LearningOptions{}.further);

@@ -147,9 +147,7 @@ PlannedProblem plan_with(const Domain& learned, const Domain& truth, const Probl
 }
 
 double PlanScore::soundness() const { return planned == 0 ? 0 : static_cast<double>(valid) / planned; }
-double PlanScore::completeness() const {
-  return solvable == 0 ? 0 : static_cast<double>(valid_of_solvable) / solvable;
-}
+double PlanScore::completeness() const { return solvable == 0 ? 0 : static_cast<double>(valid_of_solvable) / solvable; }
 
 PlanScore summary(std::vector<PlannedProblem> problems) {
   PlanScore score;

@@ -22,9 +22,9 @@ Plan in_true_actions(const Plan& plan, const Domain& learned, const Domain& trut
 
 struct PlannedProblem {
   std::string name;
-  bool solvable = false;  // by our planner, with the true domain
-  bool planned = false;   // with the learned one
-  bool valid = false;     // that plan, by the true domain
+  bool solvable = false;                    // by our planner, with the true domain
+  bool planned = false;                     // with the learned one
+  bool valid = false;                       // that plan, by the true domain
   std::int64_t cost = 0, learned_cost = 0;  // by the true domain, of its plan and of a valid one
   std::int64_t expanded = 0, learned_expanded = 0;
   Plan plan;           // in true actions
@@ -38,7 +38,8 @@ struct PlanScore {
   int solvable = 0, planned = 0, valid = 0, valid_of_solvable = 0;
   double soundness() const;     // valid plans of all plans made; 0 without any
   double completeness() const;  // of the problems that the true domain solves, those with a valid plan
-  // Means over problems with both plans: learned cost by true cost (both cost 0: 1); states expanded likewise (of 0: 1).
+  // Means over problems with both plans: learned cost by true cost (both cost 0: 1); states expanded likewise (of 0:
+  // 1).
   double cost_ratio = 0, expanded_ratio = 0;
 };
 PlanScore summary(std::vector<PlannedProblem> problems);

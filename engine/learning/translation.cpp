@@ -29,8 +29,7 @@ Parameter in_true_types(Parameter parameter, const Mapping& mapping, const Domai
 
 class ActionTranslation {
  public:
-  ActionTranslation(const Action& learned, const Mapping& mapping, const Domain& truth,
-                    std::vector<std::string>& notes)
+  ActionTranslation(const Action& learned, const Mapping& mapping, const Domain& truth, std::vector<std::string>& notes)
       : mapping_(mapping), truth_(truth), notes_(notes), action_(learned) {
     for (Parameter& one : action_.parameters) add_parameter(one);
     own_ = action_.parameters.size();

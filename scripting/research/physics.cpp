@@ -13,13 +13,13 @@ namespace {
 
 // The planner's own domain has fluents for the goal's order: the held-out problem has none.
 PlanOutcome ask_learned(const TrueWordsPlanner& planner, const HeldOutEpisode& episode, const Domain& domain,
-                Problem problem) {
+                        Problem problem) {
   problem.goal = episode.problem.goal;
   return planner(domain, problem);
 }
 
 PhysicalRun run_held_out(const std::shared_ptr<const Library>& library, const HeldOutEpisode& episode,
-                    const TrueWordsPlanner& planner) {
+                         const TrueWordsPlanner& planner) {
   RunOptions options;
   options.seed = episode.seed;
   options.observation.images = WhichFrames::none;

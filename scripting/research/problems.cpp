@@ -60,7 +60,8 @@ constexpr const char* kAnyLabels =
     "all "
     "test episodes together.";
 constexpr const char* kOperatorScore =
-    "Actions go by name, else by likeness (Kuhn 1955). Preconditions and effects as lifted literals, as written and with "
+    "Actions go by name, else by likeness (Kuhn 1955). Preconditions and effects as lifted literals, as written and "
+    "with "
     "what holds anyway; calls that can be taken in held-out states, and what they change; plans of held-out problems: "
     "sound, complete, how dear, and with --physics N run by the engine.";
 constexpr const char* kActionScore =

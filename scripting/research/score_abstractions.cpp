@@ -16,8 +16,7 @@ using FramesJudged = std::map<std::pair<std::int64_t, std::int64_t>, learning::J
 void check_atom(const Fact& fact, const Domain& learned, const std::string& where) {
   if (learned.types.contains(fact.predicate) && fact.arguments.size() == 1) return;
   const Predicate* predicate = learned.predicate(fact.predicate);
-  const bool trait =
-      std::find(learned.traits.begin(), learned.traits.end(), fact.predicate) != learned.traits.end();
+  const bool trait = std::find(learned.traits.begin(), learned.traits.end(), fact.predicate) != learned.traits.end();
   if (trait && fact.arguments.size() == 1) return;
   if (predicate == nullptr)
     throw Error(where, "the domain declares no predicate or type `" + fact.predicate + "`",
@@ -38,7 +37,8 @@ FramesJudged judged_frames(const ScoringJob& job, const Domain& learned, const H
     const auto history = histories.find(rows.integer(i, "episode"));
     if (history == histories.end()) continue;  // not of the test split
     const std::string where = job.answers.where + ", answer " + std::to_string(i + 1);
-    const std::int64_t frame = rows.integer(i, "frame"), holds = rows.is_null(i, "holds") ? 1 : rows.integer(i, "holds");
+    const std::int64_t frame = rows.integer(i, "frame"),
+                       holds = rows.is_null(i, "holds") ? 1 : rows.integer(i, "holds");
     if (frame < 0 || frame >= history->second.frames)
       throw Error(where, "episode " + std::to_string(history->first) + " has no frame " + std::to_string(frame),
                   "its frames are 0 to " + std::to_string(history->second.frames - 1));
@@ -90,8 +90,8 @@ std::vector<Figure> score_abstractions(const ScoringJob& job) {
   std::vector<learning::JudgedFrame> frames;
   for (auto& [at, frame] : judged_frames(job, learned, held)) frames.push_back(std::move(frame));
   learning::complete(frames);
-  const learning::Mapping mapping = learning::find_mapping(
-      learned, held.truth, frames, learning::predicates_of_actions(held.truth, held.actions));
+  const learning::Mapping mapping =
+      learning::find_mapping(learned, held.truth, frames, learning::predicates_of_actions(held.truth, held.actions));
   std::vector<Figure> figures = mapping_figures(mapping, frames.size());
   const learning::Translation translated = learning::in_true_words(learned, mapping, held.truth);
   figures.push_back({"left_out", static_cast<double>(translated.notes.size()),

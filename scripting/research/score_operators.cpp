@@ -21,7 +21,7 @@ double part_of(std::size_t part, std::size_t of) {
 }
 
 void add_operator_counts(std::vector<Figure>& figures, const std::string& name, const learning::Counts& counts,
-                const std::string& about) {
+                         const std::string& about) {
   figures.push_back({name + "_precision", counts.precision(), about + ": right of those said"});
   figures.push_back({name + "_recall", counts.recall(), about + ": right of those there are"});
   figures.push_back({name + "_f1", counts.f1(), about});
@@ -129,7 +129,8 @@ std::vector<Figure> operator_figures(const Domain& learned, const HeldOutProblem
   std::vector<Figure> figures;
   add_operator_counts(figures, "preconditions", score.preconditions, "literals of preconditions, as written");
   add_operator_counts(figures, "effects", score.effects, "literals of effects, as written");
-  add_operator_counts(figures, "implied", score.held, "literals of preconditions, as written or true on all held-out states");
+  add_operator_counts(figures, "implied", score.held,
+                      "literals of preconditions, as written or true on all held-out states");
   add_operator_counts(figures, "applicable", score.applicable, "calls that can be taken in held-out states");
   add_operator_counts(figures, "changes", score.changes, "facts that these calls change there");
   add_matches(figures, score, matches);

@@ -101,7 +101,8 @@ std::map<std::int64_t, learning::History> histories_of(const PlainFile& file,
         file.query("SELECT fact, first_frame, end_frame, open_end FROM facts WHERE episode = ?1", {episode});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const bool to_the_end = rows.integer(i, "open_end") != 0;
-      history.spans.push_back({fact_of(rows.text(i, "fact"), episode_place(file, episode)), rows.integer(i, "first_frame"),
+      history.spans.push_back({fact_of(rows.text(i, "fact"), episode_place(file, episode)),
+                               rows.integer(i, "first_frame"),
                                to_the_end ? history.frames : rows.integer(i, "end_frame")});
     }
   }

@@ -35,9 +35,9 @@ struct HeldOutEpisode {
 };
 struct HeldOutProblems {
   Domain truth;
-  std::vector<HeldOutEpisode> episodes;     // those that have a problem
-  std::set<std::string> actions;            // of the true domain, that the held-out skills are calls of
-  std::vector<learning::Sample> samples;    // states before and after skills
+  std::vector<HeldOutEpisode> episodes;   // those that have a problem
+  std::set<std::string> actions;          // of the true domain, that the held-out skills are calls of
+  std::vector<learning::Sample> samples;  // states before and after skills
 };
 // Tables: problems, skills, effects, sources. Throws Error where episodes have different domains, and for texts that
 // are no PDDL.
