@@ -146,6 +146,14 @@ std::vector<TypeLink> type_links(const Domain& learned, const Domain& truth,
   return links;
 }
 
+double best_agreement(const Mapping& mapping, const std::string& truth) {
+  double best = 0;
+  for (const PredicateLink& link : mapping.links)
+    for (const LinkPart& part : link.parts)
+      if (part.truth == truth) best = std::max(best, link.agreement);
+  return best;
+}
+
 std::string part_text(const LinkPart& part) {
   std::string text = "(" + part.truth;
   for (std::size_t i = 0; i < part.argument_of.size(); ++i) {
@@ -175,16 +183,16 @@ Mapping find_mapping(const Domain& learned, const Domain& truth, const std::vect
   Mapping mapping;
   mapping.links = links_of(said, numbered);
   mapping.types = type_links(learned, truth, chosen, numbered);
-  for (const std::string& name : needed) {
-    double best = 0;
-    for (const PredicateLink& link : mapping.links)
-      for (const LinkPart& part : link.parts)
-        if (part.truth == name) best = std::max(best, link.agreement);
-    mapping.coverage += best;
-    if (best == 0) mapping.missing.push_back(name);
-  }
-  if (!needed.empty()) mapping.coverage /= static_cast<double>(needed.size());
+  for (const std::string& name : needed)
+    if (best_agreement(mapping, name) == 0) mapping.missing.push_back(name);
+  mapping.coverage = coverage_of(mapping, needed);
   return mapping;
+}
+
+double coverage_of(const Mapping& mapping, const std::set<std::string>& truths) {
+  double sum = 0;
+  for (const std::string& name : truths) sum += best_agreement(mapping, name);
+  return truths.empty() ? 1 : sum / static_cast<double>(truths.size());
 }
 
 std::set<std::string> predicates_of_actions(const Domain& domain, const std::set<std::string>& actions) {

@@ -38,7 +38,7 @@ struct Mapping {
   std::vector<PredicateLink> links;  // by learned predicate, sorted
   std::vector<TypeLink> types;       // by learned type that the table has, sorted
   std::vector<std::string> missing;  // true predicates of `needed` that are part of no meaning
-  double coverage = 0;               // mean agreement over `needed`: of its best link; missing: 0
+  double coverage = 0;               // of `needed`
 };
 
 // Every learned predicate is compared with every true one, or its negation, under every order of arguments, over all
@@ -54,6 +54,9 @@ struct Mapping {
 inline constexpr double kLeastAgreement = 0.2;
 Mapping find_mapping(const Domain& learned, const Domain& truth, const std::vector<JudgedFrame>& frames,
                      const std::set<std::string>& needed, std::size_t most = 400);
+
+// Mean agreement over true predicates: of the best link that each is part of; of none: 0. Of no predicates: 1.
+double coverage_of(const Mapping& mapping, const std::set<std::string>& truths);
 
 // The learned domain in true words, so that it can be compared, planned with and run as if it had been learned in them.
 // An atom becomes the literals that it means. An argument that is fixed becomes a parameter of its type, another that

@@ -275,6 +275,7 @@ OperatorScore score_operators(const Domain& learned, const Domain& truth, const 
     score.preconditions.missed += parts;
     score.held.missed += parts;
     score.effects.missed += static_cast<std::int64_t>(all.effect.size());
+    score.changes.missed += static_cast<std::int64_t>(all.effect.size());
   }
   return score;
 }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "engine/base/error.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::research {
@@ -30,7 +31,13 @@ PhysicalRun run_held_out(const std::shared_ptr<const Library>& library, const He
     };
   }
   PreparedEpisode prepared(library, {episode.task, episode.variation, episode.seed}, options);
-  const EpisodeRecord record = prepared.run(nullptr);
+  EpisodeRecord record;
+  try {
+    record = prepared.run(nullptr);
+  } catch (const Error& error) {
+    if (!planner) throw;
+    return {false, "refused_call", error.message()};  // a call that no skill takes: of things of other types
+  }
   return {record.outcome == Outcome::success, std::string(to_string(record.reason)), record.detail};
 }
 

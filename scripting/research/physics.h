@@ -16,7 +16,7 @@ using TrueWordsPlanner = std::function<PlanOutcome(const Domain& truth, const Pr
 
 struct PhysicalRun {
   bool success = false;
-  std::string reason, detail;  // as in catalogues
+  std::string reason, detail;  // as in catalogues; `refused_call`: no skill takes the arguments of a step
 };
 
 // The held-out episodes again, from their tasks, variations and seeds, with this planner in place of ours (empty:

@@ -57,10 +57,34 @@ FramesJudged judged_frames(const ScoringJob& job, const Domain& learned, const H
   return frames;
 }
 
-std::vector<Figure> mapping_figures(const learning::Mapping& mapping, std::size_t frames) {
+// True predicates that the skills need and of which the held-out states have facts; `changing`: those of them that
+// change there.
+struct Needed {
+  std::set<std::string> all, changing;
+};
+
+Needed needed_predicates(const HeldOutProblems& held) {
+  std::map<std::string, std::map<learning::Objects, std::set<Facts>>> seen;
+  for (const learning::Sample& sample : held.samples) {
+    std::map<std::string, Facts> here;
+    for (const Fact& fact : sample.facts) here[fact.predicate].insert(fact);
+    for (auto& [predicate, facts] : here) seen[predicate][sample.objects].insert(std::move(facts));
+  }
+  Needed needed;
+  for (const std::string& name : learning::predicates_of_actions(held.truth, held.actions)) {
+    if (!seen.contains(name)) continue;
+    needed.all.insert(name);
+    for (const auto& [objects, states] : seen.at(name))
+      if (states.size() > 1) needed.changing.insert(name);
+  }
+  return needed;
+}
+
+std::vector<Figure> mapping_figures(const learning::Mapping& mapping, const Needed& needed, std::size_t frames) {
   std::vector<Figure> figures = {
       {"coverage", mapping.coverage,
-       "mean agreement (MCC) over the true predicates that the skills need; without a counterpart 0"}};
+       "mean agreement (MCC) over the true predicates that the skills need; without a counterpart 0"},
+      {"coverage_changing", learning::coverage_of(mapping, needed.changing), "the same over those that change"}};
   double sum = 0;
   std::size_t extra = 0;
   for (const learning::PredicateLink& one : mapping.links) {
@@ -90,9 +114,9 @@ std::vector<Figure> score_abstractions(const ScoringJob& job) {
   std::vector<learning::JudgedFrame> frames;
   for (auto& [at, frame] : judged_frames(job, learned, held)) frames.push_back(std::move(frame));
   learning::complete(frames);
-  const learning::Mapping mapping =
-      learning::find_mapping(learned, held.truth, frames, learning::predicates_of_actions(held.truth, held.actions));
-  std::vector<Figure> figures = mapping_figures(mapping, frames.size());
+  const Needed needed = needed_predicates(held);
+  const learning::Mapping mapping = learning::find_mapping(learned, held.truth, frames, needed.all);
+  std::vector<Figure> figures = mapping_figures(mapping, needed, frames.size());
   const learning::Translation translated = learning::in_true_words(learned, mapping, held.truth);
   figures.push_back({"left_out", static_cast<double>(translated.notes.size()),
                      translated.notes.empty() ? "literals of the operators that cannot be said in true words"

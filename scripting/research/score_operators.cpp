@@ -16,6 +16,8 @@ namespace {
 // Of each problem; where there is no plan by then, there is none.
 constexpr PlanLimits kPlanLimits = {.expansions = 100'000, .memory_bytes = 1'000'000'000, .improve = 5'000};
 
+constexpr std::size_t kLongestReason = 160;
+
 double part_of(std::size_t part, std::size_t of) {
   return of == 0 ? 0 : static_cast<double>(part) / static_cast<double>(of);
 }
@@ -64,7 +66,7 @@ std::vector<Figure> plan_figures(const learning::PlanScore& plans) {
       {"plan_expanded_ratio", plans.expanded_ratio, "states expanded for them, likewise", false}};
   std::map<std::string, int> reasons;
   for (const learning::PlannedProblem& one : plans.problems)
-    if (!one.valid) ++reasons[one.reason.substr(0, 160)];
+    if (!one.valid) ++reasons[one.reason.substr(0, kLongestReason)];
   std::vector<std::pair<int, std::string>> often;
   for (const auto& [reason, count] : reasons) often.emplace_back(-count, reason);
   std::sort(often.begin(), often.end());
@@ -102,11 +104,15 @@ std::vector<Figure> physics_figures(const Domain& learned, const HeldOutProblems
       {"physics_success", part_of(succeeded(runs), runs.size()),
        "held-out episodes that succeed when planned with the learned domain, of " + std::to_string(runs.size())},
       {"physics_reference", part_of(succeeded(ours), ours.size()), "the same planned with the true domain"}};
-  std::map<std::string, std::size_t> reasons;
-  for (const PhysicalRun& one : runs)
-    if (!one.success) ++reasons[one.reason];
-  for (const auto& [reason, count] : reasons)
-    figures.push_back({"physics_" + reason, part_of(count, runs.size()), "of them failed for this reason", false});
+  std::map<std::string, std::pair<std::size_t, std::string>> reasons;
+  for (const PhysicalRun& one : runs) {
+    if (one.success) continue;
+    auto& [count, first] = reasons[one.reason];
+    if (count++ == 0) first = one.detail.substr(0, kLongestReason);
+  }
+  for (const auto& [reason, found] : reasons)
+    figures.push_back({"physics_" + reason, part_of(found.first, runs.size()),
+                       "of them failed for this reason, the first: " + found.second, false});
   return figures;
 }
 
