@@ -47,10 +47,10 @@ struct Mapping {
 // who goes with whom is decided for all together (best_assignment). Two learned predicates may mean the same: the
 // second gets what it agrees with by 0.8 or more. What agrees with no single literal by 0.9 is tried as two at once,
 // among the 24 that best follow from it, and these must agree better by 0.05. Below `kLeastAgreement` there is no
-// meaning, nor below four standard deviations of what chance gives, 4 / sqrt(n), n values without a change of the same
-// atom counting as one. A row about a type of the learned domain says whose type it is; types go by their objects, from
-// an overlap of 0.5 on. `needed`: predicates of the true domain that count. At most `most` frames are used, evenly
-// chosen.
+// meaning, nor below four standard deviations of what chance gives, 4 / sqrt(n) but at most 0.95, n values without a
+// change of the same atom counting as one. A row about a type of the learned domain says whose type it is; types go by
+// their objects, from an overlap of 0.5 on. `needed`: predicates of the true domain that count. At most `most` frames
+// are used, evenly chosen.
 inline constexpr double kLeastAgreement = 0.2;
 Mapping find_mapping(const Domain& learned, const Domain& truth, const std::vector<JudgedFrame>& frames,
                      const std::set<std::string>& needed, std::size_t most = 400);

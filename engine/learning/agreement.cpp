@@ -9,6 +9,8 @@
 namespace stampede::learning {
 namespace {
 
+constexpr double kSurelyAgrees = 0.95;  // by chance hardly ever, however little there is to judge by
+
 Bits no_bits(std::size_t count) { return Bits((count + 63) / 64, 0); }
 void set(Bits& bits, std::size_t at) { bits[at / 64] |= std::uint64_t{1} << (at % 64); }
 bool test(const Bits& bits, std::size_t at) { return (bits[at / 64] >> (at % 64) & 1) != 0; }
@@ -123,7 +125,7 @@ std::size_t SaidAtoms::stretches(const Bits& bits) const {
 
 double SaidAtoms::least(const Bits& holds) const {
   const auto independent = static_cast<double>(std::max<std::size_t>(1, std::min(stretches(said_), stretches(holds))));
-  return std::max(kLeastAgreement, 4 / std::sqrt(independent));
+  return std::max(kLeastAgreement, std::min(kSurelyAgrees, 4 / std::sqrt(independent)));
 }
 
 Meaning SaidAtoms::meaning(const std::string& truth, const NumberedFrames::Predicate& predicate,

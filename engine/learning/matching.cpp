@@ -132,6 +132,7 @@ ActionMatch made(const Side& learned, const Side& truth, const ParameterSearch& 
 
 std::vector<ActionMatch> match_actions(const Domain& learned, const Domain& truth, const std::set<std::string>& among) {
   const std::vector<Side> mine = sides(learned, truth, nullptr), theirs = sides(truth, truth, &among);
+  const std::vector<Side> any = sides(truth, truth, nullptr);
   std::vector<ActionMatch> matches(mine.size());
   std::vector<std::size_t> open;
   std::vector<std::vector<ParameterSearch>> searches;
@@ -144,6 +145,7 @@ std::vector<ActionMatch> match_actions(const Domain& learned, const Domain& trut
       matches[i] = made(mine[i], it, ParameterSearch(mine[i], it, truth, true), true);
       continue;
     }
+    if (named(*mine[i].action, any) >= 0) continue;  // that of a true action which is not in question
     open.push_back(i);
     searches.emplace_back();
     gains.emplace_back();

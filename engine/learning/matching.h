@@ -22,7 +22,8 @@ struct ActionMatch {
 // (best_assignment), then further ones as cases of it, and so those that would have to take what they are much less
 // like; below a likeness of `kLeastLike` for none. Parameters go where
 // the literals agree most, types that cannot meet apart. What the true domain derives is left out of effects there, and
-// inequalities out of preconditions. `among`: the true actions in question.
+// inequalities out of preconditions. `among`: the true actions in question; who has the name of
+// another stands for none.
 inline constexpr double kLeastLike = 0.3;
 std::vector<ActionMatch> match_actions(const Domain& learned, const Domain& truth, const std::set<std::string>& among);
 

@@ -110,8 +110,33 @@ class LiteralComparison {
     }
     for (const LiftedLiteral& one : theirs.precondition)
       if (!said.contains(one)) miss(formula_of(one, theirs_), to_text(one, theirs_), at_learned);
-    for (const Formula& one : theirs.compound) miss(one, stampede::to_text(one), at_learned);
+    std::vector<Formula> compound;
+    for (const Formula& one : mine.compound) compound.push_back(in_their_parameters(one));
+    for (const Formula& one : compound) {
+      if (std::find(theirs.compound.begin(), theirs.compound.end(), one) != theirs.compound.end()) {
+        ++score.preconditions.right;
+        continue;
+      }
+      ++score.preconditions.wrong;
+      const bool implied = at_truth.holds(one, theirs_, identity(theirs_), learned_, samples_, true);
+      score.held.wrong += !implied;
+      note(score.extra, stampede::to_text(one), implied);
+    }
+    for (const Formula& one : theirs.compound)
+      if (std::find(compound.begin(), compound.end(), one) == compound.end())
+        miss(one, stampede::to_text(one), at_learned);
     score.held.right += score.preconditions.right;
+  }
+
+  Formula in_their_parameters(Formula formula) const {
+    for (Term& term : formula.terms)
+      for (std::size_t i = 0; i < mine_.parameters.size(); ++i)
+        if (term.variable && term.name == mine_.parameters[i].name && true_of_[i] >= 0) {
+          term.name = theirs_.parameters[static_cast<std::size_t>(true_of_[i])].name;
+          break;
+        }
+    for (Formula& part : formula.parts) part = in_their_parameters(part);
+    return formula;
   }
 
   void miss(const Formula& formula, const std::string& text, const Implied& at_learned) {

@@ -41,9 +41,10 @@ struct CallScore {
 };
 
 struct OperatorScore {
-  std::vector<LiteralScore> literals;                        // by learned action
-  std::vector<CallScore> calls;                              // by true action in question
-  Counts preconditions, effects, held, applicable, changes;  // sums; a true action without a case: its literals are missed
+  std::vector<LiteralScore> literals;  // by learned action
+  std::vector<CallScore> calls;        // by true action in question
+  Counts preconditions, effects, held, applicable,
+      changes;  // sums; a true action without a case: its literals are missed
   int samples = 0;
 };
 

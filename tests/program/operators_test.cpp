@@ -20,12 +20,14 @@ class Operators {
   Operators() {
     run("demos.db", "0");
     run("other.db", "40");
-    for (const char* problem : {"conditions", "segments_and_conditions", "inventions"}) dataset(problem, "demos.db", "");
+    for (const char* problem : {"conditions", "segments_and_conditions", "inventions"})
+      dataset(problem, "demos.db", "");
     dataset("conditions", "other.db", "other_");
   }
   std::string path(const std::string& name) const { return folder_ / name; }
   std::string answered(const std::string& baseline, const std::string& problem) const {
-    const Said said = say({"baseline", baseline, folder_ / (problem + "_given"), "--out", folder_ / (baseline + ".json")});
+    const Said said =
+        say({"baseline", baseline, folder_ / (problem + "_given"), "--out", folder_ / (baseline + ".json")});
     INFO(said.err);
     REQUIRE(said.code == kDone);
     return folder_ / (baseline + ".json");
@@ -92,10 +94,13 @@ void check_refused(const Said& said, const std::string& what) {
 }
 
 std::string true_domain(const std::string& problem) {
-  return operators().hidden(problem).query("SELECT domain FROM problems WHERE domain IS NOT NULL LIMIT 1").text(0, "domain");
+  return operators()
+      .hidden(problem)
+      .query("SELECT domain FROM problems WHERE domain IS NOT NULL LIMIT 1")
+      .text(0, "domain");
 }
 
-// The true predicates at every 20th frame, under other names, turned round, half of them denied; without `open`.
+// The true predicates at every third frame, under other names, turned round, half of them denied; without `open`.
 Json disguised_rows() {
   const PlainFile hidden = operators().hidden("inventions");
   Json rows = Json::array();
@@ -111,7 +116,7 @@ Json disguised_rows() {
       for (std::size_t k = 0; k < all.size(); ++k) found.insert({all.text(k, "arg1"), all.text(k, "arg2")});
       return found;
     };
-    for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += 20) {
+    for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += 3) {
       const auto say_it = [&](const std::string& atom, bool holds) {
         rows.push_back({{"episode", episode}, {"frame", frame}, {"fact", atom}, {"holds", holds ? 1 : 0}});
       };
@@ -130,7 +135,8 @@ Json disguised_rows() {
 }
 
 const char* const kMine =
-    "(define (domain mine) (:requirements :adl) (:predicates (busy) (loose ?o) (beneath ?s ?o) (ajar ?d)) (:action grab "
+    "(define (domain mine) (:requirements :adl) (:predicates (busy) (loose ?o) (beneath ?s ?o) (ajar ?d)) (:action "
+    "grab "
     ":parameters (?o ?s) :precondition (and (not (busy)) (beneath ?s ?o) (loose ?o)) :effect (and (busy) (not (loose "
     "?o)) (not (beneath ?s ?o)))) (:action draw :parameters (?d) :precondition (and (not (busy)) (not (ajar ?d))) "
     ":effect (ajar ?d)))";
@@ -170,16 +176,14 @@ TEST_CASE("the true domain as an answer has full marks, one without precondition
   }
   Domain careless = domain_from_pddl(truth, "truth.pddl");
   for (Action& one : careless.actions) one.precondition = {};
-  const auto poor =
-      figures_of(operators().score("conditions", operators().answers("conditions", to_pddl(careless))));
+  const auto poor = figures_of(operators().score("conditions", operators().answers("conditions", to_pddl(careless))));
   CHECK(poor.at("applicable_recall") == 1);
   CHECK(poor.at("applicable_precision") < 0.5);
   CHECK(poor.at("plans_sound") < 1);
 }
 
 TEST_CASE("another's predicates are recognised by what holds") {
-  const Said said =
-      operators().score("inventions", operators().answers("inventions", kMine, disguised_rows()));
+  const Said said = operators().score("inventions", operators().answers("inventions", kMine, disguised_rows()));
   const auto figures = figures_of(said);
   CHECK(about(said, "predicate_busy") == "busy = (not (hand_empty the hand))");
   CHECK(about(said, "predicate_loose") == "loose = (not (holding the hand ?1))");
@@ -209,9 +213,9 @@ TEST_CASE("domains that are none are refused, with the place") {
 TEST_CASE("answers for another data set are refused") {
   const std::string other =
       research::dataset_id(PlainFile::open(operators().path("other_conditions_hidden/hidden.db")));
-  check_refused(
-      operators().score("conditions", operators().answers("conditions", true_domain("conditions"), Json::array(), other)),
-      "answers for another data set");
+  check_refused(operators().score("conditions",
+                                  operators().answers("conditions", true_domain("conditions"), Json::array(), other)),
+                "answers for another data set");
 }
 
 TEST_CASE("actions without a match score nothing and break nothing") {
