@@ -73,6 +73,7 @@ void Environment::Impl::begin(const ResetRequest& request) {
   options.frame_hz = static_cast<int>(std::lround(settings.frame_hz));
   options.horizon_s = settings.horizon_s;
   if (settings.torque_noise > 0) options.observation.torque_noise = settings.torque_noise;
+  if (!settings.torque_model.empty()) options.observation.torque_model = torque_noise_from(settings.torque_model);
   const PreparedStart start = prepare_start(altered(opened.draw, *opened.symbols, options), *opened.symbols, options);
   EpisodeRecord record = described(start.task, *opened.symbols, options);
   record.draws = start.draws;

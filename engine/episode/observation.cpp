@@ -49,6 +49,7 @@ Number number_from(std::string_view text) {
   return value;
 }
 
+std::string text_of(const TorqueNoise& value) { return to_text(value); }
 std::string text_of(bool value) { return value ? "1" : "0"; }
 std::string text_of(double value) { return number(value); }
 std::string text_of(WhichFrames value) { return std::string(to_string(value)); }
@@ -60,6 +61,7 @@ std::string text_of(const std::array<int, 2>& value) {
 
 void read(const std::string& text, std::optional<bool>& value) { value = text == "1"; }
 void read(const std::string& text, std::optional<double>& value) { value = number_from<double>(text); }
+void read(const std::string& text, std::optional<TorqueNoise>& value) { value = torque_noise_from(text); }
 void read(const std::string& text, std::optional<WhichFrames>& value) { value = which_frames_from(text); }
 void read(const std::string& text, std::optional<std::vector<std::string>>& value) { value = words_of(text); }
 void read(const std::string& text, std::optional<PictureKinds>& value) { value = kinds_from(text); }
@@ -83,6 +85,7 @@ void each_option(Visit&& visit) {
   visit("rgb_noise", &C::rgb_noise, [](O& o, double value) { o.noise.rgb = value; });
   visit("depth_noise", &C::depth_noise, [](O& o, double value) { o.noise.depth = value; });
   visit("torque_noise", &C::torque_noise, [](O& o, double value) { o.torque_noise = value; });
+  visit("torque_model", &C::torque_model, [](O& o, const TorqueNoise& value) { o.torque_model = value; });
   visit("channels", &C::channels, [](O& o, const std::vector<std::string>& value) { o.channels = value; });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/episode/record.h"
+#include "engine/episode/torque_noise.h"
 #include "engine/render/renderer.h"
 #include "engine/render/sensor_noise.h"
 
@@ -27,6 +28,7 @@ struct ObservationChoice {
   std::optional<PictureKinds> kinds;
   std::optional<bool> points, shadows;
   std::optional<double> rgb_noise, depth_noise, torque_noise;
+  std::optional<TorqueNoise> torque_model;
   std::optional<std::vector<std::string>> channels;
   std::map<std::string, std::string> as_text() const;  // what was chosen, `observe_size` -> `64x48` …
 };
@@ -42,12 +44,13 @@ struct Observation {
   bool shadows = false;
   CameraNoise noise;
   double torque_noise = 0;                    // N m, standard deviation added to channel `joint_torque`
+  TorqueNoise torque_model;                   // of the arm, beside that; empty: none
   std::vector<std::string> channels = {"*"};  // sensors of the world, by name; {"*"}: all
 };
 Observation chosen(const ObservationChoice& choice);
 
-// Throws Error for cameras and sensors that the scene does not have (with the nearest name as cure) and sizes out of 1
-// … 4096.
+// Throws Error for cameras and sensors that the scene does not have (with the nearest name as cure), sizes out of 1 …
+// 4096, and the torque noise of another robot.
 void check_observation(const Scene& scene, const Observation& observation);
 
 // Of a finished episode, as its options hold it: what `render` does without further words. Throws Error.

@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/episode/encode_queue.h"
 #include "engine/episode/observation.h"
+#include "engine/episode/sensors.h"
 #include "engine/model/camera.h"
 
 namespace stampede {
@@ -33,6 +34,7 @@ void check_observation(const Scene& scene, const Observation& observation) {
   for (const std::string& name : observation.channels)
     if (name != "*" && std::find(sensors.begin(), sensors.end(), name) == sensors.end())
       throw Error("channel '" + name + "'", "the world has no such sensor", did_you_mean(name, sensors));
+  if (!observation.torque_model.empty()) of_arm(observation.torque_model, arm_joints(scene.robot));
   const bool own = observation.width == 0 && observation.height == 0;
   for (const int pixels : {observation.width, observation.height})
     if (!own && (pixels < 1 || pixels > kMostPixels))

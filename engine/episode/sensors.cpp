@@ -27,8 +27,7 @@ ChannelRecord channel_of(const Sensor& sensor, const Robot& robot) {
     return channel;
   }
   channel.unit = "N m";
-  for (const int part : robot.arm)
-    channel.components.push_back(robot.body.parts[static_cast<std::size_t>(part)].joint.name);
+  channel.components = arm_joints(robot);
   return channel;
 }
 
@@ -45,6 +44,12 @@ PartRef joint_named(const Scene& scene, std::string_view name) {
 Vector3 vector_of(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
 
 }  // namespace
+
+std::vector<std::string> arm_joints(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const int part : robot.arm) names.push_back(robot.body.parts[static_cast<std::size_t>(part)].joint.name);
+  return names;
+}
 
 double SimulatorView::time_s() const { return view_->time_s(); }
 
@@ -90,6 +95,8 @@ std::string to_text(const SensorEntry& entry) {
 
 SensorReader::SensorReader(const Scene& scene, const Observation& observation, RandomKey key)
     : arm_(scene.robot.arm), torque_noise_(observation.torque_noise), key_(key) {
+  if (!observation.torque_model.empty()) torque_model_ = of_arm(observation.torque_model, arm_joints(scene.robot));
+  warm_up_s_ = warm_up_s(torque_model_, key_);
   for (const Sensor& sensor : scene.sensors) {
     if (!wanted(observation, sensor.name)) continue;
     channels_.push_back(channel_of(sensor, scene.robot));
@@ -146,10 +153,16 @@ std::vector<double> SensorReader::read(const Source& source, const World& world)
   return values;
 }
 
-void SensorReader::add_noise(std::size_t index, std::int64_t step, std::vector<double>& values) const {
-  if (torque_noise_ <= 0 || sources_[index].sensor.kind == kForceTorque) return;
+void SensorReader::add_noise(std::size_t index, const World& world, std::vector<double>& values) const {
+  if (sources_[index].sensor.kind == kForceTorque) return;
+  const std::int64_t step = world.step_count();
   Random random(key_.with(channels_[index].name).with(step));
-  for (double& value : values) value += torque_noise_ * random.normal();
+  if (torque_noise_ > 0)
+    for (double& value : values) value += torque_noise_ * random.normal();
+  if (torque_model_.empty()) return;
+  const double since_on_s = warm_up_s_ + static_cast<double>(step) / world.scene().physics_hz;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] += torque_error(torque_model_, i, world.joint_velocity(PartRef::of_robot(arm_[i])), since_on_s, random);
 }
 
 void SensorReader::step(const WorldView& view) {
@@ -168,7 +181,7 @@ void SensorReader::step(const WorldView& view) {
     if (mean)
       for (double& value : values) value /= source.period;
     source.sums.assign(source.sums.size(), 0.0);
-    add_noise(i, world.step_count(), values);
+    add_noise(i, world, values);
     channels_[i].steps.push_back(world.step_count());
     channels_[i].values.insert(channels_[i].values.end(), values.begin(), values.end());
   }

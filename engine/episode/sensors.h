@@ -15,6 +15,8 @@ namespace stampede {
 
 using SensorEntries = std::shared_ptr<const std::map<std::string, SensorEntry>>;  // by name; null: none
 
+std::vector<std::string> arm_joints(const Robot& robot);  // names in its URDF, from base to tip
+
 class SensorReader {
  public:
   // Reads the sensors that the observation wants, and no others. `key` tells episodes apart, for noise.
@@ -51,11 +53,13 @@ class SensorReader {
   };
   std::vector<double> read(const Source& source, const World& world) const;
   void read_own(const Own& own, const WorldView& view);
-  void add_noise(std::size_t index, std::int64_t step, std::vector<double>& values) const;
+  void add_noise(std::size_t index, const World& world, std::vector<double>& values) const;
 
   std::vector<int> arm_;
   double torque_noise_ = 0;
+  TorqueNoise torque_model_;  // in the order of arm_, or empty
   RandomKey key_;
+  double warm_up_s_ = 0;  // of the arm, at the first step
   std::vector<Source> sources_;
   std::vector<ChannelRecord> channels_;
   std::vector<Own> own_;

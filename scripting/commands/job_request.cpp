@@ -29,7 +29,9 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
                                                            const JobList& jobs, const Arguments& arguments) {
   std::map<std::string, std::vector<Camera>> cameras;
   const auto given = [&](const char* option) { return arguments.has(option); };
-  if (!given("--camera") && !given("--camera-file") && !given("--add-camera") && !given("--channels")) return cameras;
+  if (!given("--camera") && !given("--camera-file") && !given("--add-camera") && !given("--channels") &&
+      !given("--noise"))
+    return cameras;
   const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
   for (const EpisodeJob& job : jobs.first_of_each_task()) {
     Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task()(0).scene;

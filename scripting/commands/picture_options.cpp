@@ -8,6 +8,8 @@
 
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
+#include "engine/episode/sensors.h"
+#include "scripting/commands/torque_noise_file.h"
 
 namespace stampede::program {
 namespace {
@@ -39,6 +41,9 @@ void read_kinds(const std::string& text, ObservationChoice& choice) {
   }
 }
 
+// `arm.json`, and no number.
+bool is_file_name(const std::string& text) { return text.ends_with(".json") || text.find('/') != std::string::npos; }
+
 void read_noise(const std::string& text, PictureUse use, ObservationChoice& choice) {
   const std::string cure = use == PictureUse::run ? "rgb=0.02,depth=kinect,torque=0.1" : "rgb=0.02,depth=kinect";
   for (const std::string& one : split(text, ',')) {
@@ -50,6 +55,8 @@ void read_noise(const std::string& text, PictureUse use, ObservationChoice& choi
       choice.rgb_noise = number_in("--noise rgb", value, 0, 1);
     } else if (name == "depth") {
       choice.depth_noise = value == "kinect" ? kKinect : number_in("--noise depth", value, 0, 1);
+    } else if (name == "torque" && use == PictureUse::run && is_file_name(value)) {
+      choice.torque_model = load_torque_noise(value);
     } else if (name == "torque" && use == PictureUse::run) {
       choice.torque_noise = number_in("--noise torque", value, 0, kMostTorque);
     } else {
@@ -107,7 +114,8 @@ std::vector<OptionRow> picture_options(PictureUse use) {
   rows.push_back(text_option("--size", "WxH", "pixels; default: each camera's own"));
   rows.push_back(text_option("--kinds", "LIST", "of rgb, depth, instance, semantic, points; default: all but points"));
   rows.push_back(text_option("--noise", "LIST",
-                             run ? "such as rgb=0.02,depth=kinect,torque=0.1: deviations of 0 … 1, 1/m, N m"
+                             run ? "such as rgb=0.02,depth=kinect,torque=0.1: deviations of 0 … 1, 1/m, N m; "
+                                   "torque=FILE.json: fitted to an arm"
                                  : "such as rgb=0.02,depth=kinect: deviations of 0 … 1 and 1/m"));
   rows.push_back({"--shadows", "", "the light casts shadows", Takes::flag, "", {}, false});
   rows.push_back({"--camera-file",
@@ -149,6 +157,7 @@ void check_choice(const ObservationChoice& choice, const Scene& scene) {
   for (const std::string& name : choice.channels.value_or(std::vector<std::string>{}))
     if (name != "*" && std::find(sensors.begin(), sensors.end(), name) == sensors.end())
       throw UsageError("--channels: the world has no sensor '" + name + "'", did_you_mean(name, sensors));
+  if (choice.torque_model) of_arm(*choice.torque_model, arm_joints(scene.robot));
 }
 
 }  // namespace stampede::program

@@ -76,6 +76,7 @@ std::optional<PolicySettings> policy_settings(const Arguments& arguments, const 
   environment.rgb_noise = pictures.rgb_noise.value_or(0);
   environment.depth_noise = pictures.depth_noise.value_or(0);
   environment.torque_noise = pictures.torque_noise.value_or(0);
+  environment.torque_model = to_text(pictures.torque_model.value_or(TorqueNoise{}));
   return settings;
 }
 

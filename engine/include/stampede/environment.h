@@ -79,6 +79,7 @@ struct EnvironmentSettings {
   std::map<std::string, double> picture_hz = {};  // by camera, where a picture need not be new at every frame
   double rgb_noise = 0, depth_noise = 0;          // as PictureStorage
   double torque_noise = 0;                        // N m, of the sensor `joint_torque`
+  std::string torque_model = {};                  // of the same, of a real arm, as an episode's options keep it
 };
 
 // A moment to which an environment can go back. Lifetime: a value; it outlives the environment, and restores into any

@@ -1,0 +1,77 @@
+"""Recordings of real robots as recording folders: `python -m stampede.recordings FORMAT SOURCE --out FOLDER`.
+
+A format is a module here with `add_arguments` and `convert`; `--into demos.db` then imports what it wrote.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+from stampede.faults import fault
+from stampede.recordings import given as given_options
+from stampede.recordings.given import Given
+
+FORMATS = {
+    "mcap": ("bag", "MCAP with ROS 2's messages, or with Foxglove's as JSON"),
+    "rosbag2": ("bag", "a bag of ROS 2: its folder, or a .mcap or .db3 file"),
+    "lerobot": ("lerobot", "LeRobotDataset v2.1 or v3.0: a folder an episode"),
+    "robomimic": ("robomimic", "HDF5 of robomimic: a folder a demo"),
+}
+
+
+class Format(Protocol):
+    """What a module does."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Its own flags."""
+
+    def convert(self, given: Given, options: argparse.Namespace) -> list[Path]:
+        """Writes recording folders and names them. Raises Error; what is not whole has no final name."""
+
+
+def convert(arguments: Sequence[str] | None = None, tell: Callable[[str], None] | None = None) -> list[Path]:
+    """Runs the command line; gives the folders that were written. Raises Error for bad input."""
+    options = _parse(arguments)
+    say = tell or (lambda line: print(line, file=sys.stderr))
+    given = given_options.given_by(options, say)
+    folders = _module(options.format).convert(given, options)
+    if options.into:
+        import_folders(folders, Path(options.into), say)
+    return folders
+
+
+def import_folders(folders: Sequence[Path], catalogue: Path, tell: Callable[[str], None]) -> None:
+    """Each becomes an episode of the catalogue, by the engine's program. Raises Error with what that says."""
+    program = Path(__file__).parents[1] / "engine" / "bin" / "stampede"
+    for folder in folders:
+        command = [str(program), "import", "recording", str(folder), "--out", str(catalogue)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        for line in done.stderr.splitlines() if done.returncode == 0 else []:
+            tell(line)
+        if done.returncode:
+            said = done.stderr.strip().removeprefix("error: ") or f"exit code {done.returncode}"
+            raise fault(str(folder), f"it was written, but not imported: {said}", " ".join(command[1:]))
+
+
+def _module(name: str) -> Any:
+    return importlib.import_module(f"stampede.recordings.{FORMATS[name][0]}")
+
+
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m stampede.recordings",
+        description="Writes recording folders from what robots recorded; `stampede import recording` reads them.",
+    )
+    formats = parser.add_subparsers(dest="format", required=True, metavar="FORMAT")
+    for name, (_, what) in FORMATS.items():
+        one = formats.add_parser(name, help=what, description=what)
+        one.add_argument("source", metavar="SOURCE")
+        given_options.add_arguments(one)
+        _module(name).add_arguments(one)
+    return parser.parse_args(arguments)

@@ -1,0 +1,288 @@
+"""MCAP and rosbag2 to a recording folder.
+
+What a topic is, its type says (roles.py). Stamps are those of the messages' headers, on one clock of the robot and one of
+each camera; a topic whose first header has no stamp, and all topics with `--clock log`, have the recorder's times. A stamp
+that comes twice is taken once. NaN in velocities and efforts, as drivers write what they do not know, is no reading.
+Pictures that are JPEG or PNG files go through as they are.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stampede.faults import fault
+from stampede.recordings.bags import Bag, open_bag
+from stampede.recordings.folder import FolderWriter, Stream
+from stampede.recordings.frames import Frames, lens_entry, link_named
+from stampede.recordings.given import Given
+from stampede.recordings.messages import (
+    JointReading,
+    LensReading,
+    Message,
+    PictureReading,
+    SegmentReading,
+    TransformReading,
+    WrenchReading,
+    decoder,
+)
+from stampede.recordings.pictures import file_of
+from stampede.recordings.roles import Roles, joint_for, parse_map, roles_of
+
+Array = NDArray[Any]
+Json = dict[str, Any]
+
+_WRENCH = ["force_x_n", "force_y_n", "force_z_n", "torque_x_nm", "torque_y_nm", "torque_z_nm"]
+_DEPTH = {"unit_m": 0.001}  # of the PNG files that are written here, and of a RealSense's
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--map", action="append", default=[], metavar="WHAT=TOPIC", help="joints, gripper, rgb.CAMERA, "
+                        "depth.CAMERA, lens.CAMERA, wrench.NAME; `=none` leaves a kind out (default: by type and name)")
+    parser.add_argument("--clock", choices=("header", "log"), default="header", help="whose times (default: %(default)s)")
+    parser.add_argument("--skip-bad", action="store_true", help="leave out readings that are NaN or go back in time")
+    parser.add_argument("--truncated", action="store_true", help="of a file that ends early, take what is whole")
+    parser.add_argument("--depth-range", default="0.1,10", metavar="NEAR,FAR", help="m (default: %(default)s)")
+
+
+def convert(given: Given, options: argparse.Namespace) -> list[Path]:
+    """Writes the folder. Raises Error for a bag that cannot serve; then there is no folder."""
+    source = Path(options.source)
+    bag = open_bag(source, options.truncated)
+    roles = roles_of(bag, str(source), given.robot.arm, parse_map(options.map))
+    with FolderWriter(given.out, options.skip_bad) as folder:
+        _Conversion(bag, roles, given, options, folder).run()
+    return [given.out]
+
+
+class _Conversion:
+    def __init__(
+        self, bag: Bag, roles: Roles, given: Given, options: argparse.Namespace, folder: FolderWriter
+    ) -> None:
+        self._bag, self._roles, self._given, self._options, self._folder = bag, roles, given, options, folder
+        self._logged: dict[str, bool] = {}  # topics whose times are the recorder's
+        self._frames = Frames()
+        self._lenses: dict[str, LensReading] = {}
+        self._camera_frames: dict[str, str] = {}
+        self._segments: list[Json] = []
+        self._near, self._far = _range(options.depth_range)
+
+    def run(self) -> None:
+        topics = {topic.name: topic for topic in self._bag.topics()}
+        wanted = self._roles.all()
+        read = {name: decoder(name, topics[name].schema, topics[name].encoding) for name in wanted}
+        takers: dict[str, Callable[[Message, int], None]] = {}
+        for name, log_ns, data in self._bag.messages(wanted):
+            message = read[name](data, log_ns)
+            if name not in takers:
+                takers[name] = self._taker(name, message)
+            takers[name](message, self._time_of(name, message))
+        if not any(one.described["kind"] == "joints" and one.counts.written for one in self._folder.streams):
+            raise fault(str(self._options.source), "no joint state in it can be used", "record again")
+        self._finish()
+
+    def _time_of(self, topic: str, message: Message) -> int:
+        if topic not in self._logged:
+            self._logged[topic] = self._options.clock == "log" or message.stamp_ns == 0
+        if self._logged[topic]:
+            return message.log_ns
+        return message.stamp_ns
+
+    def _clock(self, topic: str, name: str, message: Message) -> str:
+        self._time_of(topic, message)
+        return "log" if self._logged[topic] else name
+
+    def _taker(self, topic: str, first: Message) -> Callable[[Message, int], None]:
+        """What is done with a topic's messages."""
+        place = f"{self._options.source}, topic {topic}"
+        if isinstance(first, JointReading):
+            takers = []
+            clock = self._clock(topic, "robot", first)
+            if topic == self._roles.joints:
+                takers.append(self._joints(place, clock, first))
+            if topic in (self._roles.gripper, self._roles.joints) and (topic == self._roles.gripper or not self._roles.gripper):
+                takers.append(self._gripper(place, clock, first))
+            return lambda message, time: _give(takers, message, time)
+        if isinstance(first, PictureReading):
+            return self._picture(place, topic, first)
+        if isinstance(first, WrenchReading):
+            return self._wrench(place, topic, first)
+        if isinstance(first, LensReading):
+            camera = self._roles.lenses[topic]
+            return lambda message, time: self._keep_lens(camera, message)  # type: ignore[arg-type]
+        if isinstance(first, TransformReading):
+            return lambda message, time: self._frames.add(message)  # type: ignore[arg-type]
+        return lambda message, time: self._keep_segment(message)  # type: ignore[arg-type]
+
+    def _joints(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
+        arm = self._given.robot.arm
+        parts = [("position", "position_rad")]
+        parts += [(part, column) for part, column in (("velocity", "velocity_rad_s"), ("effort", "effort_nm"))
+                  if np.isfinite(getattr(first, part)).any()]
+        stream = self._folder.series("joints", [f"{j}_{column}" for _, column in parts for j in arm], clock, place)
+        places: dict[tuple[str, ...], list[int]] = {}
+
+        def take(message: JointReading, time: int) -> None:
+            if message.names not in places:
+                found = [joint_for(joint, message.names) for joint in arm]
+                if None in found:
+                    return  # of other joints: several drivers may share a topic
+                places[message.names] = [message.names.index(str(name)) for name in found]
+            at = places[message.names]
+            if not stream.takes(time):
+                return
+            position = _at(message.position, at)
+            if not np.isfinite(position).all():
+                bad = arm[int(np.flatnonzero(~np.isfinite(position))[0])]
+                stream.skip(f"the position of {bad} is not a number")
+                return
+            rows = [position, *(_at(getattr(message, part), at) for part, _ in parts[1:])]
+            stream.row(time, np.concatenate(rows).tolist())
+
+        return take
+
+    def _gripper(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
+        fingers = [name for name in first.names if "finger" in name]
+        if not fingers:
+            return lambda message, time: None
+        stream = self._folder.series("gripper", ["opening_m"], clock, place)
+
+        def take(message: JointReading, time: int) -> None:
+            at = [message.names.index(name) for name in fingers if name in message.names]
+            if len(at) != len(fingers) or not stream.takes(time):
+                return
+            opening = float(_at(message.position, at).sum()) * (2 if len(fingers) == 1 else 1)
+            if not np.isfinite(opening):
+                stream.skip("the opening of the fingers is not a number")
+                return
+            stream.row(time, [opening])
+
+        return take
+
+    def _picture(self, place: str, topic: str, first: PictureReading) -> Callable[[Any, int], None]:
+        kind, camera = self._roles.pictures[topic]
+        further = {**_DEPTH, "near_m": self._near, "far_m": self._far} if kind == "depth" else {}
+        stream, folder = self._folder.pictures(kind, camera, self._clock(topic, camera, first), place, **further)
+        if kind == "rgb" or camera not in self._camera_frames:
+            self._camera_frames[camera] = first.frame_id
+
+        def take(message: PictureReading, time: int) -> None:
+            if stream.takes(time):
+                data, ending = file_of(message, kind, f"{place}, picture {stream.counts.written + 1}")
+                stream.picture(time, folder, data, ending)
+            if not self._logged[topic]:
+                stream.counts.latency_ns.append(message.log_ns - message.stamp_ns)
+
+        return take
+
+    def _wrench(self, place: str, topic: str, first: WrenchReading) -> Callable[[Any, int], None]:
+        robot = self._given.robot
+        link = link_named(first.frame_id, robot) or robot.hand
+        name = self._roles.wrenches[topic]
+        clock = self._clock(topic, "robot", first)
+        stream = self._folder.series("wrench", _WRENCH, clock, place, name=name, link=link)
+
+        def take(message: WrenchReading, time: int) -> None:
+            if not stream.takes(time):
+                return
+            if not np.isfinite(message.wrench).all():
+                stream.skip("the wrench is not a number")
+                return
+            stream.row(time, message.wrench.tolist())
+
+        return take
+
+    def _keep_lens(self, camera: str, lens: LensReading) -> None:
+        self._lenses.setdefault(camera, lens)
+
+    def _keep_segment(self, message: SegmentReading) -> None:
+        one = message.fields
+        kept = {name: one[name] for name in ("kind", "name", "arguments", "start_s", "end_s", "label") if name in one}
+        self._segments.append({**kept, "outcome": "success" if one.get("success", True) else "failure"})
+
+    def _finish(self) -> None:
+        self._tell_streams()
+        document = self._given.document(self._bag.about())
+        document["source"] = f"{Path(self._options.source).name}: " + ", ".join(sorted(self._roles.all()))
+        if self._segments:
+            self._folder.write_json("labels.json", {"labelled_by": "model", "model": "stampede", "segments": self._segments})
+            document["labels"] = "labels.json"
+        self._write_cameras(document)
+        self._given.copy_files(self._folder)
+        self._folder.finish(document)
+
+    def _write_cameras(self, document: Json) -> None:
+        if self._given.camera_file is not None:
+            self._folder.copy(self._given.camera_file, "cameras.json")
+            document["cameras"] = "cameras.json"
+            return
+        cameras = sorted({camera for _, camera in self._roles.pictures.values()})
+        placed, lenses = [], []
+        for camera in cameras:
+            lens = self._lenses.get(camera)
+            found = "there is no CameraInfo of it" if lens is None else lens_entry(camera, lens)
+            if isinstance(found, str):
+                self._given.tell(f"camera {camera}: {found}; python -m stampede.calibrate intrinsics finds its lens")
+                continue
+            lenses.append(found)
+            assert lens is not None
+            frame = self._camera_frames.get(camera) or lens.frame_id
+            mount = self._frames.mount_of(frame, self._given.robot, self._given.world_from_base)
+            if mount is None:
+                self._given.tell(
+                    f"camera {camera}: no transform says where {frame or 'it'} is; "
+                    "python -m stampede.calibrate extrinsics finds its pose, --cameras FILE gives it"
+                )
+                continue
+            placed.append({**found, "mount": mount[0], "mount_from_camera": mount[1].tolist()})
+        if lenses:
+            self._folder.write_json("lenses.json", {"cameras": lenses})
+        if placed:
+            self._folder.write_json("cameras.json", {"cameras": placed})
+            document["cameras"] = "cameras.json"
+
+    def _tell_streams(self) -> None:
+        for stream in self._folder.streams:
+            self._given.tell(_line(stream))
+
+
+def _give(takers: list[Callable[[Any, int], None]], message: Message, time: int) -> None:
+    for take in takers:
+        take(message, time)
+
+
+def _line(stream: Stream) -> str:
+    """`joints: 60000 readings in 600.0 s`, and what is not as it should be."""
+    counts = stream.counts
+    name = stream.described.get("name") or stream.described["kind"]
+    camera = stream.described.get("camera")
+    line = f"{name}{f' of {camera}' if camera else ''}: {counts.written} readings in {counts.duration_s:.1f} s"
+    if counts.latency_ns:
+        line += f", logged {np.median(counts.latency_ns) / 1e6:.1f} ms after their stamps"
+    if counts.repeated:
+        line += f", {counts.repeated} of a stamp that was there"
+    if counts.skipped:
+        line += f", {counts.skipped} left out"
+    return line
+
+
+def _at(values: Array, places: list[int]) -> Array:
+    """NaN where there is none."""
+    if len(values) > max(places, default=0):
+        return values[places]
+    return np.full(len(places), np.nan)
+
+
+def _range(text: str) -> tuple[float, float]:
+    try:
+        near, far = (float(word) for word in text.split(","))
+    except ValueError:
+        near = far = 0.0
+    if not 0 < near < far:
+        raise fault("--depth-range", f"'{text}' is no range", "--depth-range 0.1,10")
+    return near, far

@@ -1,0 +1,106 @@
+"""Pictures of a recording as the files that a recording folder takes: JPEG and PNG as they are, raw pixels packed."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stampede.faults import fault
+from stampede.recordings.messages import PictureReading
+
+Array = NDArray[Any]
+
+_PNG, _JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
+_DEPTH_HEAD = 12  # bytes before the PNG of a compressedDepth message
+_CHANNELS = {"rgb8": 3, "bgr8": 3, "rgba8": 4, "bgra8": 4, "mono8": 1, "8UC1": 1, "8UC3": 3, "8UC4": 4}
+_DEPTHS = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
+_CURE = "record rgb8, bgr8, mono8, 16UC1, 32FC1, or compressed as JPEG or PNG; --map rgb=none leaves pictures out"
+
+
+def packed(picture: Array) -> bytes:
+    """A PNG file of height x width x 3 uint8, or of height x width uint16. Quick rather than small."""
+    height, width = picture.shape[:2]
+    deep = picture.dtype == np.uint16
+    raw = picture.astype(">u2").view(np.uint8) if deep else picture
+    rows = np.hstack([np.full((height, 1), 1, dtype=np.uint8), _left_differences(raw.reshape(height, -1), 2 if deep else 3)])
+    head = struct.pack(">IIBBBBB", width, height, 16 if deep else 8, 0 if deep else 2, 0, 0, 0)  # 0: grey, 2: colours
+    parts = [(b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 1)), (b"IEND", b"")]
+    chunks = [
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in parts
+    ]
+    return _PNG + b"".join(chunks)
+
+
+def _left_differences(rows: Array, step: int) -> Array:
+    """PNG's filter 1: each byte less the one a pixel before."""
+    result = rows.copy()
+    result[:, step:] -= rows[:, :-step]
+    return result
+
+
+def file_of(picture: PictureReading, kind: str, place: str) -> tuple[bytes, str]:
+    """The picture as a file, and its name's ending. kind: rgb or depth. Raises Error for what is not read."""
+    if picture.width == 0:
+        return _of_file(picture, kind, place)
+    if kind == "depth":
+        return packed(_depth(picture, place)), "png"
+    return packed(_colours(picture, place)), "png"
+
+
+def _of_file(picture: PictureReading, kind: str, place: str) -> tuple[bytes, str]:
+    data = picture.data
+    if "compressedDepth" in picture.encoding:
+        if not picture.encoding.startswith(("16UC1", "mono16")):
+            raise fault(place, f"'{picture.encoding}' is not read", "record depth as 16UC1, in mm")
+        data = data[_DEPTH_HEAD:]
+    if data.startswith(_PNG):
+        if not data.rstrip(b"\0").endswith(b"IEND\xaeB`\x82"):
+            raise fault(place, "a PNG picture ends early", "record again, or leave the topic out with --map")
+        return data, "png"
+    if data.startswith(_JPEG) and kind == "rgb":
+        if b"\xff\xd9" not in data[-64:]:
+            raise fault(place, "a JPEG picture ends early", "record again, or leave the topic out with --map")
+        return data, "jpg"
+    raise fault(place, f"compressed pictures in the format '{picture.encoding}' are not read", _CURE)
+
+
+def _pixels(picture: PictureReading, place: str, width: int, channels: int) -> Array:
+    """height x width x bytes of a pixel, rows without their padding."""
+    used = picture.width * channels * width
+    step = picture.step or used
+    if picture.height == 0 or step < used or len(picture.data) < step * picture.height:
+        raise fault(
+            place,
+            f"a picture of {picture.width} x {picture.height} in {picture.encoding} has {len(picture.data)} bytes",
+            "record again, or leave the topic out with --map",
+        )
+    rows = np.frombuffer(picture.data, dtype=np.uint8, count=step * picture.height).reshape(picture.height, step)
+    return rows[:, :used]
+
+
+def _colours(picture: PictureReading, place: str) -> Array:
+    channels = _CHANNELS.get(picture.encoding)
+    if channels is None:
+        raise fault(place, f"pixels in the encoding '{picture.encoding}' are not read", _CURE)
+    pixels = _pixels(picture, place, 1, channels).reshape(picture.height, picture.width, channels)
+    if channels == 1:
+        return np.repeat(pixels, 3, axis=2)
+    # 8UC3 says no order; OpenCV, which writes it, has blue first.
+    return pixels[..., :3] if picture.encoding.startswith("rgb") else pixels[..., 2::-1]
+
+
+def _depth(picture: PictureReading, place: str) -> Array:
+    """height x width uint16, mm; 0: no reading."""
+    kind = _DEPTHS.get(picture.encoding)
+    if kind is None:
+        raise fault(place, f"depth in the encoding '{picture.encoding}' is not read", _CURE)
+    order = ">" if picture.big else "<"
+    values = np.ascontiguousarray(_pixels(picture, place, int(kind[1]), 1)).view(order + kind)
+    if kind == "u2":
+        return values.astype(np.uint16)
+    mm = np.nan_to_num(values * 1000.0, nan=0.0, posinf=0.0, neginf=0.0)
+    return np.where((mm > 0) & (mm < 65535.5), np.round(mm), 0).astype(np.uint16)
