@@ -6,6 +6,7 @@ N m; poses are 4 x 4 matrices parent_from_child.
 
 from __future__ import annotations
 
+import copy
 import json
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
@@ -140,21 +141,30 @@ class Robot:
                 result[:, place[joint.name]] = np.einsum("ij,ij->i", pull, axes[link])
         return result
 
-    def load_torques(self, positions: Array) -> Array:
-        """What a load at rest in the hand takes, as a linear function of it: n x joints x 4, for its mass (kg) and its
-        mass times its centre in the hand's frame (kg m)."""
-        poses = self.poses(positions)
-        hand = poses[self.hand]
-        result = np.zeros((len(positions), len(self.arm), 4))
-        for column, name in enumerate(self.arm):
-            joint = next(one for one in self.joints if one.name == name)
-            axis = poses[joint.child][:, :3, :3] @ joint.axis
-            way = hand[:, :3, 3] - poses[joint.child][:, :3, 3]
-            # torque = axis . ((way + R c) x (-m g)), which is linear in m and m c
-            result[:, column, 0] = np.einsum("ij,ij->i", axis, np.cross(way, -GRAVITY))
-            across = np.cross(np.broadcast_to(-GRAVITY, axis.shape), axis)
-            result[:, column, 1:] = np.einsum("ij,ijk->ik", across, hand[:, :3, :3])
-        return result
+    def load_torques(self, positions: Array, velocities: Array, accelerations: Array) -> Array:
+        """What a load in the hand takes, as a linear function of it: n x joints x 4, for its mass (kg) and its mass times
+        its centre in the hand's frame (kg m). Its own inertia is left out."""
+
+        def with_centre(centre: Array) -> Array:
+            one = copy.copy(self)
+            one.inertias = {self.hand: Inertia(1.0, centre, np.zeros((3, 3)))}
+            return one.torques(positions, velocities, accelerations)
+
+        columns = [with_centre(np.zeros(3))]
+        for axis in 0.1 * np.eye(3):  # what is quadratic in the centre is the same on both sides
+            columns.append((with_centre(axis) - with_centre(-axis)) / 0.2)
+        return np.stack(columns, axis=2)
+
+    def beyond_arm(self) -> set[str]:
+        """Links that nothing of the arm moves to each other: the last joint's and what hangs from it."""
+        last = next(joint for joint in self.joints if joint.name == self.arm[-1])
+        return {last.child} | {link for link in self._links if last in self._way(link)}
+
+    def only(self, link: str) -> Robot:
+        """The same robot, in which one link alone has mass: torques are linear in the masses."""
+        one = copy.copy(self)
+        one.inertias = {link: self.inertias[link]}
+        return one
 
     @cached_property
     def _ordered(self) -> list[Joint]:
