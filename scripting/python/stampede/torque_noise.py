@@ -36,6 +36,7 @@ _MOVES = 0.02  # rad/s: below, nothing is learned of a joint's friction
 _SMOOTHS = (0.005, 0.01, 0.02, 0.05, 0.1)  # rad/s
 _MASS_SD, _LOAD_SD, _MOMENT_SD = 0.05, 1.0, 0.3  # of a link's mass; kg; kg m
 _NEAR = 10.0  # columns of a joint whose friction is not seen are held by a prior so wide, N m
+_TOGETHER_S = 1.0  # what the model lacks is the same for so long: readings within it count as one beside the priors
 _QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 
 
@@ -142,6 +143,7 @@ def fit(recording: Recording, with_load: bool = True, with_masses: bool = True) 
     left = motion.efforts - robot.torques(motion.positions, motion.velocities, motion.accelerations)
     shared, priors, links = _shared_columns(robot, motion, with_load, with_masses)
     span = float(motion.times[-1])
+    together = max(1.0, _TOGETHER_S / float(np.median(np.diff(motion.times))))
     best: tuple[float, float, float, Array] | None = None
     variance = np.var(left - np.median(left, axis=0), axis=0) + 1e-12
     for _ in range(2):  # the second time with the variances that the first has found
@@ -149,7 +151,7 @@ def fit(recording: Recording, with_load: bool = True, with_masses: bool = True) 
         for smooth in _SMOOTHS:
             for drift_time in np.geomspace(span / 20, span * 2, 14):
                 own = _own_columns(motion, smooth, float(drift_time))
-                values, cost = _solve(left, own, shared, priors, variance)
+                values, cost = _solve(left, own, shared, priors, variance * together)
                 if best is None or cost < best[0]:
                     best = (cost, smooth, float(drift_time), values)
         own = _own_columns(motion, best[1], best[2])

@@ -9,6 +9,8 @@ back, for comparison alone: nothing of it is in the bag.
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -143,6 +145,8 @@ return world {{
     table = {{ "work_table", at = {{ 0.19, 0, 0.75 }} }} }},
   cameras = {{ lab = {{ at = {{ 1, 0, 1.4 }}, look_at = "table", fov = deg(40) }} }},
   calibration = "lab.json",
+  sensors = {{ joint_torque = {{ "joint_torque", rate = {FRAME_HZ // DRIVER_EVERY} }} }},
+  physics_hz = {FRAME_HZ}, frame_hz = {FRAME_HZ},
 }}
 """
     )
@@ -224,13 +228,15 @@ def move(folder: Path, truth: Truth, seed: int, seconds: float) -> stampede.Stor
     catalogue = folder / "true.db"
     session = stampede.Session(paths=[folder / "library"], catalogue=catalogue)
     world = session.environment(
-        "wave", channels=["joint_positions"], frame_hz=FRAME_HZ, physics_hz=240, horizon_s=10 * seconds, record=True
+        "wave", channels=["joint_positions"], horizon_s=10 * seconds, record=True
     )
     now = world.reset(stampede.Reset(seed=seed))
     robot, rng = robot_of("panda"), np.random.default_rng([seed, 3])
     count = int(seconds / 1.4) + 2
     points = np.concatenate([now["joint_positions"][None], way_points(robot, truth, count, rng)])
-    for row in motion(points, rng)[: int(seconds * FRAME_HZ)]:
+    path = motion(points, rng)[: int(seconds * FRAME_HZ)]
+    np.savetxt(folder / "motion.csv", path, delimiter=",")  # for `play`
+    for row in path:
         step = world.step(stampede.Action("joint_position", row.tolist()))
         assert not step.refusal, step.refusal
     world.episode()
@@ -248,6 +254,21 @@ def record(folder: Path, seed: int, seconds: float = 60.0, form: str = "mcap", t
         _write_joints(bag, episode, truth, rng)
         _write_pictures(bag, episode, truth, rng)
     return truth
+
+
+def torque_errors(folder: Path, seed: int, noise: Path) -> Array:
+    """What `run --noise torque=FILE` adds to the torques of the recorded motion: samples x joints, N m."""
+    program = Path(stampede.__file__).parent / "engine" / "bin" / "stampede"
+    play = f"{sys.executable} {Path(__file__).with_name('play.py')} {folder / 'motion.csv'}"
+    readings = []
+    for name, options in (("ideal", []), ("noisy", ["--noise", f"torque={noise}"])):
+        catalogue = folder / f"{name}.db"
+        command = [str(program), "run", "wave", "--path", str(folder / "library"), "--seed", str(seed), "--policy", play]
+        command += ["--observe", "time", "--out", str(catalogue), *options]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert catalogue.exists(), done.stderr
+        readings.append(next(iter(stampede.Catalogue(catalogue))).arrays("sensor")["sensor/joint_torque"])
+    return readings[1] - readings[0]
 
 
 def measured_torques(torques: Array, velocities: Array, times: Array, truth: Truth, rng: np.random.Generator) -> Array:

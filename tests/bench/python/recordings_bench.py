@@ -1,0 +1,135 @@
+"""What is recovered of recordings whose truth is known (laboratory.py), and how fast recordings come in.
+
+    recordings_bench.py recover [SEEDS] [SECONDS]     a table, a row a seed
+    recordings_bench.py speed [MINUTES]               MCAP with two cameras to a catalogue
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from laboratory import BASE, DICTIONARY, MARKER_M, SQUARE_M, SQUARES, Truth, record, torque_errors
+
+from stampede import torque_noise
+from stampede.calibrate import calibrate
+from stampede.calibrate.bundle import pose_error
+from stampede.recordings import convert
+
+BOARD = f"charuco:{SQUARES[0]}x{SQUARES[1]}:{SQUARE_M}:{MARKER_M}:{DICTIONARY[5:]}"
+
+
+def recovered(folder: Path, seed: int, seconds: float) -> dict[str, float]:
+    """Errors of what calibration finds, and how alike torques are."""
+    truth = record(folder, seed, seconds)
+    recording = folder / "recording"
+    at = " ".join(map(str, BASE))
+    convert(["mcap", str(folder / "bag"), "--out", str(recording), "--base", at], tell=lambda line: None)
+    calibrate(["intrinsics", str(recording), "--board", BOARD])
+    _, found = calibrate(["extrinsics", str(recording), "--board", BOARD, "--apply-joints"])
+    errors = pose_errors(truth, found, seconds)
+    noise_file = folder / "noise.json"
+    _, noise = torque_noise.main([str(recording), "--out", str(noise_file)])
+    fitted = torque_noise.fit(torque_noise.Recording(recording, corrected=True))
+    noise_file.write_text(json.dumps({**json.loads(noise_file.read_text()), "recorded_s": 0}))  # the same cold start
+    alike = torque_noise.comparison(fitted.residuals, torque_errors(folder, seed, noise_file), fitted.noise.joints)
+    width = [np.ptp(np.array(one["quantiles_nm"])[[1, 5]]) for one in alike]
+    other = [np.ptp(np.array(one["other_quantiles_nm"])[[1, 5]]) for one in alike]
+    for name in ("coulomb", "white"):
+        errors[f"{name} %"] = 100 * float(np.abs(getattr(fitted.noise, name) / truth.torque[name] - 1).max())
+    return errors | {
+        "load kg": noise["load_kg"],
+        "KS": max(one["distance"] for one in alike),
+        "5-95 % width": float(np.abs(np.array(other) / width - 1).max() * 100),
+    }
+
+
+def pose_errors(truth: Truth, found: dict[str, Any], seconds: float) -> dict[str, float]:
+    """The base's x axis is where joint 1 reads 0, so the true camera is turned by what it reads beside the truth."""
+    camera, entry = found["cameras"][0], found["camera_file"][0]
+    turn = np.eye(4)
+    sine, cosine = np.sin(-truth.joint_offsets[0]), np.cos(truth.joint_offsets[0])
+    turn[:2, :2] = [[cosine, -sine], [sine, cosine]]
+    base = np.eye(4)
+    base[:3, 3] = BASE
+    true = base @ turn @ np.linalg.inv(base) @ truth.world_from_camera
+    way, angle = pose_error(np.array(entry["mount_from_camera"]), true)
+    reference = camera["clock"]["reference_s"] - 1_700_000_000
+    offset = truth.camera_offset_s + truth.drift_ppm * 1e-6 * reference
+    joints = np.array([one["offset_rad"] for one in found["joints"]])[1:-1] - truth.joint_offsets[1:-1]
+    return {
+        "true offset ms": 1e3 * truth.camera_offset_s,
+        "offset ms": 1e3 * abs(camera["clock"]["offset_s"] - offset),
+        "drift ppm": abs(camera["clock"]["drift_ppm"] - truth.drift_ppm),
+        "pose mm": 1e3 * way,
+        "pose deg": float(np.degrees(angle)),
+        "joints deg": float(np.degrees(np.abs(joints).max())),
+        "focal px": abs(entry["camera_matrix"][0][0] - truth.matrix[0, 0]),
+        "rms px": camera["rms_pixels"],
+    }
+
+
+def recover(seeds: int, seconds: float) -> None:
+    rows = []
+    for seed in range(1, seeds + 1):
+        folder = Path(tempfile.mkdtemp()) / "laboratory"
+        rows.append(recovered(folder, seed, seconds))
+        shutil.rmtree(folder.parent)
+        if seed == 1:
+            print("| seed | " + " | ".join(rows[0]) + " |")
+            print("|---" * (len(rows[0]) + 1) + "|")
+        print(f"| {seed} | " + " | ".join(f"{value:.3g}" for value in rows[-1].values()) + " |", flush=True)
+    print("| worst | " + " | ".join(f"{max(row[name] for row in rows):.3g}" for name in rows[0]) + " |")
+
+
+def speed(minutes: float) -> None:
+    """JPEG pictures of 640 x 480 from a drawn scene, 30 a second of each camera; joint states at 100 Hz."""
+    import cv2
+    from ros_bag import RosBag
+
+    folder = Path(tempfile.mkdtemp())
+    rng = np.random.default_rng(0)
+    blurred = [cv2.GaussianBlur(rng.integers(0, 255, (480, 640, 3), dtype=np.uint8), (0, 0), 5) for _ in range(30)]
+    blurred = [np.clip((one.astype(float) - 127) * 6 + 127, 0, 255).astype(np.uint8) for one in blurred]
+    files = [cv2.imencode(".jpg", one, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes() for one in blurred]
+    names = [f"panda_joint{k}" for k in range(1, 8)]
+    home = np.array([0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4])
+    with RosBag(folder / "bag") as bag:
+        for tick in range(int(minutes * 60 * 300)):  # 300 Hz: both rates divide it
+            stamp = 1_700_000_000 * 10**9 + tick * 10**9 // 300
+            if tick % 3 == 0:
+                q = home + 0.2 * np.sin(tick / 300 + np.arange(7))
+                bag.joint_state("/joint_states", stamp, stamp, names, q, np.zeros(7), np.zeros(7))
+            if tick % 10 == 0:
+                for camera in ("front", "wrist"):
+                    bag.compressed(f"/{camera}/image/compressed", stamp, stamp + 10**7, "jpeg", files[tick // 10 % 30], camera)
+                    if tick == 0:
+                        bag.camera_info(f"/{camera}/camera_info", stamp, stamp, (640, 480), np.array([[600, 0, 320], [0, 600, 240], [0, 0, 1.0]]), np.zeros(5), camera)
+                        bag.transform("/tf_static", stamp, stamp, "world", camera, [1, 0, 1.5, 0.0, 0.0, 0.0, 1.0])
+    size = sum(one.stat().st_size for one in (folder / "bag").iterdir()) / 1e6
+    print(f"bag: {size:.0f} MB, pictures of {np.mean([len(one) for one in files]) / 1e3:.0f} kB")
+    begin, cpu = time.time(), time.process_time()
+    convert(["mcap", str(folder / "bag"), "--out", str(folder / "recording"), "--frame-hz", "30"], tell=print)
+    print(f"MCAP to a recording folder: {time.time() - begin:.1f} s wall, {time.process_time() - cpu:.1f} s CPU")
+    try:
+        from stampede.recordings import import_folders
+
+        begin = time.time()
+        import_folders([folder / "recording"], folder / "demos.db", print)
+        print(f"recording folder to a catalogue: {time.time() - begin:.1f} s wall")
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    what, *numbers = sys.argv[1:] or ["recover"]
+    if what == "speed":
+        speed(float(numbers[0]) if numbers else 10)
+    else:
+        recover(int(numbers[0]) if numbers else 5, float(numbers[1]) if len(numbers) > 1 else 60)
