@@ -73,6 +73,8 @@ class Robot:
         while link in self._above:
             way.append(self._above[link])
             link = way[-1].parent
+            if len(way) > len(self.joints):
+                raise fault(str(self.file), "its links are no tree", "hang every link from one that hangs from the base")
         return way[::-1]
 
     def poses(self, positions: Array, links: Sequence[str] | None = None) -> dict[str, Array]:

@@ -1,0 +1,350 @@
+"""Recordings of real robots as recording folders: bags that rosbags writes, our own MCAP files, LeRobot and robomimic."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import struct
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import stampede
+from stampede.export import export
+from stampede.recordings import convert
+from stampede.recordings.cdr import CdrReader
+from stampede.recordings.folder import stamp_text
+from stampede.recordings.pictures import packed
+from stampede.recordings.roles import camera_name, joint_for
+
+pytest.importorskip("rosbags")
+pytest.importorskip("mcap")
+sys.path.insert(0, str(Path(__file__).parents[1] / "bench" / "python"))
+from ros_bag import RosBag  # noqa: E402
+
+NAMES = [f"panda_joint{k}" for k in range(1, 8)] + ["panda_finger_joint1", "panda_finger_joint2"]
+HOME = np.array([0, -0.78, 0, -2.35, 0, 1.57, 0.78, 0.02, 0.02])
+START = 1_700_000_000 * 10**9  # ns
+PIXELS = np.arange(6 * 8 * 3, dtype=np.uint8).reshape(6, 8, 3)
+DEPTH = (np.arange(48, dtype=np.uint16) * 100).reshape(6, 8)
+MATRIX = np.array([[600.0, 0, 4], [0, 601.0, 3], [0, 0, 1]])
+
+
+def jpeg() -> bytes:
+    stream = io.BytesIO()
+    Image.fromarray(PIXELS).save(stream, "JPEG")
+    return stream.getvalue()
+
+
+def write_bag(folder: Path, form: str = "mcap", count: int = 20, **other: Any) -> Path:
+    """An arm at 100 Hz, two cameras at 10, a wrench. other: what is otherwise than usual."""
+    with RosBag(folder, form) as bag:
+        bag.transform("/tf_static", START, START, "panda_link0", "front_optical", [1, 0, 0.5, 0.0, 0.0, 0.0, 1.0])
+        bag.transform("/tf_static", START, START, "panda_hand", "wrist_optical", [0.07, 0, 0, 0.0, 0.0, 0.0, 1.0])
+        for k in range(count):
+            stamp = START + k * 10**7
+            if other.get("backwards") == k:
+                stamp -= 5 * 10**7
+            q = HOME + 0.001 * k
+            if other.get("nan") == k:
+                q[2] = np.nan
+            names = other.get("names", NAMES)
+            effort = np.arange(9.0) if k else np.where(np.arange(9) == 3, np.nan, np.arange(9.0))
+            bag.joint_state("/joint_states", stamp if other.get("stamped", True) else 0, START + k * 10**7 + 300, names, q, 0 * q, effort)
+            bag.wrench("/ft_sensor/wrench", stamp, stamp + 300, [1, 2, 3, 0.1, 0.2, k], "panda_hand")
+            if k % 10 == 0:
+                bag.compressed("/front/color/image_raw/compressed", stamp, stamp + 10**7, "rgb8; jpeg compressed bgr8", jpeg(), "front_optical")
+                bag.image("/front/color/image_raw", stamp, stamp + 10**7, "rgb8", PIXELS, "front_optical")
+                bag.image("/front/aligned_depth_to_color/image_raw", stamp, stamp + 10**7, "16UC1", DEPTH, "front_optical")
+                bag.image("/wrist/image_raw", stamp, stamp + 10**7, other.get("encoding", "bgr8"), PIXELS[..., ::-1], "wrist_optical")
+                for camera in ("front", "wrist"):
+                    bag.camera_info(f"/{camera}/camera_info", stamp, stamp, (8, 6), MATRIX, [0.1, 0, 0, 0, 0], f"{camera}_optical")
+    return folder
+
+
+def run(source: Path, out: Path, *options: str, form: str = "mcap") -> tuple[Path, list[str]]:
+    told: list[str] = []
+    convert([form, str(source), "--out", str(out), *options], tell=told.append)
+    assert not list(out.parent.glob("*.part"))
+    return out, told
+
+
+def table(file: Path) -> list[dict[str, str]]:
+    with file.open() as stream:
+        return list(csv.DictReader(stream))
+
+
+@pytest.mark.parametrize("form", ["mcap", "db3"])
+def test_a_bag_becomes_a_folder_with_all_that_is_in_it(tmp_path: Path, form: str) -> None:
+    bag = write_bag(tmp_path / "bag", form)
+    out, told = run(bag, tmp_path / "out", "--base", "-0.3 0 0.75", "--task", "Pick up!", form="rosbag2")
+    recording = json.loads((out / "recording.json").read_text())
+    assert recording["stampede_recording"] == 1 and recording["task"] == "pick_up" and recording["outcome"] == "success"
+    assert recording["robot"] == {"name": "panda", "base": {"position": [-0.3, 0, 0.75], "quaternion": [0, 0, 0, 1]}}
+    streams = {(one["kind"], one.get("camera") or one.get("name")): one for one in recording["streams"]}
+    assert set(streams) == {
+        ("joints", None), ("gripper", None), ("wrench", "wrench"), ("rgb", "front"), ("depth", "front"), ("rgb", "wrist"),
+    }
+    assert streams["wrench", "wrench"]["link"] == "hand" and streams["depth", "front"]["unit_m"] == 0.001
+    assert set(recording["clocks"]) == {"robot", "front", "wrist"}
+    joints = table(out / "joints.csv")
+    assert len(joints) == 20 and joints[1]["time_s"] == "1700000000.010000000"
+    assert float(joints[5]["joint4_position_rad"]) == HOME[3] + 0.005 and float(joints[5]["joint6_effort_nm"]) == 5
+    assert joints[0]["joint4_effort_nm"] == ""  # a driver's NaN is no reading
+    assert float(table(out / "gripper.csv")[2]["opening_m"]) == pytest.approx(0.044)
+    assert float(table(out / "wrench.csv")[7]["torque_z_nm"]) == 7
+    assert any("logged 10.0 ms after" in line for line in told)
+
+
+def test_pictures_go_through_or_are_packed_without_loss(tmp_path: Path) -> None:
+    out, _ = run(write_bag(tmp_path / "bag"), tmp_path / "out")
+    assert (out / "front_rgb" / "000002.jpg").read_bytes() == jpeg()  # compressed goes before raw
+    assert (np.asarray(Image.open(out / "wrist_rgb" / "000001.png")) == PIXELS).all()
+    assert (np.asarray(Image.open(out / "front_depth" / "000001.png")) == DEPTH).all()
+    assert [row["file"] for row in table(out / "front_rgb.csv")] == ["000001.jpg", "000002.jpg"]
+
+
+def test_cameras_are_where_the_transforms_say(tmp_path: Path) -> None:
+    out, _ = run(write_bag(tmp_path / "bag"), tmp_path / "out", "--base", "-0.3 0 0.75")
+    cameras = {one["name"]: one for one in json.loads((out / "cameras.json").read_text())["cameras"]}
+    assert cameras["front"]["mount"] == "world" and cameras["wrist"]["mount"] == "robot.hand"
+    assert np.allclose(np.array(cameras["front"]["mount_from_camera"])[:3, 3], [0.7, 0, 1.25])
+    assert np.allclose(np.array(cameras["wrist"]["mount_from_camera"])[:3, 3], [0.07, 0, 0])
+    assert cameras["front"]["camera_matrix"] == MATRIX.tolist() and cameras["front"]["distortion"][0] == 0.1
+
+
+def test_maps_and_clocks(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", stamped=False)
+    out, _ = run(bag, tmp_path / "out", "--map", "rgb.side=/front/color/image_raw,depth=none,wrench=none")
+    recording = json.loads((out / "recording.json").read_text())
+    assert {one.get("camera") for one in recording["streams"] if one["kind"] == "rgb"} == {"side"}
+    assert not [one for one in recording["streams"] if one["kind"] in ("depth", "wrench")]
+    joints = next(one for one in recording["streams"] if one["kind"] == "joints")
+    assert joints["clock"] == "log" and table(out / "joints.csv")[0]["time_s"] == "1700000000.000000300"
+    out, _ = run(bag, tmp_path / "logged", "--clock", "log")
+    assert set(json.loads((out / "recording.json").read_text())["clocks"]) == {"log"}
+
+
+def test_names() -> None:
+    assert camera_name("/camera/front/image") == "front" and camera_name("/front/color/image_raw/compressed") == "front"
+    assert camera_name("/camera/color/image_raw") == "camera" and camera_name("/2nd/image") == "camera_2nd"
+    assert joint_for("joint1", NAMES) == "panda_joint1" and joint_for("joint1", ["a.joint1", "b.joint1"]) is None
+    assert stamp_text(1_700_000_000_000_000_001) == "1700000000.000000001" and stamp_text(-5) == "-0.000000005"
+    assert joint_for("joint1", ["iiwa_joint_1"]) is None
+
+
+# Bad input: an Error with place and cure, and no folder.
+
+
+def refused(tmp_path: Path, bag: Path, *options: str, form: str = "mcap") -> stampede.Error:
+    with pytest.raises(stampede.Error) as caught:
+        run(bag, tmp_path / "out", *options, form=form)
+    assert not (tmp_path / "out").exists() and not list(tmp_path.glob("out*")) and caught.value.hint
+    return caught.value
+
+
+def test_clocks_that_run_backwards(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", backwards=12)
+    error = refused(tmp_path, bag, "--map", "wrench=none")
+    assert "runs backwards, from 1700000000.110000000 to 1700000000.070000000" in error.message and "/joint_states" in error.where
+    out, told = run(bag, tmp_path / "kept", "--skip-bad")
+    assert len(table(out / "joints.csv")) == 19 and any("1 left out" in line for line in told)
+    stamps = [float(row["time_s"]) for row in table(out / "joints.csv")]
+    assert stamps == sorted(set(stamps))
+
+
+def test_positions_that_are_no_numbers(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", nan=4)
+    assert "position of joint3 is not a number" in refused(tmp_path, bag).message
+    out, _ = run(bag, tmp_path / "kept", "--skip-bad")
+    assert len(table(out / "joints.csv")) == 19
+
+
+def test_another_robot(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", names=[f"iiwa_joint_{k}" for k in range(1, 10)])
+    error = refused(tmp_path, bag)
+    assert "another robot" in error.message and "iiwa_joint_1" in error.message
+    assert "did you mean 'panda'" in str(refused(tmp_path, bag, "--robot", "pandas"))
+
+
+def test_missing_topics(tmp_path: Path) -> None:
+    with RosBag(tmp_path / "bag") as bag:
+        bag.wrench("/wrench", START, START, [0] * 6)
+    error = refused(tmp_path, tmp_path / "bag")
+    assert "no topic of joint states" in error.message and "/wrench" in error.hint
+    whole = write_bag(tmp_path / "whole")
+    assert "did you mean '/joint_states'" in str(refused(tmp_path, whole, "--map", "joints=/joint_state"))
+    assert "did you mean 'depth'" in str(refused(tmp_path, whole, "--map", "dept.front=/x"))
+
+
+def test_two_arms_must_be_told_apart(tmp_path: Path) -> None:
+    with RosBag(tmp_path / "bag") as bag:
+        for topic in ("/left/joint_states", "/right/joint_states"):
+            bag.joint_state(topic, START, START, NAMES, HOME)
+    assert "both have the arm's joints" in refused(tmp_path, tmp_path / "bag").message
+    out, _ = run(tmp_path / "bag", tmp_path / "one", "--map", "joints=/left/joint_states")
+    assert table(out / "joints.csv")
+
+
+def test_truncated_files(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", count=400)
+    file = next(bag.glob("*.mcap"))
+    file.write_bytes(file.read_bytes()[: file.stat().st_size * 2 // 3])
+    error = refused(tmp_path, bag)
+    assert "ends early" in error.message and "--truncated" in error.hint
+    sqlite = next(write_bag(tmp_path / "bag3", "db3", count=400).glob("*.db3"))
+    sqlite.write_bytes(sqlite.read_bytes()[: sqlite.stat().st_size // 2])
+    assert "ends early or is damaged" in refused(tmp_path, sqlite).message
+    (tmp_path / "empty").write_bytes(b"")
+    assert "neither MCAP" in refused(tmp_path, tmp_path / "empty").message
+    assert "cannot be read" in refused(tmp_path, tmp_path / "nothing").message
+
+
+def test_of_a_truncated_file_what_is_whole_is_taken(tmp_path: Path) -> None:
+    from mcap.writer import Writer
+
+    source = next(write_bag(tmp_path / "bag", count=400).glob("*.mcap"))
+    from stampede.recordings.bags import open_bag
+
+    bag = open_bag(source)
+    short = tmp_path / "short.mcap"
+    with short.open("wb") as stream:
+        writer = Writer(stream, chunk_size=4096)
+        writer.start()
+        ids = {}
+        for topic in bag.topics():
+            ids[topic.name] = writer.register_channel(topic.name, "cdr", writer.register_schema(topic.schema, "ros2msg", b""))
+        for name, log_ns, data in bag.messages(set(ids)):
+            writer.add_message(ids[name], log_ns, data, log_ns)
+        writer.finish()
+    short.write_bytes(short.read_bytes()[: short.stat().st_size // 2])
+    refused(tmp_path, short)
+    out, _ = run(short, tmp_path / "part", "--truncated")
+    assert 20 < len(table(out / "joints.csv")) < 390
+
+
+@pytest.mark.parametrize("encoding", ["bayer_rggb8", "yuv422"])
+def test_unknown_encodings(tmp_path: Path, encoding: str) -> None:
+    bag = write_bag(tmp_path / "bag", encoding=encoding)
+    error = refused(tmp_path, bag)
+    assert f"encoding '{encoding}'" in error.message and "/wrist/image_raw" in error.where and "rgb=none" in error.hint
+
+
+def test_messages_in_other_encodings(tmp_path: Path) -> None:
+    from mcap.writer import Writer
+
+    file = tmp_path / "proto.mcap"
+    with file.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start()
+        schema = writer.register_schema("foxglove.JointStates", "protobuf", b"")
+        writer.add_message(writer.register_channel("/joints", "protobuf", schema), 1, b"\x00", 1)
+        writer.finish()
+    assert "encoding 'protobuf'" in refused(tmp_path, file).message
+
+
+def test_damaged_messages_and_pictures(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="announced"):
+        CdrReader(b"\0\1\0\0" + struct.pack("<I", 1000)).text()
+    with pytest.raises(ValueError, match="does not begin"):
+        CdrReader(b"\7\7\0\0")
+    with RosBag(tmp_path / "bag") as bag:
+        bag.joint_state("/joint_states", START, START, NAMES, HOME)
+        bag.compressed("/front/image", START, START, "jpeg", jpeg()[:-40], "front")
+    assert "JPEG picture ends early" in refused(tmp_path, tmp_path / "bag").message
+
+
+def test_a_folder_that_is_there_stays(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag")
+    (tmp_path / "mine").mkdir()
+    with pytest.raises(stampede.Error, match="there is something of that name"):
+        run(bag, tmp_path / "mine")
+    assert not list((tmp_path / "mine").iterdir())
+
+
+def test_what_big_endian_machines_write() -> None:
+    data = b"\0\0\0\0" + struct.pack(">I", 5) + b"abcd\0" + b"\0" * 7 + struct.pack(">d", 1.5)
+    cdr = CdrReader(data)
+    assert cdr.text() == "abcd" and cdr.floats(1).tolist() == [1.5]
+
+
+def test_packed_pictures_are_what_they_were() -> None:
+    rng = np.random.default_rng(1)
+    for picture in (rng.integers(0, 255, (5, 7, 3), dtype=np.uint8), rng.integers(0, 65535, (4, 6)).astype(np.uint16)):
+        assert (np.asarray(Image.open(io.BytesIO(packed(picture)))) == picture).all()
+
+
+# Our own exports come back.
+
+
+@pytest.fixture(scope="module")
+def demos(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("demos") / "demos.db"
+    pictures = {"cameras": ["front"], "width": 32, "height": 24, "depth": False, "mask": False, "semantic_mask": False}
+    stampede.Session(catalogue=path).run_all(["pick_and_lift"], episodes=2, seed=7, pictures=pictures)
+    return path
+
+
+@pytest.mark.parametrize("form", ["mcap", "lerobot", "robomimic"])
+def test_what_we_export_comes_back(demos: Path, tmp_path: Path, form: str) -> None:
+    export([form, str(demos), "--out", str(tmp_path / "export"), "--limit", "1"], tell=lambda line: None)
+    source = {"mcap": "*.mcap", "lerobot": ".", "robomimic": "*.hdf5"}[form]
+    found = tmp_path / "export" if source == "." else next((tmp_path / "export").glob(source))
+    out, _ = run(found, tmp_path / "out", form=form)
+    episode = stampede.Catalogue(demos)[1]
+    arrays = episode.arrays("joint_positions", "joint_velocities", "gripper_opening")
+    rows = table(out / "joints.csv")
+    assert len(rows) in (episode.frames, episode.frames - 1)  # steps are one fewer than frames
+    positions = np.array([[float(row[f"joint{k}_position_rad"]) for k in range(1, 8)] for row in rows])
+    assert np.allclose(positions, arrays["joint_positions"][: len(rows)], atol=1e-6)
+    times = [float(row["time_s"]) for row in rows]
+    assert np.allclose(times, np.arange(len(rows)) / episode.frame_hz)
+    opening = [float(row["opening_m"]) for row in table(out / "gripper.csv")]
+    assert np.allclose(opening, arrays["gripper_opening"][: len(rows)], atol=2e-3)
+    pictures = sorted((out / "front_rgb").iterdir())
+    assert len(pictures) == len(rows)
+    seen = np.asarray(Image.open(pictures[-1])).astype(int)
+    true = episode.pictures("front_rgb", [len(rows) - 1])[0].astype(int)
+    assert np.abs(seen - true).mean() < (8 if form == "lerobot" else 0.01)  # films lose a little
+    labels = json.loads((out / "labels.json").read_text())
+    skills = [one for one in episode.segments if one.kind == "skill"]
+    told = [one for one in labels["segments"] if one["kind"] == "skill"]
+    assert told[0]["label"] == skills[0].label and told[0]["start_s"] == pytest.approx(skills[0].first_frame / episode.frame_hz)
+    assert json.loads((out / "recording.json").read_text())["labels"] == "labels.json"
+
+
+def test_lerobot_of_two_versions_and_episodes(demos: Path, tmp_path: Path) -> None:
+    for version in ("2.1", "3.0"):
+        export(["lerobot", str(demos), "--out", str(tmp_path / version), "--version", version], tell=lambda line: None)
+    folders = [
+        convert(["lerobot", str(tmp_path / version), "--out", str(tmp_path / f"out{version}")], tell=lambda line: None)
+        for version in ("2.1", "3.0")
+    ]
+    assert [one.name for one in folders[0]] == ["episode_000000", "episode_000001"]
+    for old, new in zip(*folders, strict=True):
+        assert (old / "joints.csv").read_text() == (new / "joints.csv").read_text()
+    second = convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "o"), "--episodes", "1"], tell=lambda line: None)
+    assert (second[0] / "joints.csv").read_text() == (folders[0][1] / "joints.csv").read_text()
+    with pytest.raises(stampede.Error, match="there is no episode 5"):
+        convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "p"), "--episodes", "5"])
+    film = next((tmp_path / "3.0" / "videos").rglob("*.mp4"))
+    film.write_bytes(film.read_bytes()[:2000])
+    with pytest.raises(stampede.Error, match="film"):
+        convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "q"), "--episodes", "0"])
+    assert not (tmp_path / "q").exists()
+
+
+def test_other_arms_in_lerobot_and_robomimic(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "six.hdf5", "w") as file:
+        file.create_dataset("data/demo_0/obs/robot0_joint_pos", data=np.zeros((4, 6)))
+        file["data"].attrs["env_args"] = json.dumps({"env_kwargs": {"control_freq": 20}})
+    assert "another robot" in refused(tmp_path, tmp_path / "six.hdf5", form="robomimic").message
+    (tmp_path / "text.hdf5").write_text("no HDF5")
+    assert "damaged" in refused(tmp_path, tmp_path / "text.hdf5", form="robomimic").message
+    assert "no LeRobotDataset" in refused(tmp_path, tmp_path, form="lerobot").message
