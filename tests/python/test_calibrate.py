@@ -156,15 +156,14 @@ def scene(seed: int, standing: bool = False) -> dict[str, Any]:
     joints = JointStates(times, true - offsets, speed, None)
     looking = laboratory._looking(np.array([1.25, 0.1, 0.6]), np.array([0.45, 0.0, 0.25]))
     in_hand = laboratory.draw_truth(seed).hand_from_board
-    on_table = moved(np.eye(4), np.array([0.5, -0.1, 0.0, 0, 0, 0.3]))
-    on_table[:3, :3] = on_table[:3, :3] @ np.diag([1, -1, -1])  # z into the table
+    standing_board = moved(looking, np.array([0.02, -0.05, 0.9, 0.2, -0.3, 0.1]))  # in the robot's base
     stamps = np.arange(0.5, 29.5, 0.25) + rng.uniform(0, 0.01, 116)
     clock = 0.043  # what is added to stamps
     drift = 30e-6 * (stamps - stamps.mean())
     motion = JointStates(times, true, speed, None)
     hands = robot.poses(motion.at(stamps + clock + drift), ["hand"])["hand"]
     seen = []
-    for number, board in enumerate([in_hand, on_table] if standing else [in_hand]):
+    for number, board in enumerate([in_hand, standing_board] if standing else [in_hand]):
         for stamp, hand in zip(stamps, hands, strict=True):
             pose = inverse(looking) @ (hand @ board if number == 0 else board)
             inside = CORNERS @ pose[:3, :3].T + pose[:3, 3]
@@ -172,7 +171,7 @@ def scene(seed: int, standing: bool = False) -> dict[str, Any]:
             if (inside[:, 2] > 0.1).all() and (np.abs(pixels - [320, 240]) < [315, 235]).all():
                 noisy = pixels + rng.normal(0, 0.1, pixels.shape)
                 seen.append(Seen(0, number, float(stamp), Sighting(CORNERS, noisy), pose))
-    return {"robot": robot, "joints": joints, "seen": seen, "offsets": offsets, "camera": looking, "boards": [in_hand, on_table], "clock": clock}
+    return {"robot": robot, "joints": joints, "seen": seen, "offsets": offsets, "camera": looking, "boards": [in_hand, standing_board], "clock": clock}
 
 
 def test_poses_clocks_and_joints_are_found_within_their_deviations() -> None:
