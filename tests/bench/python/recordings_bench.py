@@ -20,7 +20,7 @@ from laboratory import BASE, DICTIONARY, MARKER_M, SQUARE_M, SQUARES, Truth, rec
 from stampede import torque_noise
 from stampede.calibrate import calibrate
 from stampede.calibrate.bundle import pose_error
-from stampede.recordings import convert
+from stampede.recordings import convert, import_folders
 
 BOARD = f"charuco:{SQUARES[0]}x{SQUARES[1]}:{SQUARE_M}:{MARKER_M}:{DICTIONARY[5:]}"
 
@@ -98,14 +98,14 @@ def speed(minutes: float) -> None:
     blurred = [cv2.GaussianBlur(rng.integers(0, 255, (480, 640, 3), dtype=np.uint8), (0, 0), 5) for _ in range(30)]
     blurred = [np.clip((one.astype(float) - 127) * 6 + 127, 0, 255).astype(np.uint8) for one in blurred]
     files = [cv2.imencode(".jpg", one, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes() for one in blurred]
-    names = [f"panda_joint{k}" for k in range(1, 8)]
-    home = np.array([0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4])
+    names = [f"panda_joint{k}" for k in range(1, 8)] + ["panda_finger_joint1", "panda_finger_joint2"]
+    home = np.array([0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4, 0.03, 0.03])
     with RosBag(folder / "bag") as bag:
         for tick in range(int(minutes * 60 * 300)):  # 300 Hz: both rates divide it
             stamp = 1_700_000_000 * 10**9 + tick * 10**9 // 300
             if tick % 3 == 0:
-                q = home + 0.2 * np.sin(tick / 300 + np.arange(7))
-                bag.joint_state("/joint_states", stamp, stamp, names, q, np.zeros(7), np.zeros(7))
+                q = home + np.array([0.2] * 7 + [0.0] * 2) * np.sin(tick / 300 + np.arange(9))
+                bag.joint_state("/joint_states", stamp, stamp, names, q, np.zeros(9), np.zeros(9))
             if tick % 10 == 0:
                 for camera in ("front", "wrist"):
                     bag.compressed(f"/{camera}/image/compressed", stamp, stamp + 10**7, "jpeg", files[tick // 10 % 30], camera)
@@ -117,14 +117,10 @@ def speed(minutes: float) -> None:
     begin, cpu = time.time(), time.process_time()
     convert(["mcap", str(folder / "bag"), "--out", str(folder / "recording"), "--frame-hz", "30"], tell=print)
     print(f"MCAP to a recording folder: {time.time() - begin:.1f} s wall, {time.process_time() - cpu:.1f} s CPU")
-    try:
-        from stampede.recordings import import_folders
-
-        begin = time.time()
-        import_folders([folder / "recording"], folder / "demos.db", print)
-        print(f"recording folder to a catalogue: {time.time() - begin:.1f} s wall")
-    finally:
-        shutil.rmtree(folder)
+    begin = time.time()
+    import_folders([folder / "recording"], folder / "demos.db", print)
+    print(f"recording folder to a catalogue: {time.time() - begin:.1f} s wall")
+    shutil.rmtree(folder)
 
 
 if __name__ == "__main__":

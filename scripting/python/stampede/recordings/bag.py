@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--clock", choices=("header", "log"), default="header", help="whose times (default: %(default)s)")
     parser.add_argument("--skip-bad", action="store_true", help="leave out readings that are NaN or go back in time")
     parser.add_argument("--truncated", action="store_true", help="of a file that ends early, take what is whole")
-    parser.add_argument("--depth-range", default="0.1,10", metavar="NEAR,FAR", help="m (default: %(default)s)")
+    parser.add_argument("--depth-range", default="0.1,6.5", metavar="NEAR,FAR", help="m (default: %(default)s)")
 
 
 def convert(given: Given, options: argparse.Namespace) -> list[Path]:
@@ -284,5 +284,5 @@ def _range(text: str) -> tuple[float, float]:
     except ValueError:
         near = far = 0.0
     if not 0 < near < far:
-        raise fault("--depth-range", f"'{text}' is no range", "--depth-range 0.1,10")
+        raise fault("--depth-range", f"'{text}' is no range", "--depth-range 0.3,3")
     return near, far

@@ -76,7 +76,7 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
             steps.write_pictures(folder, "rgb", camera, _colours(demo["obs"][key], rows, f"{place}, {key}"), f"{place}, {key}")
         elif key.endswith("_depth"):
             files = _depths(demo["obs"][key], rows)
-            steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=10.0)
+            steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=6.5)
     about = {"task": meta.get("task", ""), "success": str(meta.get("success", True))}
     steps.finish(folder, given, rows, about, f"{options.source}, {name}")
 
