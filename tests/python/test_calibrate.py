@@ -52,7 +52,9 @@ def test_what_was_hidden_is_found(lab: tuple[Path, Any]) -> None:
     errors = pose_errors(truth, found, SECONDS)
     assert errors["offset ms"] < 5 and errors["pose mm"] < 2 and errors["joints deg"] < 0.1, errors
     assert errors["pose deg"] < 0.35, errors  # of a minute it is below 0.2
-    assert abs(truth.camera_offset_s) > 0.005 and np.degrees(np.abs(truth.joint_offsets[1:-1])).max() > 0.2  # there was something
+    assert (
+        abs(truth.camera_offset_s) > 0.005 and np.degrees(np.abs(truth.joint_offsets[1:-1])).max() > 0.2
+    )  # there was something
     assert found["joints"][0]["fixed"] and not found["joints"][1]["fixed"] and "taken as it is" in words
     # Applied: camera file, clock and joints, and once more the same.
     document = json.loads((recording / "recording.json").read_text())
@@ -60,7 +62,9 @@ def test_what_was_hidden_is_found(lab: tuple[Path, Any]) -> None:
     camera = json.loads((recording / "cameras.json").read_text())["cameras"][0]
     assert camera["mount"] == "world" and camera["mount_from_camera"] == found["camera_file"][0]["mount_from_camera"]
     assert (recording / "joints_measured.csv").read_text() == measured
-    old, new = (np.genfromtxt(recording / name, delimiter=",", names=True) for name in ("joints_measured.csv", "joints.csv"))
+    old, new = (
+        np.genfromtxt(recording / name, delimiter=",", names=True) for name in ("joints_measured.csv", "joints.csv")
+    )
     assert np.allclose(new["joint4_position_rad"] - old["joint4_position_rad"], found["joints"][3]["offset_rad"])
     assert (new["joint4_velocity_rad_s"] == old["joint4_velocity_rad_s"]).all()
     _, again = calibrate(["extrinsics", str(recording), "--board", BOARD, "--most", "200", "--apply-joints"])
@@ -74,7 +78,9 @@ def test_the_engine_reads_the_camera_file(lab: tuple[Path, Any], tmp_path: Path)
     calibrate(["extrinsics", str(recording), "--board", BOARD, "--most", "80", "--out", str(out)])
     (tmp_path / "worlds").mkdir()
     world = (Path(stampede.__file__).parent / "engine/share/stampede/worlds/tabletop.lua").read_text()
-    (tmp_path / "worlds" / "tabletop.lua").write_text(world.replace("  sensors = {", '  calibration = "../cameras.json",\n  sensors = {'))
+    (tmp_path / "worlds" / "tabletop.lua").write_text(
+        world.replace("  sensors = {", '  calibration = "../cameras.json",\n  sensors = {')
+    )
     session = stampede.Session(paths=[tmp_path])
     seen = session.picture(session.run("reach_target", seed=1), 0, "lab")
     assert seen["rgb"].shape == (480, 640, 3)
@@ -99,7 +105,15 @@ def test_wrong_boards_are_told(lab: tuple[Path, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["charuco:5x4:0.05:0.06:4X4_50", "charuco:5x4:0.05", "chess:5x4:1", "checkerboard:9x7:0.02", "checkerboard:ax7:1", "aruco:1:0.1:9X9_50"]
+    "text",
+    [
+        "charuco:5x4:0.05:0.06:4X4_50",
+        "charuco:5x4:0.05",
+        "chess:5x4:1",
+        "checkerboard:9x7:0.02",
+        "checkerboard:ax7:1",
+        "aruco:1:0.1:9X9_50",
+    ],
 )
 def test_boards_that_there_are_not(text: str) -> None:
     with pytest.raises(stampede.Error) as caught:
@@ -171,7 +185,15 @@ def scene(seed: int, standing: bool = False) -> dict[str, Any]:
             if (inside[:, 2] > 0.1).all() and (np.abs(pixels - [320, 240]) < [315, 235]).all():
                 noisy = pixels + rng.normal(0, 0.1, pixels.shape)
                 seen.append(Seen(0, number, float(stamp), Sighting(CORNERS, noisy), pose))
-    return {"robot": robot, "joints": joints, "seen": seen, "offsets": offsets, "camera": looking, "boards": [in_hand, standing_board], "clock": clock}
+    return {
+        "robot": robot,
+        "joints": joints,
+        "seen": seen,
+        "offsets": offsets,
+        "camera": looking,
+        "boards": [in_hand, standing_board],
+        "clock": clock,
+    }
 
 
 def test_poses_clocks_and_joints_are_found_within_their_deviations() -> None:
@@ -185,7 +207,9 @@ def test_poses_clocks_and_joints_are_found_within_their_deviations() -> None:
         assert abs(camera.offset_s - s["clock"]) < 1e-3 and abs(camera.drift_ppm - 30) < 60
         inner = (result.offsets - s["offsets"])[1:-1]
         assert np.degrees(np.abs(inner)).max() < 0.1 and result.rms < 0.2
-        off += list(inner / result.offset_deviations[1:-1]) + [(camera.offset_s - s["clock"]) / camera.offset_deviation_s]
+        off += list(inner / result.offset_deviations[1:-1]) + [
+            (camera.offset_s - s["clock"]) / camera.offset_deviation_s
+        ]
     assert 0.3 < np.sqrt(np.mean(np.square(off))) < 2.0  # deviations say how far off it is
 
 
@@ -193,7 +217,10 @@ def test_a_standing_board_whose_place_is_known_gives_the_first_joint_and_one_in_
     s = scene(4, standing=True)
     assert {one.board for one in s["seen"]} == {0, 1}
     cameras = [Camera("c", "link0", LENS)]
-    boards = [FixedBoard("b", mount, pose.copy(), (2e-4, 2e-4)) for mount, pose in zip(("hand", "link0"), s["boards"], strict=True)]
+    boards = [
+        FixedBoard("b", mount, pose.copy(), (2e-4, 2e-4))
+        for mount, pose in zip(("hand", "link0"), s["boards"], strict=True)
+    ]
     start(s["robot"], s["joints"], cameras, boards, s["seen"], 0.3)
     result = Bundle(s["robot"], s["joints"], cameras, boards, s["seen"]).solve()
     assert all(result.freed) and np.degrees(np.abs(result.offsets - s["offsets"])).max() < 0.1

@@ -1,4 +1,4 @@
-"""Recordings of real robots as recording folders: bags that rosbags writes, our own MCAP files, LeRobot and robomimic."""
+"""Recordings as recording folders: bags that rosbags writes, our own MCAP files, LeRobot and robomimic."""
 
 from __future__ import annotations
 
@@ -55,15 +55,41 @@ def write_bag(folder: Path, form: str = "mcap", count: int = 20, **other: Any) -
                 q[2] = np.nan
             names = other.get("names", NAMES)
             effort = np.arange(9.0) if k else np.where(np.arange(9) == 3, np.nan, np.arange(9.0))
-            bag.joint_state("/joint_states", stamp if other.get("stamped", True) else 0, START + k * 10**7 + 300, names, q, 0 * q, effort)
+            bag.joint_state(
+                "/joint_states",
+                stamp if other.get("stamped", True) else 0,
+                START + k * 10**7 + 300,
+                names,
+                q,
+                0 * q,
+                effort,
+            )
             bag.wrench("/ft_sensor/wrench", stamp, stamp + 300, [1, 2, 3, 0.1, 0.2, k], "panda_hand")
             if k % 10 == 0:
-                bag.compressed("/front/color/image_raw/compressed", stamp, stamp + 10**7, "rgb8; jpeg compressed bgr8", jpeg(), "front_optical")
+                bag.compressed(
+                    "/front/color/image_raw/compressed",
+                    stamp,
+                    stamp + 10**7,
+                    "rgb8; jpeg compressed bgr8",
+                    jpeg(),
+                    "front_optical",
+                )
                 bag.image("/front/color/image_raw", stamp, stamp + 10**7, "rgb8", PIXELS, "front_optical")
-                bag.image("/front/aligned_depth_to_color/image_raw", stamp, stamp + 10**7, "16UC1", DEPTH, "front_optical")
-                bag.image("/wrist/image_raw", stamp, stamp + 10**7, other.get("encoding", "bgr8"), PIXELS[..., ::-1], "wrist_optical")
+                bag.image(
+                    "/front/aligned_depth_to_color/image_raw", stamp, stamp + 10**7, "16UC1", DEPTH, "front_optical"
+                )
+                bag.image(
+                    "/wrist/image_raw",
+                    stamp,
+                    stamp + 10**7,
+                    other.get("encoding", "bgr8"),
+                    PIXELS[..., ::-1],
+                    "wrist_optical",
+                )
                 for camera in ("front", "wrist"):
-                    bag.camera_info(f"/{camera}/camera_info", stamp, stamp, (8, 6), MATRIX, [0.1, 0, 0, 0, 0], f"{camera}_optical")
+                    bag.camera_info(
+                        f"/{camera}/camera_info", stamp, stamp, (8, 6), MATRIX, [0.1, 0, 0, 0, 0], f"{camera}_optical"
+                    )
     return folder
 
 
@@ -88,7 +114,12 @@ def test_a_bag_becomes_a_folder_with_all_that_is_in_it(tmp_path: Path, form: str
     assert recording["robot"] == {"name": "panda", "base": {"position": [-0.3, 0, 0.75], "quaternion": [0, 0, 0, 1]}}
     streams = {(one["kind"], one.get("camera") or one.get("name")): one for one in recording["streams"]}
     assert set(streams) == {
-        ("joints", None), ("gripper", None), ("wrench", "wrench"), ("rgb", "front"), ("depth", "front"), ("rgb", "wrist"),
+        ("joints", None),
+        ("gripper", None),
+        ("wrench", "wrench"),
+        ("rgb", "front"),
+        ("depth", "front"),
+        ("rgb", "wrist"),
     }
     assert streams["wrench", "wrench"]["link"] == "hand" and streams["depth", "front"]["unit_m"] == 0.001
     assert set(recording["clocks"]) == {"robot", "front", "wrist"}
@@ -151,7 +182,10 @@ def refused(tmp_path: Path, bag: Path, *options: str, form: str = "mcap") -> sta
 def test_clocks_that_run_backwards(tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "bag", backwards=12)
     error = refused(tmp_path, bag, "--map", "wrench=none")
-    assert "runs backwards, from 1700000000.110000000 to 1700000000.070000000" in error.message and "/joint_states" in error.where
+    assert (
+        "runs backwards, from 1700000000.110000000 to 1700000000.070000000" in error.message
+        and "/joint_states" in error.where
+    )
     out, told = run(bag, tmp_path / "kept", "--skip-bad")
     assert len(table(out / "joints.csv")) == 19 and any("1 left out" in line for line in told)
     stamps = [float(row["time_s"]) for row in table(out / "joints.csv")]
@@ -218,7 +252,9 @@ def test_of_a_truncated_file_what_is_whole_is_taken(tmp_path: Path) -> None:
         writer.start()
         ids = {}
         for topic in bag.topics():
-            ids[topic.name] = writer.register_channel(topic.name, "cdr", writer.register_schema(topic.schema, "ros2msg", b""))
+            ids[topic.name] = writer.register_channel(
+                topic.name, "cdr", writer.register_schema(topic.schema, "ros2msg", b"")
+            )
         for name, log_ns, data in bag.messages(set(ids)):
             writer.add_message(ids[name], log_ns, data, log_ns)
         writer.finish()
@@ -314,7 +350,9 @@ def test_what_we_export_comes_back(demos: Path, tmp_path: Path, form: str) -> No
     labels = json.loads((out / "labels.json").read_text())
     skills = [one for one in episode.segments if one.kind == "skill"]
     told = [one for one in labels["segments"] if one["kind"] == "skill"]
-    assert told[0]["label"] == skills[0].label and told[0]["start_s"] == pytest.approx(skills[0].first_frame / episode.frame_hz)
+    assert told[0]["label"] == skills[0].label and told[0]["start_s"] == pytest.approx(
+        skills[0].first_frame / episode.frame_hz
+    )
     assert json.loads((out / "recording.json").read_text())["labels"] == "labels.json"
 
 
@@ -328,7 +366,9 @@ def test_lerobot_of_two_versions_and_episodes(demos: Path, tmp_path: Path) -> No
     assert [one.name for one in folders[0]] == ["episode_000000", "episode_000001"]
     for old, new in zip(*folders, strict=True):
         assert (old / "joints.csv").read_text() == (new / "joints.csv").read_text()
-    second = convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "o"), "--episodes", "1"], tell=lambda line: None)
+    second = convert(
+        ["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "o"), "--episodes", "1"], tell=lambda line: None
+    )
     assert (second[0] / "joints.csv").read_text() == (folders[0][1] / "joints.csv").read_text()
     with pytest.raises(stampede.Error, match="there is no episode 5"):
         convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "p"), "--episodes", "5"])

@@ -75,14 +75,31 @@ def test_what_was_put_in_comes_out(fitted: tuple[Path, torque_noise.Fit, dict[st
     assert max(one["distance"] for one in report["compared"]) < 0.04
 
 
-def test_runs_have_the_noise_of_the_recording(fitted: tuple[Path, torque_noise.Fit, dict[str, Any]], tmp_path: Path) -> None:
+def test_runs_have_the_noise_of_the_recording(
+    fitted: tuple[Path, torque_noise.Fit, dict[str, Any]], tmp_path: Path
+) -> None:
     """What `run --noise` adds, in these runs' own motions, is distributed as the model says; and is the same again."""
     file, fit, _ = fitted
     read: dict[str, list[np.ndarray]] = {}
     velocities: list[np.ndarray] = []
-    for name, options in (("ideal", []), ("noisy", ["--noise", f"torque={file}"]), ("again", ["--noise", f"torque={file}"])):
+    for name, options in (
+        ("ideal", []),
+        ("noisy", ["--noise", f"torque={file}"]),
+        ("again", ["--noise", f"torque={file}"]),
+    ):
         out = tmp_path / f"{name}.db"
-        command = [str(PROGRAM), "run", "stack_blocks", "--episodes", "4", "--workers", "2", "--out", str(out), *options]
+        command = [
+            str(PROGRAM),
+            "run",
+            "stack_blocks",
+            "--episodes",
+            "4",
+            "--workers",
+            "2",
+            "--out",
+            str(out),
+            *options,
+        ]
         subprocess.run(command, check=True, capture_output=True)
         for episode in stampede.Catalogue(out):
             arrays = episode.arrays("sensor", "joint_velocities")
@@ -103,7 +120,9 @@ def test_runs_have_the_noise_of_the_recording(fitted: tuple[Path, torque_noise.F
         expected.append(fit.noise.expected(v, best + times) + fit.noise.white * rng.normal(size=v.shape))
     alike = torque_noise.comparison(np.concatenate(added), np.concatenate(expected), fit.noise.joints)
     assert max(one["distance"] for one in alike) < 0.08
-    white = torque_noise.comparison(np.concatenate(added), 0.1 * rng.normal(size=np.concatenate(added).shape), fit.noise.joints)
+    white = torque_noise.comparison(
+        np.concatenate(added), 0.1 * rng.normal(size=np.concatenate(added).shape), fit.noise.joints
+    )
     assert min(one["distance"] for one in white) > 0.15  # white noise alone is told from it
 
 

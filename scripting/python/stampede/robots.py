@@ -74,7 +74,9 @@ class Robot:
             way.append(self._above[link])
             link = way[-1].parent
             if len(way) > len(self.joints):
-                raise fault(str(self.file), "its links are no tree", "hang every link from one that hangs from the base")
+                raise fault(
+                    str(self.file), "its links are no tree", "hang every link from one that hangs from the base"
+                )
         return way[::-1]
 
     def poses(self, positions: Array, links: Sequence[str] | None = None) -> dict[str, Array]:
@@ -83,8 +85,8 @@ class Robot:
         if positions.shape[1] != len(self.arm):
             raise fault(self.name, f"{positions.shape[1]} positions for {len(self.arm)} joints", ", ".join(self.arm))
         place = {name: index for index, name in enumerate(self.arm)}
-        wanted = None if links is None else {self.base}.union(
-            *({one.child for one in self._way(link)} for link in links)
+        wanted = (
+            None if links is None else {self.base}.union(*({one.child for one in self._way(link)} for link in links))
         )
         found = {self.base: np.broadcast_to(np.eye(4), (len(positions), 4, 4))}
         for joint in self._ordered:
@@ -144,8 +146,8 @@ class Robot:
         return result
 
     def load_torques(self, positions: Array, velocities: Array, accelerations: Array) -> Array:
-        """What a load in the hand takes, as a linear function of it: n x joints x 4, for its mass (kg) and its mass times
-        its centre in the hand's frame (kg m). Its own inertia is left out."""
+        """What a load in the hand takes, as a linear function of it: n x joints x 4, for its mass (kg) and its mass
+        times its centre in the hand's frame (kg m). Its own inertia is left out."""
 
         def with_centre(centre: Array) -> Array:
             one = copy.copy(self)
@@ -176,7 +178,9 @@ class Robot:
         while left:
             ready = [joint for joint in left if joint.parent in found]
             if not ready:
-                raise fault(str(self.file), "its links are no tree", "hang every link from one that hangs from the base")
+                raise fault(
+                    str(self.file), "its links are no tree", "hang every link from one that hangs from the base"
+                )
             ordered += ready
             found |= {joint.child for joint in ready}
             left = [joint for joint in left if joint not in ready]
@@ -203,7 +207,9 @@ def described_robot(text: str) -> dict[str, Any]:
     try:
         described = json.loads(Path(text).read_text())
     except (OSError, ValueError) as error:
-        raise fault(text, f"no description of a robot: {error}", 'write { "urdf": …, "arm": […], "tip": {…} }') from error
+        raise fault(
+            text, f"no description of a robot: {error}", 'write { "urdf": …, "arm": […], "tip": {…} }'
+        ) from error
     if not isinstance(described, dict):
         raise fault(text, "an object is expected", 'write { "urdf": …, "arm": […], "tip": {…} }')
     return described
@@ -245,10 +251,10 @@ def _read(file: Path) -> tuple[str, list[Joint], dict[str, Inertia], list[str]]:
         raise fault(str(file), f"no URDF: {error}", "name the robot's URDF file") from error
     links = [str(one.get("name")) for one in root.findall("link")]
     inertias = {}
-    for link in root.findall("link"):
-        inertial = link.find("inertial")
+    for element in root.findall("link"):
+        inertial = element.find("inertial")
         if inertial is not None:
-            inertias[str(link.get("name"))] = _inertia(inertial)
+            inertias[str(element.get("name"))] = _inertia(inertial)
     joints = [_joint(one) for one in root.findall("joint")]
     if not links or not joints:
         raise fault(str(file), "no robot: it has no links or no joints", "name the robot's URDF file")

@@ -1,9 +1,9 @@
-"""What an arm's torque sensors say beside the truth, fitted to a recording, for `stampede run --noise torque=FILE.json`.
+"""What torque sensors say beside the truth, fitted to a recording, for `stampede run --noise torque=FILE.json`.
 
 `python -m stampede.torque_noise RECORDING --out arm.json`
 
-What is left of the measured torques without those that the motion takes (stampede.robots: the URDF's masses, corrected by
-some per cent, and a load in the hand) is, for each joint,
+What is left of the measured torques without those that the motion takes (stampede.robots: the URDF's masses,
+corrected by some per cent, and a load in the hand) is, for each joint,
     coulomb tanh(v / smooth) + viscous v + offset + drift (1 - exp(-t / drift_time)) + white noise,
 least squares for all joints at once; `smooth` and `drift_time` are those that fit best. The arm must touch nothing.
 """
@@ -21,9 +21,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stampede._core import Error
 from stampede.calibrate.apply import write_whole
 from stampede.calibrate.recorded import Recording
-from stampede.faults import Error, fault
+from stampede.faults import fault
 from stampede.robots import Robot
 
 Array = NDArray[Any]
@@ -113,7 +114,9 @@ def motion_of(recording: Recording) -> Motion:
     known = np.isfinite(joints.efforts).all(axis=1)
     span = float(joints.times[known][-1] - joints.times[known][0]) if known.any() else 0.0
     if span < _LEAST_S:
-        raise fault(place, f"torques were recorded for {span:.1f} s", f"record {_LEAST_S:.0f} s at least, better minutes")
+        raise fault(
+            place, f"torques were recorded for {span:.1f} s", f"record {_LEAST_S:.0f} s at least, better minutes"
+        )
     spacing = float(np.median(np.diff(joints.times)))
     at = np.clip(np.searchsorted(joints.times, np.arange(0, span, spacing)), 1, len(joints.times) - 1)
     at = at[known[at]]  # readings as they are: those between would have less noise
@@ -122,7 +125,9 @@ def motion_of(recording: Recording) -> Motion:
     slopes = np.stack([_slopes(column, spacing) for column in smooth.T], axis=1)
     accelerations = np.stack([np.interp(joints.times[at], even, column) for column in slopes.T], axis=1)
     at, first = np.unique(at, return_index=True)
-    return Motion(joints.times[at], joints.positions[at], joints.velocities[at], accelerations[first], joints.efforts[at])
+    return Motion(
+        joints.times[at], joints.positions[at], joints.velocities[at], accelerations[first], joints.efforts[at]
+    )
 
 
 def _slopes(values: Array, spacing: float) -> Array:
@@ -154,6 +159,7 @@ def fit(recording: Recording, with_load: bool = True, with_masses: bool = True) 
                 values, cost = _solve(left, own, shared, priors, variance * together)
                 if best is None or cost < best[0]:
                     best = (cost, smooth, float(drift_time), values)
+        assert best is not None
         own = _own_columns(motion, best[1], best[2])
         variance = np.var(left - _predicted(best[3], own, shared), axis=0) + 1e-12
     assert best is not None
@@ -173,8 +179,8 @@ def fit(recording: Recording, with_load: bool = True, with_masses: bool = True) 
 
 
 def _shared_columns(robot: Robot, motion: Motion, with_load: bool, with_masses: bool) -> tuple[Array, Array, list[str]]:
-    """n x joints x columns that all joints share: torques of each moving link's mass, and of a load; standard deviations
-    of their factors; names of the links."""
+    """n x joints x columns that all joints share: torques of each moving link's mass, and of a load; standard
+    deviations of their factors; names of the links."""
     columns, priors, links = [], [], []
     carried = robot.beyond_arm() if with_load else set()  # a load says the same as their masses
     if with_masses:
@@ -284,7 +290,10 @@ def _words(found: Fit, alike: list[Json], out: str) -> str:
             f"{joint:10}{noise.coulomb[k]:9.3f}{noise.viscous[k]:10.3f}{noise.offset[k]:9.3f}{noise.drift[k]:9.3f}"
             f"{noise.white[k]:8.3f}{alike[k]['distance']:8.3f}"
         )
-    lines.append(f"friction turns at {noise.smooth:g} rad/s; warm after {noise.drift_time_s:.0f} s; {noise.recorded_s:.0f} s recorded")
+    lines.append(
+        f"friction turns at {noise.smooth:g} rad/s; warm after {noise.drift_time_s:.0f} s; "
+        f"{noise.recorded_s:.0f} s recorded"
+    )
     if found.load_kg:
         centre = " ".join(f"{1e3 * one:.0f}" for one in found.load_centre)
         lines.append(f"load in the hand {found.load_kg:.3f} kg, its centre at {centre} mm")
@@ -296,7 +305,9 @@ def _words(found: Fit, alike: list[Json], out: str) -> str:
 
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m stampede.torque_noise", description=__doc__.partition("\n")[0])
-    parser.add_argument("recording", metavar="RECORDING", help="a recording folder, with velocities and torques of the joints")
+    parser.add_argument(
+        "recording", metavar="RECORDING", help="a recording folder, with velocities and torques of the joints"
+    )
     parser.add_argument("--out", required=True, metavar="FILE.json")
     parser.add_argument("--no-load", action="store_true", help="the hand was empty")
     parser.add_argument("--no-masses", action="store_true", help="the URDF's masses are right")

@@ -1,9 +1,9 @@
 """A laboratory that is not there: an arm with a board in its hand, recorded as a real one is, and what was true of it.
 
 `record(folder, seed, …)` draws a robot that is not quite ours (other masses, joints that read beside the truth, torque
-sensors with friction, drift and noise), a camera that stands elsewhere than planned and bends straight lines, and clocks
-that disagree; lets the arm move; and writes what its drivers would have recorded, as ROS 2 does, in MCAP. The truth is given
-back, for comparison alone: nothing of it is in the bag.
+sensors with friction, drift and noise), a camera that stands elsewhere than planned and bends straight lines, and
+clocks that disagree; lets the arm move; and writes what its drivers would have recorded, as ROS 2 does, in MCAP. The
+truth is given back, for comparison alone: nothing of it is in the bag.
 """
 
 from __future__ import annotations
@@ -66,7 +66,13 @@ def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
     camera = _looking(at, np.array([0.20, 0.0, 1.12]) + rng.uniform(-0.03, 0.03, 3))
     camera[:3, :3] = camera[:3, :3] @ rotation(np.radians(rng.uniform(-4, 4, 3)))
     focal = rng.uniform(590, 640)
-    matrix = np.array([[focal, 0, 319.5 + rng.uniform(-8, 8)], [0, focal * rng.uniform(0.997, 1.003), 239.5 + rng.uniform(-8, 8)], [0, 0, 1]])
+    matrix = np.array(
+        [
+            [focal, 0, 319.5 + rng.uniform(-8, 8)],
+            [0, focal * rng.uniform(0.997, 1.003), 239.5 + rng.uniform(-8, 8)],
+            [0, 0, 1],
+        ]
+    )
     bent = np.array([rng.uniform(-0.12, 0.08), rng.uniform(-0.06, 0.06), *rng.uniform(-0.001, 0.001, 2), 0.0])
     hand_from_board = np.eye(4)  # it hangs before the fingers and looks forward and up; OpenCV's z goes into it
     into = np.array([-np.cos(0.45), 0.0, np.sin(0.45)])
@@ -74,7 +80,9 @@ def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
     tilt = rotation(np.radians(rng.uniform(-3, 3, 3)))
     hand_from_board[:3, :3] = tilt @ np.stack([right, np.cross(into, right), into], axis=1)
     centre = np.array([SQUARES[0], SQUARES[1], 0]) * SQUARE_M / 2
-    hand_from_board[:3, 3] = np.array([0.05, 0.0, 0.19]) + rng.uniform(-0.01, 0.01, 3) - hand_from_board[:3, :3] @ centre
+    hand_from_board[:3, 3] = (
+        np.array([0.05, 0.0, 0.19]) + rng.uniform(-0.01, 0.01, 3) - hand_from_board[:3, :3] @ centre
+    )
     arm = 7
     torque = {
         "coulomb": rng.uniform(0.2, 1.0, arm) * [1, 1, 1, 1, 0.4, 0.4, 0.4],
@@ -227,9 +235,7 @@ def move(folder: Path, truth: Truth, seed: int, seconds: float) -> stampede.Stor
     """The arm moves about; the episode as it really was."""
     catalogue = folder / "true.db"
     session = stampede.Session(paths=[folder / "library"], catalogue=catalogue)
-    world = session.environment(
-        "wave", channels=["joint_positions"], horizon_s=10 * seconds, record=True
-    )
+    world = session.environment("wave", channels=["joint_positions"], horizon_s=10 * seconds, record=True)
     now = world.reset(stampede.Reset(seed=seed))
     robot, rng = robot_of("panda"), np.random.default_rng([seed, 3])
     count = int(seconds / 1.4) + 2
@@ -263,7 +269,17 @@ def torque_errors(folder: Path, seed: int, noise: Path) -> Array:
     readings = []
     for name, options in (("ideal", []), ("noisy", ["--noise", f"torque={noise}"])):
         catalogue = folder / f"{name}.db"
-        command = [str(program), "run", "wave", "--path", str(folder / "library"), "--seed", str(seed), "--policy", play]
+        command = [
+            str(program),
+            "run",
+            "wave",
+            "--path",
+            str(folder / "library"),
+            "--seed",
+            str(seed),
+            "--policy",
+            play,
+        ]
         command += ["--observe", "time", "--out", str(catalogue), *options]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert catalogue.exists(), done.stderr
@@ -314,4 +330,6 @@ def _write_pictures(bag: RosBag, episode: stampede.StoredEpisode, truth: Truth, 
             noisy = np.clip(picture + rng.normal(0, 2, picture.shape), 0, 255).astype(np.uint8)
             data = cv2.imencode(".jpg", noisy[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 92])[1].tobytes()
             log_ns = round((EPOCH_S + true_s + rng.uniform(0.02, 0.05)) * 1e9)
-            bag.compressed("/camera/lab/image/compressed", stamp_ns, log_ns, "rgb8; jpeg compressed bgr8", data, "lab_optical")
+            bag.compressed(
+                "/camera/lab/image/compressed", stamp_ns, log_ns, "rgb8; jpeg compressed bgr8", data, "lab_optical"
+            )

@@ -1,4 +1,4 @@
-"""A policy for `stampede run --policy`: plays joint positions back, one line of a CSV file a frame. Standard library only."""
+"""A policy for `stampede run --policy`: plays joint positions back, a line of a CSV file a frame."""
 
 import json
 import sys

@@ -1,7 +1,7 @@
 """What is recovered of recordings whose truth is known (laboratory.py), and how fast recordings come in.
 
-    recordings_bench.py recover [SEEDS] [SECONDS]     a table, a row a seed
-    recordings_bench.py speed [MINUTES]               MCAP with two cameras to a catalogue
+recordings_bench.py recover [SEEDS] [SECONDS]     a table, a row a seed
+recordings_bench.py speed [MINUTES]               MCAP with two cameras to a catalogue
 """
 
 from __future__ import annotations
@@ -108,9 +108,19 @@ def speed(minutes: float) -> None:
                 bag.joint_state("/joint_states", stamp, stamp, names, q, np.zeros(9), np.zeros(9))
             if tick % 10 == 0:
                 for camera in ("front", "wrist"):
-                    bag.compressed(f"/{camera}/image/compressed", stamp, stamp + 10**7, "jpeg", files[tick // 10 % 30], camera)
+                    bag.compressed(
+                        f"/{camera}/image/compressed", stamp, stamp + 10**7, "jpeg", files[tick // 10 % 30], camera
+                    )
                     if tick == 0:
-                        bag.camera_info(f"/{camera}/camera_info", stamp, stamp, (640, 480), np.array([[600, 0, 320], [0, 600, 240], [0, 0, 1.0]]), np.zeros(5), camera)
+                        bag.camera_info(
+                            f"/{camera}/camera_info",
+                            stamp,
+                            stamp,
+                            (640, 480),
+                            np.array([[600, 0, 320], [0, 600, 240], [0, 0, 1.0]]),
+                            np.zeros(5),
+                            camera,
+                        )
                         bag.transform("/tf_static", stamp, stamp, "world", camera, [1, 0, 1.5, 0.0, 0.0, 0.0, 1.0])
     size = sum(one.stat().st_size for one in (folder / "bag").iterdir()) / 1e6
     print(f"bag: {size:.0f} MB, pictures of {np.mean([len(one) for one in files]) / 1e3:.0f} kB")

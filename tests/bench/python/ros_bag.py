@@ -1,4 +1,4 @@
-"""Bags with the standard messages of ROS 2, by way of the package rosbags: another hand than the one that reads them."""
+"""Bags with the standard messages of ROS 2, by way of rosbags: another hand than the one that reads them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,14 @@ class RosBag:
         self._writer.write(self._topics[topic], log_ns, _STORE.serialize_cdr(message, kind))
 
     def joint_state(
-        self, topic: str, stamp_ns: int, log_ns: int, names: Sequence[str], position: Any, velocity: Any = (), effort: Any = ()
+        self,
+        topic: str,
+        stamp_ns: int,
+        log_ns: int,
+        names: Sequence[str],
+        position: Any,
+        velocity: Any = (),
+        effort: Any = (),
     ) -> None:
         values = [_floats(one) for one in (position, velocity, effort)]
         self.put(topic, _TYPES["sensor_msgs/msg/JointState"](_header(stamp_ns), list(names), *values), log_ns)

@@ -1,7 +1,7 @@
-"""Cameras calibrated from pictures of a board: `python -m stampede.calibrate intrinsics|extrinsics SOURCE --board BOARD`.
+"""Cameras calibrated from pictures of a board: `python -m stampede.calibrate WHAT SOURCE --board BOARD`.
 
-`intrinsics` finds a lens, `extrinsics` where cameras are in the robot's base or on its links, what clocks and joints are off
-by, each with its standard deviation. Needs OpenCV: `pip install "stampede[calibrate]"`.
+`intrinsics` finds a lens, `extrinsics` where cameras are in the robot's base or on its links, what clocks and joints
+are off by, each with its standard deviation. Needs OpenCV: `pip install "stampede[calibrate]"`.
 """
 
 from __future__ import annotations
@@ -55,15 +55,22 @@ def _intrinsics(options: argparse.Namespace) -> tuple[str, Json]:
         camera = options.camera[0] if options.camera else "camera"
         files = sorted(one for one in source.glob("*") if one.suffix.lower() in _ENDINGS)
         if not files:
-            raise fault(str(source), "there are no pictures in it", "name a folder of PNG or JPEG files, or a recording")
+            raise fault(
+                str(source), "there are no pictures in it", "name a folder of PNG or JPEG files, or a recording"
+            )
     if not re.fullmatch(r"[a-z][a-z0-9_]*", camera):
         raise fault("--camera", f"'{camera}' is not a name", "use small letters, digits and _, a letter first")
     seen, size = sightings(board, _some(files, options.most))
     lens = find_lens([one for _, one in seen], size, str(source), options.k3)
     out = Path(options.out) if options.out else (source if is_recording else Path()) / _LENSES
     _put_lens(out, lens.entry(camera))
-    return _lens_words(camera, lens, out), {"camera": lens.entry(camera), "rms_pixels": lens.rms, "pictures": lens.pictures,
-                                            "deviations": _numbers(lens.deviations), "file": str(out)}
+    return _lens_words(camera, lens, out), {
+        "camera": lens.entry(camera),
+        "rms_pixels": lens.rms,
+        "pictures": lens.pictures,
+        "deviations": _numbers(lens.deviations),
+        "file": str(out),
+    }
 
 
 def _put_lens(file: Path, entry: Json) -> None:
@@ -75,10 +82,14 @@ def _put_lens(file: Path, entry: Json) -> None:
 def _lens_words(camera: str, lens: Lens, out: Path) -> str:
     d = lens.deviations
     assert d is not None and lens.errors is not None
-    bent = "  ".join(f"{name} {value:.4f} ± {sd:.4f}" for name, value, sd in zip(("k1", "k2", "p1", "p2", "k3"), lens.distortion, d[4:], strict=True))
+    bent = "  ".join(
+        f"{name} {value:.4f} ± {sd:.4f}"
+        for name, value, sd in zip(("k1", "k2", "p1", "p2", "k3"), lens.distortion, d[4:], strict=True)
+    )
     return "\n".join(
         [
-            f"camera {camera}: {lens.width} x {lens.height}, {lens.pictures} pictures, reprojection error {lens.rms:.3f} pixels "
+            f"camera {camera}: {lens.width} x {lens.height}, {lens.pictures} pictures, reprojection error "
+            f"{lens.rms:.3f} pixels "
             f"(worst picture {lens.errors.max():.3f})",
             f"  focal length {lens.focal[0]:.2f} ± {d[0]:.2f}, {lens.focal[1]:.2f} ± {d[1]:.2f} pixels",
             f"  centre {lens.centre[0]:.2f} ± {d[2]:.2f}, {lens.centre[1]:.2f} ± {d[3]:.2f} pixels",
@@ -103,12 +114,18 @@ def _extrinsics(options: argparse.Namespace) -> tuple[str, Json]:
         for index, board in enumerate(boards):
             found, size = sightings(Board(board.text), [pictures.files[k] for k in chosen])
             if found and size != (camera.lens.width, camera.lens.height):
-                raise fault(f"camera {camera.name}", f"its pictures are {size[0]} x {size[1]}, its lens is of "
-                            f"{camera.lens.width} x {camera.lens.height}", "calibrate the lens at this size")
+                raise fault(
+                    f"camera {camera.name}",
+                    f"its pictures are {size[0]} x {size[1]}, its lens is of "
+                    f"{camera.lens.width} x {camera.lens.height}",
+                    "calibrate the lens at this size",
+                )
             seen += [Seen(number, index, float(pictures.times[chosen[place]]), sight) for place, sight in found]
     seen = locate(seen, cameras)
     start(robot, recording.joints, cameras, boards, seen, options.search)
-    result = Bundle(robot, recording.joints, cameras, boards, seen, not options.keep_lens, not options.keep_joints).solve()
+    result = Bundle(
+        robot, recording.joints, cameras, boards, seen, not options.keep_lens, not options.keep_joints
+    ).solve()
     _check(result)
     report = _report(result, recording)
     if options.out:
@@ -129,7 +146,11 @@ def _boards(options: argparse.Namespace, robot: Robot) -> list[FixedBoard]:
         number, _, pose = text.partition("=")
         numbers = [float(word) for word in pose.split()] if re.fullmatch(r"[-+0-9.e ]+", pose) else []
         if not number.isdigit() or not 1 <= int(number) <= len(boards) or len(numbers) != 7:
-            raise fault("--board-at", f"'{text}' is no pose of a board", "--board-at '1=X Y Z QX QY QZ QW', in its mount's frame, m")
+            raise fault(
+                "--board-at",
+                f"'{text}' is no pose of a board",
+                "--board-at '1=X Y Z QX QY QZ QW', in its mount's frame, m",
+            )
         boards[int(number) - 1].pose = matrices(np.array([numbers]))[0]
         boards[int(number) - 1].deviation = (metres, float(np.radians(degrees)))
     return boards
@@ -225,8 +246,10 @@ def _report(result: Result, recording: Recording) -> Json:
             recording.robot.arm, result.offsets, result.offset_deviations, result.freed, strict=True
         )
     ]
-    boards = [{"mount_from_board": pose.tolist(), "deviation_m_rad": _numbers(sd)}
-              for pose, sd in zip(result.boards, result.board_deviations, strict=True)]
+    boards = [
+        {"mount_from_board": pose.tolist(), "deviation_m_rad": _numbers(sd)}
+        for pose, sd in zip(result.boards, result.board_deviations, strict=True)
+    ]
     return {"camera_file": entries, "cameras": cameras, "joints": joints, "boards": boards, "rms_pixels": result.rms}
 
 
@@ -246,7 +269,8 @@ def _pose_words(result: Result, recording: Recording) -> str:
         lines += [
             f"camera {one.name} on {one.mount}: {one.pictures} pictures, {one.corners} corners, reprojection error "
             f"{one.rms:.3f} pixels (median {one.median:.3f})",
-            f"  at {at[0]:.1f} {at[1]:.1f} {at[2]:.1f} mm, ± {1e3 * sd[:3].max():.1f} mm, ± {np.degrees(sd[3:].max()):.3f} degrees",
+            f"  at {at[0]:.1f} {at[1]:.1f} {at[2]:.1f} mm, ± {1e3 * sd[:3].max():.1f} mm, ± "
+            f"{np.degrees(sd[3:].max()):.3f} degrees",
             f"  clock: {1e3 * one.offset_s:+.2f} ± {1e3 * one.offset_deviation_s:.2f} ms, "
             f"{one.drift_ppm:+.0f} ± {one.drift_deviation_ppm:.0f} ppm",
             f"  focal length {one.lens.focal[0]:.2f} ± {one.lens_deviation[0]:.2f}, centre {one.lens.centre[0]:.2f} "
@@ -296,21 +320,41 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     lens = kinds.add_parser("intrinsics", help="focal length, centre and distortion")
     poses = kinds.add_parser("extrinsics", help="where cameras are; clocks; joints")
     for one in (lens, poses):
-        one.add_argument("source", metavar="SOURCE", help="a recording folder" + (", or one of pictures" if one is lens else ""))
-        one.add_argument("--board", action="append", required=True, help="charuco:5x4:0.05:0.037:4X4_50 (squares, m), "
-                         "checkerboard:9x6:0.025, aruco:7:0.08:4X4_50; for extrinsics with @LINK or @world (default: @hand)")
-        one.add_argument("--camera", action="append", default=[], help="name; for extrinsics with @LINK (default: @world)")
-        one.add_argument("--most", type=int, default=300, help="pictures looked at, evenly chosen (default: %(default)s)")
+        one.add_argument(
+            "source", metavar="SOURCE", help="a recording folder" + (", or one of pictures" if one is lens else "")
+        )
+        one.add_argument(
+            "--board",
+            action="append",
+            required=True,
+            help="charuco:5x4:0.05:0.037:4X4_50 (squares, m), "
+            "checkerboard:9x6:0.025, aruco:7:0.08:4X4_50; for extrinsics with @LINK or @world (default: @hand)",
+        )
+        one.add_argument(
+            "--camera", action="append", default=[], help="name; for extrinsics with @LINK (default: @world)"
+        )
+        one.add_argument(
+            "--most", type=int, default=300, help="pictures looked at, evenly chosen (default: %(default)s)"
+        )
         one.add_argument("--out", metavar="FILE", help="a camera file")
         one.add_argument("--json", action="store_true")
     lens.add_argument("--k3", action="store_true", help="look for k3 too: wide lenses")
     poses.add_argument("--lens", metavar="FILE", help="camera file with the lenses (default: that of the recording)")
     poses.add_argument("--keep-lens", action="store_true", help="do not refine it")
     poses.add_argument("--keep-joints", action="store_true", help="joints read the truth")
-    poses.add_argument("--search", type=float, default=0.5, metavar="S", help="clocks differ by at most so much (default: %(default)s)")
-    poses.add_argument("--board-at", action="append", default=[], metavar="'N=X Y Z QX QY QZ QW'",
-                       help="the N-th board's pose in its mount is known: frees the first or last joint's offset")
+    poses.add_argument(
+        "--search", type=float, default=0.5, metavar="S", help="clocks differ by at most so much (default: %(default)s)"
+    )
+    poses.add_argument(
+        "--board-at",
+        action="append",
+        default=[],
+        metavar="'N=X Y Z QX QY QZ QW'",
+        help="the N-th board's pose in its mount is known: frees the first or last joint's offset",
+    )
     poses.add_argument("--board-sd", default="0.0005,0.05", metavar="M,DEGREES", help="how well (default: %(default)s)")
     poses.add_argument("--apply", action="store_true", help="write cameras and clocks into the recording")
-    poses.add_argument("--apply-joints", action="store_true", help="and correct its joint positions; those measured are kept")
+    poses.add_argument(
+        "--apply-joints", action="store_true", help="and correct its joint positions; those measured are kept"
+    )
     return parser.parse_args(arguments)

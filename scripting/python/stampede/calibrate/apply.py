@@ -56,7 +56,8 @@ def _correct_joints(recording: Recording, result: Result) -> None:
         for line in lines[1:]:
             fields = line.split(",")
             fields = [
-                repr(float(field) + shift) if shift and field else field for field, shift in zip(fields, shifts, strict=True)
+                repr(float(field) + shift) if shift and field else field
+                for field, shift in zip(fields, shifts, strict=True)
             ]
             stream.write(",".join(fields) + "\n")
     part.replace(file)

@@ -36,7 +36,8 @@ class Sighting:
 
 
 class Board:
-    """`charuco:5x4:0.05:0.037:4X4_50` (squares), `checkerboard:9x6:0.025` (squares), `aruco:7:0.08:4X4_50` (one marker).
+    """`charuco:5x4:0.05:0.037:4X4_50` (squares), `checkerboard:9x6:0.025` (squares), `aruco:7:0.08:4X4_50` (one
+    marker).
 
     A checkerboard has one side with an even and one with an odd number of squares, else it looks the same upside down.
     """
@@ -60,12 +61,16 @@ class Board:
             marker = float(words[3]) if self.kind == "charuco" else 0.0
         except ValueError as error:
             raise fault(f"board {text}", f"{error}", f"write one of {_FORMS}") from error
-        if not self._side > 0 or (self.kind != "aruco" and min(self.size) < 3) or (
-            self.kind == "charuco" and not 0 < marker < self._side
+        if (
+            not self._side > 0
+            or (self.kind != "aruco" and min(self.size) < 3)
+            or (self.kind == "charuco" and not 0 < marker < self._side)
         ):
             raise fault(f"board {text}", "there is no board of this size", f"write one of {_FORMS}")
         if self.kind == "checkerboard" and sum(self.size) % 2 == 0:
-            raise fault(f"board {text}", "it looks the same upside down", "take one with an even and an odd number of squares")
+            raise fault(
+                f"board {text}", "it looks the same upside down", "take one with an even and an odd number of squares"
+            )
         self._detector = self._prepared(words, marker)
 
     def _prepared(self, words: list[str], marker: float) -> Any:
@@ -156,7 +161,9 @@ def sightings(board: Board, files: Iterable[Path]) -> tuple[list[tuple[int, Sigh
         picture = read_grey(file)
         own = (picture.shape[1], picture.shape[0])
         if size is not None and own != size:
-            raise fault(str(file), f"it has {own[0]} x {own[1]} pixels, the others {size[0]} x {size[1]}", "take them apart")
+            raise fault(
+                str(file), f"it has {own[0]} x {own[1]} pixels, the others {size[0]} x {size[1]}", "take them apart"
+            )
         size = own
         seen = board.find(picture)
         if seen is not None:

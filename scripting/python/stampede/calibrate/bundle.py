@@ -4,9 +4,9 @@ corners are in pictures.
 A corner of board b in a picture of camera c, stamped s, is seen at
     project(inverse(base_from_mount_c(q) X_c) base_from_mount_b(q) Y_b corner),  q = joints(t) + offsets,
     t = s + offset_c + drift_c (s - reference_c).
-Where nothing says which way joint 1 points, the base's x axis is where it reads 0; where nothing says how the board sits in
-the hand, the last joint's zero is the hand's. So these two offsets are free only where a board's pose is known: one that
-stands frees the first, one in the hand the last.
+Where nothing says which way joint 1 points, the base's x axis is where it reads 0; where nothing says how the board
+sits in the hand, the last joint's zero is the hand's. So these two offsets are free only where a board's pose is
+known: one that stands frees the first, one in the hand the last.
 """
 
 from __future__ import annotations
@@ -84,9 +84,7 @@ class Bundle:
         self._picture = np.repeat(np.arange(len(self._seen)), [len(one.sighting.points) for one in self._seen])
         self._camera_of = np.array([one.camera for one in self._seen])
         self._times = np.array([one.time for one in self._seen])
-        self._references = np.array(
-            [np.mean(self._times[self._camera_of == number]) for number in range(len(cameras))]
-        )
+        self._references = np.array([np.mean(self._times[self._camera_of == number]) for number in range(len(cameras))])
         self._links = sorted({*(one.mount for one in cameras), *(one.mount for one in boards)})
         count, arm = len(cameras), len(robot.arm)
         self._at_boards = 6 * count

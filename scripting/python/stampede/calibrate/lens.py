@@ -91,7 +91,9 @@ def _looks(one: Sighting) -> Array:
 def find_lens(seen: Sequence[Sighting], size: tuple[int, int], place: str, with_k3: bool = False) -> Lens:
     """Raises Error where there are too few pictures, or they are too much alike."""
     if len(seen) < _FEWEST:
-        raise fault(place, f"the board is seen in {len(seen)} pictures", f"take {_FEWEST} at least, better 30, from all sides")
+        raise fault(
+            place, f"the board is seen in {len(seen)} pictures", f"take {_FEWEST} at least, better 30, from all sides"
+        )
     cv2 = opencv()
     chosen = [seen[k] for k in spread(seen, _MOST)]
     flags = 0 if with_k3 else cv2.CALIB_FIX_K3
@@ -105,9 +107,13 @@ def find_lens(seen: Sequence[Sighting], size: tuple[int, int], place: str, with_
             flags=flags,
         )
     except cv2.error as error:
-        raise fault(place, f"no lens fits these pictures: {error.err}", "take them from all sides, tilted by 30 degrees") from error
+        raise fault(
+            place, f"no lens fits these pictures: {error.err}", "take them from all sides, tilted by 30 degrees"
+        ) from error
     spread_ = np.ravel(deviations)[:9]
-    lens = Lens(size[0], size[1], matrix[[0, 1], [0, 1]], matrix[:2, 2], np.ravel(bent)[:5], float(rms), np.ravel(errors))
+    lens = Lens(
+        size[0], size[1], matrix[[0, 1], [0, 1]], matrix[:2, 2], np.ravel(bent)[:5], float(rms), np.ravel(errors)
+    )
     lens.deviations, lens.pictures = spread_, len(chosen)
     if not np.isfinite(rms) or not np.all(np.isfinite(spread_)) or spread_[0] > 0.05 * lens.focal[0]:
         raise fault(

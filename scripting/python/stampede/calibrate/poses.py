@@ -60,8 +60,8 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def robot_world(first: Array, second: Array) -> tuple[Array, Array, float]:
-    """X and Y of first[i] X = Y second[i], n x 4 x 4 each, in closed form (Shah, 2013, doi:10.1115/1.4024473); and how well
-    the rotations fit: rad, root mean square."""
+    """X and Y of first[i] X = Y second[i], n x 4 x 4 each, in closed form (Shah, 2013, doi:10.1115/1.4024473); and
+    how well the rotations fit: rad, root mean square."""
     left, right = first[:, :3, :3], second[:, :3, :3]
     eye = np.eye(3)
     # vec of a matrix by columns: vec(A X) = (I x A) vec X, vec(Y B) = (B^T x I) vec Y

@@ -69,7 +69,12 @@ def locate(seen: list[Seen], cameras: list[Camera]) -> list[Seen]:
 
 
 def start(
-    robot: Robot, joints: JointStates, cameras: list[Camera], boards: list[FixedBoard], seen: list[Seen], search_s: float
+    robot: Robot,
+    joints: JointStates,
+    cameras: list[Camera],
+    boards: list[FixedBoard],
+    seen: list[Seen],
+    search_s: float,
 ) -> None:
     """First values of poses and clocks, good to some centimetres and half a period of the joint states.
 
@@ -78,7 +83,9 @@ def start(
     for number, camera in enumerate(cameras):
         own = [one for one in seen if one.camera == number]
         if len(own) < _FEWEST:
-            raise fault(f"camera {camera.name}", f"a board is seen in {len(own)} pictures", f"{_FEWEST} at least, better 100")
+            raise fault(
+                f"camera {camera.name}", f"a board is seen in {len(own)} pictures", f"{_FEWEST} at least, better 100"
+            )
         known = [one for one in own if boards[one.board].pose is not None]
         moving = [one for one in own if boards[one.board].mount != camera.mount]
         if moving:

@@ -33,16 +33,18 @@ def least_squares(
 ) -> Answer:
     """Minimises the squares of `residuals`, and of (values - start) / prior.
 
-    steps: for differences, by value. prior: standard deviation of each value about `start`, inf for none; 0 keeps it as it
-    is. groups: for each two residuals (a point's x and y), the picture they are of. Errors within a picture go together:
-    the deviations are those of the sandwich estimator over pictures (White, 1980, doi:10.2307/1912934), so they hold where a
-    picture as a whole is off.
+    steps: for differences, by value. prior: standard deviation of each value about `start`, inf for none; 0 keeps it
+    as it is. groups: for each two residuals (a point's x and y), the picture they are of. Errors within a picture go
+    together: the deviations are those of the sandwich estimator over pictures (White, 1980, doi:10.2307/1912934), so
+    they hold where a picture as a whole is off.
     """
     free = np.flatnonzero(prior > 0)
     values = start.astype(float).copy()
     weight = np.where(np.isfinite(prior[free]), 1 / np.where(prior[free] > 0, prior[free], 1), 0.0)
     damping, now = 1e-3, residuals(values)
-    for rounds in range(1, _ROUNDS + 1):
+    rounds = 0
+    while rounds < _ROUNDS:
+        rounds += 1
         noise, huber = _weights(now)
         jacobian = _jacobian(residuals, values, now, steps, free)
         scaled, pull = jacobian * huber[:, None], now * huber

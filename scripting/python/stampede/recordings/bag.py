@@ -1,9 +1,9 @@
 """MCAP and rosbag2 to a recording folder.
 
-What a topic is, its type says (roles.py). Stamps are those of the messages' headers, on one clock of the robot and one of
-each camera; a topic whose first header has no stamp, and all topics with `--clock log`, have the recorder's times. A stamp
-that comes twice is taken once. NaN in velocities and efforts, as drivers write what they do not know, is no reading.
-Pictures that are JPEG or PNG files go through as they are.
+What a topic is, its type says (roles.py). Stamps are those of the messages' headers, on one clock of the robot and
+one of each camera; a topic whose first header has no stamp, and all topics with `--clock log`, have the recorder's
+times. A stamp that comes twice is taken once. NaN in velocities and efforts, as drivers write what they do not know,
+is no reading. Pictures that are JPEG or PNG files go through as they are.
 """
 
 from __future__ import annotations
@@ -42,9 +42,17 @@ _DEPTH = {"unit_m": 0.001}  # of the PNG files that are written here, and of a R
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--map", action="append", default=[], metavar="WHAT=TOPIC", help="joints, gripper, rgb.CAMERA, "
-                        "depth.CAMERA, lens.CAMERA, wrench.NAME; `=none` leaves a kind out (default: by type and name)")
-    parser.add_argument("--clock", choices=("header", "log"), default="header", help="whose times (default: %(default)s)")
+    parser.add_argument(
+        "--map",
+        action="append",
+        default=[],
+        metavar="WHAT=TOPIC",
+        help="joints, gripper, rgb.CAMERA, "
+        "depth.CAMERA, lens.CAMERA, wrench.NAME; `=none` leaves a kind out (default: by type and name)",
+    )
+    parser.add_argument(
+        "--clock", choices=("header", "log"), default="header", help="whose times (default: %(default)s)"
+    )
     parser.add_argument("--skip-bad", action="store_true", help="leave out readings that are NaN or go back in time")
     parser.add_argument("--truncated", action="store_true", help="of a file that ends early, take what is whole")
     parser.add_argument("--depth-range", default="0.1,6.5", metavar="NEAR,FAR", help="m (default: %(default)s)")
@@ -61,9 +69,7 @@ def convert(given: Given, options: argparse.Namespace) -> list[Path]:
 
 
 class _Conversion:
-    def __init__(
-        self, bag: Bag, roles: Roles, given: Given, options: argparse.Namespace, folder: FolderWriter
-    ) -> None:
+    def __init__(self, bag: Bag, roles: Roles, given: Given, options: argparse.Namespace, folder: FolderWriter) -> None:
         self._bag, self._roles, self._given, self._options, self._folder = bag, roles, given, options, folder
         self._logged: dict[str, bool] = {}  # topics whose times are the recorder's
         self._frames = Frames()
@@ -105,7 +111,9 @@ class _Conversion:
             clock = self._clock(topic, "robot", first)
             if topic == self._roles.joints:
                 takers.append(self._joints(place, clock, first))
-            if topic in (self._roles.gripper, self._roles.joints) and (topic == self._roles.gripper or not self._roles.gripper):
+            if topic in (self._roles.gripper, self._roles.joints) and (
+                topic == self._roles.gripper or not self._roles.gripper
+            ):
                 takers.append(self._gripper(place, clock, first))
             return lambda message, time: _give(takers, message, time)
         if isinstance(first, PictureReading):
@@ -122,8 +130,11 @@ class _Conversion:
     def _joints(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
         arm = self._given.robot.arm
         parts = [("position", "position_rad")]
-        parts += [(part, column) for part, column in (("velocity", "velocity_rad_s"), ("effort", "effort_nm"))
-                  if np.isfinite(getattr(first, part)).any()]
+        parts += [
+            (part, column)
+            for part, column in (("velocity", "velocity_rad_s"), ("effort", "effort_nm"))
+            if np.isfinite(getattr(first, part)).any()
+        ]
         stream = self._folder.series("joints", [f"{j}_{column}" for _, column in parts for j in arm], clock, place)
         places: dict[tuple[str, ...], list[int]] = {}
 
@@ -210,7 +221,9 @@ class _Conversion:
         document = self._given.document(self._bag.about())
         document["source"] = f"{Path(self._options.source).name}: " + ", ".join(sorted(self._roles.all()))
         if self._segments:
-            self._folder.write_json("labels.json", {"labelled_by": "model", "model": "stampede", "segments": self._segments})
+            self._folder.write_json(
+                "labels.json", {"labelled_by": "model", "model": "stampede", "segments": self._segments}
+            )
             document["labels"] = "labels.json"
         self._write_cameras(document)
         self._given.copy_files(self._folder)

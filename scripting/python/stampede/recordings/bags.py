@@ -107,7 +107,8 @@ class McapBag:
     def _cut(self, error: object) -> Exception:
         return fault(
             str(self._path),
-            f"it ends early or is damaged ({error or 'end of file'}): the recorder was stopped hard, or a copy was cut off",
+            f"it ends early or is damaged ({error or 'end of file'}): the recorder was stopped hard, or a copy "
+            f"was cut off",
             "--truncated takes what is whole; `mcap recover` makes it a whole file",
         )
 
@@ -153,7 +154,7 @@ class McapBag:
             reader = self._reader.NonSeekingReader(stream)
             try:
                 yield from reader.iter_messages(topics=wanted, log_time_order=False)
-            except Exception as error:  # noqa: BLE001: the decompressors of cut chunks raise errors of their own
+            except Exception as error:  # the decompressors of cut chunks raise errors of their own
                 if isinstance(error, GeneratorExit):
                     raise
 
@@ -189,7 +190,8 @@ class SqliteBag:
         wanted = [number for number, topic in self._topics.items() if topic.name in names]
         marks = ",".join("?" * len(wanted))
         rows = self._ask(
-            f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id", *wanted
+            f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id",
+            *wanted,
         )
         for number, log_ns, data in rows:
             yield self._topics[number].name, log_ns, data

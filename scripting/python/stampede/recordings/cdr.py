@@ -101,7 +101,15 @@ def _image(cdr: CdrReader) -> dict[str, Any]:
     head = _header(cdr)
     height, width = cdr.u32(), cdr.u32()
     encoding, big, step = cdr.text(), bool(cdr.u8()), cdr.u32()
-    return {**head, "height": height, "width": width, "encoding": encoding, "big": big, "step": step, "data": cdr.blob()}
+    return {
+        **head,
+        "height": height,
+        "width": width,
+        "encoding": encoding,
+        "big": big,
+        "step": step,
+        "data": cdr.blob(),
+    }
 
 
 def _compressed(cdr: CdrReader) -> dict[str, Any]:

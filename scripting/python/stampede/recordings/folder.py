@@ -149,8 +149,10 @@ class FolderWriter:
     def finish(self, document: Json) -> None:
         """recording.json: this, and the streams that have readings."""
         written = [stream.described for stream in self.streams if stream.counts.written]
-        clocks = {str(one["clock"]): {} for one in written}
-        self.write_json("recording.json", {"stampede_recording": FORM, **document, "clocks": clocks, "streams": written})
+        clocks: Json = {str(one["clock"]): {} for one in written}
+        self.write_json(
+            "recording.json", {"stampede_recording": FORM, **document, "clocks": clocks, "streams": written}
+        )
         self._finished = True
 
     def _open(self, name: str, columns: Sequence[str]) -> IO[str]:

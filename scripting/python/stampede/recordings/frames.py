@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -69,7 +68,7 @@ def lens_entry(camera: str, lens: LensReading) -> Json | str:
     return entry(camera, lens.width, lens.height, lens.matrix, lens.distortion, lens.model)
 
 
-def entry(camera: str, width: int, height: int, matrix: Array, distortion: Sequence[float], model: str) -> Json | str:
+def entry(camera: str, width: int, height: int, matrix: Array, distortion: Array, model: str) -> Json | str:
     bent = [float(one) for one in distortion]
     if model in ("equidistant", "fisheye", "kannala_brandt4") or any(bent[_TERMS:]):
         return f"its distortion ({model or len(bent)}) is not k1 k2 p1 p2 k3 (plumb_bob)"

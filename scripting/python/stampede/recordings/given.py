@@ -62,11 +62,18 @@ class Given:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", required=True, metavar="FOLDER", help="a new folder")
-    parser.add_argument("--robot", default="panda", help="of worlds/robots, or a JSON file with the object `robot` of "
-                        "recording.json (default: %(default)s)")
+    parser.add_argument(
+        "--robot",
+        default="panda",
+        help="of worlds/robots, or a JSON file with the object `robot` of recording.json (default: %(default)s)",
+    )
     parser.add_argument("--base", default="0 0 0", metavar="'X Y Z [QX QY QZ QW]'", help="of the robot in the world, m")
-    parser.add_argument("--task", default="", help="what was done (default: what the source says, else the folder's name)")
-    parser.add_argument("--outcome", choices=("success", "failure"), help="(default: what the source says, else success)")
+    parser.add_argument(
+        "--task", default="", help="what was done (default: what the source says, else the folder's name)"
+    )
+    parser.add_argument(
+        "--outcome", choices=("success", "failure"), help="(default: what the source says, else success)"
+    )
     parser.add_argument("--world", default="", help="a world of ours whose fixtures stand around")
     parser.add_argument("--frame-hz", type=int, default=0, help="frames a second of the episode")
     parser.add_argument("--cameras", metavar="FILE", help="a camera file, instead of what the source says of cameras")

@@ -1,8 +1,8 @@
 """LeRobotDataset v2.1 and v3.0 to recording folders, one an episode.
 
-`observation.state` holds the joints, by the names of its feature; `observation.velocity` and `observation.effort`, or our
-exporter's further channels, the rest; `action` is the command where it has the joints' names. Films are decoded; pictures in
-tables go through as they are. `subtask_index` becomes segments, tasks sentences.
+`observation.state` holds the joints, by the names of its feature; `observation.velocity` and `observation.effort`,
+or our exporter's further channels, the rest; `action` is the command where it has the joints' names. Films are decoded;
+pictures in tables go through as they are. `subtask_index` becomes segments, tasks sentences.
 """
 
 from __future__ import annotations
@@ -66,7 +66,9 @@ class _Dataset:
             self.fps = float(self.info["fps"])
             self.features: Json = self.info["features"]
         except (OSError, ValueError, KeyError) as error:
-            raise fault(str(root), f"it is no LeRobotDataset: {error}", "name the folder in which meta/info.json is") from error
+            raise fault(
+                str(root), f"it is no LeRobotDataset: {error}", "name the folder in which meta/info.json is"
+            ) from error
         if self.version not in ("3.0", "2.1", "2.0"):
             raise fault(str(root), f"LeRobotDataset v{self.version} is not read", "convert it to v3.0 with LeRobot")
         if _STATE not in self.features:
@@ -89,7 +91,9 @@ class _Dataset:
         try:
             return self.parquet.read_table(file, **options)
         except (OSError, self.arrow.ArrowException) as error:
-            raise fault(str(file), f"it is missing, ends early or is damaged: {error}", "copy all of the dataset") from error
+            raise fault(
+                str(file), f"it is missing, ends early or is damaged: {error}", "copy all of the dataset"
+            ) from error
 
     def _lines(self, name: str) -> list[Json]:
         file = self.root / "meta" / name
@@ -103,9 +107,7 @@ class _Dataset:
         file = self.root / "meta" / f"{name}.parquet"
         if file.exists():
             rows = self.read(file).to_pylist()
-            return {
-                int(row[f"{column}_index"]): str(row.get(column, row.get("__index_level_0__", ""))) for row in rows
-            }
+            return {int(row[f"{column}_index"]): str(row.get(column, row.get("__index_level_0__", ""))) for row in rows}
         if (self.root / "meta" / f"{name}.jsonl").exists():
             return {int(row[f"{column}_index"]): str(row[column]) for row in self._lines(f"{name}.jsonl")}
         return {}
@@ -122,7 +124,9 @@ class _Dataset:
         table = self.read(file, filters=[("episode_index", "=", one["episode_index"])])
         if table.num_rows != one["length"]:
             raise fault(
-                str(file), f"{table.num_rows} of {one['length']} rows of episode {number} are there", "copy all of the dataset"
+                str(file),
+                f"{table.num_rows} of {one['length']} rows of episode {number} are there",
+                "copy all of the dataset",
             )
         return table
 
@@ -157,7 +161,9 @@ def _write(folder: FolderWriter, dataset: _Dataset, number: int, given: Given, o
     for key, feature in dataset.features.items():
         if feature.get("dtype") in ("image", "video"):
             camera = camera_name(key.rpartition(".")[2])
-            files = _stored(table, key, rows, place) if feature["dtype"] == "image" else _film(dataset, number, key, rows)
+            files = (
+                _stored(table, key, rows, place) if feature["dtype"] == "image" else _film(dataset, number, key, rows)
+            )
             steps.write_pictures(folder, "rgb", camera, files, f"{place}, {key}")
     steps.finish(folder, given, rows, about, f"{options.source}, episode {number}")
 
@@ -176,7 +182,9 @@ def _rows(dataset: _Dataset, table: Any, given: Given, options: argparse.Namespa
         if found is not None:
             values = _matrix(table, found)
             if values.shape[1] >= len(arm):
-                there, _ = steps.columns_of(dataset.names(found)[: values.shape[1]], values.shape[1], arm, f"{place}, {found}")
+                there, _ = steps.columns_of(
+                    dataset.names(found)[: values.shape[1]], values.shape[1], arm, f"{place}, {found}"
+                )
                 setattr(rows, name, values[:, there] * factor)
     if gripper is not None:
         rows.opening = state[:, gripper]

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stampede.faults import Error, fault
+from stampede._core import Error
+from stampede.faults import fault
 from stampede.recordings.cdr import READERS, CdrReader
 
 Array = NDArray[Any]

@@ -26,7 +26,9 @@ def packed(picture: Array) -> bytes:
     height, width = picture.shape[:2]
     deep = picture.dtype == np.uint16
     raw = picture.astype(">u2").view(np.uint8) if deep else picture
-    rows = np.hstack([np.full((height, 1), 1, dtype=np.uint8), _left_differences(raw.reshape(height, -1), 2 if deep else 3)])
+    rows = np.hstack(
+        [np.full((height, 1), 1, dtype=np.uint8), _left_differences(raw.reshape(height, -1), 2 if deep else 3)]
+    )
     head = struct.pack(">IIBBBBB", width, height, 16 if deep else 8, 0 if deep else 2, 0, 0, 0)  # 0: grey, 2: colours
     parts = [(b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 1)), (b"IEND", b"")]
     chunks = [

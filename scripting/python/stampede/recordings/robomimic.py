@@ -35,7 +35,9 @@ _GRIPPERS = ("robot0_gripper_qpos", "gripper_qpos")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     steps.add_arguments(parser)
-    parser.add_argument("--rate", type=float, default=0, metavar="HZ", help="steps a second, where the file does not say it")
+    parser.add_argument(
+        "--rate", type=float, default=0, metavar="HZ", help="steps a second, where the file does not say it"
+    )
 
 
 def convert(given: Given, options: argparse.Namespace) -> list[Path]:
@@ -73,7 +75,9 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
     for key in demo["obs"]:
         camera = camera_name(key.rpartition("_")[0])
         if key.endswith("_image"):
-            steps.write_pictures(folder, "rgb", camera, _colours(demo["obs"][key], rows, f"{place}, {key}"), f"{place}, {key}")
+            steps.write_pictures(
+                folder, "rgb", camera, _colours(demo["obs"][key], rows, f"{place}, {key}"), f"{place}, {key}"
+            )
         elif key.endswith("_depth"):
             files = _depths(demo["obs"][key], rows)
             steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=6.5)
@@ -101,7 +105,9 @@ def _rows(obs: Any, rate: float, given: Given, options: argparse.Namespace, plac
     if position is None:
         raise fault(f"{place}/obs", f"none of {', '.join(_POSITIONS)} is there", f"it has {', '.join(obs)}")
     if position.shape[1] != len(arm):
-        raise fault(place, f"it has {position.shape[1]} joints, the arm {len(arm)}: another robot", "--robot names another one")
+        raise fault(
+            place, f"it has {position.shape[1]} joints, the arm {len(arm)}: another robot", "--robot names another one"
+        )
     rows = Rows([round(k * 1e9 / rate) for k in range(len(position))], position * unit, place=place)
     velocity, effort, gripper = found(_VELOCITIES), found(_EFFORTS), found(_GRIPPERS)
     rows.velocity = None if velocity is None else velocity * unit
@@ -131,8 +137,17 @@ def _labels(meta: Json, rate: float) -> Json:
 
 
 def _colours(pictures: Any, rows: Rows, place: str) -> Iterator[tuple[int, bytes, str]]:
-    if pictures.dtype != np.uint8 or pictures.ndim != 4 or pictures.shape[3] != 3 or len(pictures) != len(rows.stamps_ns):
-        raise fault(place, f"pictures of shape {pictures.shape} and type {pictures.dtype} are not read", "store n x h x w x 3 uint8")
+    if (
+        pictures.dtype != np.uint8
+        or pictures.ndim != 4
+        or pictures.shape[3] != 3
+        or len(pictures) != len(rows.stamps_ns)
+    ):
+        raise fault(
+            place,
+            f"pictures of shape {pictures.shape} and type {pictures.dtype} are not read",
+            "store n x h x w x 3 uint8",
+        )
     for stamp, picture in zip(rows.stamps_ns, pictures, strict=True):
         yield stamp, packed(picture), "png"
 

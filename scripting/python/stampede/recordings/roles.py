@@ -45,13 +45,16 @@ def parse_map(texts: Sequence[str]) -> dict[str, str]:
                 raise unknown(f"--map {one}", "kind of stream", kind, MAPPED)
             needs_name = kind not in ("joints", "gripper") and topic != "none"
             if not equals or not topic or (needs_name and not re.fullmatch(r"[a-z][a-z0-9_]*", name)):
-                raise fault(f"--map {one}", "it says no topic", "joints=/joint_states, rgb.front=/camera/image_raw, rgb=none")
+                raise fault(
+                    f"--map {one}", "it says no topic", "joints=/joint_states, rgb.front=/camera/image_raw, rgb=none"
+                )
             mapped[what] = topic
     return mapped
 
 
 def joint_for(joint: str, names: Sequence[str]) -> str | None:
-    """The name in a message that means a joint of the URDF: the same, or the shortest that ends in it, `panda_joint1`."""
+    """The name in a message that means a joint of the URDF: the same, or the shortest that ends in it,
+    `panda_joint1`."""
     if joint in names:
         return joint
     ending = sorted((name for name in names if re.search(rf"[._/]{re.escape(joint)}$", name)), key=len)
@@ -106,7 +109,9 @@ def _find_joints(
     candidates = [topics[mapped["joints"]]] if mapped.get("joints", "none") != "none" else found
     if not candidates:
         known = ", ".join(f"{topic.name} ({topic.schema})" for topic in topics.values())
-        raise fault(place, "it has no topic of joint states", f"record sensor_msgs/JointState; there are {known or 'none'}")
+        raise fault(
+            place, "it has no topic of joint states", f"record sensor_msgs/JointState; there are {known or 'none'}"
+        )
     arms: list[str] = []
     names_seen: list[str] = []
     for topic in candidates:

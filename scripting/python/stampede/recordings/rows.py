@@ -58,8 +58,8 @@ def numbers_of(text: str, count: int, place: str) -> list[int]:
 
 
 def columns_of(names: Sequence[str], width: int, arm: Sequence[str], place: str) -> tuple[list[int], int | None]:
-    """Places of the arm's joints and of the gripper among the components of a state. Where they have no names of joints,
-    the first are the arm's, and one behind them is the gripper's."""
+    """Places of the arm's joints and of the gripper among the components of a state. Where they have no names of
+    joints, the first are the arm's, and one behind them is the gripper's."""
     plain = [re.sub(r"[._](pos|position|q)$", "", name) for name in names]
     found = [joint_for(joint, plain) for joint in arm]
     if all(found):
@@ -96,7 +96,9 @@ def write_numbers(folder: FolderWriter, rows: Rows, arm: Sequence[str]) -> None:
     if rows.opening is not None:
         _series(folder, "gripper", ["opening_m"], rows, np.asarray(rows.opening, dtype=float)[:, None])
     if rows.command is not None:
-        _series(folder, "command", [f"{joint}_position_rad" for joint in arm], rows, np.asarray(rows.command, dtype=float))
+        _series(
+            folder, "command", [f"{joint}_position_rad" for joint in arm], rows, np.asarray(rows.command, dtype=float)
+        )
 
 
 def _series(folder: FolderWriter, kind: str, columns: list[str], rows: Rows, values: Array) -> None:
@@ -106,8 +108,9 @@ def _series(folder: FolderWriter, kind: str, columns: list[str], rows: Rows, val
             stream.row(stamp, row.tolist())
 
 
-def write_pictures(folder: FolderWriter, kind: str, camera: str, files: Iterable[tuple[int, bytes, str]], place: str,
-                   **fields: Any) -> None:
+def write_pictures(
+    folder: FolderWriter, kind: str, camera: str, files: Iterable[tuple[int, bytes, str]], place: str, **fields: Any
+) -> None:
     """files: stamp (ns), bytes and ending."""
     stream, pictures = folder.pictures(kind, camera, CLOCK, place, **fields)
     for stamp, data, ending in files:
