@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import struct
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from stampede.recordings.cdr import CdrReader
 from stampede.recordings.folder import stamp_text
 from stampede.recordings.pictures import packed
 from stampede.recordings.roles import camera_name, joint_for
+from stampede.robots import robot_of
 
 pytest.importorskip("rosbags")
 pytest.importorskip("mcap")
@@ -29,6 +31,7 @@ from ros_bag import RosBag  # noqa: E402
 
 NAMES = [f"panda_joint{k}" for k in range(1, 8)] + ["panda_finger_joint1", "panda_finger_joint2"]
 HOME = np.array([0, -0.78, 0, -2.35, 0, 1.57, 0.78, 0.02, 0.02])
+STEP = np.array([0.001] * 7 + [0.0002] * 2)  # rad, m
 START = 1_700_000_000 * 10**9  # ns
 PIXELS = np.arange(6 * 8 * 3, dtype=np.uint8).reshape(6, 8, 3)
 DEPTH = (np.arange(48, dtype=np.uint16) * 100).reshape(6, 8)
@@ -50,7 +53,7 @@ def write_bag(folder: Path, form: str = "mcap", count: int = 20, **other: Any) -
             stamp = START + k * 10**7
             if other.get("backwards") == k:
                 stamp -= 5 * 10**7
-            q = HOME + 0.001 * k
+            q = HOME + k * STEP
             if other.get("nan") == k:
                 q[2] = np.nan
             names = other.get("names", NAMES)
@@ -127,7 +130,7 @@ def test_a_bag_becomes_a_folder_with_all_that_is_in_it(tmp_path: Path, form: str
     assert len(joints) == 20 and joints[1]["time_s"] == "1700000000.010000000"
     assert float(joints[5]["joint4_position_rad"]) == HOME[3] + 0.005 and float(joints[5]["joint6_effort_nm"]) == 5
     assert joints[0]["joint4_effort_nm"] == ""  # a driver's NaN is no reading
-    assert float(table(out / "gripper.csv")[2]["opening_m"]) == pytest.approx(0.044)
+    assert float(table(out / "gripper.csv")[2]["opening_m"]) == pytest.approx(0.0408)
     assert float(table(out / "wrench.csv")[7]["torque_z_nm"]) == 7
     assert any("logged 10.0 ms after" in line for line in told)
 
@@ -313,6 +316,34 @@ def test_packed_pictures_are_what_they_were() -> None:
     rng = np.random.default_rng(1)
     for picture in (rng.integers(0, 255, (5, 7, 3), dtype=np.uint8), rng.integers(0, 65535, (4, 6)).astype(np.uint16)):
         assert (np.asarray(Image.open(io.BytesIO(packed(picture)))) == picture).all()
+
+
+def imports_recordings() -> bool:
+    program = Path(stampede.__file__).parent / "engine" / "bin" / "stampede"
+    return "recording" in subprocess.run([program, "import", "--help"], capture_output=True, text=True).stdout
+
+
+@pytest.mark.skipif(not imports_recordings(), reason="this engine imports no recordings")
+def test_a_bag_goes_into_a_catalogue(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", count=51)
+    catalogue = tmp_path / "demos.db"
+    run(bag, tmp_path / "out", "--base", "-0.3 0 0.75", "--frame-hz", "20", "--into", str(catalogue))
+    episode = next(iter(stampede.Catalogue(catalogue)))
+    source = episode.catalogue.query("SELECT source FROM episodes").values("source")
+    assert source == ["real"] and episode.frames == 11 and episode.frame_hz == 20 and episode.task == "out"
+    arrays = episode.arrays("joint_positions", "gripper_pose")
+    assert np.allclose(arrays["joint_positions"][:, 3], HOME[3] + 0.001 * np.arange(0, 51, 5), atol=1e-6)
+    hand = robot_of("panda").poses(arrays["joint_positions"])["hand"] @ [0, 0, 0.1034, 1]
+    assert np.allclose(hand[:, :3] + [-0.3, 0, 0.75], arrays["gripper_pose"][:, :3], atol=1e-6)
+    assert {"front_rgb", "wrist_rgb", "front_depth"} <= set(episode.stored_pictures)
+
+
+@pytest.mark.skipif(not imports_recordings(), reason="this engine imports no recordings")
+def test_what_the_engine_refuses_is_told_and_stays(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", count=200)  # the fingers open wider than they can
+    with pytest.raises(stampede.Error, match="it was written, but not imported.*opens by 0.080 m"):
+        run(bag, tmp_path / "out", "--into", str(tmp_path / "demos.db"))
+    assert (tmp_path / "out" / "recording.json").is_file()
 
 
 # Our own exports come back.
