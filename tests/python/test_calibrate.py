@@ -16,6 +16,7 @@ cv2 = pytest.importorskip("cv2")
 pytest.importorskip("rosbags")
 sys.path.insert(0, str(Path(__file__).parents[1] / "bench" / "python"))
 import laboratory  # noqa: E402
+import laboratory_scripts  # noqa: E402
 from recordings_bench import BOARD, pose_errors  # noqa: E402
 
 from stampede.calibrate import calibrate  # noqa: E402
@@ -24,7 +25,7 @@ from stampede.calibrate.bundle import Bundle, pose_error  # noqa: E402
 from stampede.calibrate.lens import Lens, find_lens, spread  # noqa: E402
 from stampede.calibrate.poses import inverse, moved, robot_world, step_between, turned, vector_of  # noqa: E402
 from stampede.calibrate.recorded import JointStates  # noqa: E402
-from stampede.calibrate.setup import Camera, FixedBoard, Seen, start  # noqa: E402
+from stampede.calibrate.problem import Camera, FixedBoard, Seen, start  # noqa: E402
 from stampede.calibrate.solve import least_squares  # noqa: E402
 from stampede.recordings import convert  # noqa: E402
 from stampede.robots import robot_of  # noqa: E402
@@ -36,7 +37,7 @@ SECONDS = 14
 def lab(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
     folder = tmp_path_factory.mktemp("lab") / "laboratory"
     truth = laboratory.record(folder, 5, SECONDS)
-    at = " ".join(map(str, laboratory.BASE))
+    at = " ".join(map(str, laboratory_scripts.BASE))
     convert(["mcap", str(folder / "bag"), "--out", str(folder / "recording"), "--base", at], tell=lambda line: None)
     return folder / "recording", truth
 

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from laboratory import BASE, DICTIONARY, MARKER_M, SQUARE_M, SQUARES, Truth, record, torque_errors
+from laboratory import Truth, record, torque_errors
+from laboratory_scripts import BASE, DICTIONARY, MARKER_M, SQUARE_M, SQUARES
 
 from stampede import torque_noise
 from stampede.calibrate import calibrate

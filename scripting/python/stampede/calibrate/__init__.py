@@ -18,9 +18,11 @@ import numpy as np
 from stampede.calibrate.apply import apply, write_whole
 from stampede.calibrate.boards import Board, sightings
 from stampede.calibrate.bundle import Bundle, CameraResult, Result
-from stampede.calibrate.lens import Lens, find_lens, lens_from
+from stampede.calibrate.lens import find_lens, lens_from
+from stampede.calibrate.options import parse
 from stampede.calibrate.recorded import Recording
-from stampede.calibrate.setup import Camera, FixedBoard, Seen, locate, start
+from stampede.calibrate.problem import Camera, FixedBoard, Seen, locate, start
+from stampede.calibrate.words import lens_words, pose_words
 from stampede.export.steps import matrices
 from stampede.faults import fault, unknown
 from stampede.robots import Robot
@@ -35,7 +37,7 @@ _ENDINGS = (".png", ".jpg", ".jpeg")
 
 def calibrate(arguments: Sequence[str] | None = None) -> tuple[str, Json]:
     """Runs the command line; gives what it found, in words and as JSON. Raises Error for bad input."""
-    options = _parse(arguments)
+    options = parse(arguments)
     words, report = (_intrinsics if options.what == "intrinsics" else _extrinsics)(options)
     return (json.dumps(report, indent=1) if options.json else words), report
 
@@ -64,7 +66,7 @@ def _intrinsics(options: argparse.Namespace) -> tuple[str, Json]:
     lens = find_lens([one for _, one in seen], size, str(source), options.k3)
     out = Path(options.out) if options.out else (source if is_recording else Path()) / _LENSES
     _put_lens(out, lens.entry(camera))
-    return _lens_words(camera, lens, out), {
+    return lens_words(camera, lens, out), {
         "camera": lens.entry(camera),
         "rms_pixels": lens.rms,
         "pictures": lens.pictures,
@@ -77,29 +79,6 @@ def _put_lens(file: Path, entry: Json) -> None:
     """Into a file of lenses, where another camera's stay."""
     known = json.loads(file.read_text()).get("cameras", []) if file.is_file() else []
     write_whole(file, {"cameras": [one for one in known if one.get("name") != entry["name"]] + [entry]})
-
-
-def _lens_words(camera: str, lens: Lens, out: Path) -> str:
-    d = lens.deviations
-    assert d is not None and lens.errors is not None
-    bent = "  ".join(
-        f"{name} {value:.4f} ± {sd:.4f}"
-        for name, value, sd in zip(("k1", "k2", "p1", "p2", "k3"), lens.distortion, d[4:], strict=True)
-    )
-    return "\n".join(
-        [
-            f"camera {camera}: {lens.width} x {lens.height}, {lens.pictures} pictures, reprojection error "
-            f"{lens.rms:.3f} pixels "
-            f"(worst picture {lens.errors.max():.3f})",
-            f"  focal length {lens.focal[0]:.2f} ± {d[0]:.2f}, {lens.focal[1]:.2f} ± {d[1]:.2f} pixels",
-            f"  centre {lens.centre[0]:.2f} ± {d[2]:.2f}, {lens.centre[1]:.2f} ± {d[3]:.2f} pixels",
-            f"  distortion {bent}",
-            f"  written to {out}",
-        ]
-    )
-
-
-# Poses
 
 
 def _extrinsics(options: argparse.Namespace) -> tuple[str, Json]:
@@ -132,7 +111,7 @@ def _extrinsics(options: argparse.Namespace) -> tuple[str, Json]:
         write_whole(Path(options.out), {"cameras": report["camera_file"]})
     if options.apply or options.apply_joints:
         apply(recording, result, report, with_joints=options.apply_joints)
-    return _pose_words(result, recording), report
+    return pose_words(result, recording), report
 
 
 def _boards(options: argparse.Namespace, robot: Robot) -> list[FixedBoard]:
@@ -262,30 +241,6 @@ def _clock(one: CameraResult, recording: Recording) -> Json:
     }
 
 
-def _pose_words(result: Result, recording: Recording) -> str:
-    lines = []
-    for one in result.cameras:
-        at, sd = 1e3 * one.pose[:3, 3], one.pose_deviation
-        lines += [
-            f"camera {one.name} on {one.mount}: {one.pictures} pictures, {one.corners} corners, reprojection error "
-            f"{one.rms:.3f} pixels (median {one.median:.3f})",
-            f"  at {at[0]:.1f} {at[1]:.1f} {at[2]:.1f} mm, ± {1e3 * sd[:3].max():.1f} mm, ± "
-            f"{np.degrees(sd[3:].max()):.3f} degrees",
-            f"  clock: {1e3 * one.offset_s:+.2f} ± {1e3 * one.offset_deviation_s:.2f} ms, "
-            f"{one.drift_ppm:+.0f} ± {one.drift_deviation_ppm:.0f} ppm",
-            f"  focal length {one.lens.focal[0]:.2f} ± {one.lens_deviation[0]:.2f}, centre {one.lens.centre[0]:.2f} "
-            f"{one.lens.centre[1]:.2f} ± {one.lens_deviation[2:4].max():.2f} pixels",
-            "  worst pictures: " + ", ".join(f"{rms:.2f} pixels at {time:.2f} s" for time, rms in one.worst),
-        ]
-    lines.append("joints, to be added to what they read:")
-    for name, offset, sd, free in zip(
-        recording.robot.arm, result.offsets, result.offset_deviations, result.freed, strict=True
-    ):
-        found = f"{np.degrees(offset):+.3f} ± {np.degrees(sd):.3f} degrees" if free else "taken as it is"
-        lines.append(f"  {name}: {found}")
-    return "\n".join(lines)
-
-
 def _numbers(values: Any) -> list[float]:
     return [float(one) for one in values]
 
@@ -312,49 +267,3 @@ def _pair(text: str, flag: str) -> tuple[float, float]:
     if not (first > 0 and second > 0):
         raise fault(flag, f"'{text}' is no pair of numbers above 0", f"{flag} 0.0005,0.05")
     return first, second
-
-
-def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m stampede.calibrate", description=__doc__.partition("\n")[0])
-    kinds = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
-    lens = kinds.add_parser("intrinsics", help="focal length, centre and distortion")
-    poses = kinds.add_parser("extrinsics", help="where cameras are; clocks; joints")
-    for one in (lens, poses):
-        one.add_argument(
-            "source", metavar="SOURCE", help="a recording folder" + (", or one of pictures" if one is lens else "")
-        )
-        one.add_argument(
-            "--board",
-            action="append",
-            required=True,
-            help="charuco:5x4:0.05:0.037:4X4_50 (squares, m), "
-            "checkerboard:9x6:0.025, aruco:7:0.08:4X4_50; for extrinsics with @LINK or @world (default: @hand)",
-        )
-        one.add_argument(
-            "--camera", action="append", default=[], help="name; for extrinsics with @LINK (default: @world)"
-        )
-        one.add_argument(
-            "--most", type=int, default=300, help="pictures looked at, evenly chosen (default: %(default)s)"
-        )
-        one.add_argument("--out", metavar="FILE", help="a camera file")
-        one.add_argument("--json", action="store_true")
-    lens.add_argument("--k3", action="store_true", help="look for k3 too: wide lenses")
-    poses.add_argument("--lens", metavar="FILE", help="camera file with the lenses (default: that of the recording)")
-    poses.add_argument("--keep-lens", action="store_true", help="do not refine it")
-    poses.add_argument("--keep-joints", action="store_true", help="joints read the truth")
-    poses.add_argument(
-        "--search", type=float, default=0.5, metavar="S", help="clocks differ by at most so much (default: %(default)s)"
-    )
-    poses.add_argument(
-        "--board-at",
-        action="append",
-        default=[],
-        metavar="'N=X Y Z QX QY QZ QW'",
-        help="the N-th board's pose in its mount is known: frees the first or last joint's offset",
-    )
-    poses.add_argument("--board-sd", default="0.0005,0.05", metavar="M,DEGREES", help="how well (default: %(default)s)")
-    poses.add_argument("--apply", action="store_true", help="write cameras and clocks into the recording")
-    poses.add_argument(
-        "--apply-joints", action="store_true", help="and correct its joint positions; those measured are kept"
-    )
-    return parser.parse_args(arguments)

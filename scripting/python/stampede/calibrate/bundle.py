@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from stampede.calibrate.lens import Lens
 from stampede.calibrate.poses import inverse, moved, step_between
 from stampede.calibrate.recorded import JointStates
-from stampede.calibrate.setup import Camera, FixedBoard, Seen
+from stampede.calibrate.problem import Camera, FixedBoard, Seen
 from stampede.calibrate.solve import least_squares
 from stampede.robots import Robot
 
