@@ -1,0 +1,57 @@
+// What the author's own sentences vouch for, gathered once for many candidates.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scripting/language/reference_parser.h"
+
+namespace stampede {
+
+// What tells variations apart: senses that some variation's sentences have and another's have not.
+struct Marks {
+  std::set<std::string> telling;
+  std::set<std::string> ours;  // of these, said of this variation
+  std::vector<std::vector<std::string>> own;   // by sentence: in the order in which they come true
+  std::vector<std::set<std::string>> theirs;   // by variation
+};
+// Those that a sentence says, the first time that it says each.
+std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling);
+
+struct Claims {
+  std::vector<Reading> own;
+  std::set<std::string> senses;     // of all content words
+  std::set<std::string> verbs;
+  std::set<std::pair<std::string, std::string>> attributes;  // (red, mark), (wooden, box)
+  std::map<std::string, std::set<int>> counts;               // of a noun, and of `noun role`
+  std::set<std::vector<std::string>> segments;               // whole stretches, as content
+  std::vector<std::set<std::string>> colours;                // by sentence
+  std::set<std::pair<std::string, std::string>> places;      // that belong to no noun, with the word before: (the, top)
+  bool others = false;                                       // `the other cups` have a part in it
+  std::set<std::string> relations, directions;               // behind; up, out
+  std::set<std::pair<std::string, std::string>> roles;       // (object, cube), (to, drawer)
+  std::vector<std::vector<std::string>> numbers;             // by sentence: those that count no thing, with what follows
+  std::vector<std::vector<Mention>> wanted;                  // by sentence: mentions of wanted things
+  Marks marks;
+};
+Claims claims_of(const Meaning& meaning);
+
+// Where things are put that `on` and `in` do not say: behind, under, beside …
+std::set<std::string> relations_in(const Reading& reading);
+// What is done, of pairs of opposites: open close, up down, in out, switch_on switch_off, push pull …
+std::set<std::string> directions_in(const Reading& reading);
+std::string opposite_of(const std::string& direction);  // empty: none
+
+// Numbers that belong to no noun: `three, then two, then one`.
+std::vector<std::string> free_numbers(const Reading& reading);
+
+std::set<std::string> colours_in(const Reading& reading);
+std::set<std::pair<std::string, std::string>> free_places(const Reading& reading);
+
+// Any of the things that a mention may be; with `of_kind` one of them is such.
+bool may_be(const Mention& mention, const Meaning& meaning, bool SpokenThing::*of_kind);
+
+}  // namespace stampede

@@ -1,0 +1,256 @@
+#include "scripting/language/meaning.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/episode/language.h"
+#include "engine/symbolic/pddl.h"
+#include "scripting/session/start_question.h"
+#include "scripting/session/episode_job.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::int64_t kStarts = 4;  // what differs among so many is not said of a variation
+
+// Skills that end or begin a thing's being somewhere: of the thing, and of the place.
+const std::set<std::string> kTakes = {"pick", "take_out", "extract", "unhang", "take_from_shelf"};
+const std::set<std::string> kPuts = {"place", "put_in", "put_on_shelf", "set_down", "lay", "drop", "stack", "insert", "hang"};
+const std::set<std::string> kMoves = {"lift", "drag", "push", "unscrew"};
+
+std::vector<std::string> name_words(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
+  std::istringstream in(name);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+bool is_general(const std::string& type) {
+  static const std::set<std::string> kGeneral = {"thing", "fixture", "region", "furniture", "level", "object", ""};
+  return kGeneral.contains(type);
+}
+
+class ThingReader {
+ public:
+  ThingReader(const Domain& domain, Lexicon& lexicon) : domain_(domain), lexicon_(lexicon) {}
+
+  SpokenThing read(const Scene& scene, const Object& object) {
+    SpokenThing thing;
+    thing.name = object.name;
+    thing.phrase = phrase(scene, object.name);
+    const std::size_t dot = object.name.rfind('.');
+    add(object.name.substr(dot == std::string::npos ? 0 : dot + 1), thing, true);
+    if (dot == std::string::npos) add(object.class_name, thing, true);
+    for (std::string type = object.type; !is_general(type); type = parent(type)) add(type, thing, true);
+    if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end()) {
+      lexicon_.learn_colour(colour->second);
+      thing.colours.insert(colour->second);
+    }
+    if (dot == std::string::npos) return thing;
+    const Object* whole = scene.object(object.name.substr(0, dot));
+    if (whole == nullptr) return thing;
+    const SpokenThing owner = read(scene, *whole);
+    thing.words.insert(owner.words.begin(), owner.words.end());
+    thing.colours.insert(owner.colours.begin(), owner.colours.end());
+    return thing;
+  }
+
+ private:
+  std::string parent(const std::string& type) const {
+    const auto found = domain_.types.find(type);
+    return found == domain_.types.end() ? "" : found->second;
+  }
+
+  // The last word names the thing, those before it tell it from others.
+  void add(const std::string& name, SpokenThing& thing, bool names) {
+    lexicon_.learn_noun(name);
+    const std::vector<std::string> words = name_words(name);
+    for (const std::string& word : words) thing.words.insert(lexicon_.sense_of_noun(word));
+    if (names && !words.empty()) thing.heads.insert(lexicon_.sense_of_noun(words.back()));
+  }
+
+  const Domain& domain_;
+  Lexicon& lexicon_;
+};
+
+void read_things(const Domain& domain, const Scene& scene, Meaning& meaning) {
+  ThingReader reader(domain, meaning.lexicon);
+  for (const Object& object : scene.objects)
+    if (object.kind != ObjectKind::hand) meaning.things.push_back(reader.read(scene, object));
+}
+
+// What another start of the variation has otherwise is said of none.
+void keep_common(const Scene& scene, Meaning& meaning) {
+  std::erase_if(meaning.things, [&](const SpokenThing& thing) { return scene.object(thing.name) == nullptr; });
+  for (SpokenThing& thing : meaning.things) {
+    std::set<std::string> colours;
+    for (std::string name = thing.name; !name.empty();) {
+      const Object* object = scene.object(name);
+      if (object != nullptr && object->attributes.contains("colour")) colours.insert(object->attributes.at("colour"));
+      const std::size_t dot = name.rfind('.');
+      name = dot == std::string::npos ? "" : name.substr(0, dot);
+    }
+    std::erase_if(thing.colours, [&](const std::string& colour) { return !colours.contains(colour); });
+  }
+}
+
+void atoms_of(const Formula& formula, std::vector<Fact>& atoms) {
+  if (formula.kind == Formula::Kind::negation || formula.kind == Formula::Kind::exists ||
+      formula.kind == Formula::Kind::forall)
+    return;
+  if (formula.kind == Formula::Kind::atom) {
+    Fact fact{formula.predicate, {}};
+    for (const Term& term : formula.terms) fact.arguments.push_back(term.name);
+    atoms.push_back(fact);
+  }
+  for (const Formula& part : formula.parts) atoms_of(part, atoms);
+}
+
+class RoleMarker {
+ public:
+  explicit RoleMarker(Meaning& meaning) : meaning_(meaning) {}
+
+  void mark(const std::string& name, bool SpokenThing::*role) {
+    for (SpokenThing& thing : meaning_.things) {
+      const bool is_whole = name.starts_with(thing.name + ".");
+      const bool is_part = thing.name.starts_with(name + ".") && role != &SpokenThing::moved && role != &SpokenThing::handled;
+      if (thing.name == name || is_whole || is_part) thing.*role = true;
+    }
+  }
+
+ private:
+  Meaning& meaning_;
+};
+
+std::string skill_of(const Domain& domain, const std::string& action) {
+  const Action* found = domain.action(action);
+  return found == nullptr ? action : found->skill;
+}
+
+// `assumed`: of what nobody can see; what a plan does because of it is not said.
+void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, const Formula& goal, Meaning& meaning) {
+  RoleMarker roles(meaning);
+  std::vector<Fact> atoms;
+  atoms_of(goal, atoms);
+  for (const Fact& atom : atoms)
+    if (!facts.contains(atom))
+      for (std::size_t i = 0; i < atom.arguments.size(); ++i) {
+        roles.mark(atom.arguments[i], &SpokenThing::wanted);
+        roles.mark(atom.arguments[i], i == 0 ? &SpokenThing::handled : &SpokenThing::destination);
+      }
+  std::set<std::string> guessed, carried, sources, destinations;
+  for (const Fact& fact : assumed)
+    for (std::size_t i = 1; i < fact.arguments.size(); ++i) {
+      guessed.insert(fact.arguments[i]);
+      const std::string whole = fact.arguments[i].substr(0, fact.arguments[i].find('.'));
+      for (const auto role : {&SpokenThing::wanted, &SpokenThing::source})
+        for (SpokenThing& thing : meaning.things)
+          if (thing.name == whole) thing.*role = true;
+    }
+  for (PlanStep& step : meaning.steps) {
+    step.action = skill_of(domain, step.action);
+    meaning.skills.insert(step.action);
+    for (const std::string& name : step.arguments)
+      if (!guessed.contains(name)) roles.mark(name, &SpokenThing::wanted);
+    if (step.arguments.empty()) continue;
+    roles.mark(step.arguments.front(), &SpokenThing::handled);
+    const bool takes = kTakes.contains(step.action);
+    if (takes || kPuts.contains(step.action) || kMoves.contains(step.action))
+      roles.mark(step.arguments.front(), &SpokenThing::moved), carried.insert(step.arguments.front());
+    for (std::size_t i = 1; i < step.arguments.size(); ++i)
+      if (!guessed.contains(step.arguments[i])) {
+        roles.mark(step.arguments[i], takes ? &SpokenThing::source : &SpokenThing::destination);
+        (takes ? sources : destinations).insert(step.arguments[i]);
+      }
+  }
+  // A door's handle: a part beside what is handled, of another kind.
+  for (SpokenThing& thing : meaning.things) {
+    const std::size_t dot = thing.name.rfind('.');
+    if (dot == std::string::npos || thing.wanted) continue;
+    bool beside = false, alike = false;
+    for (const SpokenThing& other : meaning.things) {
+      if (!other.wanted || other.name.rfind('.') == std::string::npos) continue;
+      beside |= other.name.substr(0, other.name.rfind('.')) == thing.name.substr(0, dot);
+      alike |= std::any_of(thing.heads.begin(), thing.heads.end(), [&](const auto& head) { return other.heads.contains(head); });
+    }
+    thing.accessory = beside && !alike;
+  }
+  for (SpokenThing& thing : meaning.things) thing.wanted |= thing.accessory;
+  // A lid is a part of the jar that it is taken off, and not where it is taken from.
+  for (SpokenThing& thing : meaning.things) {
+    if (!carried.contains(thing.name)) continue;
+    thing.source = thing.source && sources.contains(thing.name);
+    thing.destination = thing.destination && destinations.contains(thing.name);
+  }
+}
+
+void learn_sentences(Meaning& meaning) {
+  for (const std::string& sentence : meaning.own) meaning.lexicon.learn_own(sentence);
+  // Words of other variations are known, so that what they say is turned down for what it says.
+  for (const OwnSentences& other : meaning.elsewhere)
+    for (const std::string& sentence : other.sentences) meaning.lexicon.learn_own(sentence);
+}
+
+Scene drawn_scene(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
+                  std::int64_t seed) {
+  return EpisodeScripts(library, task, variation, seed).task()(0).scene;
+}
+
+}  // namespace
+
+std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& library, const std::string& task) {
+  std::vector<OwnSentences> all;
+  for (const std::string& variation : task_info(*library, task).variation_texts)
+    all.push_back({variation, EpisodeScripts(library, task, variation, 0).task()(0).instructions});
+  return all;
+}
+
+Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
+                   std::int64_t seed, const std::vector<OwnSentences>& all) {
+  Meaning meaning;
+  meaning.task = task;
+  meaning.variation = variation;
+  RunOptions options;
+  options.seed = seed;
+  PreparedEpisode prepared(library, {task, variation, seed}, options);
+  const StartQuestion question = question_at_start(prepared.scripts(), prepared.options(), nullptr);
+  const std::string place = task + (variation.empty() ? "" : " " + variation);
+  if (question.start.reason != Reason::none)
+    throw Error(place, "no start: " + std::string(to_string(question.start.reason)) + " " + question.start.detail,
+                "try another --seed");
+  const PlanOutcome found = question.said ? *question.said : solve(question.asked.domain, question.asked.problem);
+  if (!found.solved) throw Error(place, "no plan: " + found.explanation, "try another --seed");
+  const Domain& domain = prepared.scripts().symbols().domain();
+  read_things(domain, *question.start.scene, meaning);
+  for (std::int64_t i = 1; i < kStarts; ++i) keep_common(drawn_scene(library, task, variation, seed + i), meaning);
+  meaning.steps = found.plan;
+  read_roles(question.asked.domain, question.state.facts, question.assumed, question.plain.goal, meaning);
+  meaning.goal = to_pddl(question.plain.goal);
+  meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
+  meaning.facts = describe_world(question.state.facts, domain, *question.start.scene);
+  for (const OwnSentences& one : all) {
+    if (one.variation == variation) meaning.own = one.sentences;
+    else meaning.elsewhere.push_back(one);
+  }
+  learn_sentences(meaning);
+  return meaning;
+}
+
+Meaning meaning_of_label(const std::string& name, const std::string& label, const std::string& skill) {
+  Meaning meaning;
+  meaning.task = name;
+  meaning.slots = true;
+  meaning.own = {label};
+  if (!skill.empty()) meaning.skills.insert(skill);
+  for (std::size_t at = label.find('{'); at != std::string::npos; at = label.find('{', at + 1)) {
+    const std::string slot = label.substr(at, label.find('}', at) - at + 1);
+    meaning.things.push_back({slot, slot, {slot}, {slot}, {}, true, true, false, false, true, true});
+  }
+  learn_sentences(meaning);
+  return meaning;
+}
+
+}  // namespace stampede

@@ -1,0 +1,62 @@
+// What a sentence has to mean: the things of the scene, what is to be done with them, and how its author says it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/symbolic/task_planner.h"
+#include "scripting/language/lexicon.h"
+
+namespace stampede {
+
+class Library;
+
+// A thing as it can be spoken of: senses of words, in the sense of Lexicon.
+struct SpokenThing {
+  std::string name;               // `chest.top_drawer`
+  std::string phrase;             // `top drawer of the chest`, at the start that was made
+  std::set<std::string> heads;    // nouns that name it: `drawer`
+  std::set<std::string> words;    // all words of its names, its whole's too: top drawer chest
+  std::set<std::string> colours;  // that it has in every start of the variation
+  bool wanted = false;            // the goal or the plan handles it, or a part of it
+  bool handled = false;           // a step is about it: pressed, opened, carried …
+  bool moved = false;             // the plan carries it somewhere
+  bool accessory = false;         // a part that helps: the handle of what is opened
+  bool source = false, destination = false;  // of what is moved
+};
+
+// The sentences of one of the task's variations.
+struct OwnSentences {
+  std::string variation;
+  std::vector<std::string> sentences;
+};
+
+struct Meaning {
+  std::string task, variation;  // of a skill's or predicate's label: its name, and nothing
+  std::vector<std::string> own;          // the author's sentences
+  std::vector<OwnSentences> elsewhere;   // of the other variations
+  std::vector<SpokenThing> things;
+  Plan steps;                            // what does it; empty where nothing has to be done
+  std::set<std::string> skills;          // of the steps
+  bool ordered = false;                  // the goal's parts must come true in their order
+  bool slots = false;                    // the sentences speak of {slots} in place of things
+  std::string goal;                      // as PDDL, for prompts
+  std::vector<std::string> facts;        // of the start, as sentences, for prompts
+  Lexicon lexicon;                       // with the words of all these
+};
+
+// The author's sentences of every variation of a task.
+std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& library, const std::string& task);
+
+// Of a variation: what is said of its things holds in several starts (seeds `seed` to `seed` + 3). Makes one start in
+// physics, as `stampede plan` does. `all`: of sentences_of. Throws Error where no start or no plan is found.
+Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
+                   std::int64_t seed, const std::vector<OwnSentences>& all);
+
+// Of a label with slots, such as a skill's `pick up the {obj}`; `skill`: whose it is, or empty.
+Meaning meaning_of_label(const std::string& name, const std::string& label, const std::string& skill);
+
+}  // namespace stampede

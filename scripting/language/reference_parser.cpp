@@ -1,0 +1,283 @@
+#include "scripting/language/reference_parser.h"
+
+#include <algorithm>
+
+namespace stampede {
+namespace {
+
+const std::set<std::string> kJoins = {"and",   "then",    "but",  "while", "until", "so",  "because",
+                                      "after", "before",  "once", "when",  "or",    "if"};
+const std::set<std::string> kPrepositions = {
+    "on",    "onto",   "upon",  "in",      "into",  "inside", "within", "to",      "from",   "off",
+    "outof", "of",     "with",  "at",      "over",  "above",  "under",  "below",   "beneath", "behind",      "beside",
+    "near",  "between", "around", "through", "against", "across", "toward", "towards", "along", "before-thing", "by", "for"};
+
+bool is_article(const std::string& word) {
+  static const std::set<std::string> kArticles = {"a",    "an",    "the",  "its",  "their", "this", "that", "these",
+                                                  "those", "your", "each", "every", "all",  "any",  "same", "own", "both"};
+  return kArticles.contains(word);
+}
+
+bool is_pronoun_one(const std::vector<Word>& words, std::size_t i) {
+  if (words[i].text == "ones") return true;
+  if (words[i].text != "one" || i == 0 || words[i].before != ' ') return false;
+  if (i + 1 < words.size() && words[i + 1].before == ' ' &&
+      (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour || words[i + 1].kind == WordKind::adjective))
+    return false;  // `the one cup`
+  const Word& last = words[i - 1];
+  return is_article(last.text) || last.text == "other" || last.text == "which" || last.kind == WordKind::colour ||
+         last.kind == WordKind::place || last.kind == WordKind::adjective;
+}
+
+std::vector<Segment> segments_of(const std::vector<Word>& words) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool joins = kJoins.contains(words[i].text) || words[i].text == "afterwards";
+    if (i == 0 || words[i].before != ' ' || joins) {
+      if (!segments.empty()) segments.back().end = i;
+      // `, and then after` is one border
+      if (!segments.empty() && segments.back().end - segments.back().begin <= 1 &&
+          kJoins.contains(words[segments.back().begin].text) && words[i].before == ' ') {
+        if (words[i].text == "after" || words[i].text == "before") segments.back().intro = words[i].text;
+        segments.back().end = words.size();
+        continue;
+      }
+      segments.push_back({i, words.size(), joins ? words[i].text : "", {}, false, false});
+    }
+  }
+  for (Segment& segment : segments) {
+    for (std::size_t i = segment.begin; i < segment.end; ++i) {
+      const Word& word = words[i];
+      segment.negated |= word.kind == WordKind::negation;
+      segment.excluding |= word.kind == WordKind::exclusion && word.sense != "other";
+      if (word.text == "spare" || word.text == "alone" || word.text == "untouched") segment.excluding = true;
+    }
+    for (std::size_t i = segment.begin; i < segment.end; ++i) {
+      if (words[i].kind == WordKind::verb) {
+        segment.verb = i;
+        break;
+      }
+      if (words[i].kind == WordKind::noun || words[i].kind == WordKind::own || words[i].kind == WordKind::colour) break;
+    }
+  }
+  return segments;
+}
+
+std::vector<std::size_t> order_in_time(const std::vector<Word>& words, const std::vector<Segment>& segments) {
+  std::vector<std::size_t> order;
+  std::optional<std::size_t> waiting;  // `before putting it in, open the drawer`
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& segment = segments[i];
+    bool first = false;
+    for (std::size_t k = segment.begin; k < segment.end; ++k)
+      first |= words[k].kind == WordKind::order && words[k].sense == "first";
+    if (segment.intro == "after" && !order.empty()) {
+      order.insert(order.end() - 1, i);
+    } else if (segment.intro == "before" && order.empty() && i + 1 < segments.size()) {
+      waiting = i;
+      continue;
+    } else if (first) {
+      order.insert(order.begin(), i);
+    } else {
+      order.push_back(i);
+    }
+    if (waiting) order.push_back(*std::exchange(waiting, std::nullopt));
+  }
+  if (waiting) order.push_back(*waiting);
+  return order;
+}
+
+std::optional<int> number_of(const Word& word) {
+  if (word.kind != WordKind::number || word.sense.size() > 4) return std::nullopt;
+  int value = 0;
+  for (const char c : word.sense) {
+    if (c < '0' || c > '9') return std::nullopt;
+    value = 10 * value + (c - '0');
+  }
+  return value;
+}
+
+class MentionReader {
+ public:
+  MentionReader(Reading& reading, const Meaning& meaning) : reading_(reading), meaning_(meaning) {}
+
+  void read() {
+    std::size_t segment = 0;
+    for (std::size_t i = 0; i < reading_.words.size(); ++i) {
+      while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment;
+      step(i, segment);
+    }
+    for (std::size_t i = 0; i < reading_.mentions.size(); ++i) {
+      resolve(reading_.mentions[i]);
+      reading_.mentions[i].role = role_of(i);
+    }
+  }
+
+ private:
+  void step(std::size_t i, std::size_t segment) {
+    const Word& word = reading_.words[i];
+    const bool one = is_pronoun_one(reading_.words, i);
+    const bool others = word.text == "others" || word.text == "rest" || word.text == "remaining";
+    if (word.kind == WordKind::noun || one || others) {
+      begin_at(i);
+      const bool more = !one && !others && i + 1 < reading_.words.size() && reading_.words[i + 1].before == ' ' &&
+                        reading_.words[i + 1].kind == WordKind::noun && !word.plural;
+      if (more) {
+        open_.modifiers.insert(word.sense);
+        return;
+      }
+      finish(i, segment, one || others);
+      return;
+    }
+    if (word.kind == WordKind::colour) {
+      if (reading_.mentions.empty() || !describes_last(i)) {
+        begin_at(i);
+        open_.colours.push_back(word.sense);
+      } else {
+        reading_.mentions.back().colours.push_back(word.sense);  // `blocks that are red`
+      }
+      return;
+    }
+    if (word.kind == WordKind::place) return begin_at(i), open_.places.push_back(word.sense);
+    if (word.kind == WordKind::adjective) return begin_at(i), open_.adjectives.push_back(word.sense);
+    if (word.kind == WordKind::number) return begin_at(i), open_.count = number_of(word), void();
+    if (word.kind == WordKind::exclusion && word.sense == "other") return begin_at(i), open_.other = true, void();
+    if (is_article(word.text) && !(word.text == "that" && i > 0 && reading_.words[i - 1].kind == WordKind::noun)) {
+      begin_at(i);
+      if (word.text == "both") open_.count = 2;
+      return;
+    }
+    if (kPrepositions.contains(word.text)) {
+      const std::optional<int> part = word.text == "of" ? open_.count : std::nullopt;
+      open_ = {};
+      begun_ = false;
+      if (part) part_of_ = part;  // `three of the blocks`
+      preposition_ = word.text;
+      return;
+    }
+    aside_ |= (word.text == "that" || word.text == "which") && i > 0 && reading_.words[i - 1].kind == WordKind::noun;
+    if (word.kind == WordKind::verb || word.kind == WordKind::own) {
+      open_ = {};
+      begun_ = false;
+      preposition_.clear();
+    }
+  }
+
+  std::string role_of(std::size_t i) const {
+    static const std::map<std::string, std::string> kRoles = {
+        {"on", "to"},     {"onto", "to"},   {"upon", "to"},    {"in", "to"},      {"into", "to"},     {"inside", "to"},
+        {"within", "to"}, {"to", "to"},     {"at", "to"},      {"toward", "to"},  {"towards", "to"},  {"from", "from"},
+        {"off", "from"},  {"outof", "from"}, {"of", "of"},     {"with", "with"},  {"by", "with"}};
+    const Mention& mention = reading_.mentions[i];
+    const Segment& segment = reading_.segments[mention.segment];
+    if (mention.head + 1 < reading_.words.size() && reading_.words[mention.head + 1].text == "'s") return "of";
+    if (!mention.preposition.empty()) {
+      const auto found = kRoles.find(mention.preposition);
+      const std::string role = found == kRoles.end() ? mention.preposition : found->second;
+      const bool of_verb = role != "of" && segment.verb && *segment.verb < mention.first;
+      return of_verb ? role + " " + reading_.words[*segment.verb].sense : role;
+    }
+    if (segment.verb && *segment.verb < mention.first) return "object " + reading_.words[*segment.verb].sense;
+    // `the bowl, the fork and the glass`
+    const bool listed = i > 0 && segment.begin > 0 && reading_.words[segment.begin].before != ':' &&
+                        reading_.words[segment.begin].before != ';' && !verb_in(segment);
+    return listed ? reading_.mentions[i - 1].role : "subject";
+  }
+
+  bool verb_in(const Segment& segment) const {
+    for (std::size_t k = segment.begin; k < segment.end; ++k)
+      if (reading_.words[k].kind == WordKind::verb || reading_.words[k].text == "is" || reading_.words[k].text == "are")
+        return true;
+    return false;
+  }
+
+  // `blocks that are red`, `the box is blue`
+  bool describes_last(std::size_t i) const {
+    static const std::set<std::string> kIs = {"is", "are", "coloured", "colored", "painted"};
+    return i > 0 && kIs.contains(reading_.words[i - 1].text);
+  }
+
+  void begin_at(std::size_t i) {
+    if (begun_) return;
+    open_.first = i;
+    begun_ = true;
+  }
+
+  void finish(std::size_t head, std::size_t segment, bool pronoun) {
+    const Word& word = reading_.words[head];
+    open_.head = head;
+    open_.segment = segment;
+    open_.preposition = preposition_;
+    open_.plural = word.plural || word.text == "ones" || word.text == "others";
+    open_.other |= word.text == "others" || word.text == "rest" || word.text == "remaining";
+    open_.sense = pronoun ? (reading_.mentions.empty() ? "" : reading_.mentions.back().sense) : word.sense;
+    if (part_of_) {
+      open_.partitive = true;
+      if (!open_.count) open_.count = part_of_;
+      else if (preposition_ == "of") open_.count = part_of_;  // `two of the three blocks`: two
+    } else if (preposition_ == "of" && open_.plural) {
+      open_.partitive = true;
+    }
+    open_.aside = std::exchange(aside_, false);
+    part_of_.reset();
+    reading_.mentions.push_back(std::move(open_));
+    open_ = {};
+    begun_ = false;
+    preposition_.clear();
+  }
+
+  // Things whose names fit: those that the noun names, or else those of which it is a word at all.
+  void resolve(Mention& mention) const {
+    for (const bool by_head : {true, false}) {
+      for (const SpokenThing& thing : meaning_.things) {
+        if (!(by_head ? thing.heads : thing.words).contains(mention.sense)) continue;
+        const bool modified = std::all_of(mention.modifiers.begin(), mention.modifiers.end(), [&](const auto& word) {
+          return thing.words.contains(word) || !meaning_names(word);
+        });
+        const bool placed = std::all_of(mention.places.begin(), mention.places.end(), [&](const auto& word) {
+          return thing.words.contains(word) || !meaning_names(word);
+        });
+        if (modified && placed) mention.things.push_back(thing.name);
+      }
+      mention.by_head = by_head;
+      if (!mention.things.empty()) return;
+    }
+  }
+
+  bool meaning_names(const std::string& word) const {
+    return std::any_of(meaning_.things.begin(), meaning_.things.end(),
+                       [&](const SpokenThing& thing) { return thing.words.contains(word); });
+  }
+
+  Reading& reading_;
+  const Meaning& meaning_;
+  Mention open_;
+  bool begun_ = false, aside_ = false;
+  std::string preposition_;
+  std::optional<int> part_of_;
+};
+
+}  // namespace
+
+Reading read_sentence(const std::string& sentence, const Meaning& meaning) {
+  Reading reading;
+  reading.words = meaning.lexicon.read(sentence);
+  for (std::size_t i = 0; i < reading.words.size(); ++i)
+    if (is_pronoun_one(reading.words, i)) reading.words[i].kind = WordKind::function;
+  reading.segments = segments_of(reading.words);
+  reading.in_time = order_in_time(reading.words, reading.segments);
+  MentionReader(reading, meaning).read();
+  return reading;
+}
+
+std::vector<std::string> content_of(const Reading& reading, std::size_t begin, std::size_t end) {
+  std::vector<std::string> senses;
+  for (std::size_t i = begin; i < end; ++i) {
+    const WordKind kind = reading.words[i].kind;
+    if (kind == WordKind::function || kind == WordKind::harmless || kind == WordKind::order) continue;
+    senses.push_back(reading.words[i].sense);
+  }
+  return senses;
+}
+
+}  // namespace stampede

@@ -1,0 +1,70 @@
+// Whether a sentence says what it has to, as far as words and facts tell.
+//
+// Nothing is believed: a word that nobody knows, a thing that is not there, an attribute that no fact bears out turn a
+// sentence down. What tells the task's variations apart must be said as its author says it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scripting/language/meaning.h"
+#include "scripting/language/claims.h"
+#include "scripting/language/reference_parser.h"
+
+namespace stampede {
+
+enum class Rejection {
+  too_short,
+  too_long,
+  not_a_sentence,   // nothing is done or said in it, or signs that no sentence has
+  refused,          // the model excuses itself
+  other_language,
+  unknown_word,
+  unknown_thing,    // the scene has none
+  other_thing,      // it is there, and has no part in this
+  missing_thing,    // what has to be named is not
+  wrong_colour,
+  wrong_count,
+  wrong_side,       // left for right, the bottom for the top, behind for on
+  unproved,         // an attribute that no fact bears out
+  other_action,     // what is done is something else, or the opposite
+  swapped_roles,    // the drawer into the cube
+  swapped_order,
+  negated,
+  misses_steps,     // the grain asks for more
+  near_duplicate,   // of the author's, or of one that was taken
+  asked_back,       // the model did not know its own sentence again
+  no_answer,        // the model gave none that can be read
+};
+std::string_view to_string(Rejection reason);
+std::optional<Rejection> rejection_from(std::string_view name);
+
+enum class Grain { goal, steps, motions };
+std::string_view to_string(Grain grain);
+std::optional<Grain> grain_from(std::string_view name);
+
+struct Verdict {
+  std::optional<Rejection> reason;  // nothing: it passes
+  std::string detail;               // for people: which word, which thing
+  bool ok() const { return !reason; }
+};
+
+// The offline checks for one meaning. Repeatable, and quick: well under a millisecond a sentence.
+class SentenceChecker {
+ public:
+  explicit SentenceChecker(Meaning meaning);
+  const Meaning& meaning() const { return meaning_; }
+  Verdict check(const std::string& sentence, Grain grain = Grain::goal) const;
+
+ private:
+  Meaning meaning_;
+  Claims claims_;
+};
+
+// Longest sentence of a grain, in words.
+int most_words(Grain grain);
+
+}  // namespace stampede
