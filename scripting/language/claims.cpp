@@ -136,6 +136,17 @@ std::string opposite_of(const std::string& direction) {
   return "";
 }
 
+std::string role_key(const Reading& reading, const Mention& mention) {
+  if (mention.role.starts_with("object") || mention.role.starts_with("subject")) return mention.role;
+  std::string beside;
+  for (const Mention& other : reading.mentions) {
+    if (&other >= &mention) break;
+    if (other.segment != mention.segment) continue;
+    if (mention.role == "of" || other.role.starts_with("object") || other.role.starts_with("subject")) beside = other.sense;
+  }
+  return mention.role + " " + beside;
+}
+
 std::set<std::string> colours_in(const Reading& reading) {
   std::set<std::string> colours;
   for (const Word& word : reading.words)
@@ -190,9 +201,10 @@ Claims claims_of(const Meaning& meaning) {
     for (const Mention& mention : reading.mentions) {
       for (const auto* words : {&mention.colours, &mention.adjectives, &mention.places})
         for (const std::string& word : *words) claims.attributes.emplace(word, mention.sense);
-      claims.roles.emplace(mention.role, mention.sense);
+      const std::string role = role_key(reading, mention);
+      claims.roles.emplace(role, mention.sense);
       if (mention.by_head)
-        for (const std::string& name : mention.things) claims.roles.emplace(mention.role, name);
+        for (const std::string& name : mention.things) claims.roles.emplace(role, name);
       for (const std::string& word : mention.modifiers) claims.attributes.emplace(word, mention.sense);
       if (mention.count) claims.counts[mention.sense + " " + mention.role].insert(*mention.count);
       if (mention.count) claims.counts[mention.sense].insert(*mention.count);

@@ -32,7 +32,7 @@ struct Claims {
   std::set<std::pair<std::string, std::string>> places;      // that belong to no noun, with the word before: (the, top)
   bool others = false;                                       // `the other cups` have a part in it
   std::set<std::string> relations, directions;               // behind; up, out
-  std::set<std::pair<std::string, std::string>> roles;       // (object, cube), (to, drawer)
+  std::set<std::pair<std::string, std::string>> roles;       // (object put, cube), (to put cube, drawer): see role_key
   std::vector<std::vector<std::string>> numbers;             // by sentence: those that count no thing, with what follows
   std::vector<std::vector<Mention>> wanted;                  // by sentence: mentions of wanted things
   Marks marks;
@@ -48,6 +48,8 @@ std::string opposite_of(const std::string& direction);  // empty: none
 // Numbers that belong to no noun: `three, then two, then one`.
 std::vector<std::string> free_numbers(const Reading& reading);
 
+// A mention's role, with what is handled there or what it is a part of.
+std::string role_key(const Reading& reading, const Mention& mention);
 std::set<std::string> colours_in(const Reading& reading);
 std::set<std::pair<std::string, std::string>> free_places(const Reading& reading);
 

@@ -203,6 +203,7 @@ void Lexicon::learn_noun(std::string_view name) {
   std::string spaced(name);
   std::replace_if(spaced.begin(), spaced.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
   for (const std::string& word : words_in(spaced)) {
+    if (word.size() < 2) continue;  // a square of a board, one of several
     bool plural = false;
     const std::vector<Entry>* known = entries(word, plural, WordKind::noun);
     if (known != nullptr && std::any_of(known->begin(), known->end(), [](const Entry& one) {

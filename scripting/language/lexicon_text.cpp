@@ -79,7 +79,8 @@ noun box: box container crate
 noun bin: bin wastebasket dustbin
 noun rubbish: rubbish trash garbage waste litter
 noun paper: paper
-noun table: table tabletop desk
+noun table: table tabletop
+noun desk: desk
 noun cupboard: cupboard pantry
 noun cabinet: cabinet
 noun fridge: fridge refrigerator
@@ -232,10 +233,13 @@ verb unscrew [unscrew turn]: unscrew untwist
 verb take [pick take_out take_from_shelf extract unhang unscrew lift]: take grab grasp grip get fetch collect seize retrieve pick obtain gather clutch
 verb hold [pick lift]: hold
 verb find [pick take_out reach]: find locate search look identify select choose
-verb remove [extract take_out take_from_shelf unhang pick lift]: remove extract withdraw eject unplug detach unload unpack unhook free empty
+verb remove [extract take_out take_from_shelf unhang pick lift]: remove extract withdraw eject unplug detach unload unpack unhook free
+verb empty []: empty
 verb lift [lift pick open]: lift raise hoist elevate
 verb lower [place set_down lay drop close open]: lower
 verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put place lay set rest deposit store stow leave return deliver transfer move bring carry tuck load pack position arrange tidy replace relocate shift dock shelve bin seat post stick
+verb serve []: serve
+verb setup []: setup
 verb drop [drop]: drop release throw toss
 verb insert [insert put_in place drop]: insert plug fit connect slot-in feed attach
 verb stack [stack place put_in insert]: nest stack pile heap
@@ -247,7 +251,7 @@ verb slide [open close insert push drag put_in]: slide
 verb swing [open close]: swing fold tilt flip
 verb push [push close press press_with insert put_in]: push shove nudge
 verb drag [drag]: drag sweep
-verb turn [turn unscrew open press]: turn rotate twist spin
+verb turn [turn unscrew]: turn rotate twist spin
 verb switch []: switch activate deactivate
 verb point [point]: point direct
 verb reach [reach]: reach touch approach
@@ -276,6 +280,8 @@ verb take-care []: care
 
 const char* const kPhraseText = R"(
 get rid of=remove
+set the table=serve the table
+lay the table=serve the table
 take hold of=take
 get hold of=take
 keep hold of=hold
@@ -288,8 +294,7 @@ usb drive=usb stick
 pick up=take
 picks up=take
 picking up=take
-bookshelf=book shelf
-make sure=ensure
+set up=setup
 a quarter=quarter
 on top of=onto
 in front of=before-thing

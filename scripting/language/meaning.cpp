@@ -11,20 +11,22 @@
 #include "scripting/session/episode_job.h"
 
 namespace stampede {
+
+const std::set<std::string> kTakes = {"pick", "take_out", "extract", "unhang", "take_from_shelf"};
+const std::set<std::string> kPuts = {"place", "put_in", "put_on_shelf", "set_down", "lay", "drop", "stack", "insert", "hang"};
+
 namespace {
 
 constexpr std::int64_t kStarts = 4;  // what differs among so many is not said of a variation
 
-// Skills that end or begin a thing's being somewhere: of the thing, and of the place.
-const std::set<std::string> kTakes = {"pick", "take_out", "extract", "unhang", "take_from_shelf"};
-const std::set<std::string> kPuts = {"place", "put_in", "put_on_shelf", "set_down", "lay", "drop", "stack", "insert", "hang"};
 const std::set<std::string> kMoves = {"lift", "drag", "push", "unscrew"};
 
 std::vector<std::string> name_words(std::string name) {
   std::replace_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
   std::istringstream in(name);
   std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
+  for (std::string word; in >> word;)
+    if (word.size() > 1) words.push_back(word);
   return words;
 }
 
@@ -40,6 +42,7 @@ class ThingReader {
   SpokenThing read(const Scene& scene, const Object& object) {
     SpokenThing thing;
     thing.name = object.name;
+    thing.region = object.kind == ObjectKind::region;
     thing.phrase = phrase(scene, object.name);
     const std::size_t dot = object.name.rfind('.');
     add(object.name.substr(dot == std::string::npos ? 0 : dot + 1), thing, true);
@@ -169,14 +172,14 @@ void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, 
   // A door's handle: a part beside what is handled, of another kind.
   for (SpokenThing& thing : meaning.things) {
     const std::size_t dot = thing.name.rfind('.');
-    if (dot == std::string::npos || thing.wanted) continue;
+    if (dot == std::string::npos || thing.wanted || thing.region) continue;
     bool beside = false, alike = false;
     for (const SpokenThing& other : meaning.things) {
       if (!other.wanted || other.name.rfind('.') == std::string::npos) continue;
       beside |= other.name.substr(0, other.name.rfind('.')) == thing.name.substr(0, dot);
       alike |= std::any_of(thing.heads.begin(), thing.heads.end(), [&](const auto& head) { return other.heads.contains(head); });
     }
-    thing.accessory = beside && !alike;
+    thing.accessory = beside && !alike && (thing.heads.contains("handle") || thing.heads.contains("hook"));
   }
   for (SpokenThing& thing : meaning.things) thing.wanted |= thing.accessory;
   // A lid is a part of the jar that it is taken off, and not where it is taken from.
@@ -247,7 +250,7 @@ Meaning meaning_of_label(const std::string& name, const std::string& label, cons
   if (!skill.empty()) meaning.skills.insert(skill);
   for (std::size_t at = label.find('{'); at != std::string::npos; at = label.find('{', at + 1)) {
     const std::string slot = label.substr(at, label.find('}', at) - at + 1);
-    meaning.things.push_back({slot, slot, {slot}, {slot}, {}, true, true, false, false, true, true});
+    meaning.things.push_back({slot, slot, {slot}, {slot}, {}, false, true, true, false, false, true, true});
   }
   learn_sentences(meaning);
   return meaning;

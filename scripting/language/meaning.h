@@ -21,6 +21,7 @@ struct SpokenThing {
   std::set<std::string> heads;    // nouns that name it: `drawer`
   std::set<std::string> words;    // all words of its names, its whole's too: top drawer chest
   std::set<std::string> colours;  // that it has in every start of the variation
+  bool region = false;            // a place without a body: a mark, the inside of a box
   bool wanted = false;            // the goal or the plan handles it, or a part of it
   bool handled = false;           // a step is about it: pressed, opened, carried …
   bool moved = false;             // the plan carries it somewhere
@@ -47,6 +48,9 @@ struct Meaning {
   std::vector<std::string> facts;        // of the start, as sentences, for prompts
   Lexicon lexicon;                       // with the words of all these
 };
+
+// Skills that end a thing's being somewhere, and those that begin it: of the thing, and of the place.
+extern const std::set<std::string> kTakes, kPuts;
 
 // The author's sentences of every variation of a task.
 std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& library, const std::string& task);

@@ -22,7 +22,8 @@ bool is_pronoun_one(const std::vector<Word>& words, std::size_t i) {
   if (words[i].text == "ones") return true;
   if (words[i].text != "one" || i == 0 || words[i].before != ' ') return false;
   if (i + 1 < words.size() && words[i + 1].before == ' ' &&
-      (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour || words[i + 1].kind == WordKind::adjective))
+      (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour || words[i + 1].kind == WordKind::adjective ||
+       words[i + 1].kind == WordKind::own))
     return false;  // `the one cup`
   const Word& last = words[i - 1];
   return is_article(last.text) || last.text == "other" || last.text == "which" || last.kind == WordKind::colour ||
@@ -107,9 +108,10 @@ class MentionReader {
       while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment;
       step(i, segment);
     }
+    for (Mention& mention : reading_.mentions) resolve(mention);
     for (std::size_t i = 0; i < reading_.mentions.size(); ++i) {
-      resolve(reading_.mentions[i]);
       reading_.mentions[i].role = role_of(i);
+      if (i > 0 && reading_.mentions[i].role == "of") narrow(reading_.mentions[i - 1], reading_.mentions[i]);
     }
   }
 
@@ -170,7 +172,15 @@ class MentionReader {
         {"off", "from"},  {"outof", "from"}, {"of", "of"},     {"with", "with"},  {"by", "with"}};
     const Mention& mention = reading_.mentions[i];
     const Segment& segment = reading_.segments[mention.segment];
-    if (mention.head + 1 < reading_.words.size() && reading_.words[mention.head + 1].text == "'s") return "of";
+    const auto after = [&](const char* text) {
+      return mention.head + 1 < reading_.words.size() && reading_.words[mention.head + 1].text == text;
+    };
+    if (after("'s")) return "of";
+    if (mention.partitive && mention.preposition == "of") return "part";
+    const bool where = mention.first > 0 && reading_.words[mention.first - 1].text == "where";
+    if (where) return "where";
+    if (after("is") && mention.head + 2 < reading_.words.size() && reading_.words[mention.head + 2].text == "where")
+      return "place";
     if (!mention.preposition.empty()) {
       const auto found = kRoles.find(mention.preposition);
       const std::string role = found == kRoles.end() ? mention.preposition : found->second;
@@ -178,10 +188,19 @@ class MentionReader {
       return of_verb ? role + " " + reading_.words[*segment.verb].sense : role;
     }
     if (segment.verb && *segment.verb < mention.first) return "object " + reading_.words[*segment.verb].sense;
+    // `solve the puzzle`: of a verb that only the author explains
+    if (mention.first > segment.begin && reading_.words[mention.first - 1].kind == WordKind::own)
+      return "object " + reading_.words[mention.first - 1].sense;
     // `the bowl, the fork and the glass`
     const bool listed = i > 0 && segment.begin > 0 && reading_.words[segment.begin].before != ':' &&
                         reading_.words[segment.begin].before != ';' && !verb_in(segment);
-    return listed ? reading_.mentions[i - 1].role : "subject";
+    return listed ? reading_.mentions[i - 1].role : "subject" + verb_after(mention, segment);
+  }
+
+  std::string verb_after(const Mention& mention, const Segment& segment) const {
+    for (std::size_t k = mention.head + 1; k < segment.end; ++k)
+      if (reading_.words[k].kind == WordKind::verb) return " " + reading_.words[k].sense;
+    return "";
   }
 
   bool verb_in(const Segment& segment) const {
@@ -244,6 +263,18 @@ class MentionReader {
     }
   }
 
+  // `the rod of the rack`: no other rod.
+  static void narrow(Mention& part, const Mention& whole) {
+    std::vector<std::string> of_it;
+    for (const std::string& name : part.things)
+      for (const std::string& one : whole.things)
+        if (name.starts_with(one + ".")) {
+          of_it.push_back(name);
+          break;
+        }
+    if (!of_it.empty()) part.things = std::move(of_it);
+  }
+
   bool meaning_names(const std::string& word) const {
     return std::any_of(meaning_.things.begin(), meaning_.things.end(),
                        [&](const SpokenThing& thing) { return thing.words.contains(word); });
@@ -274,7 +305,9 @@ std::vector<std::string> content_of(const Reading& reading, std::size_t begin, s
   std::vector<std::string> senses;
   for (std::size_t i = begin; i < end; ++i) {
     const WordKind kind = reading.words[i].kind;
-    if (kind == WordKind::function || kind == WordKind::harmless || kind == WordKind::order) continue;
+    const std::string& text = reading.words[i].text;
+    const bool way = kPrepositions.contains(text) || text == "up" || text == "down" || text == "out";
+    if ((kind == WordKind::function && !way) || kind == WordKind::harmless || kind == WordKind::order) continue;
     senses.push_back(reading.words[i].sense);
   }
   return senses;

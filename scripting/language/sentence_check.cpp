@@ -327,12 +327,15 @@ class Checker {
     });
   }
 
+  bool carries() const {
+    return std::any_of(meaning_.things.begin(), meaning_.things.end(), [](const auto& one) { return one.moved; });
+  }
+
   // What is carried, and to where; else what is handled. The table goes without saying.
   std::vector<std::string> goal_things() const {
-    const bool carries = std::any_of(meaning_.things.begin(), meaning_.things.end(), [](const auto& one) { return one.moved; });
     std::vector<std::string> names;
     for (const SpokenThing& one : meaning_.things)
-      if (carries ? one.moved || (one.destination && !one.heads.contains("table")) : one.handled) names.push_back(one.name);
+      if (carries() ? one.moved || (one.destination && !one.heads.contains("table")) : one.handled) names.push_back(one.name);
     return names;
   }
 
@@ -389,11 +392,20 @@ class Checker {
     if (Maybe bad = twice()) return bad;
     if (Maybe bad = pronouns()) return bad;
     for (const Mention& mention : reading_.mentions) {
-      if (mention.things.empty() || mention.other || vouched(reading_.segments[mention.segment])) continue;
-      if (has_role(mention) || stands_on_table(mention)) continue;
-      const bool vouched_for = claims_.roles.contains({mention.role, mention.sense}) ||
+      if (mention.things.empty() || vouched(reading_.segments[mention.segment])) continue;
+      if (mention.other) {
+        const bool alike = std::any_of(meaning_.things.begin(), meaning_.things.end(), [&](const SpokenThing& one) {
+          return one.handled && one.words.contains(mention.sense);
+        });
+        if (!alike) return no(Rejection::other_thing, "the other " + mention.sense);
+        continue;
+      }
+      const bool until = reading_.segments[mention.segment].intro == "until";
+      if (!until && (has_role(mention) || stands_on_table(mention))) continue;
+      const std::string role = role_key(reading_, mention);
+      const bool vouched_for = (!mention.by_head && claims_.roles.contains({role, mention.sense})) ||
                                (mention.by_head && std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {
-                                 return claims_.roles.contains({mention.role, name});
+                                 return claims_.roles.contains({role, name});
                                }));
       if (!vouched_for) return no(Rejection::swapped_roles, "the " + mention.sense + " as " + quoted(mention.role));
     }
@@ -412,8 +424,19 @@ class Checker {
     return {};
   }
 
-  // `put the cup on the cup`
+  // `put the cup on the cup`; of a thing that a short sentence names twice, one is another's place.
   Maybe twice() const {
+    const auto times = [](const Reading& reading, const std::string& sense) {
+      return std::count_if(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& one) { return one.sense == sense; });
+    };
+    for (const Mention& mention : reading_.mentions) {
+      if (grain_ != Grain::goal || mention.things.empty() || mention.other || mention.partitive) continue;
+      const auto ours = times(reading_, mention.sense);
+      if ((mention.modifiers.contains(mention.sense) && !claims_.attributes.contains({mention.sense, mention.sense})) ||
+          (ours > 1 && std::none_of(claims_.own.begin(), claims_.own.end(),
+                                    [&](const Reading& own) { return times(own, mention.sense) >= ours; })))
+        return no(Rejection::swapped_roles, "the " + mention.sense + " twice");
+    }
     for (std::size_t i = 0; i < reading_.mentions.size(); ++i)
       for (std::size_t k = i + 1; k < reading_.mentions.size(); ++k) {
         const Mention &a = reading_.mentions[i], &b = reading_.mentions[k];
@@ -433,8 +456,13 @@ class Checker {
       const std::string& text = reading_.words[*segment.verb + 1].text;
       if (text != "it" && text != "them") continue;
       const Mention* last = nullptr;
+      bool itself = false;
       for (const Mention& mention : reading_.mentions)
-        if (mention.head < segment.begin && (mention.role == "subject" || mention.role.starts_with("object "))) last = &mention;
+        if (mention.head < segment.begin && (mention.role.starts_with("subject") || mention.role.starts_with("object "))) last = &mention;
+      for (const Mention& mention : reading_.mentions)
+        itself |= last != nullptr && within(mention, segment) && mention.sense == last->sense && mention.role.starts_with("to");
+      if (itself) return no(Rejection::swapped_roles, "the " + last->sense + " and itself");
+      if (last != nullptr && vouched(segment) && vouched(reading_.segments[last->segment])) continue;
       if (last != nullptr && !last->things.empty() && !may_be(*last, meaning_, &SpokenThing::moved))
         return no(Rejection::swapped_roles, "the " + last->sense + " is not carried");
     }
@@ -445,14 +473,14 @@ class Checker {
   bool stands_on_table(const Mention& mention) const {
     static const std::set<std::string> kPutting = {"put", "insert", "drop", "stack", "hang", "stand", "lower", "point", "lift"};
     const Word* verb = verb_of(mention);
-    return mention.sense == "table" && mention.preposition == "on" && (verb == nullptr || !kPutting.contains(verb->sense)) &&
+    return mention.sense == "table" && mention.preposition == "on" && !carries() && (verb == nullptr || !kPutting.contains(verb->sense)) &&
            &mention != reading_.mentions.data() && (&mention - 1)->segment == mention.segment && !(&mention - 1)->things.empty();
   }
 
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const {
     for (const Mention& other : reading_.mentions)
-      if (other.segment == mention.segment && &other < &mention && (other.role == "subject" || other.role.starts_with("object ")))
+      if (other.segment == mention.segment && &other < &mention && (other.role.starts_with("subject") || other.role.starts_with("object ")))
         return &other;
     return nullptr;
   }
@@ -460,17 +488,21 @@ class Checker {
   bool has_role(const Mention& mention) const {
     const std::string role = mention.role.substr(0, mention.role.find(' '));
     const bool accessory = may_be(mention, meaning_, &SpokenThing::accessory);
+    if (mention.role == "subject belong" && carries()) return may_be(mention, meaning_, &SpokenThing::moved);
     if (role == "subject") return accessory || (may_be(mention, meaning_, &SpokenThing::handled) && !shows(mention));
     if (role == "object") return accessory || steps_have(mention, false);
-    if (role == "of") return accessory || is_whole(mention) || (mention.partitive && may_be(mention, meaning_, &SpokenThing::handled));
+    if (role == "of") return accessory || is_whole(mention);
+    if (role == "part") return (mention.count && mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled));
     if (role == "with") return accessory || steps_have(mention, true);
     const Mention* object = object_of(mention);
-    if (object != nullptr && object->things.empty()) return false;  // of that nothing is known
+    if (object != nullptr && !object->by_head && object->role.starts_with("object") && !object->sense.empty()) return false;  // of that nothing is known
     if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;
-    if (role == "from") return may_be(mention, meaning_, &SpokenThing::source) || hangs(mention);
+    if (role == "from") return may_be(mention, meaning_, hangs(mention) ? &SpokenThing::destination : &SpokenThing::source);
     if (role != "to") return false;
-    if (verb_of(mention) == nullptr ? may_be(mention, meaning_, &SpokenThing::destination) : steps_have(mention, true)) return true;
-    return may_be(mention, meaning_, &SpokenThing::source) && (mention.aside || takes(mention));
+    if (mention.aside) return may_be(mention, meaning_, &SpokenThing::source);
+    const bool fetched = verb_of(mention) != nullptr && fetches(verb_of(mention)->sense) && !mention.preposition.starts_with("in") && mention.preposition != "on";
+    if (verb_of(mention) == nullptr || fetched ? may_be(mention, meaning_, &SpokenThing::destination) : steps_have(mention, true)) return true;
+    return may_be(mention, meaning_, &SpokenThing::source) && takes(mention);
   }
 
   bool shows(const Mention& mention) const {
@@ -480,6 +512,8 @@ class Checker {
       if (reading_.words[i].kind == WordKind::verb) return kSays.contains(reading_.words[i].sense);
     return false;
   }
+
+  static bool fetches(const std::string& verb) { return verb == "take" || verb == "remove" || verb == "lift"; }
 
   const Word* verb_of(const Mention& mention) const {
     const Segment& segment = reading_.segments[mention.segment];
@@ -493,11 +527,11 @@ class Checker {
     if (verb == nullptr) return false;
     const std::set<std::string>& skills = meaning_.lexicon.skills_of(verb->sense);
     for (const PlanStep& step : meaning_.steps) {
-      if (!skills.contains(step.action)) continue;
+      if (!skills.contains(step.action) || (as_place && kTakes.contains(step.action))) continue;
       // Of what is pressed with a thing, the thing comes first.
       const std::size_t handled = step.action == "press_with" ? 1 : 0;
       for (std::size_t i = 0; i < step.arguments.size(); ++i) {
-        if ((i == handled) == as_place) continue;
+        if ((i == handled) == as_place || (step.action == "point" && i > 1)) continue;
         for (const std::string& name : mention.things) {
           const std::string& argument = step.arguments[i];
           if (argument == name || (argument.starts_with(name + ".") && (as_place || kWhole.contains(step.action)))) return true;
@@ -510,12 +544,12 @@ class Checker {
 
   // `the drawer of the chest`, `the chest's drawer`
   bool is_whole(const Mention& mention) const {
-    for (const Mention& other : reading_.mentions) {
-      if (&other != &mention + 1 && &other + 1 != &mention) continue;
-      for (const std::string& part : other.things)
-        for (const std::string& whole : mention.things)
-          if (part.starts_with(whole + ".") || part == whole) return true;
-    }
+    const bool possessive = mention.head + 1 < reading_.words.size() && reading_.words[mention.head + 1].text == "'s";
+    const Mention* other = possessive ? &mention + 1 : &mention - 1;
+    if (other < reading_.mentions.data() || other >= reading_.mentions.data() + reading_.mentions.size()) return false;
+    for (const std::string& part : other->things)
+      for (const std::string& whole : mention.things)
+        if (part.starts_with(whole + ".")) return true;
     return false;
   }
 
@@ -523,7 +557,7 @@ class Checker {
   bool hangs(const Mention& mention) const {
     const Segment& segment = reading_.segments[mention.segment];
     return std::any_of(reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.begin),
-                       reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.end),
+                       reading_.words.begin() + static_cast<std::ptrdiff_t>(mention.first),
                        [](const Word& word) { return word.sense == "hang"; });
   }
 
@@ -531,7 +565,8 @@ class Checker {
   bool takes(const Mention& mention) const {
     static const std::set<std::string> kTaking = {"take", "remove", "lift", "find", "hold", "pull", "clear"};
     const Segment& segment = reading_.segments[mention.segment];
-    return segment.verb && *segment.verb < mention.first && kTaking.contains(reading_.words[*segment.verb].sense);
+    const bool at = mention.preposition == "on" || mention.preposition == "in" || mention.preposition == "inside";
+    return at && segment.verb && *segment.verb < mention.first && kTaking.contains(reading_.words[*segment.verb].sense);
   }
 
   // Kinds of skills in the order of the plan: each kind of what is said, where the plan has it first after the last.

@@ -70,22 +70,53 @@ class Maker {
     const Mention* mention = nullptr;
     for (const Mention& one : reading_.mentions)
       if (one.head == at) mention = &one;
-    if (mention == nullptr || mention->things.empty()) return;
+    if (mention == nullptr || mention->things.empty() || mention->aside) return;
     std::set<std::string> by = {"hammer", "banana"};
     for (const SpokenThing& thing : meaning_.things) {
       if (std::find(mention->things.begin(), mention->things.end(), thing.name) != mention->things.end()) continue;
+      // A place without a body, or a part of what is named anyway, may be what is meant.
+      const std::string body = thing.name.substr(0, thing.name.find('.'));
+      const bool named = body != thing.name && std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& one) {
+        return std::any_of(one.things.begin(), one.things.end(), [&](const std::string& name) { return name == body || name.starts_with(body + "."); });
+      });
+      if (thing.region || named) continue;
       const bool belongs = std::any_of(mention->things.begin(), mention->things.end(), [&](const std::string& name) {
         return name.starts_with(thing.name + ".") || thing.name.starts_with(name + ".");
       });
-      if (belongs || handled_alike(mention->things, thing.name)) continue;  // the sentence may stay right
+      if (belongs || handled_alike(mention->things, thing.name) || done_so(*mention, thing)) continue;  // the sentence may stay right
       for (const std::string& head : thing.heads)
-        if (head != noun.sense && meaning_.lexicon.read("the " + head).back().kind == WordKind::noun) by.insert(head);
+        if (head != noun.sense && !is_called(mention->things, head) && !said_of(mention->colours, head) && meaning_.lexicon.read("the " + head).back().kind == WordKind::noun) by.insert(head);
     }
     for (const std::string& one : by) {
       std::vector<Word> words = reading_.words;
       words[at].text = one + (noun.plural ? "s" : "");
       add("thing", words);
     }
+  }
+
+  bool is_called(const std::vector<std::string>& names, const std::string& word) const {
+    return std::any_of(meaning_.things.begin(), meaning_.things.end(), [&](const SpokenThing& thing) {
+      return thing.words.contains(word) && std::find(names.begin(), names.end(), thing.name) != names.end();
+    });
+  }
+
+  // The author calls the other thing by that colour too: where the table is azure.
+  bool said_of(const std::vector<std::string>& colours, const std::string& noun) const {
+    for (const std::string& sentence : meaning_.own)
+      for (const Mention& mention : read_sentence(sentence, meaning_).mentions)
+        for (const std::string& colour : mention.colours)
+          if (mention.sense == noun && std::find(colours.begin(), colours.end(), colour) != colours.end()) return true;
+    return false;
+  }
+
+  // The other thing is handled by such a step too.
+  bool done_so(const Mention& mention, const SpokenThing& other) const {
+    const auto verb = reading_.segments[mention.segment].verb;
+    if (!verb || !mention.role.starts_with("object")) return false;
+    const std::set<std::string>& skills = meaning_.lexicon.skills_of(reading_.words[*verb].sense);
+    return std::any_of(meaning_.steps.begin(), meaning_.steps.end(), [&](const PlanStep& step) {
+      return skills.contains(step.action) && !step.arguments.empty() && step.arguments.front() == other.name;
+    });
   }
 
   // Both are what steps of one skill are about: another one of the things to be done.

@@ -9,18 +9,17 @@
 using namespace stampede;
 
 TEST_CASE("all that rules make wrong is turned down") {
-  std::map<std::string, int> made, passed;
+  std::map<std::string, int> made;
   for (const Meaning& meaning : shipped::meanings()) {
     const SentenceChecker checker(meaning);
     for (const wrong::Sentence& one : wrong::sentences_from(meaning)) {
       ++made[one.rule];
-      if (!checker.check(one.text).ok()) continue;
-      ++passed[one.rule];
-      UNSCOPED_INFO(one.rule << " | " << meaning.task << " " << meaning.variation << ": " << one.text << " | " << one.from);
+      INFO(one.rule << " | " << meaning.task << " " << meaning.variation << ": " << one.text << " | " << one.from);
+      CHECK_FALSE(checker.check(one.text).ok());
     }
   }
-  for (const auto& [rule, count] : made) UNSCOPED_INFO(rule << ": " << passed[rule] << " of " << count);
-  int all = 0;
-  for (const auto& [rule, count] : passed) all += count;
-  CHECK(all == 0);
+  for (const char* rule : {"colour", "count", "order", "thing", "negation", "side", "roles"}) {
+    INFO(rule);
+    CHECK(made[rule] > 50);
+  }
 }
