@@ -93,6 +93,12 @@ std::map<std::string, std::string> RunOptions::as_text() const {
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);
   if (!perturb.empty()) text["perturb"] = to_text(perturb);
+  if (sentences && !sentences->empty()) {
+    Hasher hasher;
+    for (const MadeSentence& one : *sentences)
+      hasher.text(to_string(one.level)).text(one.of).text(one.text).text(to_string(one.grain)).text(one.model);
+    text["sentences"] = hasher.digest();
+  }
   if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit
     Scene scene;
     scene.cameras = cameras;

@@ -22,6 +22,15 @@ std::optional<OnFailure> on_failure_from(std::string_view text);
 std::string_view to_string(Behaviour value);
 std::optional<Behaviour> behaviour_from(std::string_view text);
 
+// A sentence that a model made and checks let pass. `of`: the variation; of other levels the skill, predicate or kind of
+// motion whose label it says in other words, with the label's {slots}.
+struct MadeSentence {
+  LanguageLevel level = LanguageLevel::task;
+  std::string of, text;
+  LanguageGrain grain = LanguageGrain::goal;
+  std::string model;
+};
+
 // Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
 struct RunOptions {
   std::int64_t seed = 0;
@@ -49,6 +58,7 @@ struct RunOptions {
   ObservationChoice observation;
   std::optional<Randomisation> randomise;  // where the world has none of its own
   Perturbation perturb;                    // beside that
+  std::shared_ptr<const std::vector<MadeSentence>> sentences;  // beside the task's own; null: none
   std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
   Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
   bool explain = false;                    // every failed try says why, not only the first of its kind. Alters no data.

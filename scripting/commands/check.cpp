@@ -10,6 +10,7 @@
 #include "scripting/commands/check_built.h"
 #include "scripting/commands/check_failures.h"
 #include "scripting/commands/commands.h"
+#include "scripting/language/sentence_file.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/runtime/episode_scripts.h"
@@ -183,13 +184,38 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   return tally.succeeded == tally.total ? kDone : kNo;
 }
 
+// Files of sentences beside tasks; only a sound library says what they have to mean.
+std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& library, const std::vector<std::string>& names) {
+  std::vector<Error> mistakes;
+  for (const std::filesystem::path& root : library->roots().folders) {
+    std::vector<std::filesystem::path> files;
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "tasks", code))
+      if (entry.path().filename().string().ends_with(".sentences.json")) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const std::filesystem::path& file : files) {
+      const std::string task = file.stem().stem().string(), shown = "tasks/" + file.filename().string();
+      if (!names.empty() && std::find(names.begin(), names.end(), task) == names.end()) continue;
+      try {
+        SentenceFile read = read_sentence_file(file, shown);
+        if (read.task != task) throw Error(shown + ":1", "it is of task '" + read.task + "'", "call it tasks/" + read.task + ".sentences.json");
+        for (Error& one : mistakes_in(read, shown, library)) mistakes.push_back(std::move(one));
+      } catch (const Error& error) {
+        mistakes.push_back(error);
+      }
+    }
+  }
+  return mistakes;
+}
+
 ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const auto library = Library::load(roots_of(arguments), all);
   if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) check_built(usable, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
   check_names(*library, names, all);
-  const std::vector<Error> complaints = wanted_complaints(*library, all, names);
+  std::vector<Error> complaints = wanted_complaints(*library, all, names);
+  if (complaints.empty()) complaints = sentence_mistakes(library, names);
   const bool physics = arguments.flag("--physics");
   if (!physics || !complaints.empty()) {
     const std::size_t files = names.empty() ? library->all_files().size() : names.size();

@@ -6,6 +6,7 @@
 #include "db/catalogue_writer.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
+#include "scripting/commands/language_options.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/policy_options.h"
 #include "scripting/commands/symbol_options.h"
@@ -81,6 +82,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   leave_out_misfits(library, settings.options, request, console);
   const JobList jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
+  if (arguments.flag("--sentences")) settings.sentences = made_sentences(*library, request.tasks);
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
   writing.engine = {STAMPEDE_VERSION, numerics_probe()};
@@ -153,6 +155,13 @@ CommandRow run_command() {
         Takes::text,
         "",
         {"joint_position", "joint_impedance", "cartesian_impedance"},
+        false},
+       {"--sentences",
+        "",
+        "add what `stampede paraphrase` stored beside each task; nobody is asked",
+        Takes::flag,
+        "",
+        {},
         false},
        {"--randomise",
         "",

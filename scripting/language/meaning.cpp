@@ -256,4 +256,36 @@ Meaning meaning_of_label(const std::string& name, const std::string& label, cons
   return meaning;
 }
 
+std::map<std::string, std::string> labels_of(const Library& library, LanguageLevel level) {
+  std::map<std::string, std::string> labels;
+  if (level == LanguageLevel::motion)
+    return {{"close_hand", "close the hand"},
+            {"lift", "raise the hand"},
+            {"move_line", "move the hand in a straight line"},
+            {"move_through", "move the hand around what is in the way"},
+            {"open_hand", "open the hand"},
+            {"retreat", "draw the hand back"}};
+  if (level == LanguageLevel::skill)
+    for (const ScriptFile* file : library.files(DefinitionKind::skill))
+      if (const SkillInfo* skill = library.skill(file->name)) labels[file->name] = skill->label;
+  if (level == LanguageLevel::world)
+    for (const Predicate& predicate : library.domain().predicates)
+      if (predicate.kind == PredicateKind::basic || predicate.kind == PredicateKind::derived) labels[predicate.name] = predicate.label;
+  std::erase_if(labels, [](const auto& one) { return one.second.empty(); });
+  return labels;
+}
+
+std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task, LanguageLevel level,
+                                   const std::string& of, std::int64_t seed, const std::vector<OwnSentences>& all) {
+  if (level == LanguageLevel::task) {
+    const bool there = std::any_of(all.begin(), all.end(), [&](const OwnSentences& one) { return one.variation == of; });
+    if (!there) return std::nullopt;
+    return meaning_of(library, task, of, seed, all);
+  }
+  const std::map<std::string, std::string> labels = labels_of(*library, level);
+  const auto label = labels.find(of);
+  if (label == labels.end()) return std::nullopt;
+  return meaning_of_label(of, label->second, level == LanguageLevel::skill ? of : "");
+}
+
 }  // namespace stampede

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "engine/episode/record.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/language/lexicon.h"
 
@@ -62,5 +65,13 @@ Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::str
 
 // Of a label with slots, such as a skill's `pick up the {obj}`; `skill`: whose it is, or empty.
 Meaning meaning_of_label(const std::string& name, const std::string& label, const std::string& skill);
+
+// Labels with slots that sentences of a level can be asked for, by name: of skills, of predicates (level world), of
+// kinds of motions.
+std::map<std::string, std::string> labels_of(const Library& library, LanguageLevel level);
+
+// Of either: `of` is a variation at level task, else a name of labels_of. Nothing where there is none of that name.
+std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task, LanguageLevel level,
+                                   const std::string& of, std::int64_t seed, const std::vector<OwnSentences>& all);
 
 }  // namespace stampede

@@ -11,7 +11,6 @@ constexpr std::array<std::string_view, 21> kRejections = {
     "unknown_thing", "other_thing", "missing_thing",  "wrong_colour",  "wrong_count",    "wrong_side",
     "unproved",      "other_action", "swapped_roles", "swapped_order", "negated",        "misses_steps",
     "near_duplicate", "asked_back",  "no_answer"};
-constexpr std::array<std::string_view, 3> kGrains = {"goal", "steps", "motions"};
 
 Verdict no(Rejection reason, std::string detail) { return {reason, std::move(detail)}; }
 
@@ -655,14 +654,6 @@ std::string_view to_string(Rejection reason) { return kRejections.at(static_cast
 std::optional<Rejection> rejection_from(std::string_view name) {
   for (std::size_t i = 0; i < kRejections.size(); ++i)
     if (kRejections[i] == name) return static_cast<Rejection>(i);
-  return std::nullopt;
-}
-
-std::string_view to_string(Grain grain) { return kGrains.at(static_cast<std::size_t>(grain)); }
-
-std::optional<Grain> grain_from(std::string_view name) {
-  for (std::size_t i = 0; i < kGrains.size(); ++i)
-    if (kGrains[i] == name) return static_cast<Grain>(i);
   return std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scripting/language/meaning.h"
+#include "engine/episode/record.h"
 #include "scripting/language/claims.h"
 #include "scripting/language/reference_parser.h"
 
@@ -42,9 +43,7 @@ enum class Rejection {
 std::string_view to_string(Rejection reason);
 std::optional<Rejection> rejection_from(std::string_view name);
 
-enum class Grain { goal, steps, motions };
-std::string_view to_string(Grain grain);
-std::optional<Grain> grain_from(std::string_view name);
+using Grain = LanguageGrain;
 
 struct Verdict {
   std::optional<Rejection> reason;  // nothing: it passes

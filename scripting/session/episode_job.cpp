@@ -10,6 +10,7 @@
 #include "scripting/library/naming.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/bddl_task_file.h"
+#include "scripting/session/made_sentences.h"
 
 namespace stampede {
 namespace {
@@ -222,6 +223,7 @@ void PreparedEpisode::complete(EpisodeRecord& record) const {
   record.seed = job_.seed;
   record.split = options_.split;
   record.definitions = definitions_;
+  if (options_.sentences) add_sentences(*options_.sentences, *library_, record);
   if (options_.goal || record.frames.empty()) return;
   if (const auto imported = imported_problem(library_, job_.task)) record.verdicts = {bddl_verdict(record, *imported)};
 }

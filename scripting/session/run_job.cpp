@@ -8,6 +8,7 @@
 
 #include "engine/render/renderer.h"
 #include "scripting/runtime/assets.h"
+#include "scripting/session/made_sentences.h"
 
 namespace stampede {
 namespace {
@@ -90,12 +91,15 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
   const std::atomic<bool>* stop = settings.stop;
   const auto busy = static_cast<int>(std::clamp<std::int64_t>(jobs.size(), 1, settings.workers));
   const int encoders = settings.helpers + settings.workers - busy;
-  const auto options_for = [&](const std::string& task, Renderer& renderer) {
+  const auto options_for = [&](const EpisodeJob& job, Renderer& renderer) {
+    const std::string& task = job.task;
     RunOptions options = settings.options;
     options.renderer = &renderer;
     options.encoders = encoders;
     if (const auto found = settings.cameras.find(task); found != settings.cameras.end())
       options.cameras = found->second;
+    if (const auto found = settings.sentences.find(task); found != settings.sentences.end())
+      options.sentences = sentences_for(found->second, job.variation);
     return options;
   };
   std::mutex mutex;
@@ -104,7 +108,7 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
     try {
       const EpisodeJob job = jobs[place];
       if (!bench.assets) bench.assets = std::make_shared<Assets>(FileScope(library->roots().folders));
-      PreparedEpisode prepared(library, job, options_for(job.task, bench.renderer), bench.assets);
+      PreparedEpisode prepared(library, job, options_for(job, bench.renderer), bench.assets);
       const auto is_there = [&](const std::string& key) {
         if (!sink || !sink->has(key)) return false;
         sink->abandon(place);

@@ -64,6 +64,8 @@ const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/lib
                                              "scripting/commands"};
 const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library", "scripting/runtime",
                                              "scripting/session", "scripting/research", "scripting/program", "scripting/commands"};
+                                             "scripting/session", "scripting/language", "scripting/program",
+                                             "scripting/commands"};
 
 std::map<std::string, std::set<std::string>> all_arrows() {
   std::map<std::string, std::set<std::string>> arrows = kArrows;
@@ -130,14 +132,15 @@ TEST_CASE("each library is known to one folder") {
       {"assimp/", "engine/geometry"}, {"GL/", "engine/render"},
       {"ft2build", "engine/render"},  {"sqlite3", "db"},
       {"lua", "scripting"},           {"CLI/", "scripting/program"},
-      {"libav", "scripting/program"}, {"libsw", "scripting/program"}};
+      {"libav", "scripting/program"}, {"libsw", "scripting/program"},
+      {"curl/", "scripting/language/chat_client.cpp"}};
   for (const std::string folder : {"engine", "db", "scripting"})
     for (const fs::path& file : sources(folder))
       for (const std::string& include : includes(file))
         for (const auto& [library, owner] : owners) {
           const std::string shown = fs::relative(file, kRoot).string();
           INFO(shown << " includes " << include << ", which belongs to " << owner);
-          CHECK((!include.starts_with(library) || shown.starts_with(owner + "/")));
+          CHECK((!include.starts_with(library) || shown == owner || shown.starts_with(owner + "/")));
         }
 }
 

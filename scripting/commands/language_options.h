@@ -1,0 +1,33 @@
+// Options about language models and their sentences, shared by the commands that have them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/episode/runner.h"
+#include "scripting/language/chat_client.h"
+#include "scripting/language/sentence_file.h"
+#include "scripting/program/command.h"
+#include "scripting/program/json_text.h"
+
+namespace stampede::program {
+
+std::vector<OptionRow> model_options();  // --url, --model, --timeout, --retries, --rate, --price-in, --price-out
+
+// Of the options, or else of STAMPEDE_LLM_URL, STAMPEDE_LLM_MODEL; the key of STAMPEDE_LLM_KEY alone: a command line is
+// seen by others. Throws UsageError where something is missing or makes no sense.
+ChatSettings chat_settings(const Arguments& arguments);
+
+std::string cost_line(const ChatCost& cost, const ChatSettings& settings);
+void write_cost(const ChatCost& cost, const ChatSettings& settings, JsonText& json);
+
+// Beside the task's file in its own root.
+std::filesystem::path sentence_path_of(const Library& library, const std::string& task);
+std::string shown_sentence_path(const Library& library, const std::string& task);
+
+// Of each task, for RunSettings::sentences. Throws Error where a task has no file, with the cure.
+std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library, const std::vector<std::string>& tasks);
+
+}  // namespace stampede::program
