@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-ChatSettings settings(const std::string& url) {
+ChatSettings quick_settings(const std::string& url) {
   ChatSettings one;
   one.url = url;
   one.model = "small";
@@ -55,7 +55,7 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
     return stub::Reply{stub::chat("1. \"Put the rubbish into the bin.\"\n2. Throw the banana into the bin\n- take the rubbish off the table and drop it in the "
                                   "bin\n4. Please put the rubbish into the bin\nDo not put the rubbish into the bin\nMettez le papier dans la poubelle")};
   });
-  ChatClient client(settings(server.url()));
+  ChatClient client(quick_settings(server.url()));
   SentenceFile file{"put_rubbish_in_bin", {}, {}};
   std::vector<Refused> refused;
   const ParaphraseJob job{LanguageLevel::task, "", Grain::goal, 6, 6, 0};
@@ -86,7 +86,7 @@ TEST_CASE("a model that does not know its own sentence again loses it") {
     stub::Server server([&](int, const std::string& body) {
       return stub::Reply{stub::chat(asks_back(body) ? answer : "put the rubbish into the bin")};
     });
-    ChatClient client(settings(server.url()));
+    ChatClient client(quick_settings(server.url()));
     SentenceFile file{"put_rubbish_in_bin", {}, {}};
     const ParaphraseTally tally =
         paraphrase({LanguageLevel::task, "", Grain::goal, 1, 1, 0}, checker, {"open the box"}, client, file, nullptr, nullptr);
