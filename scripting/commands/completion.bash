@@ -1,6 +1,6 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import dataset baseline score replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import replay render new doc paraphrase questions --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --root --path --json --help" ;;
@@ -13,13 +13,12 @@ _stampede() {
     merge) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --root --path --json --help" ;;
-    dataset) words="--list --out --hidden --split --root --path --json --help" ;;
-    baseline) words="--list --out --root --path --json --help" ;;
-    score) words="--hidden --out --figure --episode --physics --workers --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;
     render) words="--out --into --video --sheet --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --root --path --json --help" ;;
     new) words="--root --path --json --help" ;;
     doc) words="--check --root --path --json --help" ;;
+    paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
+    questions) words="--out --per-frame --frames --rephrase --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
   esac
   COMPREPLY=($(compgen -W "$words" -- "$word"))
 }

@@ -137,13 +137,13 @@ TEST_CASE("similar sentences are near-duplicates, others are not") {
 TEST_CASE("a file of sentences comes back as it was, and says where it is wrong") {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "push_button.sentences.json";
-  SentenceFile file{"push_button", {{LanguageLevel::task, "colour=red", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
-  file.sentences.push_back({"tap the red button", LanguageLevel::task, "colour=red", Grain::goal, "m", "abc", {"words"}, 0});
+  SentenceFile file{"push_button", {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
+  file.sentences.push_back({"tap the maroon button", LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", {"words"}, 0});
   file.sentences.push_back({"grab the {obj}", LanguageLevel::skill, "pick", Grain::goal, "m", "abc", {"words"}, 0});
   write_sentence_file(file, path);
   const SentenceFile again = read_sentence_file(path, "x");
   REQUIRE(again.sentences.size() == 2);
-  CHECK(again.sentences[0].text == "tap the red button");
+  CHECK(again.sentences[0].text == "tap the maroon button");
   CHECK(again.sentences[0].line > 5);
   CHECK(again.sentences[1].line == again.sentences[0].line + 1);
   CHECK(again.asked.front().refused.at("negated") == 2);
@@ -165,8 +165,8 @@ TEST_CASE("a file of sentences comes back as it was, and says where it is wrong"
   };
   CHECK_THAT(told("\"version\": 1", "\"version\": 9"), Contains("x:1") && Contains("version"));
   CHECK_THAT(told("\"sentences\": [", "\"sentences\": [,"), Contains("x:") && Contains("no JSON"));
-  CHECK_THAT(told("tap the red", "tap the blue"), Contains("wrong_colour") && Contains("delete the line"));
-  CHECK_THAT(told("\"of\": \"colour=red\", \"grain\": \"goal\", \"model\": \"m\", \"prompt\": \"abc\", \"checks\"",
+  CHECK_THAT(told("tap the maroon", "tap the white"), Contains("wrong_colour") && Contains("delete the line"));
+  CHECK_THAT(told("\"of\": \"colour=maroon\", \"grain\": \"goal\", \"model\": \"m\", \"prompt\": \"abc\", \"checks\"",
                   "\"of\": \"colour=plaid\", \"grain\": \"goal\", \"model\": \"m\", \"prompt\": \"abc\", \"checks\""),
              Contains("there is no 'colour=plaid'"));
   CHECK_THAT(told("\"level\": \"skill\"", "\"level\": \"dream\""), Contains("there is no level 'dream'"));
