@@ -22,8 +22,8 @@ std::optional<OnFailure> on_failure_from(std::string_view text);
 std::string_view to_string(Behaviour value);
 std::optional<Behaviour> behaviour_from(std::string_view text);
 
-// A sentence that a model made and checks let pass. `of`: the variation; of other levels the skill, predicate or kind of
-// motion whose label it says in other words, with the label's {slots}.
+// A sentence that a model made and checks let pass. `of`: the variation; of other levels the skill, predicate or kind
+// of motion whose label it says in other words, with the label's {slots}.
 struct MadeSentence {
   LanguageLevel level = LanguageLevel::task;
   std::string of, text;
@@ -56,14 +56,14 @@ struct RunOptions {
   // Sensors of the program, likewise.
   SensorEntries sensors;
   ObservationChoice observation;
-  std::optional<Randomisation> randomise;  // where the world has none of its own
-  Perturbation perturb;                    // beside that
+  std::optional<Randomisation> randomise;                      // where the world has none of its own
+  Perturbation perturb;                                        // beside that
   std::shared_ptr<const std::vector<MadeSentence>> sentences;  // beside the task's own; null: none
-  std::vector<Camera> cameras;             // beside those of the world, or instead of one of the same name
-  Renderer* renderer = nullptr;            // draws the images; null: one is made for the episode. Alters no data.
-  bool explain = false;                    // every failed try says why, not only the first of its kind. Alters no data.
-  Witness witness;                         // told of each step that finds no grasp or place. Alters no data.
-  int encoders = 0;                        // threads that encode its images beside the drawing. Alters no data.
+  std::vector<Camera> cameras;   // beside those of the world, or instead of one of the same name
+  Renderer* renderer = nullptr;  // draws the images; null: one is made for the episode. Alters no data.
+  bool explain = false;          // every failed try says why, not only the first of its kind. Alters no data.
+  Witness witness;               // told of each step that finds no grasp or place. Alters no data.
+  int encoders = 0;              // threads that encode its images beside the drawing. Alters no data.
   std::map<std::string, std::string> as_text() const;
 };
 

@@ -185,7 +185,8 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
 }
 
 // Files of sentences beside tasks; only a sound library says what they have to mean.
-std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& library, const std::vector<std::string>& names) {
+std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& library,
+                                     const std::vector<std::string>& names) {
   std::vector<Error> mistakes;
   for (const std::filesystem::path& root : library->roots().folders) {
     std::vector<std::filesystem::path> files;
@@ -198,7 +199,9 @@ std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& libra
       if (!names.empty() && std::find(names.begin(), names.end(), task) == names.end()) continue;
       try {
         SentenceFile read = read_sentence_file(file, shown);
-        if (read.task != task) throw Error(shown + ":1", "it is of task '" + read.task + "'", "call it tasks/" + read.task + ".sentences.json");
+        if (read.task != task)
+          throw Error(shown + ":1", "it is of task '" + read.task + "'",
+                      "call it tasks/" + read.task + ".sentences.json");
         for (Error& one : mistakes_in(read, shown, library)) mistakes.push_back(std::move(one));
       } catch (const Error& error) {
         mistakes.push_back(error);

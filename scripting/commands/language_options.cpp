@@ -27,23 +27,32 @@ double number_of(const Arguments& arguments, const char* option, double least, d
 }  // namespace
 
 std::vector<OptionRow> model_options() {
-  return {{"--url", "URL", "the server, such as http://localhost:8080/v1; default: STAMPEDE_LLM_URL; its key: STAMPEDE_LLM_KEY", Takes::text, "", {}, false},
-          {"--model", "NAME", "the model, as the server calls it; default: STAMPEDE_LLM_MODEL", Takes::text, "", {}, false},
-          {"--timeout", "SECONDS", "how long one answer may take", Takes::text, "120", {}, false},
-          {"--retries", "N", "of a server that is away, slow, busy or broken", Takes::integer, "4", {}, false},
-          {"--rate", "N", "requests a minute, at most; 0: as fast as it answers", Takes::text, "0", {}, false},
-          {"--price-in", "P", "of a million tokens asked, for the cost", Takes::text, "0", {}, false},
-          {"--price-out", "P", "of a million tokens answered", Takes::text, "0", {}, false}};
+  return {
+      {"--url",
+       "URL",
+       "the server, such as http://localhost:8080/v1; default: STAMPEDE_LLM_URL; its key: STAMPEDE_LLM_KEY",
+       Takes::text,
+       "",
+       {},
+       false},
+      {"--model", "NAME", "the model, as the server calls it; default: STAMPEDE_LLM_MODEL", Takes::text, "", {}, false},
+      {"--timeout", "SECONDS", "how long one answer may take", Takes::text, "120", {}, false},
+      {"--retries", "N", "of a server that is away, slow, busy or broken", Takes::integer, "4", {}, false},
+      {"--rate", "N", "requests a minute, at most; 0: as fast as it answers", Takes::text, "0", {}, false},
+      {"--price-in", "P", "of a million tokens asked, for the cost", Takes::text, "0", {}, false},
+      {"--price-out", "P", "of a million tokens answered", Takes::text, "0", {}, false}};
 }
 
 ChatSettings chat_settings(const Arguments& arguments) {
   ChatSettings settings;
   settings.url = option_or(arguments, "--url", "STAMPEDE_LLM_URL");
   settings.model = option_or(arguments, "--model", "STAMPEDE_LLM_MODEL");
-  if (settings.url.empty()) throw UsageError("there is no language model to ask", "say --url, or set STAMPEDE_LLM_URL; --dry-run asks nobody");
+  if (settings.url.empty())
+    throw UsageError("there is no language model to ask", "say --url, or set STAMPEDE_LLM_URL; --dry-run asks nobody");
   if (settings.model.empty()) throw UsageError("which model?", "say --model, or set STAMPEDE_LLM_MODEL");
   if (const char* key = std::getenv("STAMPEDE_LLM_KEY")) settings.key = key;
-  if (settings.key.find_first_of("\r\n") != std::string::npos) throw UsageError("STAMPEDE_LLM_KEY has more than one line");
+  if (settings.key.find_first_of("\r\n") != std::string::npos)
+    throw UsageError("STAMPEDE_LLM_KEY has more than one line");
   settings.timeout_s = number_of(arguments, "--timeout", 0.1, 3600);
   const std::int64_t retries = arguments.integer("--retries").value_or(4);
   if (retries < 0 || retries > 100) throw UsageError("--retries is from 0 to 100");
@@ -55,8 +64,8 @@ ChatSettings chat_settings(const Arguments& arguments) {
 }
 
 std::string cost_line(const ChatCost& cost, const ChatSettings& settings) {
-  std::string line = fmt::format("{} requests, {} of them again; {} tokens asked, {} answered; {:.1f} s", cost.requests, cost.retries,
-                                 cost.prompt_tokens, cost.completion_tokens, cost.seconds);
+  std::string line = fmt::format("{} requests, {} of them again; {} tokens asked, {} answered; {:.1f} s", cost.requests,
+                                 cost.retries, cost.prompt_tokens, cost.completion_tokens, cost.seconds);
   if (settings.price_in > 0 || settings.price_out > 0) line += fmt::format("; cost {:.4f}", cost.price(settings));
   return line + "\n";
 }
@@ -77,16 +86,20 @@ std::string shown_sentence_path(const Library& library, const std::string& task)
   return sentence_path(library.file(DefinitionKind::task, task)->shown_path).string();
 }
 
-std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library, const std::vector<std::string>& tasks) {
+std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library,
+                                                                const std::vector<std::string>& tasks) {
   std::map<std::string, std::vector<MadeSentence>> all;
   for (const std::string& task : tasks) {
     const std::filesystem::path path = sentence_path_of(library, task);
     const std::string shown = shown_sentence_path(library, task);
     if (!std::filesystem::exists(path))
-      throw Error(shown, "task '" + task + "' has no file of sentences", "make it: stampede paraphrase " + task + "; or leave --sentences out");
+      throw Error(shown, "task '" + task + "' has no file of sentences",
+                  "make it: stampede paraphrase " + task + "; or leave --sentences out");
     const SentenceFile file = read_sentence_file(path, shown);
-    if (file.task != task) throw Error(shown, "it is of task '" + file.task + "'", "make it anew: stampede paraphrase " + task);
-    for (const StoredSentence& one : file.sentences) all[task].push_back({one.level, one.of, one.text, one.grain, one.model});
+    if (file.task != task)
+      throw Error(shown, "it is of task '" + file.task + "'", "make it anew: stampede paraphrase " + task);
+    for (const StoredSentence& one : file.sentences)
+      all[task].push_back({one.level, one.of, one.text, one.grain, one.model});
   }
   return all;
 }

@@ -28,6 +28,7 @@ std::filesystem::path sentence_path_of(const Library& library, const std::string
 std::string shown_sentence_path(const Library& library, const std::string& task);
 
 // Of each task, for RunSettings::sentences. Throws Error where a task has no file, with the cure.
-std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library, const std::vector<std::string>& tasks);
+std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library,
+                                                                const std::vector<std::string>& tasks);
 
 }  // namespace stampede::program

@@ -1,3 +1,5 @@
+#include "scripting/language/paraphrase.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,14 +9,14 @@
 #include "engine/base/random.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/language_options.h"
-#include "scripting/language/paraphrase.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::program {
 namespace {
 
 template <typename Value, typename From>
-std::vector<Value> chosen(const Arguments& arguments, const char* option, Value initial, From&& from, const char* choices) {
+std::vector<Value> chosen(const Arguments& arguments, const char* option, Value initial, From&& from,
+                          const char* choices) {
   std::vector<Value> values;
   for (const std::string& text : arguments.list(option)) {
     const auto value = from(text);
@@ -38,7 +40,8 @@ Asked asked_of(const Arguments& arguments) {
   asked.levels = chosen(arguments, "--level", LanguageLevel::task, language_level_from, "task, world, skill, motion");
   asked.grains = chosen(arguments, "--grain", Grain::goal, language_grain_from, "goal, steps, motions");
   if (std::find(asked.levels.begin(), asked.levels.end(), LanguageLevel::subgoal) != asked.levels.end())
-    throw UsageError("subgoals have no sentences of their own to say in other words", "ask for task, world, skill or motion");
+    throw UsageError("subgoals have no sentences of their own to say in other words",
+                     "ask for task, world, skill or motion");
   asked.seed = in_range(arguments, "--seed", 0, kLargestSeed);
   asked.count = static_cast<int>(in_range(arguments, "--count", 1, 1000));
   asked.each_request = static_cast<int>(in_range(arguments, "--each", 1, 100));
@@ -48,11 +51,17 @@ Asked asked_of(const Arguments& arguments) {
 class Asker {
  public:
   Asker(const Arguments& arguments, std::shared_ptr<const Library> library, Console& console)
-      : library_(std::move(library)), console_(console), asked_(asked_of(arguments)), variation_(arguments.text("--variation")),
-        show_refused_(arguments.flag("--show-refused")), json_(arguments.flag("--json")), dry_(arguments.flag("--dry-run")) {
+      : library_(std::move(library)),
+        console_(console),
+        asked_(asked_of(arguments)),
+        variation_(arguments.text("--variation")),
+        show_refused_(arguments.flag("--show-refused")),
+        json_(arguments.flag("--json")),
+        dry_(arguments.flag("--dry-run")) {
     if (!dry_) client_.emplace(chat_settings(arguments));
     for (const std::string& name : arguments.list("TASK")) tasks_.push_back(task_info(*library_, name).name);
-    if (arguments.has("--out") && tasks_.size() > 1) throw UsageError("--out is for one task", "leave it out: each file stands beside its task");
+    if (arguments.has("--out") && tasks_.size() > 1)
+      throw UsageError("--out is for one task", "leave it out: each file stands beside its task");
     out_ = arguments.text("--out");
   }
 
@@ -84,33 +93,38 @@ class Asker {
       const std::vector<std::string> names =
           of_task ? matching_variations(task_info(*library_, task), variation_) : labels_for(task, level, all);
       for (const std::string& name : names)
-        for (const Grain grain : of_task ? asked_.grains : std::vector<Grain>{Grain::goal}) ask(task, level, name, grain, all, path, file);
+        for (const Grain grain : of_task ? asked_.grains : std::vector<Grain>{Grain::goal})
+          ask(task, level, name, grain, all, path, file);
     }
   }
 
-  void ask(const std::string& task, LanguageLevel level, const std::string& name, Grain grain, const std::vector<OwnSentences>& all,
-           const std::filesystem::path& path, SentenceFile& file) {
+  void ask(const std::string& task, LanguageLevel level, const std::string& name, Grain grain,
+           const std::vector<OwnSentences>& all, const std::filesystem::path& path, SentenceFile& file) {
     if (console_.stopped()) throw Error("interrupted", "");
     const SentenceChecker checker(*meaning_for(library_, task, level, name, asked_.seed, all));
     const ParaphraseJob job{level, name, grain, asked_.count, asked_.each_request, asked_.seed};
     if (dry_) {
-      for (const ChatRequest& request : requests_of(job, checker.meaning())) console_.out << prompt_text(request) << "\n";
+      for (const ChatRequest& request : requests_of(job, checker.meaning()))
+        console_.out << prompt_text(request) << "\n";
       return;
     }
     std::vector<Refused> refused;
-    const ParaphraseTally tally =
-        paraphrase(job, checker, distractors(task, level, all), *client_, file, console_.stop, show_refused_ ? &refused : nullptr);
+    const ParaphraseTally tally = paraphrase(job, checker, distractors(task, level, all), *client_, file, console_.stop,
+                                             show_refused_ ? &refused : nullptr);
     if (tally.jobs_there == 0) write_sentence_file(file, path);
     total_.add(tally);
-    console_.err << fmt::format("{} {} {} {}: {}\n", task, to_string(level), name, to_string(grain),
-                                tally.jobs_there > 0 ? "is there already" : fmt::format("{} of {} pass", tally.passed, tally.received));
+    console_.err << fmt::format(
+        "{} {} {} {}: {}\n", task, to_string(level), name, to_string(grain),
+        tally.jobs_there > 0 ? "is there already" : fmt::format("{} of {} pass", tally.passed, tally.received));
     for (const Refused& one : refused) console_.err << fmt::format("  {} ({}): {}\n", one.reason, one.detail, one.text);
   }
 
   // Of skills those that the plan of the first variation has.
-  std::vector<std::string> labels_for(const std::string& task, LanguageLevel level, const std::vector<OwnSentences>& all) const {
+  std::vector<std::string> labels_for(const std::string& task, LanguageLevel level,
+                                      const std::vector<OwnSentences>& all) const {
     std::set<std::string> skills;
-    if (level == LanguageLevel::skill) skills = meaning_of(library_, task, all.front().variation, asked_.seed, all).skills;
+    if (level == LanguageLevel::skill)
+      skills = meaning_of(library_, task, all.front().variation, asked_.seed, all).skills;
     std::vector<std::string> names;
     for (const auto& [name, label] : labels_of(*library_, level))
       if (level != LanguageLevel::skill || skills.contains(name)) names.push_back(name);
@@ -118,14 +132,16 @@ class Asker {
   }
 
   // Goals of other variations, and of other tasks.
-  std::vector<std::string> distractors(const std::string& task, LanguageLevel level, const std::vector<OwnSentences>& all) const {
+  std::vector<std::string> distractors(const std::string& task, LanguageLevel level,
+                                       const std::vector<OwnSentences>& all) const {
     std::vector<std::string> others;
     if (level == LanguageLevel::task) {
       std::vector<std::string> near, far;
       for (const OwnSentences& one : all) near.push_back(one.sentences.front());
       for (const ScriptFile* file : library_->files(DefinitionKind::task)) {
         const Library::TaskInfo* info = library_->task(file->name);
-        if (info != nullptr && info->name != task && !info->instructions.empty() && info->instructions.front().find('{') == std::string::npos)
+        if (info != nullptr && info->name != task && !info->instructions.empty() &&
+            info->instructions.front().find('{') == std::string::npos)
           far.push_back(info->instructions.front());
       }
       Random random(RandomKey("other goals").with(task).with(asked_.seed));
@@ -179,7 +195,8 @@ CommandRow paraphrase_command() {
   CommandRow row{
       "paraphrase",
       "Ask a language model for more sentences, check each, and keep what passes",
-      "For each variation a start is made, the model is told what stands there and asked for other ways to say what is to be "
+      "For each variation a start is made, the model is told what stands there and asked for other ways to say what is "
+      "to be "
       "done. Nothing is believed: a parser of our own checks names, colours, counts, order and sides against the "
       "scene, then the model is asked back which of the scene's things and which goal its sentence means, and "
       "near-duplicates go. What passes is stored beside the task, in tasks/NAME.sentences.json, where `run "
@@ -191,8 +208,20 @@ CommandRow paraphrase_command() {
        {"--seed", "S", "of the start, and of what is asked", Takes::integer, "0", {}, false},
        {"--count", "N", "sentences to ask for, for each variation, level and grain", Takes::integer, "10", {}, false},
        {"--each", "N", "of these, in one request; small models do better with 1", Takes::integer, "5", {}, false},
-       {"--grain", "NAME", "how much a task's sentence says: goal (which is taken), steps, motions", Takes::text, "", {}, true},
-       {"--level", "NAME", "what is said in other words: task (which is taken), world, skill, motion", Takes::text, "", {}, true},
+       {"--grain",
+        "NAME",
+        "how much a task's sentence says: goal (which is taken), steps, motions",
+        Takes::text,
+        "",
+        {},
+        true},
+       {"--level",
+        "NAME",
+        "what is said in other words: task (which is taken), world, skill, motion",
+        Takes::text,
+        "",
+        {},
+        true},
        {"--dry-run", "", "print what would be asked, and ask nobody", Takes::flag, "", {}, false},
        {"--show-refused", "", "tell each sentence that does not pass, and why", Takes::flag, "", {}, false},
        {"--out", "FILE", "instead of the file beside the task", Takes::path, "", {}, false}},

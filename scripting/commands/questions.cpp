@@ -35,8 +35,12 @@ std::string best_camera(const Pixels& pixels, const std::set<std::string>& thing
 class Questioner {
  public:
   Questioner(const Arguments& arguments, Console& console)
-      : arguments_(arguments), console_(console), library_(words_of(arguments)), catalogue_(Catalogue::open(arguments.text("FILE"))),
-        per_frame_(static_cast<int>(in_range(arguments, "--per-frame", 1, 1000))), frames_(in_range(arguments, "--frames", 1, 1'000'000)) {
+      : arguments_(arguments),
+        console_(console),
+        library_(words_of(arguments)),
+        catalogue_(Catalogue::open(arguments.text("FILE"))),
+        per_frame_(static_cast<int>(in_range(arguments, "--per-frame", 1, 1000))),
+        frames_(in_range(arguments, "--frames", 1, 1'000'000)) {
     if (arguments.flag("--rephrase")) client_.emplace(chat_settings(arguments));
   }
 
@@ -73,9 +77,10 @@ class Questioner {
     const std::map<std::int64_t, Pixels> seen = pixels_of(id);
     for (const std::int64_t frame : frames_of(episode, pictures)) {
       const auto shown = seen.find(frame);
-      for (const FrameQuestion& one :
-           chosen_questions(questions_about(episode, library_->domain_of(episode.task), scene, frame), episode, frame, per_frame_)) {
-        std::string camera = one.camera.empty() && shown != seen.end() ? best_camera(shown->second, one.things) : one.camera;
+      for (const FrameQuestion& one : chosen_questions(
+               questions_about(episode, library_->domain_of(episode.task), scene, frame), episode, frame, per_frame_)) {
+        std::string camera =
+            one.camera.empty() && shown != seen.end() ? best_camera(shown->second, one.things) : one.camera;
         Line line;
         line["episode"] = id;
         line["frame"] = frame;
@@ -102,17 +107,20 @@ class Questioner {
     const std::vector<std::int64_t> list(all.begin(), all.end());
     const auto size = static_cast<std::int64_t>(list.size()), wanted = std::min(frames_, size);
     std::vector<std::int64_t> frames;
-    for (std::int64_t i = 0; i < wanted; ++i) frames.push_back(list[static_cast<std::size_t>(wanted == 1 ? 0 : i * (size - 1) / (wanted - 1))]);
+    for (std::int64_t i = 0; i < wanted; ++i)
+      frames.push_back(list[static_cast<std::size_t>(wanted == 1 ? 0 : i * (size - 1) / (wanted - 1))]);
     return frames;
   }
 
   // Of episodes with instance masks.
   std::map<std::int64_t, Pixels> pixels_of(std::int64_t id) const {
     std::map<std::int64_t, Pixels> pixels;
-    const QueryResult rows = catalogue_.query("SELECT frame, camera, object, sum(pixels) AS pixels FROM visible WHERE episode = " + std::to_string(id) +
-                                              " GROUP BY frame, camera, object");
+    const QueryResult rows = catalogue_.query(
+        "SELECT frame, camera, object, sum(pixels) AS pixels FROM visible WHERE episode = " + std::to_string(id) +
+        " GROUP BY frame, camera, object");
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!rows.is_null(i, "object")) pixels[rows.integer(i, "frame")][rows.text(i, "camera")][rows.text(i, "object")] = rows.integer(i, "pixels");
+      if (!rows.is_null(i, "object"))
+        pixels[rows.integer(i, "frame")][rows.text(i, "camera")][rows.text(i, "object")] = rows.integer(i, "pixels");
     return pixels;
   }
 
@@ -124,7 +132,8 @@ class Questioner {
     const SentenceChecker checker(meaning_of_label("question", pattern, ""));
     SentenceFile kept;
     const ParaphraseJob job{LanguageLevel::world, pattern, Grain::goal, 4, 2, 0};
-    tally_.add(paraphrase(job, checker, {"is the {a} there?", "what is the {a} made of?"}, *client_, kept, console_.stop, nullptr));
+    tally_.add(paraphrase(job, checker, {"is the {a} there?", "what is the {a} made of?"}, *client_, kept,
+                          console_.stop, nullptr));
     if (!kept.sentences.empty()) found->second = kept.sentences.front().text + "?";
     return found->second;
   }
@@ -141,7 +150,9 @@ class Questioner {
     }
     console_.out << fmt::format("{}: {} questions\n", out, count_);
     for (const auto& [type, count] : by_type_) console_.out << fmt::format("{:>6} {}\n", count, type);
-    if (client_) console_.out << fmt::format("{} of {} wordings passed; ", tally_.passed, tally_.received) << cost_line(client_->cost(), client_->settings());
+    if (client_)
+      console_.out << fmt::format("{} of {} wordings passed; ", tally_.passed, tally_.received)
+                   << cost_line(client_->cost(), client_->settings());
   }
 
   const Arguments& arguments_;
@@ -165,10 +176,12 @@ CommandRow questions_command() {
   CommandRow row{
       "questions",
       "Write questions and answers about frames, for vision-language training",
-      "What holds and what does not (as often yes as no), what is where, colours, counts, which skill comes next, what a "
+      "What holds and what does not (as often yes as no), what is where, colours, counts, which skill comes next, what "
+      "a "
       "skill changed, what is left of what: truth from the catalogue, the same for the same file. A line of JSON each: "
       "episode, frame, camera (which shows all that it speaks of, where there are instance masks), type, question, "
-      "answer, answer_type, and the fact that proves it. With --rephrase a language model words the questions anew, and "
+      "answer, answer_type, and the fact that proves it. With --rephrase a language model words the questions anew, "
+      "and "
       "what passes the checks of `paraphrase` is taken. The exit code is 1 where nothing can be asked.",
       {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
       {{"--out", "FILE", "where to", Takes::path, "questions.jsonl", {}, false},

@@ -17,9 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 bool stopped(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 
@@ -45,9 +43,11 @@ std::size_t take_body(char* data, std::size_t size, std::size_t count, void* use
 // Retry-After: seconds, or a date (RFC 9110, section 10.2.3).
 std::size_t take_header(char* data, std::size_t size, std::size_t count, void* user) {
   std::string line(data, size * count);
-  std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(line.begin(), line.end(), line.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (line.starts_with("retry-after:")) {
-    const std::string value = line.substr(line.find_first_not_of(" \t", 12) == std::string::npos ? 12 : line.find_first_not_of(" \t", 12));
+    const std::string value =
+        line.substr(line.find_first_not_of(" \t", 12) == std::string::npos ? 12 : line.find_first_not_of(" \t", 12));
     char* end = nullptr;
     const double seconds = std::strtod(value.c_str(), &end);
     auto& receiver = *static_cast<Receiver*>(user);
@@ -172,7 +172,8 @@ static std::string message_in(const std::string& body) {
     if (error.is_string()) text = error.get<std::string>();
     if (error.is_object() && error.contains("message") && error["message"].is_string()) text = error["message"];
   }
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 32; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32; }, ' ');
   return text.substr(0, 200);
 }
 

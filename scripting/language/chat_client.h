@@ -10,16 +10,16 @@
 namespace stampede {
 
 struct ChatSettings {
-  std::string url;    // `http://localhost:8080/v1`; `/chat/completions` is added
-  std::string model;  // its name, as the server knows it
-  std::string key;    // empty: none. Never printed, never stored, in no error.
-  double timeout_s = 120;             // a request, from the first byte to the last
-  int retries = 4;                    // of a server that is away, slow, busy or broken
-  double wait_s = 1;                  // before the first retry; doubled each time
-  double longest_wait_s = 60;         // also for what a server says in Retry-After
-  double requests_per_minute = 0;     // at most; 0: as fast as it answers
-  std::int64_t most_bytes = 1 << 20;  // of an answer: a longer one is ended as it comes in
-  double price_in = 0, price_out = 0; // a million tokens of prompt, of completion
+  std::string url;                     // `http://localhost:8080/v1`; `/chat/completions` is added
+  std::string model;                   // its name, as the server knows it
+  std::string key;                     // empty: none. Never printed, never stored, in no error.
+  double timeout_s = 120;              // a request, from the first byte to the last
+  int retries = 4;                     // of a server that is away, slow, busy or broken
+  double wait_s = 1;                   // before the first retry; doubled each time
+  double longest_wait_s = 60;          // also for what a server says in Retry-After
+  double requests_per_minute = 0;      // at most; 0: as fast as it answers
+  std::int64_t most_bytes = 1 << 20;   // of an answer: a longer one is ended as it comes in
+  double price_in = 0, price_out = 0;  // a million tokens of prompt, of completion
 };
 
 struct ChatMessage {
@@ -48,7 +48,8 @@ struct ChatCost {
   double price(const ChatSettings& settings) const;
 };
 
-// One at a time, from one thread. TLS as libcurl does it; redirects are not followed, so that the key goes nowhere else.
+// One at a time, from one thread. TLS as libcurl does it; redirects are not followed, so that the key goes nowhere
+// else.
 class ChatClient {
  public:
   // Throws Error for an address that is none.

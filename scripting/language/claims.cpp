@@ -59,15 +59,15 @@ Marks marks_of(const Meaning& meaning, const std::vector<Reading>& own) {
 }
 
 const std::array<std::pair<const char*, const char*>, 10> kOpposites = {{{"open", "close"},
-                                                                        {"up", "down"},
-                                                                        {"in", "out"},
-                                                                        {"switch_on", "switch_off"},
-                                                                        {"push", "pull"},
-                                                                        {"plus", "minus"},
-                                                                        {"next", "previous"},
-                                                                        {"forward", "backward"},
-                                                                        {"clockwise", "anticlockwise"},
-                                                                                                                                                {"insert", "remove"}}};
+                                                                         {"up", "down"},
+                                                                         {"in", "out"},
+                                                                         {"switch_on", "switch_off"},
+                                                                         {"push", "pull"},
+                                                                         {"plus", "minus"},
+                                                                         {"next", "previous"},
+                                                                         {"forward", "backward"},
+                                                                         {"clockwise", "anticlockwise"},
+                                                                         {"insert", "remove"}}};
 
 }  // namespace
 
@@ -76,7 +76,8 @@ std::vector<std::string> marks_in(const Reading& reading, const std::set<std::st
   for (const std::size_t segment : reading.in_time)
     for (std::size_t i = reading.segments[segment].begin; i < reading.segments[segment].end; ++i) {
       const Word& word = reading.words[i];
-      if (tells(word) && telling.contains(word.sense) && std::find(marks.begin(), marks.end(), word.sense) == marks.end())
+      if (tells(word) && telling.contains(word.sense) &&
+          std::find(marks.begin(), marks.end(), word.sense) == marks.end())
         marks.push_back(word.sense);
     }
   return marks;
@@ -84,10 +85,10 @@ std::vector<std::string> marks_in(const Reading& reading, const std::set<std::st
 
 std::set<std::string> relations_in(const Reading& reading) {
   static const std::map<std::string, std::string> kRelations = {
-      {"under", "under"}, {"below", "under"},   {"beneath", "under"}, {"over", "over"},       {"above", "over"},
-      {"behind", "behind"}, {"beside", "beside"}, {"near", "beside"},  {"between", "between"}, {"outside", "outside"},
-      {"around", "around"}, {"before-thing", "front"}, {"against", "against"}, {"through", "through"},
-      {"across", "across"}};
+      {"under", "under"},     {"below", "under"},     {"beneath", "under"}, {"over", "over"},
+      {"above", "over"},      {"behind", "behind"},   {"beside", "beside"}, {"near", "beside"},
+      {"between", "between"}, {"outside", "outside"}, {"around", "around"}, {"before-thing", "front"},
+      {"against", "against"}, {"through", "through"}, {"across", "across"}};
   std::set<std::string> relations;
   for (const Word& word : reading.words) {
     const auto found = kRelations.find(word.text);
@@ -105,7 +106,8 @@ std::set<std::string> directions_in(const Reading& reading) {
       const bool leads = segment.verb == i;
       if (word.sense == "switch" || (word.sense == "turn" && leads)) switches = true;
       if (word.kind == WordKind::verb) {
-        static const std::set<std::string> kIs = {"stands", "stand", "left", "is", "are", "wide", "been", "already", "still"};
+        static const std::set<std::string> kIs = {"stands", "stand", "left",    "is",   "are",
+                                                  "wide",   "been",  "already", "still"};
         const bool state = i > 0 && kIs.contains(reading.words[i - 1].text);  // `the box stands open`
         if ((word.sense == "open" || word.sense == "close") && !state) directions.insert(word.sense);
         if (word.sense == "lift") directions.insert("up");
@@ -116,8 +118,10 @@ std::set<std::string> directions_in(const Reading& reading) {
         if (word.sense == "remove") directions.insert("remove");
         puts |= word.sense == "put" || word.sense == "insert" || word.sense == "drop" || word.sense == "hang";
       }
-      if (word.text == "off" && switches) directions.insert("switch_off");
-      else if (word.text == "off" || word.text == "out" || word.text == "outof" || word.text == "from") directions.insert("out");
+      if (word.text == "off" && switches)
+        directions.insert("switch_off");
+      else if (word.text == "off" || word.text == "out" || word.text == "outof" || word.text == "from")
+        directions.insert("out");
       if (word.text == "on" && switches) directions.insert("switch_on");
       if (word.text == "into" || (word.text == "in" && puts)) directions.insert("in");
       if (word.text == "up" || word.text == "down") directions.insert(word.text);
@@ -142,7 +146,8 @@ std::string role_key(const Reading& reading, const Mention& mention) {
   for (const Mention& other : reading.mentions) {
     if (&other >= &mention) break;
     if (other.segment != mention.segment) continue;
-    if (mention.role == "of" || other.role.starts_with("object") || other.role.starts_with("subject")) beside = other.sense;
+    if (mention.role == "of" || other.role.starts_with("object") || other.role.starts_with("subject"))
+      beside = other.sense;
   }
   return mention.role + " " + beside;
 }
@@ -171,7 +176,9 @@ std::vector<std::string> free_numbers(const Reading& reading) {
     const Word& word = reading.words[i];
     if (word.kind != WordKind::number || word.sense.size() > 4) continue;
     const bool counts = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
-      return mention.count && ((i >= mention.first && i <= mention.head) || (i + 1 < reading.words.size() && reading.words[i + 1].text == "of" && i < mention.head && i + 4 > mention.first));
+      return mention.count && ((i >= mention.first && i <= mention.head) ||
+                               (i + 1 < reading.words.size() && reading.words[i + 1].text == "of" && i < mention.head &&
+                                i + 4 > mention.first));
     });
     if (counts) continue;
     const bool named = i + 1 < reading.words.size() &&
@@ -196,7 +203,8 @@ Claims claims_of(const Meaning& meaning) {
       if (tells(word)) claims.senses.insert(word.sense);
       if (word.kind == WordKind::verb) claims.verbs.insert(word.sense);
     }
-    for (const Segment& segment : reading.segments) claims.segments.insert(content_of(reading, segment.begin, segment.end));
+    for (const Segment& segment : reading.segments)
+      claims.segments.insert(content_of(reading, segment.begin, segment.end));
     std::vector<Mention> wanted;
     for (const Mention& mention : reading.mentions) {
       for (const auto* words : {&mention.colours, &mention.adjectives, &mention.places})

@@ -14,16 +14,16 @@ namespace stampede {
 // What tells variations apart: senses that some variation's sentences have and another's have not.
 struct Marks {
   std::set<std::string> telling;
-  std::set<std::string> ours;  // of these, said of this variation
-  std::vector<std::vector<std::string>> own;   // by sentence: in the order in which they come true
-  std::vector<std::set<std::string>> theirs;   // by variation
+  std::set<std::string> ours;                 // of these, said of this variation
+  std::vector<std::vector<std::string>> own;  // by sentence: in the order in which they come true
+  std::vector<std::set<std::string>> theirs;  // by variation
 };
 // Those that a sentence says, the first time that it says each.
 std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling);
 
 struct Claims {
   std::vector<Reading> own;
-  std::set<std::string> senses;     // of all content words
+  std::set<std::string> senses;  // of all content words
   std::set<std::string> verbs;
   std::set<std::pair<std::string, std::string>> attributes;  // (red, mark), (wooden, box)
   std::map<std::string, std::set<int>> counts;               // of a noun, and of `noun role`
@@ -33,8 +33,8 @@ struct Claims {
   bool others = false;                                       // `the other cups` have a part in it
   std::set<std::string> relations, directions;               // behind; up, out
   std::set<std::pair<std::string, std::string>> roles;       // (object put, cube), (to put cube, drawer): see role_key
-  std::vector<std::vector<std::string>> numbers;             // by sentence: those that count no thing, with what follows
-  std::vector<std::vector<Mention>> wanted;                  // by sentence: mentions of wanted things
+  std::vector<std::vector<std::string>> numbers;  // by sentence: those that count no thing, with what follows
+  std::vector<std::vector<Mention>> wanted;       // by sentence: mentions of wanted things
   Marks marks;
 };
 Claims claims_of(const Meaning& meaning);

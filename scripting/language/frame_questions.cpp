@@ -21,8 +21,10 @@ std::string plain(std::string name) {
 std::string slotted(const std::string& label, const std::vector<Parameter>& parameters) {
   std::string text = label;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string from = "{" + parameters[i].name + "}", to = "{" + std::string(1, static_cast<char>('a' + i)) + "}";
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+    const std::string from = "{" + parameters[i].name + "}",
+                      to = "{" + std::string(1, static_cast<char>('a' + i)) + "}";
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
   }
   return text;
 }
@@ -46,7 +48,8 @@ class QuestionMaker {
   }
 
  private:
-  FrameQuestion& add(const char* type, std::string pattern, std::string answer, const char* answer_type, std::string proof) {
+  FrameQuestion& add(const char* type, std::string pattern, std::string answer, const char* answer_type,
+                     std::string proof) {
     FrameQuestion question;
     question.frame = frame_;
     question.type = type;
@@ -68,7 +71,8 @@ class QuestionMaker {
   const Predicate* told(const Fact& fact) const {
     const Predicate* predicate = domain_.predicate(fact.predicate);
     const bool spoken = predicate != nullptr && !predicate->label.empty() && predicate->kind != PredicateKind::fixed;
-    const bool all = std::all_of(fact.arguments.begin(), fact.arguments.end(), [&](const auto& name) { return scene_.object(name) != nullptr; });
+    const bool all = std::all_of(fact.arguments.begin(), fact.arguments.end(),
+                                 [&](const auto& name) { return scene_.object(name) != nullptr; });
     return spoken && all ? predicate : nullptr;
   }
 
@@ -80,12 +84,15 @@ class QuestionMaker {
     for (const Fact& fact : yes)
       for (const Fact& other : yes) {
         if (no.size() >= yes.size()) break;
-        if (fact.predicate != other.predicate || fact.arguments.size() < 2 || fact.arguments.front() == other.arguments.front()) continue;
+        if (fact.predicate != other.predicate || fact.arguments.size() < 2 ||
+            fact.arguments.front() == other.arguments.front())
+          continue;
         Fact mixed = fact;
         mixed.arguments.back() = other.arguments.back();
         if (!ever_.contains(mixed) && mixed.arguments.front() != mixed.arguments.back()) no.push_back(mixed);
       }
-    Random random(RandomKey("questions that hold").with(episode_.task).with(episode_.variation).with(episode_.seed).with(frame_));
+    Random random(
+        RandomKey("questions that hold").with(episode_.task).with(episode_.variation).with(episode_.seed).with(frame_));
     random.shuffle(yes);
     random.shuffle(no);
     const std::size_t each = std::min(yes.size(), no.size());  // as many of each
@@ -93,8 +100,9 @@ class QuestionMaker {
       for (const Fact* fact : {&yes[i], &no[i]}) {
         const Predicate* predicate = told(*fact);
         const bool holds = facts_.contains(*fact);
-        FrameQuestion& question = add("holds", "is it true that " + slotted(predicate->label, predicate->parameters) + "?", holds ? "yes" : "no",
-                                      "yes_no", (holds ? "" : "not ") + to_text(*fact));
+        FrameQuestion& question =
+            add("holds", "is it true that " + slotted(predicate->label, predicate->parameters) + "?",
+                holds ? "yes" : "no", "yes_no", (holds ? "" : "not ") + to_text(*fact));
         put_slots(question, fact->arguments);
       }
   }
@@ -112,14 +120,17 @@ class QuestionMaker {
   void ask_colours() {
     std::map<std::string, std::vector<const Object*>> by_class;
     for (const Object& object : scene_.objects)
-      if (object.kind == ObjectKind::body && !object.class_name.empty()) by_class[plain(object.class_name)].push_back(&object);
+      if (object.kind == ObjectKind::body && !object.class_name.empty())
+        by_class[plain(object.class_name)].push_back(&object);
     for (const auto& [name, objects] : by_class) {
       std::map<std::string, int> colours;
       for (const Object* object : objects)
-        if (const auto colour = object->attributes.find("colour"); colour != object->attributes.end()) ++colours[colour->second];
+        if (const auto colour = object->attributes.find("colour"); colour != object->attributes.end())
+          ++colours[colour->second];
       if (colours.empty()) continue;
       if (objects.size() == 1) {
-        FrameQuestion& question = add("colour", "what colour is the {a}?", plain(colours.begin()->first), "colour", "(colour " + objects.front()->name + " " + colours.begin()->first + ")");
+        FrameQuestion& question = add("colour", "what colour is the {a}?", plain(colours.begin()->first), "colour",
+                                      "(colour " + objects.front()->name + " " + colours.begin()->first + ")");
         question.slots["a"] = name;
         question.things.insert(objects.front()->name);
       }
@@ -140,11 +151,12 @@ class QuestionMaker {
     const SegmentRecord *next = nullptr, *last = nullptr;
     for (const SegmentRecord& segment : episode_.segments) {
       if (segment.kind != SegmentKind::skill || segment.label.empty()) continue;
-      if (segment.span.first_frame > frame_ && next == nullptr) next = &segment;
+      if (segment.span.first_frame >= frame_ && next == nullptr) next = &segment;
       if (segment.span.end_frame <= frame_ && segment.outcome == Outcome::success) last = &segment;
     }
     if (next != nullptr) {
-      FrameQuestion& question = add("next_skill", "what does the robot do next?", next->label, "skill", "segment " + std::to_string(next->ordinal));
+      FrameQuestion& question = add("next_skill", "what does the robot do next?", next->label, "skill",
+                                    "segment " + std::to_string(next->ordinal));
       question.things.insert(next->arguments.begin(), next->arguments.end());
     }
     if (last == nullptr) return;
@@ -156,18 +168,25 @@ class QuestionMaker {
       changes += (changes.empty() ? "" : "; ") + (effect.negated ? "no longer: " + label : label);
     }
     if (changes.empty()) return;
-    FrameQuestion& question = add("changed", "what did it change that the robot did this: {a}?", changes, "facts", "segment " + std::to_string(last->ordinal));
+    FrameQuestion& question = add("changed", "what did it change that the robot did this: {a}?", changes, "facts",
+                                  "segment " + std::to_string(last->ordinal));
     question.slots["a"] = last->label;
     question.things.insert(last->arguments.begin(), last->arguments.end());
   }
 
   // Left and right in the picture of the first camera that stands in the world.
   void ask_sides() {
-    const auto camera = std::find_if(scene_.cameras.begin(), scene_.cameras.end(), [](const Camera& one) { return one.mount_body.empty(); });
-    if (camera == scene_.cameras.end() || frame_ < 0 || frame_ >= static_cast<std::int64_t>(episode_.frames.size())) return;
+    const auto camera = std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
+                                     [](const Camera& one) { return one.mount_body.empty(); });
+    if (camera == scene_.cameras.end() || frame_ < 0 || frame_ >= static_cast<std::int64_t>(episode_.frames.size()))
+      return;
     const FrameRecord& frame = episode_.frames[static_cast<std::size_t>(frame_)];
     const Transform camera_from_world = camera->mount_from_camera.inverse();
     std::vector<std::pair<std::string, double>> seen;
+    const auto moves = [&](const std::string& name) {
+      const std::vector<std::string>& traits = scene_.object(name)->traits;
+      return std::find(traits.begin(), traits.end(), "movable") != traits.end();
+    };
     for (std::size_t i = 0; i < episode_.posed.size() && i < frame.object_pose.size(); ++i) {
       const Object* object = scene_.object(episode_.posed[i]);
       if (object == nullptr || object->kind != ObjectKind::body) continue;
@@ -177,12 +196,15 @@ class QuestionMaker {
     bool other_way = false;
     for (std::size_t i = 0; i < seen.size(); ++i)
       for (std::size_t k = i + 1; k < seen.size(); ++k) {
-        if (std::abs(seen[i].second - seen[k].second) < kAside) continue;
+        if (std::abs(seen[i].second - seen[k].second) < kAside || !(moves(seen[i].first) || moves(seen[k].first)))
+          continue;
+        if (seen[i].first == "table" || seen[k].first == "table") continue;  // it is under all of them
         const bool left = seen[i].second < seen[k].second;
         other_way = !other_way;  // yes and no in turn
         const bool first = left == other_way;
         const std::string &a = first ? seen[i].first : seen[k].first, &b = first ? seen[k].first : seen[i].first;
-        FrameQuestion& question = add("side", "is the {a} left of the {b}?", other_way ? "yes" : "no", "yes_no", "poses of " + a + " and " + b + " in " + camera->name);
+        FrameQuestion& question = add("side", "is the {a} left of the {b}?", other_way ? "yes" : "no", "yes_no",
+                                      "poses of " + a + " and " + b + " in " + camera->name);
         put_slots(question, {a, b});
         question.camera = camera->name;
       }
@@ -202,20 +224,24 @@ std::string FrameQuestion::text(const std::string& with_pattern) const {
   std::string filled = with_pattern;
   for (const auto& [slot, name] : slots) {
     const std::string from = "{" + slot + "}";
-    for (std::size_t at = filled.find(from); at != std::string::npos; at = filled.find(from, at + name.size())) filled.replace(at, from.size(), name);
+    for (std::size_t at = filled.find(from); at != std::string::npos; at = filled.find(from, at + name.size()))
+      filled.replace(at, from.size(), name);
   }
   return filled;
 }
 
-std::vector<FrameQuestion> questions_about(const EpisodeRecord& episode, const Domain& domain, const Scene& scene, std::int64_t frame) {
+std::vector<FrameQuestion> questions_about(const EpisodeRecord& episode, const Domain& domain, const Scene& scene,
+                                           std::int64_t frame) {
   return QuestionMaker(episode, domain, scene, frame).make();
 }
 
-std::vector<FrameQuestion> chosen_questions(std::vector<FrameQuestion> all, const EpisodeRecord& episode, std::int64_t frame, int most) {
+std::vector<FrameQuestion> chosen_questions(std::vector<FrameQuestion> all, const EpisodeRecord& episode,
+                                            std::int64_t frame, int most) {
   Random random(RandomKey("questions").with(episode.task).with(episode.variation).with(episode.seed).with(frame));
   random.shuffle(all);
   std::map<std::string, std::vector<FrameQuestion>> by_type;
-  for (FrameQuestion& one : all) by_type[one.type + (one.answer_type == "yes_no" ? one.answer : "")].push_back(std::move(one));
+  for (FrameQuestion& one : all)
+    by_type[one.type + (one.answer_type == "yes_no" ? one.answer : "")].push_back(std::move(one));
   std::vector<std::string> types;
   for (const auto& [type, list] : by_type) types.push_back(type);
   random.shuffle(types);

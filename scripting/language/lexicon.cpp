@@ -10,20 +10,20 @@ namespace {
 
 const std::map<std::string, WordKind>& kinds() {
   static const std::map<std::string, WordKind> all = {
-      {"function", WordKind::function},   {"harmless", WordKind::harmless}, {"adjective", WordKind::adjective},
-      {"colour", WordKind::colour},       {"number", WordKind::number},     {"place", WordKind::place},
-      {"order", WordKind::order},         {"negation", WordKind::negation}, {"exclusion", WordKind::exclusion},
-      {"noun", WordKind::noun},           {"verb", WordKind::verb}};
+      {"function", WordKind::function}, {"harmless", WordKind::harmless}, {"adjective", WordKind::adjective},
+      {"colour", WordKind::colour},     {"number", WordKind::number},     {"place", WordKind::place},
+      {"order", WordKind::order},       {"negation", WordKind::negation}, {"exclusion", WordKind::exclusion},
+      {"noun", WordKind::noun},         {"verb", WordKind::verb}};
   return all;
 }
 
 const std::map<std::string, std::string>& irregular() {
   static const std::map<std::string, std::string> forms = {
-      {"took", "take"},   {"taken", "take"},    {"laid", "lay"},   {"lying", "lie"},     {"held", "hold"},
-      {"found", "find"},  {"stood", "stand"},   {"got", "get"},    {"brought", "bring"}, {"hung", "hang"},
-      {"built", "build"}, {"putting", "put"},   {"kept", "keep"},  {"broke", "break"},   {"slid", "slide"},
-      {"swung", "swing"}, {"drawn", "draw"},    {"shown", "show"}, {"thrown", "throw"},  {"people", "person"},
-      {"men", "man"},     {"knives", "knife"},  {"dies", "die"},   {"tying", "tie"},     {"men's", "man"}};
+      {"took", "take"},   {"taken", "take"},   {"laid", "lay"},   {"lying", "lie"},     {"held", "hold"},
+      {"found", "find"},  {"stood", "stand"},  {"got", "get"},    {"brought", "bring"}, {"hung", "hang"},
+      {"built", "build"}, {"putting", "put"},  {"kept", "keep"},  {"broke", "break"},   {"slid", "slide"},
+      {"swung", "swing"}, {"drawn", "draw"},   {"shown", "show"}, {"thrown", "throw"},  {"people", "person"},
+      {"men", "man"},     {"knives", "knife"}, {"dies", "die"},   {"tying", "tie"},     {"men's", "man"}};
   return forms;
 }
 
@@ -64,9 +64,12 @@ bool is_letter(char c) {
 
 // Quotes and dashes of typography as plain characters.
 std::string plain_text(std::string_view sentence) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns = {
-      {{"\xE2\x80\x99", "'"}, {"\xE2\x80\x98", "'"}, {"\xE2\x80\x9C", " "}, {"\xE2\x80\x9D", " "},
-       {"\xE2\x80\x93", ", "}, {"\xE2\x80\x94", ", "}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns = {{{"\xE2\x80\x99", "'"},
+                                                                                           {"\xE2\x80\x98", "'"},
+                                                                                           {"\xE2\x80\x9C", " "},
+                                                                                           {"\xE2\x80\x9D", " "},
+                                                                                           {"\xE2\x80\x93", ", "},
+                                                                                           {"\xE2\x80\x94", ", "}}};
   std::string text;
   for (std::size_t i = 0; i < sentence.size();) {
     const auto sign = std::find_if(kSigns.begin(), kSigns.end(),
@@ -131,17 +134,17 @@ std::vector<PlainWord> with_phrases(const std::vector<PlainWord>& words) {
   return result;
 }
 
-const std::set<std::string> kBeforeNouns = {"a",    "an",   "the",   "its",     "their", "this", "that",  "these",
-                                            "those", "your", "each",  "every",   "all",   "both", "other", "another",
-                                            "'s",   "no",   "same",  "own",     "which", "any",  "of"};
-const std::set<std::string> kBeforeVerbs = {"to",   "and",  "then", "please", "or",   "not",   "don't", "you",    "it",
-                                            "never", "must", "should", "can",  "will", "would", "could", "may",   "might",
-                                            "them", "that", "let", "first", "by", "kindly", "now", "which", "is", "be"};
+const std::set<std::string> kBeforeNouns = {"a",     "an",   "the",  "its",   "their", "this", "that",  "these",
+                                            "those", "your", "each", "every", "all",   "both", "other", "another",
+                                            "'s",    "no",   "same", "own",   "which", "any",  "of"};
+const std::set<std::string> kBeforeVerbs = {"to",    "and",   "then",   "please", "or",     "not",  "don't",
+                                            "you",   "it",    "never",  "must",   "should", "can",  "will",
+                                            "would", "could", "may",    "might",  "them",   "that", "let",
+                                            "first", "by",    "kindly", "now",    "which",  "is",   "be"};
 
 bool leads_to_noun(const Word& before) {
-  return kBeforeNouns.contains(before.text) || before.kind == WordKind::adjective ||
-         before.kind == WordKind::colour || before.kind == WordKind::number || before.kind == WordKind::place ||
-         before.kind == WordKind::noun;
+  return kBeforeNouns.contains(before.text) || before.kind == WordKind::adjective || before.kind == WordKind::colour ||
+         before.kind == WordKind::number || before.kind == WordKind::place || before.kind == WordKind::noun;
 }
 
 }  // namespace
@@ -201,7 +204,8 @@ Lexicon::Lexicon() {
 
 void Lexicon::learn_noun(std::string_view name) {
   std::string spaced(name);
-  std::replace_if(spaced.begin(), spaced.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
+  std::replace_if(
+      spaced.begin(), spaced.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
   for (const std::string& word : words_in(spaced)) {
     if (word.size() < 2) continue;  // a square of a board, one of several
     bool plural = false;
@@ -239,8 +243,8 @@ const std::vector<Lexicon::Entry>* Lexicon::entries(const std::string& word, boo
   for (const Stem& stem : stems(word)) {
     const auto found = words_.find(stem.text);
     if (found == words_.end()) continue;
-    const bool fits = std::any_of(found->second.begin(), found->second.end(),
-                                  [&](const Entry& one) { return one.kind == wanted; });
+    const bool fits =
+        std::any_of(found->second.begin(), found->second.end(), [&](const Entry& one) { return one.kind == wanted; });
     if (any == nullptr || fits) plural = stem.plural;
     if (fits) return &found->second;
     if (any == nullptr) any = &found->second;
@@ -263,7 +267,8 @@ Word Lexicon::choose(const std::string& text, const std::vector<Word>& before, c
   // `the box stands open`, `let it stand open`: no stand
   static const std::set<std::string> kStates = {"open", "wide", "ajar", "shut", "closed", "up", "empty"};
   const bool says = last != nullptr && last->kind == WordKind::noun && last->text != "'s" &&
-                    (text == "stands" || text == "lies" || text == "rests" || text == "hangs" || text == "ends" || text == "stick" || kStates.contains(next));
+                    (text == "stands" || text == "lies" || text == "rests" || text == "hangs" || text == "ends" ||
+                     text == "stick" || kStates.contains(next));
   const bool noun_due = !starts && !says && leads_to_noun(*last);
   const bool verb_due = starts || says || last->kind == WordKind::order || last->kind == WordKind::harmless ||
                         kBeforeVerbs.contains(last->text);

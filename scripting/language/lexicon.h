@@ -15,8 +15,8 @@ enum class WordKind {
   adjective,  // claims something: `wooden`, `big`
   colour,
   number,
-  place,      // left, top, second: tells things of one kind apart
-  order,      // first, then, before, after, finally
+  place,  // left, top, second: tells things of one kind apart
+  order,  // first, then, before, after, finally
   negation,
   exclusion,  // others, except
   noun,
@@ -26,7 +26,7 @@ enum class WordKind {
 };
 
 struct Word {
-  std::string text;     // lower case
+  std::string text;   // lower case
   std::string sense;  // what all its synonyms share: `block` of cubes
   WordKind kind = WordKind::unknown;
   bool plural = false;

@@ -7,13 +7,14 @@
 #include "engine/base/text.h"
 #include "engine/episode/language.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/session/start_question.h"
 #include "scripting/session/episode_job.h"
+#include "scripting/session/start_question.h"
 
 namespace stampede {
 
 const std::set<std::string> kTakes = {"pick", "take_out", "extract", "unhang", "take_from_shelf"};
-const std::set<std::string> kPuts = {"place", "put_in", "put_on_shelf", "set_down", "lay", "drop", "stack", "insert", "hang"};
+const std::set<std::string> kPuts = {"place", "put_in", "put_on_shelf", "set_down", "lay",
+                                     "drop",  "stack",  "insert",       "hang"};
 
 namespace {
 
@@ -22,7 +23,8 @@ constexpr std::int64_t kStarts = 4;  // what differs among so many is not said o
 const std::set<std::string> kMoves = {"lift", "drag", "push", "unscrew"};
 
 std::vector<std::string> name_words(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9'); }, ' ');
   std::istringstream in(name);
   std::vector<std::string> words;
   for (std::string word; in >> word;)
@@ -119,7 +121,8 @@ class RoleMarker {
   void mark(const std::string& name, bool SpokenThing::*role) {
     for (SpokenThing& thing : meaning_.things) {
       const bool is_whole = name.starts_with(thing.name + ".");
-      const bool is_part = thing.name.starts_with(name + ".") && role != &SpokenThing::moved && role != &SpokenThing::handled;
+      const bool is_part =
+          thing.name.starts_with(name + ".") && role != &SpokenThing::moved && role != &SpokenThing::handled;
       if (thing.name == name || is_whole || is_part) thing.*role = true;
     }
   }
@@ -177,7 +180,8 @@ void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, 
     for (const SpokenThing& other : meaning.things) {
       if (!other.wanted || other.name.rfind('.') == std::string::npos) continue;
       beside |= other.name.substr(0, other.name.rfind('.')) == thing.name.substr(0, dot);
-      alike |= std::any_of(thing.heads.begin(), thing.heads.end(), [&](const auto& head) { return other.heads.contains(head); });
+      alike |= std::any_of(thing.heads.begin(), thing.heads.end(),
+                           [&](const auto& head) { return other.heads.contains(head); });
     }
     thing.accessory = beside && !alike && (thing.heads.contains("handle") || thing.heads.contains("hook"));
   }
@@ -235,8 +239,10 @@ Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::str
   meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
   meaning.facts = describe_world(question.state.facts, domain, *question.start.scene);
   for (const OwnSentences& one : all) {
-    if (one.variation == variation) meaning.own = one.sentences;
-    else meaning.elsewhere.push_back(one);
+    if (one.variation == variation)
+      meaning.own = one.sentences;
+    else
+      meaning.elsewhere.push_back(one);
   }
   learn_sentences(meaning);
   return meaning;
@@ -270,15 +276,18 @@ std::map<std::string, std::string> labels_of(const Library& library, LanguageLev
       if (const SkillInfo* skill = library.skill(file->name)) labels[file->name] = skill->label;
   if (level == LanguageLevel::world)
     for (const Predicate& predicate : library.domain().predicates)
-      if (predicate.kind == PredicateKind::basic || predicate.kind == PredicateKind::derived) labels[predicate.name] = predicate.label;
+      if (predicate.kind == PredicateKind::basic || predicate.kind == PredicateKind::derived)
+        labels[predicate.name] = predicate.label;
   std::erase_if(labels, [](const auto& one) { return one.second.empty(); });
   return labels;
 }
 
-std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task, LanguageLevel level,
-                                   const std::string& of, std::int64_t seed, const std::vector<OwnSentences>& all) {
+std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task,
+                                   LanguageLevel level, const std::string& of, std::int64_t seed,
+                                   const std::vector<OwnSentences>& all) {
   if (level == LanguageLevel::task) {
-    const bool there = std::any_of(all.begin(), all.end(), [&](const OwnSentences& one) { return one.variation == of; });
+    const bool there =
+        std::any_of(all.begin(), all.end(), [&](const OwnSentences& one) { return one.variation == of; });
     if (!there) return std::nullopt;
     return meaning_of(library, task, of, seed, all);
   }

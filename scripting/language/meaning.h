@@ -19,16 +19,16 @@ class Library;
 
 // A thing as it can be spoken of: senses of words, in the sense of Lexicon.
 struct SpokenThing {
-  std::string name;               // `chest.top_drawer`
-  std::string phrase;             // `top drawer of the chest`, at the start that was made
-  std::set<std::string> heads;    // nouns that name it: `drawer`
-  std::set<std::string> words;    // all words of its names, its whole's too: top drawer chest
-  std::set<std::string> colours;  // that it has in every start of the variation
-  bool region = false;            // a place without a body: a mark, the inside of a box
-  bool wanted = false;            // the goal or the plan handles it, or a part of it
-  bool handled = false;           // a step is about it: pressed, opened, carried …
-  bool moved = false;             // the plan carries it somewhere
-  bool accessory = false;         // a part that helps: the handle of what is opened
+  std::string name;                          // `chest.top_drawer`
+  std::string phrase;                        // `top drawer of the chest`, at the start that was made
+  std::set<std::string> heads;               // nouns that name it: `drawer`
+  std::set<std::string> words;               // all words of its names, its whole's too: top drawer chest
+  std::set<std::string> colours;             // that it has in every start of the variation
+  bool region = false;                       // a place without a body: a mark, the inside of a box
+  bool wanted = false;                       // the goal or the plan handles it, or a part of it
+  bool handled = false;                      // a step is about it: pressed, opened, carried …
+  bool moved = false;                        // the plan carries it somewhere
+  bool accessory = false;                    // a part that helps: the handle of what is opened
   bool source = false, destination = false;  // of what is moved
 };
 
@@ -39,17 +39,17 @@ struct OwnSentences {
 };
 
 struct Meaning {
-  std::string task, variation;  // of a skill's or predicate's label: its name, and nothing
-  std::vector<std::string> own;          // the author's sentences
-  std::vector<OwnSentences> elsewhere;   // of the other variations
+  std::string task, variation;          // of a skill's or predicate's label: its name, and nothing
+  std::vector<std::string> own;         // the author's sentences
+  std::vector<OwnSentences> elsewhere;  // of the other variations
   std::vector<SpokenThing> things;
-  Plan steps;                            // what does it; empty where nothing has to be done
-  std::set<std::string> skills;          // of the steps
-  bool ordered = false;                  // the goal's parts must come true in their order
-  bool slots = false;                    // the sentences speak of {slots} in place of things
-  std::string goal;                      // as PDDL, for prompts
-  std::vector<std::string> facts;        // of the start, as sentences, for prompts
-  Lexicon lexicon;                       // with the words of all these
+  Plan steps;                      // what does it; empty where nothing has to be done
+  std::set<std::string> skills;    // of the steps
+  bool ordered = false;            // the goal's parts must come true in their order
+  bool slots = false;              // the sentences speak of {slots} in place of things
+  std::string goal;                // as PDDL, for prompts
+  std::vector<std::string> facts;  // of the start, as sentences, for prompts
+  Lexicon lexicon;                 // with the words of all these
 };
 
 // Skills that end a thing's being somewhere, and those that begin it: of the thing, and of the place.
@@ -71,7 +71,8 @@ Meaning meaning_of_label(const std::string& name, const std::string& label, cons
 std::map<std::string, std::string> labels_of(const Library& library, LanguageLevel level);
 
 // Of either: `of` is a variation at level task, else a name of labels_of. Nothing where there is none of that name.
-std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task, LanguageLevel level,
-                                   const std::string& of, std::int64_t seed, const std::vector<OwnSentences>& all);
+std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task,
+                                   LanguageLevel level, const std::string& of, std::int64_t seed,
+                                   const std::vector<OwnSentences>& all);
 
 }  // namespace stampede

@@ -17,7 +17,8 @@ std::string hash_of(const std::vector<ChatRequest>& requests) {
 
 bool is_there(const ParaphraseJob& job, const std::string& model, const std::string& prompt, const SentenceFile& file) {
   return std::any_of(file.asked.begin(), file.asked.end(), [&](const AskedFor& one) {
-    return one.level == job.level && one.of == job.of && one.grain == job.grain && one.model == model && one.prompt == prompt;
+    return one.level == job.level && one.of == job.of && one.grain == job.grain && one.model == model &&
+           one.prompt == prompt;
   });
 }
 
@@ -39,8 +40,9 @@ std::vector<ChatRequest> requests_of(const ParaphraseJob& job, const Meaning& me
   return requests;
 }
 
-ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& checker, const std::vector<std::string>& distractors,
-                           ChatClient& client, SentenceFile& file, const std::atomic<bool>* stop, std::vector<Refused>* refused) {
+ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& checker,
+                           const std::vector<std::string>& distractors, ChatClient& client, SentenceFile& file,
+                           const std::atomic<bool>* stop, std::vector<Refused>* refused) {
   ParaphraseTally tally;
   const Meaning& meaning = checker.meaning();
   const std::string& model = client.settings().model;
@@ -86,7 +88,8 @@ ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& chec
         continue;
       }
       known.push_back(sentence);
-      kept.push_back({sentence, job.level, job.of, job.grain, model, prompt, {"words", "near_duplicate", "asked_back"}, 0});
+      kept.push_back(
+          {sentence, job.level, job.of, job.grain, model, prompt, {"words", "near_duplicate", "asked_back"}, 0});
     }
   }
   tally.passed = static_cast<std::int64_t>(kept.size());

@@ -30,11 +30,12 @@ struct Refused {
   std::string text, reason, detail;
 };
 
-// Of a job whose meaning `checker` knows. What passes is added to the file, and that it was asked for; a job that the file
-// has already asks nothing. `refused`: what did not pass, for people; may be null. Throws what ChatClient::ask throws; the
-// file is then as it was.
-ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& checker, const std::vector<std::string>& distractors,
-                           ChatClient& client, SentenceFile& file, const std::atomic<bool>* stop, std::vector<Refused>* refused);
+// Of a job whose meaning `checker` knows. What passes is added to the file, and that it was asked for; a job that the
+// file has already asks nothing. `refused`: what did not pass, for people; may be null. Throws what ChatClient::ask
+// throws; the file is then as it was.
+ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& checker,
+                           const std::vector<std::string>& distractors, ChatClient& client, SentenceFile& file,
+                           const std::atomic<bool>* stop, std::vector<Refused>* refused);
 
 // The requests of a job, without asking anybody.
 std::vector<ChatRequest> requests_of(const ParaphraseJob& job, const Meaning& meaning);

@@ -16,7 +16,8 @@ constexpr std::size_t kMostThings = 12, kMostFacts = 16, kMostGoals = 4;
 
 std::string grain_words(Grain grain) {
   if (grain == Grain::steps) return "Say each step, in order, in one sentence.";
-  if (grain == Grain::motions) return "Say each motion of the hand, in order: where it reaches, what it grips, where it moves, where it lets go.";
+  if (grain == Grain::motions)
+    return "Say each motion of the hand, in order: where it reaches, what it grips, where it moves, where it lets go.";
   return "Say only what is to be achieved, in one short instruction.";
 }
 
@@ -26,7 +27,8 @@ std::vector<const SpokenThing*> things_by_phrase(const Meaning& meaning) {
   std::set<std::string> said;
   for (const bool wanted : {true, false})
     for (const SpokenThing& thing : meaning.things)
-      if (thing.wanted == wanted && !thing.region && things.size() < kMostThings && said.insert(thing.phrase).second) things.push_back(&thing);
+      if (thing.wanted == wanted && !thing.region && things.size() < kMostThings && said.insert(thing.phrase).second)
+        things.push_back(&thing);
   return things;
 }
 
@@ -43,7 +45,8 @@ std::string scene_words(const Meaning& meaning) {
 std::string asking(const std::string& scene, const std::vector<std::string>& own, int count) {
   std::string text = scene + "\nInstruction: " + own.front();
   if (own.size() > 1) text += "\nAlso said as: " + own[1];
-  return text + "\nWrite " + std::to_string(count) + (count == 1 ? " other way" : " other ways") + " to say it, one a line.";
+  return text + "\nWrite " + std::to_string(count) + (count == 1 ? " other way" : " other ways") +
+         " to say it, one a line.";
 }
 
 std::string trimmed(std::string line) {
@@ -54,7 +57,8 @@ std::string trimmed(std::string line) {
   };
   strip(" \t\r");
   std::size_t digits = line.find_first_not_of("0123456789");
-  if (digits != std::string::npos && digits > 0 && (line[digits] == '.' || line[digits] == ')' || line[digits] == ':')) line.erase(0, digits + 1);
+  if (digits != std::string::npos && digits > 0 && (line[digits] == '.' || line[digits] == ')' || line[digits] == ':'))
+    line.erase(0, digits + 1);
   strip(" \t\r-*\"'`,");
   if (line.ends_with(".") || line.ends_with("!")) line.pop_back();
   strip(" \t\r\"'`");
@@ -68,13 +72,19 @@ ChatRequest paraphrase_request(const Meaning& meaning, Grain grain, int count, s
   request.seed = seed;
   request.temperature = 0.8;
   request.most_tokens = std::min(2000, count * (grain == Grain::goal ? 40 : grain == Grain::steps ? 90 : 140));
-  request.messages.push_back({"system", "You reword instructions for a robot arm. Keep every colour, number, side and order. Use plain English. "
-                                        "Write only the instructions. " + grain_words(grain) +
-                                            (meaning.slots ? " Keep words in braces, such as {obj}, as they are." : "")});
+  request.messages.push_back(
+      {"system",
+       "You reword instructions for a robot arm. Keep every colour, number, side and order. Use plain English. "
+       "Write only the instructions. " +
+           grain_words(grain) + (meaning.slots ? " Keep words in braces, such as {obj}, as they are." : "")});
   const bool slots = meaning.slots;
-  request.messages.push_back({"user", asking("Things: banana, basket, work table.", {slots ? "move {obj} to the {below}" : "put the banana in the basket"}, 1)});
-  request.messages.push_back({"assistant", slots ? "bring {obj} over to the {below}" : "place the banana into the basket"});
-  request.messages.push_back({"user", asking("Things: red bell, green bell, work table.", {slots ? "ring the {bell}" : "ring the green bell"}, 1)});
+  request.messages.push_back(
+      {"user", asking("Things: banana, basket, work table.",
+                      {slots ? "move {obj} to the {below}" : "put the banana in the basket"}, 1)});
+  request.messages.push_back(
+      {"assistant", slots ? "bring {obj} over to the {below}" : "place the banana into the basket"});
+  request.messages.push_back({"user", asking("Things: red bell, green bell, work table.",
+                                             {slots ? "ring the {bell}" : "ring the green bell"}, 1)});
   request.messages.push_back({"assistant", slots ? "make the {bell} ring" : "let the green bell ring"});
   request.messages.push_back({"user", asking(meaning.slots ? "Any scene." : scene_words(meaning), meaning.own, count)});
   return request;
@@ -88,7 +98,11 @@ std::string prompt_text(const ChatRequest& request) {
 
 std::string prompt_hash(const ChatRequest& request) {
   Hasher hasher;
-  hasher.text(prompt_text(request)).text(request.json_schema).number(request.seed).number(request.temperature).number(request.most_tokens);
+  hasher.text(prompt_text(request))
+      .text(request.json_schema)
+      .number(request.seed)
+      .number(request.temperature)
+      .number(request.most_tokens);
   return hasher.digest().substr(0, 16);
 }
 
@@ -97,7 +111,8 @@ std::vector<std::string> sentences_in(const std::string& answer) {
   const std::size_t open = answer.find('['), close = answer.rfind(']');
   if (open != std::string::npos && close != std::string::npos && open < close) {
     const json list = json::parse(answer.substr(open, close - open + 1), nullptr, false);
-    if (list.is_array() && !list.empty() && std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
+    if (list.is_array() && !list.empty() &&
+        std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
       for (const json& one : list) found.push_back(trimmed(one.get<std::string>()));
       return found;
     }
@@ -108,7 +123,8 @@ std::vector<std::string> sentences_in(const std::string& answer) {
   return found;
 }
 
-BackQuestion back_question(const Meaning& meaning, const std::string& sentence, const std::vector<std::string>& distractors, std::int64_t seed) {
+BackQuestion back_question(const Meaning& meaning, const std::string& sentence,
+                           const std::vector<std::string>& distractors, std::int64_t seed) {
   BackQuestion question;
   Random random(RandomKey("asked back").with(meaning.task).with(meaning.variation).with(sentence).with(seed));
   std::vector<const SpokenThing*> things = things_by_phrase(meaning);
@@ -130,13 +146,16 @@ BackQuestion back_question(const Meaning& meaning, const std::string& sentence, 
     text += "\n" + std::to_string(i + 1) + ". " + goals[i];
     if (goals[i] == meaning.own.front()) question.goal = static_cast<int>(i + 1);
   }
-  text += "\nWhich of the things does the instruction speak of, and which goal does it mean? Answer as JSON: {\"things\": [numbers], \"goal\": number}";
+  text +=
+      "\nWhich of the things does the instruction speak of, and which goal does it mean? Answer as JSON: {\"things\": "
+      "[numbers], \"goal\": number}";
   question.request.seed = seed;
   question.request.temperature = 0;
   question.request.most_tokens = 80;
   question.request.messages = {{"system", "You answer in JSON only."}, {"user", std::move(text)}};
-  question.request.json_schema = R"({"type":"object","properties":{"things":{"type":"array","items":{"type":"integer"},"maxItems":12},)"
-                                 R"("goal":{"type":"integer"}},"required":["things","goal"]})";
+  question.request.json_schema =
+      R"({"type":"object","properties":{"things":{"type":"array","items":{"type":"integer"},"maxItems":12},)"
+      R"("goal":{"type":"integer"}},"required":["things","goal"]})";
   return question;
 }
 
@@ -151,7 +170,8 @@ std::optional<std::string> wrong_answer(const BackQuestion& question, const std:
   bool handled = question.handled.empty();
   if (!said.contains("things") || !said["things"].is_array()) return "it names no things";
   for (const json& one : said["things"]) {
-    if (!one.is_number_integer() || !question.wanted.contains(one.get<int>())) return "it names a thing that has no part in it";
+    if (!one.is_number_integer() || !question.wanted.contains(one.get<int>()))
+      return "it names a thing that has no part in it";
     handled |= question.handled.contains(one.get<int>());
   }
   return handled ? std::nullopt : std::optional<std::string>("it does not name what is handled");

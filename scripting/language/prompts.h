@@ -11,7 +11,8 @@
 
 namespace stampede {
 
-// Asks for `count` ways to say it, told what the scene holds. Two examples go before, so that small models see the form.
+// Asks for `count` ways to say it, told what the scene holds. Two examples go before, so that small models see the
+// form.
 ChatRequest paraphrase_request(const Meaning& meaning, Grain grain, int count, std::int64_t seed);
 std::string prompt_hash(const ChatRequest& request);
 std::string prompt_text(const ChatRequest& request);  // for people
@@ -27,8 +28,8 @@ struct BackQuestion {
   int goal = 0;           // number of the goal
 };
 // `distractors`: goals of other tasks and variations, the likest first.
-BackQuestion back_question(const Meaning& meaning, const std::string& sentence, const std::vector<std::string>& distractors,
-                           std::int64_t seed);
+BackQuestion back_question(const Meaning& meaning, const std::string& sentence,
+                           const std::vector<std::string>& distractors, std::int64_t seed);
 // Nothing: it was right. Otherwise what was wrong, for people.
 std::optional<std::string> wrong_answer(const BackQuestion& question, const std::string& answer);
 

@@ -5,16 +5,18 @@
 namespace stampede {
 namespace {
 
-const std::set<std::string> kJoins = {"and",   "then",    "but",  "while", "until", "so",  "because",
-                                      "after", "before",  "once", "when",  "or",    "if"};
+const std::set<std::string> kJoins = {"and",   "then",   "but",  "while", "until", "so", "because",
+                                      "after", "before", "once", "when",  "or",    "if"};
 const std::set<std::string> kPrepositions = {
-    "on",    "onto",   "upon",  "in",      "into",  "inside", "within", "to",      "from",   "off",
-    "outof", "of",     "with",  "at",      "over",  "above",  "under",  "below",   "beneath", "behind",      "beside",
-    "near",  "between", "around", "through", "against", "across", "toward", "towards", "along", "before-thing", "by", "for"};
+    "on",      "onto",    "upon",   "in",           "into",    "inside", "within",  "to",      "from",
+    "off",     "outof",   "of",     "with",         "at",      "over",   "above",   "under",   "below",
+    "beneath", "behind",  "beside", "near",         "between", "around", "through", "against", "across",
+    "toward",  "towards", "along",  "before-thing", "by",      "for"};
 
 bool is_article(const std::string& word) {
-  static const std::set<std::string> kArticles = {"a",    "an",    "the",  "its",  "their", "this", "that", "these",
-                                                  "those", "your", "each", "every", "all",  "any",  "same", "own", "both"};
+  static const std::set<std::string> kArticles = {"a",    "an",    "the",   "its",  "their", "this",
+                                                  "that", "these", "those", "your", "each",  "every",
+                                                  "all",  "any",   "same",  "own",  "both"};
   return kArticles.contains(word);
 }
 
@@ -22,8 +24,8 @@ bool is_pronoun_one(const std::vector<Word>& words, std::size_t i) {
   if (words[i].text == "ones") return true;
   if (words[i].text != "one" || i == 0 || words[i].before != ' ') return false;
   if (i + 1 < words.size() && words[i + 1].before == ' ' &&
-      (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour || words[i + 1].kind == WordKind::adjective ||
-       words[i + 1].kind == WordKind::own))
+      (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour ||
+       words[i + 1].kind == WordKind::adjective || words[i + 1].kind == WordKind::own))
     return false;  // `the one cup`
   const Word& last = words[i - 1];
   return is_article(last.text) || last.text == "other" || last.text == "which" || last.kind == WordKind::colour ||
@@ -167,9 +169,9 @@ class MentionReader {
 
   std::string role_of(std::size_t i) const {
     static const std::map<std::string, std::string> kRoles = {
-        {"on", "to"},     {"onto", "to"},   {"upon", "to"},    {"in", "to"},      {"into", "to"},     {"inside", "to"},
-        {"within", "to"}, {"to", "to"},     {"at", "to"},      {"toward", "to"},  {"towards", "to"},  {"from", "from"},
-        {"off", "from"},  {"outof", "from"}, {"of", "of"},     {"with", "with"},  {"by", "with"}};
+        {"on", "to"},     {"onto", "to"},    {"upon", "to"}, {"in", "to"},     {"into", "to"},    {"inside", "to"},
+        {"within", "to"}, {"to", "to"},      {"at", "to"},   {"toward", "to"}, {"towards", "to"}, {"from", "from"},
+        {"off", "from"},  {"outof", "from"}, {"of", "of"},   {"with", "with"}, {"by", "with"}};
     const Mention& mention = reading_.mentions[i];
     const Segment& segment = reading_.segments[mention.segment];
     const auto after = [&](const char* text) {
@@ -232,8 +234,10 @@ class MentionReader {
     open_.sense = pronoun ? (reading_.mentions.empty() ? "" : reading_.mentions.back().sense) : word.sense;
     if (part_of_) {
       open_.partitive = true;
-      if (!open_.count) open_.count = part_of_;
-      else if (preposition_ == "of") open_.count = part_of_;  // `two of the three blocks`: two
+      if (!open_.count)
+        open_.count = part_of_;
+      else if (preposition_ == "of")
+        open_.count = part_of_;  // `two of the three blocks`: two
     } else if (preposition_ == "of" && open_.plural) {
       open_.partitive = true;
     }

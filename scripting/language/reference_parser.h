@@ -1,7 +1,7 @@
 // Reads an instruction: what it mentions, in which order things happen, what it denies.
 //
-// A parser of noun phrases and clauses by rules, with a lexicon that knows the scene: not of English, of what people say
-// of a table. What it does not understand it says so of, and sentence_check turns it down.
+// A parser of noun phrases and clauses by rules, with a lexicon that knows the scene: not of English, of what people
+// say of a table. What it does not understand it says so of, and sentence_check turns it down.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,8 @@ struct Mention {
   std::vector<std::string> colours, places, adjectives;
   std::optional<int> count;
   bool plural = false;
-  bool partitive = false;  // `of the blocks`: some of them are meant
-  bool other = false;      // `the other blocks`
+  bool partitive = false;   // `of the blocks`: some of them are meant
+  bool other = false;       // `the other blocks`
   std::string preposition;  // before it: on, into, from …
   bool aside = false;       // of a relative clause: the cup that stands on the table
   std::string role;         // `object put`, subject, to, from, of, with, or the preposition
@@ -34,7 +34,7 @@ struct Mention {
 // A stretch between commas and joining words.
 struct Segment {
   std::size_t begin = 0, end = 0;
-  std::string intro;               // after, before, until …; empty: none
+  std::string intro;                // after, before, until …; empty: none
   std::optional<std::size_t> verb;  // the word that says what to do
   bool negated = false, excluding = false;
 };

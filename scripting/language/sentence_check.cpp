@@ -7,10 +7,10 @@ namespace stampede {
 namespace {
 
 constexpr std::array<std::string_view, 21> kRejections = {
-    "too_short",     "too_long",    "not_a_sentence", "refused",       "other_language", "unknown_word",
-    "unknown_thing", "other_thing", "missing_thing",  "wrong_colour",  "wrong_count",    "wrong_side",
-    "unproved",      "other_action", "swapped_roles", "swapped_order", "negated",        "misses_steps",
-    "near_duplicate", "asked_back",  "no_answer"};
+    "too_short",      "too_long",     "not_a_sentence", "refused",       "other_language", "unknown_word",
+    "unknown_thing",  "other_thing",  "missing_thing",  "wrong_colour",  "wrong_count",    "wrong_side",
+    "unproved",       "other_action", "swapped_roles",  "swapped_order", "negated",        "misses_steps",
+    "near_duplicate", "asked_back",   "no_answer"};
 
 Verdict no(Rejection reason, std::string detail) { return {reason, std::move(detail)}; }
 
@@ -22,12 +22,16 @@ using Maybe = std::optional<Verdict>;
 class Checker {
  public:
   Checker(const std::string& sentence, const Meaning& meaning, const Claims& claims, Grain grain)
-      : sentence_(sentence), meaning_(meaning), claims_(claims), grain_(grain), reading_(read_sentence(sentence, meaning)) {}
+      : sentence_(sentence),
+        meaning_(meaning),
+        claims_(claims),
+        grain_(grain),
+        reading_(read_sentence(sentence, meaning)) {}
 
   Verdict check() const {
-    for (const auto part : {&Checker::form, &Checker::words, &Checker::denials, &Checker::slots, &Checker::marks,
-                            &Checker::mentions, &Checker::coverage, &Checker::actions, &Checker::roles,
-                            &Checker::order, &Checker::steps})
+    for (const auto part :
+         {&Checker::form, &Checker::words, &Checker::denials, &Checker::slots, &Checker::marks, &Checker::mentions,
+          &Checker::coverage, &Checker::actions, &Checker::roles, &Checker::order, &Checker::steps})
       if (Maybe bad = (this->*part)()) return *bad;
     return {};
   }
@@ -45,8 +49,8 @@ class Checker {
   }
 
   Maybe words() const {
-    static const std::set<std::string> kExcuses = {"sorry", "ai", "assistant", "language", "apologize", "apologise",
-                                                   "unable", "assist", "sure"};
+    static const std::set<std::string> kExcuses = {"sorry",     "ai",     "assistant", "language", "apologize",
+                                                   "apologise", "unable", "assist",    "sure"};
     int unknown = 0, foreign = 0, excuses = 0;
     const Word* first = nullptr;
     for (const Word& word : reading_.words) {
@@ -86,7 +90,8 @@ class Checker {
 
   Maybe denials() const {
     for (const Segment& segment : reading_.segments)
-      if ((segment.negated || segment.excluding) && !vouched(segment) && !spares_others(segment) && !spares_idle(segment))
+      if ((segment.negated || segment.excluding) && !vouched(segment) && !spares_others(segment) &&
+          !spares_idle(segment))
         for (std::size_t i = segment.begin; i < segment.end; ++i)
           if (reading_.words[i].kind == WordKind::negation || reading_.words[i].kind == WordKind::exclusion)
             return no(Rejection::negated, quoted(reading_.words[i].text));
@@ -173,7 +178,8 @@ class Checker {
     for (const Mention& mention : reading_.mentions) {
       const Segment& segment = reading_.segments[mention.segment];
       if (vouched(segment) && segment.negated) continue;
-      for (const auto part : {&Checker::known, &Checker::coloured, &Checker::counted, &Checker::placed, &Checker::has_part})
+      for (const auto part :
+           {&Checker::known, &Checker::coloured, &Checker::counted, &Checker::placed, &Checker::has_part})
         if (Maybe bad = (this->*part)(mention)) return bad;
     }
     const std::vector<std::string> numbers = free_numbers(reading_);
@@ -191,8 +197,9 @@ class Checker {
   Maybe colours() const {
     const std::set<std::string> ours = colours_in(reading_);
     for (const std::string& colour : ours) {
-      const bool borne = std::any_of(meaning_.things.begin(), meaning_.things.end(),
-                                     [&](const SpokenThing& one) { return one.wanted && one.colours.contains(colour); });
+      const bool borne = std::any_of(meaning_.things.begin(), meaning_.things.end(), [&](const SpokenThing& one) {
+        return one.wanted && one.colours.contains(colour);
+      });
       if (!borne && !claims_.senses.contains(colour)) return no(Rejection::wrong_colour, quoted(colour));
     }
     const bool enough = std::any_of(claims_.colours.begin(), claims_.colours.end(), [&](const auto& own) {
@@ -203,7 +210,8 @@ class Checker {
   }
 
   Maybe known(const Mention& mention) const {
-    static const std::set<std::string> kGeneral = {"side", "order", "colour", "space", "thing", "end", "number", "hand", "shape", "item"};
+    static const std::set<std::string> kGeneral = {"side", "order",  "colour", "space", "thing",
+                                                   "end",  "number", "hand",   "shape", "item"};
     const auto there = [&](const std::string& sense) {
       return sense.empty() || kGeneral.contains(sense) || claims_.senses.contains(sense) ||
              std::any_of(meaning_.things.begin(), meaning_.things.end(),
@@ -248,8 +256,8 @@ class Checker {
         return no(Rejection::wrong_count, std::to_string(*mention.count) + " " + mention.sense);
       }
       if (own != claims_.counts.end() && own->second.contains(*mention.count)) return {};
-      if (own == claims_.counts.end() &&
-          (*mention.count == count_of(mention, &SpokenThing::wanted) || *mention.count == count_of(mention, &SpokenThing::moved)))
+      if (own == claims_.counts.end() && (*mention.count == count_of(mention, &SpokenThing::wanted) ||
+                                          *mention.count == count_of(mention, &SpokenThing::moved)))
         return {};
       return no(Rejection::wrong_count, std::to_string(*mention.count) + " " + mention.sense);
     }
@@ -269,7 +277,8 @@ class Checker {
 
   Maybe placed(const Mention& mention) const {
     const std::set<std::string> different(mention.places.begin(), mention.places.end());
-    if (different.size() < mention.places.size()) return no(Rejection::wrong_side, quoted(mention.places.front()) + " twice");
+    if (different.size() < mention.places.size())
+      return no(Rejection::wrong_side, quoted(mention.places.front()) + " twice");
     for (const std::string& place : mention.places) {
       if (claims_.attributes.contains({place, mention.sense})) continue;
       const bool named = std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {
@@ -334,7 +343,8 @@ class Checker {
   std::vector<std::string> goal_things() const {
     std::vector<std::string> names;
     for (const SpokenThing& one : meaning_.things)
-      if (carries() ? one.moved || (one.destination && !one.heads.contains("table")) : one.handled) names.push_back(one.name);
+      if (carries() ? one.moved || (one.destination && !one.heads.contains("table")) : one.handled)
+        names.push_back(one.name);
     return names;
   }
 
@@ -352,7 +362,8 @@ class Checker {
   }
 
   Maybe actions() const {
-    static const std::set<std::string> kStates = {"find", "switch", "belong", "complete", "lie", "contain", "mark", "show", "locate", "colour", "take-care"};
+    static const std::set<std::string> kStates = {"find", "switch", "belong", "complete", "lie",      "contain",
+                                                  "mark", "show",   "locate", "colour",   "take-care"};
     bool any = false;
     for (const Word& word : reading_.words)
       any |= word.kind == WordKind::verb || word.kind == WordKind::own || word.text == "is" || word.text == "are";
@@ -376,12 +387,17 @@ class Checker {
 
   bool planned(const std::string& direction) const {
     static const std::map<std::string, std::set<std::string>> kOf = {
-        {"open", {"open", "unscrew"}}, {"close", {"close"}}, {"in", {"put_in", "insert", "put_on_shelf", "drop"}},
-        {"insert", {"insert", "put_in"}}, {"remove", {"extract", "take_out", "take_from_shelf", "unhang"}},
-        {"out", {"extract", "take_out", "take_from_shelf", "unhang", "pick"}}, {"up", {"pick", "lift"}}};
+        {"open", {"open", "unscrew"}},
+        {"close", {"close"}},
+        {"in", {"put_in", "insert", "put_on_shelf", "drop"}},
+        {"insert", {"insert", "put_in"}},
+        {"remove", {"extract", "take_out", "take_from_shelf", "unhang"}},
+        {"out", {"extract", "take_out", "take_from_shelf", "unhang", "pick"}},
+        {"up", {"pick", "lift"}}};
     const auto found = kOf.find(direction);
     if (found == kOf.end()) return false;
-    return std::any_of(found->second.begin(), found->second.end(), [&](const auto& one) { return meaning_.skills.contains(one); });
+    return std::any_of(found->second.begin(), found->second.end(),
+                       [&](const auto& one) { return meaning_.skills.contains(one); });
   }
 
   // What each thing is in the sentence (what is handled, where to, where from) must be what it is in the plan, or in a
@@ -402,10 +418,11 @@ class Checker {
       const bool until = reading_.segments[mention.segment].intro == "until";
       if (!until && (has_role(mention) || stands_on_table(mention))) continue;
       const std::string role = role_key(reading_, mention);
-      const bool vouched_for = (!mention.by_head && claims_.roles.contains({role, mention.sense})) ||
-                               (mention.by_head && std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {
-                                 return claims_.roles.contains({role, name});
-                               }));
+      const bool vouched_for =
+          (!mention.by_head && claims_.roles.contains({role, mention.sense})) ||
+          (mention.by_head && std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {
+             return claims_.roles.contains({role, name});
+           }));
       if (!vouched_for) return no(Rejection::swapped_roles, "the " + mention.sense + " as " + quoted(mention.role));
     }
     return {};
@@ -426,7 +443,8 @@ class Checker {
   // `put the cup on the cup`; of a thing that a short sentence names twice, one is another's place.
   Maybe twice() const {
     const auto times = [](const Reading& reading, const std::string& sense) {
-      return std::count_if(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& one) { return one.sense == sense; });
+      return std::count_if(reading.mentions.begin(), reading.mentions.end(),
+                           [&](const Mention& one) { return one.sense == sense; });
     };
     for (const Mention& mention : reading_.mentions) {
       if (grain_ != Grain::goal || mention.things.empty() || mention.other || mention.partitive) continue;
@@ -439,9 +457,10 @@ class Checker {
     for (std::size_t i = 0; i < reading_.mentions.size(); ++i)
       for (std::size_t k = i + 1; k < reading_.mentions.size(); ++k) {
         const Mention &a = reading_.mentions[i], &b = reading_.mentions[k];
-        if (a.segment != b.segment || a.sense != b.sense || a.things.empty() || vouched(reading_.segments[a.segment])) continue;
-        const bool different = a.other != b.other || a.colours != b.colours || a.places != b.places || a.count || b.count ||
-                               a.partitive || b.partitive || a.modifiers != b.modifiers;
+        if (a.segment != b.segment || a.sense != b.sense || a.things.empty() || vouched(reading_.segments[a.segment]))
+          continue;
+        const bool different = a.other != b.other || a.colours != b.colours || a.places != b.places || a.count ||
+                               b.count || a.partitive || b.partitive || a.modifiers != b.modifiers;
         if (!different) return no(Rejection::swapped_roles, "the " + a.sense + " and itself");
       }
     return {};
@@ -451,15 +470,19 @@ class Checker {
   Maybe pronouns() const {
     static const std::set<std::string> kCarrying = {"put", "insert", "stack", "hang", "drop", "take"};
     for (const Segment& segment : reading_.segments) {
-      if (!segment.verb || *segment.verb + 1 >= segment.end || !kCarrying.contains(reading_.words[*segment.verb].sense)) continue;
+      if (!segment.verb || *segment.verb + 1 >= segment.end || !kCarrying.contains(reading_.words[*segment.verb].sense))
+        continue;
       const std::string& text = reading_.words[*segment.verb + 1].text;
       if (text != "it" && text != "them") continue;
       const Mention* last = nullptr;
       bool itself = false;
       for (const Mention& mention : reading_.mentions)
-        if (mention.head < segment.begin && (mention.role.starts_with("subject") || mention.role.starts_with("object "))) last = &mention;
+        if (mention.head < segment.begin &&
+            (mention.role.starts_with("subject") || mention.role.starts_with("object ")))
+          last = &mention;
       for (const Mention& mention : reading_.mentions)
-        itself |= last != nullptr && within(mention, segment) && mention.sense == last->sense && mention.role.starts_with("to");
+        itself |= last != nullptr && within(mention, segment) && mention.sense == last->sense &&
+                  mention.role.starts_with("to");
       if (itself) return no(Rejection::swapped_roles, "the " + last->sense + " and itself");
       if (last != nullptr && vouched(segment) && vouched(reading_.segments[last->segment])) continue;
       if (last != nullptr && !last->things.empty() && !may_be(*last, meaning_, &SpokenThing::moved))
@@ -470,16 +493,19 @@ class Checker {
 
   // `the button on the table`: that it stands there goes without saying.
   bool stands_on_table(const Mention& mention) const {
-    static const std::set<std::string> kPutting = {"put", "insert", "drop", "stack", "hang", "stand", "lower", "point", "lift"};
+    static const std::set<std::string> kPutting = {"put",   "insert", "drop",  "stack", "hang",
+                                                   "stand", "lower",  "point", "lift"};
     const Word* verb = verb_of(mention);
-    return mention.sense == "table" && mention.preposition == "on" && !carries() && (verb == nullptr || !kPutting.contains(verb->sense)) &&
-           &mention != reading_.mentions.data() && (&mention - 1)->segment == mention.segment && !(&mention - 1)->things.empty();
+    return mention.sense == "table" && mention.preposition == "on" && !carries() &&
+           (verb == nullptr || !kPutting.contains(verb->sense)) && &mention != reading_.mentions.data() &&
+           (&mention - 1)->segment == mention.segment && !(&mention - 1)->things.empty();
   }
 
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const {
     for (const Mention& other : reading_.mentions)
-      if (other.segment == mention.segment && &other < &mention && (other.role.starts_with("subject") || other.role.starts_with("object ")))
+      if (other.segment == mention.segment && &other < &mention &&
+          (other.role.starts_with("subject") || other.role.starts_with("object ")))
         return &other;
     return nullptr;
   }
@@ -491,16 +517,24 @@ class Checker {
     if (role == "subject") return accessory || (may_be(mention, meaning_, &SpokenThing::handled) && !shows(mention));
     if (role == "object") return accessory || steps_have(mention, false);
     if (role == "of") return accessory || is_whole(mention);
-    if (role == "part") return (mention.count && mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled));
+    if (role == "part")
+      return (mention.count && mention.count &&
+              may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled));
     if (role == "with") return accessory || steps_have(mention, true);
     const Mention* object = object_of(mention);
-    if (object != nullptr && !object->by_head && object->role.starts_with("object") && !object->sense.empty()) return false;  // of that nothing is known
-    if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;
-    if (role == "from") return may_be(mention, meaning_, hangs(mention) ? &SpokenThing::destination : &SpokenThing::source);
+    if (object != nullptr && !object->by_head && object->role.starts_with("object") && !object->sense.empty())
+      return false;  // of that nothing is known
+    if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in"))
+      return false;
+    if (role == "from")
+      return may_be(mention, meaning_, hangs(mention) ? &SpokenThing::destination : &SpokenThing::source);
     if (role != "to") return false;
     if (mention.aside) return may_be(mention, meaning_, &SpokenThing::source);
-    const bool fetched = verb_of(mention) != nullptr && fetches(verb_of(mention)->sense) && !mention.preposition.starts_with("in") && mention.preposition != "on";
-    if (verb_of(mention) == nullptr || fetched ? may_be(mention, meaning_, &SpokenThing::destination) : steps_have(mention, true)) return true;
+    const bool fetched = verb_of(mention) != nullptr && fetches(verb_of(mention)->sense) &&
+                         !mention.preposition.starts_with("in") && mention.preposition != "on";
+    if (verb_of(mention) == nullptr || fetched ? may_be(mention, meaning_, &SpokenThing::destination)
+                                               : steps_have(mention, true))
+      return true;
     return may_be(mention, meaning_, &SpokenThing::source) && takes(mention);
   }
 
@@ -533,7 +567,8 @@ class Checker {
         if ((i == handled) == as_place || (step.action == "point" && i > 1)) continue;
         for (const std::string& name : mention.things) {
           const std::string& argument = step.arguments[i];
-          if (argument == name || (argument.starts_with(name + ".") && (as_place || kWhole.contains(step.action)))) return true;
+          if (argument == name || (argument.starts_with(name + ".") && (as_place || kWhole.contains(step.action))))
+            return true;
           if (as_place && name.starts_with(argument + ".")) return true;
         }
       }
@@ -586,7 +621,8 @@ class Checker {
         if (any < 0) any = i;
         if (i >= reached && next < 0) next = i;
       }
-      if (next >= 0) reached = next;
+      if (next >= 0)
+        reached = next;
       else if (any >= 0)
         return no(Rejection::swapped_order, quoted(reading_.words[*segment.verb].text) + " comes earlier");
     }

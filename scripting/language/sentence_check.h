@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scripting/language/meaning.h"
 #include "engine/episode/record.h"
 #include "scripting/language/claims.h"
+#include "scripting/language/meaning.h"
 #include "scripting/language/reference_parser.h"
 
 namespace stampede {
@@ -20,25 +20,25 @@ namespace stampede {
 enum class Rejection {
   too_short,
   too_long,
-  not_a_sentence,   // nothing is done or said in it, or signs that no sentence has
-  refused,          // the model excuses itself
+  not_a_sentence,  // nothing is done or said in it, or signs that no sentence has
+  refused,         // the model excuses itself
   other_language,
   unknown_word,
-  unknown_thing,    // the scene has none
-  other_thing,      // it is there, and has no part in this
-  missing_thing,    // what has to be named is not
+  unknown_thing,  // the scene has none
+  other_thing,    // it is there, and has no part in this
+  missing_thing,  // what has to be named is not
   wrong_colour,
   wrong_count,
-  wrong_side,       // left for right, the bottom for the top, behind for on
-  unproved,         // an attribute that no fact bears out
-  other_action,     // what is done is something else, or the opposite
-  swapped_roles,    // the drawer into the cube
+  wrong_side,     // left for right, the bottom for the top, behind for on
+  unproved,       // an attribute that no fact bears out
+  other_action,   // what is done is something else, or the opposite
+  swapped_roles,  // the drawer into the cube
   swapped_order,
   negated,
-  misses_steps,     // the grain asks for more
-  near_duplicate,   // of the author's, or of one that was taken
-  asked_back,       // the model did not know its own sentence again
-  no_answer,        // the model gave none that can be read
+  misses_steps,    // the grain asks for more
+  near_duplicate,  // of the author's, or of one that was taken
+  asked_back,      // the model did not know its own sentence again
+  no_answer,       // the model gave none that can be read
 };
 std::string_view to_string(Rejection reason);
 std::optional<Rejection> rejection_from(std::string_view name);

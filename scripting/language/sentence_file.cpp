@@ -29,7 +29,9 @@ class Reader {
     if (!document.is_object()) fail(1, "it holds no object", "a file of sentences is one JSON object");
     const json version = document.value("version", json());
     if (version != kSentenceFileVersion)
-      fail(1, "its version is " + (version.is_null() ? "not said" : version.dump()) + ", not " + std::to_string(kSentenceFileVersion),
+      fail(1,
+           "its version is " + (version.is_null() ? "not said" : version.dump()) + ", not " +
+               std::to_string(kSentenceFileVersion),
            "make it anew with `stampede paraphrase`");
     SentenceFile file;
     file.task = text_of(document, "task");
@@ -45,7 +47,8 @@ class Reader {
   }
 
   int line_at(std::size_t byte) const {
-    return 1 + static_cast<int>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text_.size())), '\n'));
+    return 1 + static_cast<int>(std::count(
+                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text_.size())), '\n'));
   }
 
   std::string text_of(const json& object, const char* name) const {
@@ -116,7 +119,8 @@ class Reader {
 std::string line_of(const std::vector<std::pair<const char*, json>>& fields) {
   std::string line = "{";
   for (const auto& [name, value] : fields)
-    line += (line.size() > 1 ? ", \"" : "\"") + std::string(name) + "\": " + value.dump(-1, ' ', false, json::error_handler_t::replace);
+    line += (line.size() > 1 ? ", \"" : "\"") + std::string(name) +
+            "\": " + value.dump(-1, ' ', false, json::error_handler_t::replace);
   return line + "}";
 }
 
@@ -152,16 +156,29 @@ SentenceFile read_sentence_file(const std::filesystem::path& path, const std::st
 void write_sentence_file(const SentenceFile& file, const std::filesystem::path& path) {
   SentenceFile sorted = file;
   const auto key = [](const auto& one) { return std::tie(one.level, one.of, one.grain, one.model, one.prompt); };
-  std::stable_sort(sorted.asked.begin(), sorted.asked.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  std::stable_sort(sorted.sentences.begin(), sorted.sentences.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  std::string text = "{\n  \"version\": " + std::to_string(kSentenceFileVersion) + ",\n  \"task\": " + json(file.task).dump();
+  std::stable_sort(sorted.asked.begin(), sorted.asked.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  std::stable_sort(sorted.sentences.begin(), sorted.sentences.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  std::string text =
+      "{\n  \"version\": " + std::to_string(kSentenceFileVersion) + ",\n  \"task\": " + json(file.task).dump();
   text += ",\n  \"asked\": " + list_text(sorted.asked, [](const AskedFor& one) {
-            return line_of({{"level", to_string(one.level)}, {"of", one.of}, {"grain", to_string(one.grain)}, {"model", one.model},
-                            {"prompt", one.prompt}, {"count", one.count}, {"refused", one.refused}});
+            return line_of({{"level", to_string(one.level)},
+                            {"of", one.of},
+                            {"grain", to_string(one.grain)},
+                            {"model", one.model},
+                            {"prompt", one.prompt},
+                            {"count", one.count},
+                            {"refused", one.refused}});
           });
   text += ",\n  \"sentences\": " + list_text(sorted.sentences, [](const StoredSentence& one) {
-            return line_of({{"text", one.text}, {"level", to_string(one.level)}, {"of", one.of}, {"grain", to_string(one.grain)},
-                            {"model", one.model}, {"prompt", one.prompt}, {"checks", one.checks}});
+            return line_of({{"text", one.text},
+                            {"level", to_string(one.level)},
+                            {"of", one.of},
+                            {"grain", to_string(one.grain)},
+                            {"model", one.model},
+                            {"prompt", one.prompt},
+                            {"checks", one.checks}});
           });
   std::filesystem::path half = path;
   half += ".half";
@@ -171,11 +188,13 @@ void write_sentence_file(const SentenceFile& file, const std::filesystem::path& 
   if (code) throw Error(path.string(), "it cannot be written");
 }
 
-std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown, const std::shared_ptr<const Library>& library) {
+std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown,
+                               const std::shared_ptr<const Library>& library) {
   std::vector<Error> mistakes;
   const Library::TaskInfo* task = library->task(file.task);
   if (task == nullptr) {
-    mistakes.emplace_back(shown + ":1", "there is no task '" + file.task + "'", "the file is called as its task is: rename or delete it");
+    mistakes.emplace_back(shown + ":1", "there is no task '" + file.task + "'",
+                          "the file is called as its task is: rename or delete it");
     return mistakes;
   }
   const std::vector<OwnSentences> all = sentences_of(library, file.task);
@@ -185,23 +204,27 @@ std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& show
     auto [found, is_new] = checkers.try_emplace({sentence.level, sentence.of});
     if (is_new) {
       try {
-        if (auto meaning = meaning_for(library, file.task, sentence.level, sentence.of, 0, all)) found->second.emplace(std::move(*meaning));
+        if (auto meaning = meaning_for(library, file.task, sentence.level, sentence.of, 0, all))
+          found->second.emplace(std::move(*meaning));
       } catch (const Error& error) {
         mistakes.push_back(mistake(shown, sentence, error.message(), error.hint()));
         continue;
       }
     }
     if (!found->second) {
-      mistakes.push_back(mistake(shown, sentence, "there is no '" + sentence.of + "' of level " + std::string(to_string(sentence.level)),
-                                 "delete the line, or make the file anew with `stampede paraphrase " + file.task + "`"));
+      mistakes.push_back(mistake(
+          shown, sentence, "there is no '" + sentence.of + "' of level " + std::string(to_string(sentence.level)),
+          "delete the line, or make the file anew with `stampede paraphrase " + file.task + "`"));
       continue;
     }
     if (!seen.emplace(sentence.level, sentence.of, sentence.text).second)
       mistakes.push_back(mistake(shown, sentence, "the sentence is there twice", "delete the line"));
     const Verdict verdict = found->second->check(sentence.text, sentence.grain);
     if (!verdict.ok())
-      mistakes.push_back(mistake(shown, sentence, "'" + sentence.text + "' does not pass: " + std::string(to_string(*verdict.reason)) + ", " + verdict.detail,
-                                 "delete the line, or make the file anew with `stampede paraphrase " + file.task + "`"));
+      mistakes.push_back(mistake(
+          shown, sentence,
+          "'" + sentence.text + "' does not pass: " + std::string(to_string(*verdict.reason)) + ", " + verdict.detail,
+          "delete the line, or make the file anew with `stampede paraphrase " + file.task + "`"));
   }
   return mistakes;
 }

@@ -19,7 +19,8 @@ inline constexpr int kSentenceFileVersion = 1;
 struct StoredSentence {
   std::string text;
   LanguageLevel level = LanguageLevel::task;
-  std::string of;  // of task: the variation, empty where there is one; of others: the skill, predicate, subgoal or motion
+  std::string
+      of;  // of task: the variation, empty where there is one; of others: the skill, predicate, subgoal or motion
   Grain grain = Grain::goal;
   std::string model;
   std::string prompt;               // hash of what was asked
@@ -54,6 +55,7 @@ void write_sentence_file(const SentenceFile& file, const std::filesystem::path& 
 
 // Mistakes of a file: variations that are not there, sentences that do not pass the offline checks any more, twins.
 // Makes a start of each variation that it speaks of. `seed`: of these.
-std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown, const std::shared_ptr<const Library>& library);
+std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown,
+                               const std::shared_ptr<const Library>& library);
 
 }  // namespace stampede

@@ -16,7 +16,8 @@ LanguageRecord row_of(const MadeSentence& sentence, std::string text, int segmen
 
 }  // namespace
 
-std::shared_ptr<const std::vector<MadeSentence>> sentences_for(const std::vector<MadeSentence>& all, const std::string& variation) {
+std::shared_ptr<const std::vector<MadeSentence>> sentences_for(const std::vector<MadeSentence>& all,
+                                                               const std::string& variation) {
   auto ours = std::make_shared<std::vector<MadeSentence>>();
   for (const MadeSentence& one : all)
     if (one.level != LanguageLevel::task || one.of == variation) ours->push_back(one);
@@ -39,7 +40,8 @@ void add_sentences(const std::vector<MadeSentence>& sentences, const Library& li
     for (const SegmentRecord& segment : record.segments) {
       if (segment.skill != one.of) continue;
       if (skill != nullptr && segment.kind == SegmentKind::skill)
-        record.language.push_back(row_of(one, fill(one.text, skill->parameters, segment.arguments, scene), segment.ordinal));
+        record.language.push_back(
+            row_of(one, fill(one.text, skill->parameters, segment.arguments, scene), segment.ordinal));
       if (one.level == LanguageLevel::motion && segment.kind == SegmentKind::motion)
         record.language.push_back(row_of(one, one.text, segment.ordinal));
     }

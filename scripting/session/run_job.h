@@ -16,9 +16,9 @@ namespace stampede {
 
 struct RunSettings {
   RunOptions options;
-  std::map<std::string, std::vector<Camera>> cameras;  // by task: RunOptions::cameras, which its scene decides
+  std::map<std::string, std::vector<Camera>> cameras;          // by task: RunOptions::cameras, which its scene decides
   std::map<std::string, std::vector<MadeSentence>> sentences;  // by task: RunOptions::sentences of all variations
-  int workers = 1;                                     // threads that run episodes
+  int workers = 1;                                             // threads that run episodes
   int helpers = 0;  // further threads that may encode pictures, as workers without an episode do
   // Makes an episode, and its key, instead of the planner; each worker calls it.
   std::function<EpisodeRecord(PreparedEpisode&)> act;

@@ -68,9 +68,13 @@ TEST_CASE("a good answer is read, and its cost counted") {
 TEST_CASE("a server that is away, slow or silent is asked again, and then told of with the cure") {
   ChatSettings nobody = settings("http://127.0.0.1:1/v1");
   ChatClient away(nobody);
-  CHECK_THROWS_WITH(away.ask(kRequest, nullptr), Contains("no answer after 3 requests") && Contains("is the server running"));
+  CHECK_THROWS_WITH(away.ask(kRequest, nullptr),
+                    Contains("no answer after 3 requests") && Contains("is the server running"));
   CHECK(away.cost().requests == 3);
-  CHECK_THAT(complaint([](int, const std::string&) { return stub::Reply{stub::chat("late"), 5}; }), Contains("no answer after 3"));
+  CHECK_THAT(complaint([](int, const std::string&) {
+               return stub::Reply{stub::chat("late"), 5};
+             }),
+             Contains("no answer after 3"));
   CHECK_THAT(complaint([](int, const std::string&) { return stub::Reply{""}; }), Contains("no answer after 3"));
   const std::string half = stub::chat("put it there").substr(0, 190);  // closes in the middle of the answer
   CHECK_THAT(complaint([&](int, const std::string&) { return stub::Reply{half}; }), Contains("no answer after 3"));
@@ -81,15 +85,18 @@ TEST_CASE("a key that is refused is named by its variable, and never shown") {
     return stub::Reply{stub::http(401, R"({"error": {"message": "bad key sk-secret-0815"}})")};
   };
   CHECK_THAT(complaint(refuse), Contains("status 401: bad key …") && Contains("STAMPEDE_LLM_KEY"));
-  CHECK_THAT(complaint([](int, const std::string&) { return stub::Reply{stub::http(404, R"({"error": "no such model"})")}; }),
-             Contains("status 404: no such model") && Contains("--model"));
+  CHECK_THAT(
+      complaint([](int, const std::string&) { return stub::Reply{stub::http(404, R"({"error": "no such model"})")}; }),
+      Contains("status 404: no such model") && Contains("--model"));
   ChatClient client(settings("http://me:word@127.0.0.1:1/v1?key=abc"));
   CHECK_THROWS_WITH(client.ask(kRequest, nullptr), !Contains("word") && !Contains("abc"));
 }
 
 TEST_CASE("redirects are not followed: the key goes nowhere else") {
   stub::Server other([](int, const std::string&) { return stub::Reply{stub::chat("mine now")}; });
-  CHECK_THAT(complaint([&](int, const std::string&) { return stub::Reply{stub::http(307, "", "Location: " + other.url() + "\r\n")}; }),
+  CHECK_THAT(complaint([&](int, const std::string&) {
+               return stub::Reply{stub::http(307, "", "Location: " + other.url() + "\r\n")};
+             }),
              Contains("status 307"));
   CHECK(other.requests() == 0);
 }
@@ -105,8 +112,9 @@ TEST_CASE("a busy or broken server is asked again after as long as it says") {
   CHECK(client.ask(kRequest, nullptr).text == "well");
   CHECK(std::chrono::steady_clock::now() - start > std::chrono::milliseconds(300));
   CHECK(client.cost().retries == 2);
-  CHECK_THAT(complaint([](int, const std::string&) { return stub::Reply{stub::http(429, "{}", "Retry-After: 3600\r\n")}; }),
-             Contains("wait 3600 s"));
+  CHECK_THAT(
+      complaint([](int, const std::string&) { return stub::Reply{stub::http(429, "{}", "Retry-After: 3600\r\n")}; }),
+      Contains("wait 3600 s"));
 }
 
 TEST_CASE("nonsense is no error but an answer with a problem") {
@@ -122,7 +130,8 @@ TEST_CASE("nonsense is no error but an answer with a problem") {
 
 TEST_CASE("ten megabytes are ended as they come in") {
   CHECK(problem(stub::http(200, std::string(10'000'000, 'x'))) == "too long");
-  std::string endless = "HTTP/1.1 200 OK\r\nConnection: close\r\n\r\n" + std::string(10'000'000, 'x');  // of no stated length
+  std::string endless =
+      "HTTP/1.1 200 OK\r\nConnection: close\r\n\r\n" + std::string(10'000'000, 'x');  // of no stated length
   CHECK(problem(endless) == "too long");
 }
 

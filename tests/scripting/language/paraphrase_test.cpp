@@ -1,10 +1,11 @@
 // From a model's answer to a file of sentences: what is asked, what passes, what is kept.
+#include "scripting/language/paraphrase.h"
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/temporary_folder.h"
-#include "scripting/language/paraphrase.h"
 #include "scripting/language/similarity.h"
 #include "scripting/session/text_file.h"
 #include "shipped.h"
@@ -52,14 +53,18 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
   const SentenceChecker checker(meaning);
   stub::Server server([&](int, const std::string& body) {
     if (asks_back(body)) return stub::Reply{stub::chat(right_answer(body, meaning))};
-    return stub::Reply{stub::chat("1. \"Put the rubbish into the bin.\"\n2. Throw the banana into the bin\n- take the rubbish off the table and drop it in the "
-                                  "bin\n4. Please put the rubbish into the bin\nDo not put the rubbish into the bin\nMettez le papier dans la poubelle")};
+    return stub::Reply{
+        stub::chat("1. \"Put the rubbish into the bin.\"\n2. Throw the banana into the bin\n- take the rubbish off the "
+                   "table and drop it in the "
+                   "bin\n4. Please put the rubbish into the bin\nDo not put the rubbish into the bin\nMettez le papier "
+                   "dans la poubelle")};
   });
   ChatClient client(quick_settings(server.url()));
   SentenceFile file{"put_rubbish_in_bin", {}, {}};
   std::vector<Refused> refused;
   const ParaphraseJob job{LanguageLevel::task, "", Grain::goal, 6, 6, 0};
-  const ParaphraseTally tally = paraphrase(job, checker, {"open the box", "close the door"}, client, file, nullptr, &refused);
+  const ParaphraseTally tally =
+      paraphrase(job, checker, {"open the box", "close the door"}, client, file, nullptr, &refused);
   std::string told;
   for (const Refused& one : refused) told += one.reason + " (" + one.detail + "): " + one.text + "\n";
   INFO(told);
@@ -81,15 +86,16 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
 TEST_CASE("a model that does not know its own sentence again loses it") {
   const Meaning& meaning = shipped::meaning("put_rubbish_in_bin");
   const SentenceChecker checker(meaning);
-  const std::vector<std::string> wrong = {"{\"things\": [], \"goal\": 99}", "I am sorry, as an AI I cannot", "{\"things\": \"all\"}", "{\"goal\": 1"};
+  const std::vector<std::string> wrong = {"{\"things\": [], \"goal\": 99}", "I am sorry, as an AI I cannot",
+                                          "{\"things\": \"all\"}", "{\"goal\": 1"};
   for (const std::string& answer : wrong) {
     stub::Server server([&](int, const std::string& body) {
       return stub::Reply{stub::chat(asks_back(body) ? answer : "put the rubbish into the bin")};
     });
     ChatClient client(quick_settings(server.url()));
     SentenceFile file{"put_rubbish_in_bin", {}, {}};
-    const ParaphraseTally tally =
-        paraphrase({LanguageLevel::task, "", Grain::goal, 1, 1, 0}, checker, {"open the box"}, client, file, nullptr, nullptr);
+    const ParaphraseTally tally = paraphrase({LanguageLevel::task, "", Grain::goal, 1, 1, 0}, checker, {"open the box"},
+                                             client, file, nullptr, nullptr);
     INFO(answer);
     CHECK(tally.passed == 0);
     CHECK(tally.refused.at("asked_back") == 1);
@@ -98,8 +104,9 @@ TEST_CASE("a model that does not know its own sentence again loses it") {
 
 TEST_CASE("refusals in text, other languages and markup are turned down") {
   const SentenceChecker checker(shipped::meaning("push_buttons"));
-  for (const char* text : {"I'm sorry, but as an AI I cannot do that", "Нажмите красную кнопку", "按下按钮", "Drücken Sie den Knopf",
-                           "{\"a\": 1}", "<p>push the button</p>", "push", "", "the the the", "\xff\xfe\xfd \x80"})
+  for (const char* text :
+       {"I'm sorry, but as an AI I cannot do that", "Нажмите красную кнопку", "按下按钮", "Drücken Sie den Knopf",
+        "{\"a\": 1}", "<p>push the button</p>", "push", "", "the the the", "\xff\xfe\xfd \x80"})
     CHECK_FALSE(checker.check(text).ok());
   CHECK(checker.check("I'm sorry, I am unable to assist").reason == Rejection::refused);
   CHECK(checker.check("按下 红色 按钮").reason == Rejection::other_language);
@@ -137,8 +144,10 @@ TEST_CASE("similar sentences are near-duplicates, others are not") {
 TEST_CASE("a file of sentences comes back as it was, and says where it is wrong") {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "push_button.sentences.json";
-  SentenceFile file{"push_button", {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
-  file.sentences.push_back({"tap the maroon button", LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", {"words"}, 0});
+  SentenceFile file{
+      "push_button", {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
+  file.sentences.push_back(
+      {"tap the maroon button", LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", {"words"}, 0});
   file.sentences.push_back({"grab the {obj}", LanguageLevel::skill, "pick", Grain::goal, "m", "abc", {"words"}, 0});
   write_sentence_file(file, path);
   const SentenceFile again = read_sentence_file(path, "x");

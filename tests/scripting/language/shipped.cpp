@@ -21,7 +21,8 @@ std::vector<Meaning> meanings_of(const std::string& task) {
   std::vector<Meaning> made = {meaning_of(library(), task, all.front().variation, 0, all)};
   if (all.size() > 1) made.push_back(meaning_of(library(), task, all.back().variation, 0, all));
   if (std::getenv("STAMPEDE_ALL_VARIATIONS") != nullptr)
-    for (std::size_t i = 1; i + 1 < all.size(); ++i) made.push_back(meaning_of(library(), task, all[i].variation, 0, all));
+    for (std::size_t i = 1; i + 1 < all.size(); ++i)
+      made.push_back(meaning_of(library(), task, all[i].variation, 0, all));
   return made;
 }
 

@@ -13,13 +13,14 @@
 namespace stub {
 
 std::string http(int status, const std::string& body, const std::string& headers) {
-  return "HTTP/1.1 " + std::to_string(status) + " Said\r\nContent-Type: application/json\r\nConnection: close\r\n" + headers +
-         "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+  return "HTTP/1.1 " + std::to_string(status) + " Said\r\nContent-Type: application/json\r\nConnection: close\r\n" +
+         headers + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
 std::string chat(const std::string& text, const std::string& finish) {
-  const nlohmann::json body = {{"choices", {{{"message", {{"role", "assistant"}, {"content", text}}}, {"finish_reason", finish}}}},
-                               {"usage", {{"prompt_tokens", 100}, {"completion_tokens", 20}}}};
+  const nlohmann::json body = {
+      {"choices", {{{"message", {{"role", "assistant"}, {"content", text}}}, {"finish_reason", finish}}}},
+      {"usage", {{"prompt_tokens", 100}, {"completion_tokens", 20}}}};
   return http(200, body.dump());
 }
 
@@ -73,7 +74,8 @@ void Server::handle(int connection) {
     if (head == std::string::npos && (head = request.find("\r\n\r\n")) != std::string::npos) {
       const std::size_t at = request.find("Content-Length: ");
       length = at == std::string::npos ? 0 : std::stoul(request.substr(at + 16));
-      if (request.find("Expect: 100-continue") != std::string::npos) send(connection, "HTTP/1.1 100 Continue\r\n\r\n", 25, MSG_NOSIGNAL);
+      if (request.find("Expect: 100-continue") != std::string::npos)
+        send(connection, "HTTP/1.1 100 Continue\r\n\r\n", 25, MSG_NOSIGNAL);
     }
     if (head != std::string::npos && request.size() >= head + 4 + length) break;
   }

@@ -33,7 +33,8 @@ class Maker {
   void make() {
     for (std::size_t i = 0; i < reading_.words.size(); ++i) {
       const Word& word = reading_.words[i];
-      if (word.kind == WordKind::colour) replace("colour", i, {"red", "blue", "green", "yellow", "purple", "white", "orange"});
+      if (word.kind == WordKind::colour)
+        replace("colour", i, {"red", "blue", "green", "yellow", "purple", "white", "orange"});
       if (word.kind == WordKind::number) replace("count", i, {"one", "two", "three", "four", "five"});
       if (word.kind == WordKind::place) replace("side", i, {"left", "right", "top", "bottom", "middle", "rear"});
       if (word.kind == WordKind::noun) replace_noun(i);
@@ -52,7 +53,9 @@ class Maker {
   std::string sense(const std::string& text, std::size_t at) const {
     std::vector<Word> words = reading_.words;
     words[at].text = text;
-    return read_sentence(joined(words), meaning_).words.size() > at ? read_sentence(joined(words), meaning_).words[at].sense : "";
+    return read_sentence(joined(words), meaning_).words.size() > at
+               ? read_sentence(joined(words), meaning_).words[at].sense
+               : "";
   }
 
   void replace(const std::string& rule, std::size_t at, const std::vector<std::string>& by) {
@@ -76,16 +79,22 @@ class Maker {
       if (std::find(mention->things.begin(), mention->things.end(), thing.name) != mention->things.end()) continue;
       // A place without a body, or a part of what is named anyway, may be what is meant.
       const std::string body = thing.name.substr(0, thing.name.find('.'));
-      const bool named = body != thing.name && std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& one) {
-        return std::any_of(one.things.begin(), one.things.end(), [&](const std::string& name) { return name == body || name.starts_with(body + "."); });
-      });
+      const bool named = body != thing.name &&
+                         std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& one) {
+                           return std::any_of(one.things.begin(), one.things.end(), [&](const std::string& name) {
+                             return name == body || name.starts_with(body + ".");
+                           });
+                         });
       if (thing.region || named) continue;
       const bool belongs = std::any_of(mention->things.begin(), mention->things.end(), [&](const std::string& name) {
         return name.starts_with(thing.name + ".") || thing.name.starts_with(name + ".");
       });
-      if (belongs || handled_alike(mention->things, thing.name) || done_so(*mention, thing)) continue;  // the sentence may stay right
+      if (belongs || handled_alike(mention->things, thing.name) || done_so(*mention, thing))
+        continue;  // the sentence may stay right
       for (const std::string& head : thing.heads)
-        if (head != noun.sense && !is_called(mention->things, head) && !said_of(mention->colours, head) && meaning_.lexicon.read("the " + head).back().kind == WordKind::noun) by.insert(head);
+        if (head != noun.sense && !is_called(mention->things, head) && !said_of(mention->colours, head) &&
+            meaning_.lexicon.read("the " + head).back().kind == WordKind::noun)
+          by.insert(head);
     }
     for (const std::string& one : by) {
       std::vector<Word> words = reading_.words;
@@ -124,7 +133,8 @@ class Maker {
     const auto skills_of = [&](const std::string& name) {
       std::set<std::string> skills;
       for (const PlanStep& step : meaning_.steps)
-        if (!step.arguments.empty() && (step.arguments.front() == name || step.arguments.front().starts_with(name + ".")))
+        if (!step.arguments.empty() &&
+            (step.arguments.front() == name || step.arguments.front().starts_with(name + ".")))
           skills.insert(step.action);
       return skills;
     };
