@@ -1,0 +1,90 @@
+// Sentences of a model in an episode's language, and questions about its frames.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "scripting/language/frame_questions.h"
+#include "scripting/session/episode_job.h"
+#include "scripting/session/made_sentences.h"
+#include "shipped.h"
+
+using namespace stampede;
+
+namespace {
+
+const EpisodeJob kJob{"push_button", "colour=maroon", 0};
+
+RunOptions with_sentences(const std::vector<MadeSentence>& sentences) {
+  RunOptions options;
+  options.sentences = sentences_for(sentences, kJob.variation);
+  return options;
+}
+
+const std::vector<MadeSentence> kMade = {
+    {LanguageLevel::task, "colour=maroon", "tap the maroon button", LanguageGrain::goal, "small"},
+    {LanguageLevel::task, "colour=white", "tap the white button", LanguageGrain::goal, "small"},
+    {LanguageLevel::skill, "press", "tap the {button}", LanguageGrain::goal, "small"}};
+
+const EpisodeRecord& episode() {
+  static const EpisodeRecord record = [] {
+    PreparedEpisode prepared(shipped::library(), kJob, with_sentences(kMade));
+    return prepared.run(nullptr);
+  }();
+  return record;
+}
+
+}  // namespace
+
+TEST_CASE("an episode has the sentences of its variation and of its skills, as a model's") {
+  std::vector<std::string> texts;
+  for (const LanguageRecord& one : episode().language) {
+    if (one.source != LanguageSource::model) continue;
+    CHECK(one.model == "small");
+    texts.push_back(one.text);
+    if (one.level == LanguageLevel::skill) CHECK(one.segment >= 0);
+  }
+  REQUIRE(texts.size() == 2);
+  CHECK(texts[0] == "tap the maroon button");
+  CHECK(texts[1].starts_with("tap the cap of the "));
+}
+
+TEST_CASE("sentences are part of the key, and only those of the variation") {
+  const auto key = [](const RunOptions& options) { return PreparedEpisode(shipped::library(), kJob, options).key(); };
+  CHECK(key(with_sentences(kMade)) == episode().key);
+  CHECK(key(with_sentences(kMade)) != key({}));
+  std::vector<MadeSentence> others = kMade;
+  others[1].text = "press the white button";
+  CHECK(key(with_sentences(others)) == key(with_sentences(kMade)));
+  others[0].text = "press what is maroon";
+  CHECK(key(with_sentences(others)) != key(with_sentences(kMade)));
+}
+
+TEST_CASE("answers about frames are true, and yes as often as no") {
+  const Scene scene = scene_from_document(episode().scene_document);
+  const Domain& domain = shipped::library()->domain_of(kJob.task);
+  int yes = 0, no = 0;
+  std::set<std::string> types;
+  for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(episode().frames.size()); frame += 20) {
+    std::set<std::string> holds;
+    for (const FactRecord& fact : episode().facts)
+      if (fact.first_frame <= frame && frame < fact.end_frame) holds.insert(to_text(fact.fact));
+    for (const FrameQuestion& one : questions_about(episode(), domain, scene, frame)) {
+      types.insert(one.type);
+      CHECK(one.text(one.pattern).find('{') == std::string::npos);
+      if (one.type != "holds") continue;
+      (one.answer == "yes" ? yes : no) += 1;
+      const std::string fact = one.answer == "yes" ? one.proof : one.proof.substr(4);
+      CHECK(holds.contains(fact) == (one.answer == "yes"));
+    }
+    const auto chosen = [&] {
+      return chosen_questions(questions_about(episode(), domain, scene, frame), episode(), frame, 4);
+    };
+    CHECK(chosen().size() <= 4);
+    const auto first = chosen(), second = chosen();
+    CHECK(std::equal(first.begin(), first.end(), second.begin(), second.end(),
+                     [](const auto& a, const auto& b) { return a.text(a.pattern) == b.text(b.pattern); }));
+  }
+  CHECK(yes == no);
+  CHECK(yes > 0);
+  for (const char* type : {"holds", "colour", "count", "next_skill"}) CHECK(types.contains(type));
+}
