@@ -226,7 +226,7 @@ CommandRow paraphrase_command() {
        {"--show-refused", "", "tell each sentence that does not pass, and why", Takes::flag, "", {}, false},
        {"--out", "FILE", "instead of the file beside the task", Takes::path, "", {}, false}},
       {"stampede paraphrase stack_blocks --variation colour=red,height=3 --dry-run",
-       "stampede paraphrase push_buttons put_item_in_drawer --count 20 --url http://localhost:8080/v1 --model small"},
+       "stampede paraphrase put_item_in_drawer --variation level=top --grain steps --count 20 --dry-run"},
       do_paraphrase};
   for (OptionRow& option : model_options()) row.options.push_back(std::move(option));
   return row;
