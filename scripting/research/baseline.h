@@ -1,6 +1,7 @@
 // Simple answers to each problem, made from the given part alone: what a learner has to beat.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>

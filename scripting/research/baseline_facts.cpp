@@ -1,5 +1,6 @@
 // Predicates by plain geometry of bounding boxes and fingers: no learning at all.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>

@@ -1,5 +1,6 @@
 // Baselines that say where things will be: nothing moves, all goes on as it does, and a linear model of the tip with
 // what it carries.
+#include <algorithm>
 #include <cmath>
 #include <map>
 

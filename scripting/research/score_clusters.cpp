@@ -1,4 +1,5 @@
 // Names given to pieces of motion against the skills that made them.
+#include <map>
 #include <set>
 
 #include "engine/base/error.h"

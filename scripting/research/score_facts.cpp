@@ -2,6 +2,7 @@
 // skills.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/base/error.h"

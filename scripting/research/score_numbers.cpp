@@ -1,6 +1,7 @@
 // Numbers about frames against the true ones: actions, rewards, predictions.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 

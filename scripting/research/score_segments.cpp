@@ -2,6 +2,7 @@
 // where segments begin or end inside an episode.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/base/error.h"

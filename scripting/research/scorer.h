@@ -1,6 +1,7 @@
 // How answers become figures: one function a scorer, and the table that names them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
