@@ -16,6 +16,7 @@ Array = NDArray[Any]
 Json = dict[str, Any]
 
 _FEWEST = 5  # pictures
+_LEAST_TILT = 0.2  # rad
 _MOST = 80  # that are used; more are slow and say little
 
 
@@ -88,11 +89,24 @@ def _looks(one: Sighting) -> Array:
     return np.concatenate([one.pixels.mean(axis=0), shape.ravel()])
 
 
+def _tilt(one: Sighting) -> float:
+    """About how far the board is turned away from the picture's plane, rad."""
+    long, short = np.linalg.svd(_looks(one)[2:].reshape(2, 2), compute_uv=False)
+    return float(np.arccos(np.clip(short / long, 0, 1)))
+
+
 def find_lens(seen: Sequence[Sighting], size: tuple[int, int], place: str, with_k3: bool = False) -> Lens:
     """Raises Error where there are too few pictures, or they are too much alike."""
     if len(seen) < _FEWEST:
         raise fault(
             place, f"the board is seen in {len(seen)} pictures", f"take {_FEWEST} at least, better 30, from all sides"
+        )
+    tilt = max(_tilt(one) for one in seen)
+    if tilt < _LEAST_TILT:
+        raise fault(
+            place,
+            f"the board is tilted by {np.degrees(tilt):.0f} degrees at most, so nothing says what the focal length is",
+            "take them from all sides, tilted by 30 degrees",
         )
     cv2 = opencv()
     chosen = [seen[k] for k in spread(seen, _MOST)]
