@@ -1,10 +1,10 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import dataset baseline score replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import paraphrase questions dataset baseline score replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --root --path --json --help" ;;
-    run) words="--episodes --variation --seed --split --workers --out --shard --on-failure --controller --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
+    run) words="--episodes --variation --seed --split --workers --out --shard --on-failure --controller --sentences --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     evaluate) words="--perturb --episodes --variation --seed --split --workers --out --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
@@ -13,6 +13,8 @@ _stampede() {
     merge) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
+    paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
+    questions) words="--out --per-frame --frames --rephrase --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
     dataset) words="--list --out --hidden --split --root --path --json --help" ;;
     baseline) words="--list --out --root --path --json --help" ;;
     score) words="--hidden --out --figure --episode --physics --workers --root --path --json --help" ;;
