@@ -134,7 +134,8 @@ StoredSymbols read_symbols(const EpisodeRecord& episode) {
   const std::string* domain = document_of(episode, DocumentKind::pddl_domain);
   const std::string* problem = document_of(episode, DocumentKind::pddl_problem);
   if (domain == nullptr || problem == nullptr)
-    throw Error(episode.task, "the episode has no PDDL problem: no start was found, or it was recorded", "choose a simulated one");
+    throw Error(episode.task, "the episode has no PDDL problem: no start was found, or it was recorded",
+                "choose a simulated one");
   StoredSymbols symbols;
   symbols.domain = domain_from_pddl(*domain, "pddl_domain");
   symbols.problem = problem_from_pddl(*problem, "pddl_problem", symbols.domain);

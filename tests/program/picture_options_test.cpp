@@ -81,7 +81,7 @@ TEST_CASE("render says what it needs") {
     std::string complaint;
   };
   for (const Case& one : std::vector<Case>{
-           {{d}, kUsage, "say --out FOLDER, --into FILE, --video FILE or --sheet FILE"},
+           {{d}, kUsage, "say --out FOLDER, --into FILE, --video FILE, --sheet FILE or --overlay FOLDER"},
            {{d, "--out", folder / "x", "--into", d}, kUsage, "--out and --into at once"},
            {{d, "--video", folder / "x.avi"}, kUsage, "say .mp4"},
            {{d, "--video", folder / "x.mp4", "--kinds", "depth"}, kUsage, "films and sheets are for people"},

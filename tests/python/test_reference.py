@@ -130,7 +130,7 @@ def test_settings_are_taken_by_name_and_unknown_ones_are_not() -> None:
     session = stampede.Session()
     defaults = {"hidden": False, "reward": "sparse", "frame_hz": 0, "physics_hz": 0, "horizon_s": 0, "record": False}
     pictures = {"width": 0, "height": 0, "picture_sizes": {}, "shadows": False, "picture_hz": {}}
-    noise = {"rgb_noise": 0, "depth_noise": 0, "torque_noise": 0}
+    noise = {"rgb_noise": 0, "depth_noise": 0, "torque_noise": 0, "torque_model": ""}
     given = {"channels": ["joint_positions"], **defaults, **pictures, **noise}
     assert set(given) == fields("environment.h", "EnvironmentSettings")
     assert session.environment("reach_target", **given)

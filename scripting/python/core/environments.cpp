@@ -253,6 +253,8 @@ EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
       settings.depth_noise = nb::cast<double>(value);
     } else if (name == "torque_noise") {
       settings.torque_noise = nb::cast<double>(value);
+    } else if (name == "torque_model") {
+      settings.torque_model = nb::cast<std::string>(value);
     } else {
       throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
     }

@@ -114,7 +114,7 @@ TEST_CASE("an abstraction by chance means nothing, whether it changes all the ti
   CHECK(planned(translated, truth).completeness() == 0);
 }
 
-TEST_CASE("the hand may be left out, or added; what is fixed is said so") {
+TEST_CASE("the hand may be left out, or added, and what is fixed is said so") {
   const Domain truth = test::table_domain();
   const Domain mine = domain_of("(grasped ?b) (busy) (ajar ?d ?h)");
   std::vector<JudgedFrame> frames;

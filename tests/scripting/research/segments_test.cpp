@@ -62,7 +62,7 @@ TEST_CASE("boundaries within so many frames, each matched once") {
   CHECK_FALSE(figures.contains("nmi"));  // boundaries alone
 }
 
-TEST_CASE("names of one's own are matched with the true ones; ours by chance do not count by themselves") {
+TEST_CASE("names of one's own are matched with the true ones, and ours by chance do not count by themselves") {
   const Hidden hidden("segments");
   const auto swapped = hidden.score("1,0,8,put\n1,8,16,pick\n");  // right but for names
   CHECK(swapped.at("frames_right") == Approx(1));
