@@ -202,8 +202,9 @@ class Rendering {
     text_.object().field("episode", stored.id).field("frames", drawn.frames).field("pictures", drawn.pictures);
     text_.field("bytes", drawn.bytes).field("there_already", drawn.skipped).end();
     if (json_) return;
-    console_.out << fmt::format("{:>5}  {} {} seed {}: {} pictures", stored.id, stored.episode.task,
-                                stored.episode.variation, stored.episode.seed, drawn.pictures);
+    const std::string from =
+        stored.episode.real ? "recorded" : fmt::format("{} seed {}", stored.episode.variation, stored.episode.seed);
+    console_.out << fmt::format("{:>5}  {} {}: {} pictures", stored.id, stored.episode.task, from, drawn.pictures);
     if (drawn.bytes > 0)
       console_.out << fmt::format(" of {} frames, {:.0f} kB", drawn.frames, static_cast<double>(drawn.bytes) / 1000);
     if (drawn.skipped > 0) console_.out << fmt::format(", {} were there already", drawn.skipped);

@@ -50,7 +50,8 @@ void write_header(Canvas& canvas, const Drawn& drawn) {
   const int baseline = kGap + 2 * kTitle + 4;
   const int x = canvas.text(kGap, baseline, verdict(episode.outcome, episode.reason), kLetters, good ? kGood : kBad);
   const std::string variation = episode.variation.empty() ? "" : " · " + episode.variation;
-  const std::string facts = fmt::format("{}{} · seed {} · {:.1f} s", episode.task, variation, episode.seed, seconds);
+  const std::string from = episode.real ? "recorded" : fmt::format("seed {}", episode.seed);
+  const std::string facts = fmt::format("{}{} · {} · {:.1f} s", episode.task, variation, from, seconds);
   for (const std::string& line : stampede::wrapped(facts, kLetters, canvas.width - x - 2 * kGap, 1))
     canvas.text(x + kGap, baseline, line, kLetters, kFaint);
 }

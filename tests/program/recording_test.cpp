@@ -1,0 +1,82 @@
+// Recordings from the command line: an episode leaves as one, comes back as one of a real robot, and is looked at.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/program/say.h"
+
+namespace stampede::program {
+namespace {
+
+// A simulated episode with pictures as a recording folder.
+std::string recorded(const Folder& folder) {
+  const std::string demos = folder / "demos.db", lab = folder / "lab";
+  REQUIRE(say({"run", "reach_target", "--images", "all", "--camera", "front", "--kinds", "rgb,depth", "--out", demos,
+               "--root", kRoot})
+              .code == kDone);
+  REQUIRE(say({"export", "recording", demos, "--episode", "1", "--out", lab, "--root", kRoot}).code == kDone);
+  return lab;
+}
+
+std::string asked(const std::string& catalogue, const std::string& sql) {
+  return say({"query", catalogue, sql, "--format", "csv"}).out;
+}
+
+TEST_CASE("a recording is imported once, the same with any number of workers, and shown as what was recorded") {
+  const Folder folder;
+  const std::string lab = recorded(folder), real = folder / "real.db", other = folder / "other.db";
+  const Said first = say({"import", "recording", lab, "--out", real, "--workers", "1", "--root", kRoot});
+  INFO(first.err);
+  REQUIRE(first.code == kDone);
+  REQUIRE(say({"import", "recording", lab, "--out", real, "--root", kRoot}).code == kDone);
+  CHECK(asked(real, "SELECT source, count(*) AS n FROM episodes GROUP BY source") == "source,n\nreal,1\n");
+  CHECK(asked(real, "SELECT count(*) AS n FROM episodes WHERE seed IS NULL AND variation IS NULL AND draws IS NULL") ==
+        "n\n1\n");
+  CHECK(asked(real, "SELECT count(*) > 0 AS n FROM facts WHERE labelled_by = 'model'") == "n\n1\n");
+
+  REQUIRE(say({"import", "recording", lab, "--out", other, "--workers", "2", "--root", kRoot}).code == kDone);
+  CHECK(say({"query", real, "--hash"}).out == say({"query", other, "--hash"}).out);
+
+  const Said sheet = say({"render", real, "--sheet", folder / "sheet.png"});
+  INFO(sheet.err);
+  CHECK(sheet.code == kDone);
+  CHECK(says(sheet.out, "reach_target recorded:"));
+  CHECK(says(say({"show", real, "1"}).out, "recorded"));
+  const Said replay = say({"replay", real});
+  CHECK(replay.code == kNo);
+  CHECK(says(replay.out + replay.err, "recorded"));
+}
+
+TEST_CASE("the model lies over the pictures of an episode that it made, to a third of a pixel") {
+  const Folder folder;
+  const std::string lab = recorded(folder), real = folder / "real.db";
+  REQUIRE(say({"import", "recording", lab, "--out", real, "--root", kRoot}).code == kDone);
+  const Said overlay = say({"render", real, "1", "--overlay", folder / "over", "--frames", "0,5", "--json"});
+  INFO(overlay.err);
+  REQUIRE(overlay.code == kDone);
+  CHECK(std::filesystem::exists(folder / "over/episode_000001/front/000005.png"));
+  const auto camera = nlohmann::json::parse(overlay.out)["episodes"][0]["cameras"][0];
+  INFO(overlay.out);
+  CHECK(camera["camera"] == "front");
+  CHECK(camera["pictures"] == 2);
+  CHECK(camera["median_px"] < 0.34);
+}
+
+TEST_CASE("labels by people take the place of those that came with a recording") {
+  const Folder folder;
+  const std::string lab = recorded(folder), real = folder / "real.db", labels = folder / "labels.json";
+  REQUIRE(say({"import", "recording", lab, "--out", real, "--root", kRoot}).code == kDone);
+  put(folder, "labels.json",
+      R"({"labelled_by": "person", "segments": [{"kind": "skill", "name": "touch", "arguments": ["target"],
+          "start_s": 0.1, "end_s": 0.5, "label": "touch the ball"}]})");
+  const Said said = say({"import", "labels", labels, real, "--episode", "1", "--root", kRoot});
+  INFO(said.err);
+  REQUIRE(said.code == kDone);
+  CHECK(asked(real, "SELECT skill, labelled_by, label FROM segments WHERE kind = 'skill'") ==
+        "skill,labelled_by,label\ntouch,person,touch the ball\n");
+  const Said bad = say({"import", "labels", labels, real, "--episode", "9", "--root", kRoot});
+  CHECK(bad.code == kBadInput);
+  CHECK(says(bad.err, "9"));
+}
+
+}  // namespace
+}  // namespace stampede::program
