@@ -50,23 +50,40 @@ class Smooth {
   int width_, height_;
 };
 
-Smooth brightness(std::span<const std::uint8_t> rgb, int width, int height) {
-  std::vector<float> grey(rgb.size() / 3);
-  for (std::size_t i = 0; i < grey.size(); ++i)
-    grey[i] = 0.299F * rgb[3 * i] + 0.587F * rgb[3 * i + 1] + 0.114F * rgb[3 * i + 2];
-  return {std::move(grey), width, height};
-}
+// A colour picture: what is as bright as what lies behind it has an edge in its colour.
+class SmoothColours {
+ public:
+  SmoothColours(std::span<const std::uint8_t> rgb, int width, int height) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::vector<float> values(rgb.size() / 3);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = rgb[3 * i + c];
+      channels_.emplace_back(std::move(values), width, height);
+    }
+  }
+  // How much the colours of two places differ, levels: root mean square of the channels.
+  double difference(const std::array<double, 2>& a, const std::array<double, 2>& b) const {
+    double squares = 0;
+    for (const Smooth& channel : channels_) {
+      const double way = channel.at(a[0], a[1]) - channel.at(b[0], b[1]);
+      squares += way * way;
+    }
+    return std::sqrt(squares / 3);
+  }
+
+ private:
+  std::vector<Smooth> channels_;
+};
 
 // The steepest place along the normal, between samples by a parabola.
-void search(const Smooth& picture, const AlignmentOptions& options, OutlinePoint& point) {
+void search(const SmoothColours& picture, const AlignmentOptions& options, OutlinePoint& point) {
   const int reach = static_cast<int>(options.range_px / kStep);
   std::vector<double> steepness;
   for (int i = -reach; i <= reach; ++i) {
     const double d = i * kStep;
-    const auto value = [&](double along) {
-      return picture.at(point.at[0] + along * point.normal[0], point.at[1] + along * point.normal[1]);
+    const auto place = [&](double along) {
+      return std::array{point.at[0] + along * point.normal[0], point.at[1] + along * point.normal[1]};
     };
-    steepness.push_back(std::abs(value(d + 0.5) - value(d - 0.5)));
+    steepness.push_back(picture.difference(place(d + 0.5), place(d - 0.5)));
   }
   const auto best = std::max_element(steepness.begin() + 1, steepness.end() - 1);
   if (*best < options.least_slope || *best < *(best - 1) || *best < *(best + 1)) return;
@@ -86,7 +103,7 @@ std::vector<OutlinePoint> outline_offsets(std::span<const std::uint8_t> mask, st
   std::vector<float> inside(mask.size());
   for (std::size_t i = 0; i < mask.size(); ++i) inside[i] = mask[i] != 0 ? 1 : 0;
   const Smooth shape(std::move(inside), width, height);
-  const Smooth picture = brightness(rgb, width, height);
+  const SmoothColours picture(rgb, width, height);
   const auto is_inside = [&](int x, int y) {
     return mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] != 0;
   };

@@ -11,7 +11,7 @@ namespace stampede {
 
 struct AlignmentOptions {
   double range_px = 12;    // searched on both sides of the outline
-  double least_slope = 8;  // grey levels a pixel: what is flatter is no edge
+  double least_slope = 8;  // levels of colour a pixel: what is flatter is no edge
 };
 
 // A point of the outline, where the picture's strongest edge lies along the normal, and how far: positive outside.

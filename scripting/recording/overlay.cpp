@@ -13,6 +13,7 @@ namespace stampede {
 namespace {
 
 constexpr std::array<double, 3> kTint{255, 140, 0};
+constexpr double kRanges = 32;  // of a picture's width, at least: in a small one other edges are nearer
 constexpr std::array<std::uint8_t, 3> kOutline{0, 255, 120};
 constexpr double kTintShare = 0.35;
 
@@ -121,8 +122,9 @@ class Overlayer {
     std::vector<std::uint8_t> mask(drawn_[0].instance.size());
     for (std::size_t i = 0; i < mask.size(); ++i)
       mask[i] = std::find(robot_.begin(), robot_.end(), drawn_[0].instance[i]) != robot_.end() ? 1 : 0;
-    const std::vector<OutlinePoint> found =
-        outline_offsets(mask, real.rgb, real.width, real.height, request_.alignment);
+    AlignmentOptions alignment = request_.alignment;
+    alignment.range_px = std::min(alignment.range_px, real.width / kRanges);
+    const std::vector<OutlinePoint> found = outline_offsets(mask, real.rgb, real.width, real.height, alignment);
     points.insert(points.end(), found.begin(), found.end());
     if (keep) keep(tinted(entry, real, mask));
   }
