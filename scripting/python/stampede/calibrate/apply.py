@@ -9,6 +9,7 @@ from typing import Any
 
 from stampede.calibrate.bundle import Result
 from stampede.calibrate.recorded import MEASURED, Recording
+from stampede.recordings.folder import UNPLACED
 
 Json = dict[str, Any]
 
@@ -34,7 +35,11 @@ def apply(recording: Recording, result: Result, report: Json, with_joints: bool)
     clocks = dict(recording.document.get("clocks", {}))
     for one in report["cameras"]:
         clocks[recording.pictures(one["camera"]).clock] = one["clock"]
-    write_whole(recording.file, {**recording.document, "cameras": name, "clocks": clocks})
+    placed = [one for one in recording.unplaced() if one["camera"] in new]
+    streams = [*recording.document["streams"], *placed]
+    write_whole(recording.file, {**recording.document, "cameras": name, "clocks": clocks, "streams": streams})
+    if placed:  # after recording.json: what is in both is not lost
+        write_whole(folder / UNPLACED, {"streams": [one for one in recording.unplaced() if one not in placed]})
 
 
 def _correct_joints(recording: Recording, result: Result) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stampede.faults import fault, unknown
+from stampede.recordings.folder import UNPLACED
 from stampede.robots import Robot, robot_of
 
 Array = NDArray[Any]
@@ -67,7 +68,7 @@ class Recording:
         self.file = folder / "recording.json"
         try:
             self.document: Json = json.loads(self.file.read_text())
-            self.streams: list[Json] = list(self.document["streams"])
+            self.streams: list[Json] = [*self.document["streams"], *self.unplaced()]
             described = self.document["robot"]
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise fault(str(self.file), f"no recording: {error}", "python -m stampede.recordings writes one") from error
@@ -87,6 +88,11 @@ class Recording:
         self.zero_ns = stamps[0]
         self.clock = str(self._joints_stream.get("clock", ""))
         self.joints = self._joint_states(names, stamps, np.array(values, dtype=float))
+
+    def unplaced(self) -> list[Json]:
+        """Streams that are left out as long as nobody knows where their cameras are."""
+        file = self.folder / UNPLACED
+        return list(json.loads(file.read_text())["streams"]) if file.is_file() else []
 
     def cameras(self) -> list[str]:
         return [str(one["camera"]) for one in self.streams if one.get("kind") == "rgb"]

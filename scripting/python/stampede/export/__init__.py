@@ -58,10 +58,13 @@ class Writer(Protocol):
 
 def split_of(episode: StoredEpisode, valid: float) -> str:
     """`train`, `valid` or `test`: the catalogue's split, and of its training episodes a share that depends on each
-    episode's task and seed alone."""
+    episode's task and seed alone; on the key of a real one."""
     if episode.split != "train":
         return episode.split
-    digest = hashlib.sha256(f"{episode.task} {episode.variation} {episode.seed}".encode()).digest()
+    name = f"{episode.task} {episode.variation} {episode.seed}"
+    if steps.is_real(episode):
+        name = f"{episode.task} {steps.key_of(episode)}"
+    digest = hashlib.sha256(name.encode()).digest()
     return "valid" if int.from_bytes(digest[:8], "big") < valid * 2**64 else "train"
 
 
@@ -238,7 +241,8 @@ class _Progress:
 
     def one_more(self, episode: StoredEpisode) -> None:
         self.done += 1
-        line = f"[{self.done}/{self.total}] {episode.task} {episode.variation} seed {episode.seed}"
+        start = f"{episode.variation} seed {episode.seed}" if episode.seed is not None else f"episode {episode.id}"
+        line = f"[{self.done}/{self.total}] {episode.task} {start}"
         if self.tell:
             self.tell(line)
         elif self.live:

@@ -112,8 +112,8 @@ class Writer:
         columns = [dict(np.load(piece / "columns.npz")) for piece in pieces]
         described = [json.loads((piece / "described.json").read_text()) for piece in pieces]
         names = dict(described[0]["names"])
-        if any(one["names"][_THINGS] != names[_THINGS] for one in described):
-            for one in (names, *columns):  # of several tasks: a feature is the same in all episodes
+        if not names[_THINGS] or any(one["names"][_THINGS] != names[_THINGS] for one in described):
+            for one in (names, *columns):  # real ones have none; of several tasks: a feature is the same in all
                 del one[_THINGS]
         for episode, one in zip(self._episodes, described, strict=True):
             check_names(episode, one["names"], names)
@@ -387,7 +387,7 @@ class Writer:
 
 def _task(episode: StoredEpisode) -> str:
     sentences = episode.instructions()
-    return sentences[0] if sentences else f"{episode.task} {episode.variation}".strip()
+    return sentences[0] if sentences else f"{episode.task} {episode.variation or ''}".strip()
 
 
 def _about(steps: Steps) -> dict[str, Any]:
@@ -395,8 +395,8 @@ def _about(steps: Steps) -> dict[str, Any]:
     episode = steps.episode
     return {
         "stampede/task": episode.task,
-        "stampede/variation": episode.variation,
-        "stampede/seed": episode.seed,
+        "stampede/variation": episode.variation or "",
+        "stampede/seed": -1 if episode.seed is None else episode.seed,  # as RLDS has it
         "stampede/success": episode.success,
         "stampede/skills": len(steps.skills),
     }

@@ -100,7 +100,7 @@ class Writer:
             "problem_name": episode.task,
             "domain_name": episode.task,
             "language_instruction": demos[0].facts["instruction"],
-            "variation": episode.variation,
+            "variation": episode.variation or "",
         }
         attributes = {
             **shared,
@@ -143,7 +143,7 @@ def _file_names(episodes: Sequence[StoredEpisode]) -> list[str]:
     """A name for each task and variation; a number tells apart those whose letters and digits are the same."""
     names: dict[tuple[str, str], str] = {}
     for episode in episodes:
-        words = re.sub(r"[^a-z0-9]+", "_", f"{episode.task} {episode.variation}".lower()).strip("_")
+        words = re.sub(r"[^a-z0-9]+", "_", f"{episode.task} {episode.variation or ''}".lower()).strip("_")
         kind = (episode.task, episode.variation)
         if kind not in names:
             taken = set(names.values())

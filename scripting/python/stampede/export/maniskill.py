@@ -20,7 +20,7 @@ from stampede.catalogue import StoredEpisode
 from stampede.export import common_cameras
 from stampede.export.hdf5 import Demo, DemoFiles, Facts, add_action_argument, put_pictures, scale_of
 from stampede.export.scene import robot_base
-from stampede.export.steps import Array, Steps, bodies_of, known
+from stampede.export.steps import Array, Steps, bodies_of, is_real, known
 
 # ManiSkill's names of our action spaces.
 _CONTROL = {"joint_position": "pd_joint_pos", "joint_delta": "pd_joint_delta_pos", "tool_delta": "pd_ee_delta_pose"}
@@ -49,13 +49,14 @@ class Writer:
     def write(self, episode: StoredEpisode) -> None:
         cameras = self._cameras[episode.task]
         parameters = [f"{camera}_camera_{what}" for camera in cameras for what in ("intrinsics", "extrinsics")]
-        steps = Steps(episode, ["object_pose", *parameters], self._options.channels)
+        bodies = bodies_of(episode)
+        steps = Steps(episode, [*(["object_pose"] if bodies else []), *parameters], self._options.channels)
         names = list(steps.arrays.column("task_low_dim_state").labels)
         shared = {**scale_of(steps, self._options.action), "state_names": names}
         with self._demos.making(episode, shared, {"info": steps.meta()}) as trajectory:
             self._put_steps(trajectory, steps)
             states = trajectory.create_group("env_states")
-            for name in bodies_of(episode):
+            for name in bodies:
                 states.create_dataset(f"actors/{name}", data=_actor(known(steps.arrays[f"object_pose/{name}"])))
             states.create_dataset("articulations/panda", data=_robot(steps))
             self._put_observations(trajectory.create_group("obs"), steps)
@@ -84,7 +85,7 @@ class Writer:
         joints, speeds = _joints(steps)
         observed.create_dataset("agent/qpos", data=joints)
         observed.create_dataset("agent/qvel", data=speeds)
-        observed.create_dataset("extra/tcp_pose", data=_pose(arrays["gripper_pose"]))
+        observed.create_dataset("extra/tcp_pose", data=_pose(known(arrays["gripper_pose"])))
         observed.create_dataset("extra/task_low_dim_state", data=known(arrays["task_low_dim_state"]))
         for name, values in steps.channels.items():
             observed.create_dataset(f"extra/{name}", data=values)
@@ -130,9 +131,14 @@ class Writer:
                 }
                 for number, demo in enumerate(demos)
             ],
-            "source_type": "motionplanning",
-            "source_desc": "demonstrations of Stampede's task and motion planner",
+            **_source(demos),
         }
+
+
+def _source(demos: list[Demo]) -> Facts:
+    if any(is_real(demo.episode) for demo in demos):
+        return {"source_type": "real", "source_desc": "recordings of a real robot"}
+    return {"source_type": "motionplanning", "source_desc": "demonstrations of Stampede's task and motion planner"}
 
 
 def _start(episode: StoredEpisode) -> Facts:
@@ -159,12 +165,12 @@ def _joints(steps: Steps) -> tuple[Array, Array]:
     """Of arm and fingers at all frames: positions in rad and m, velocities."""
     arrays = steps.arrays
     positions = np.hstack([arrays["joint_positions"], arrays["gripper_joint_positions"]])
-    return positions, np.hstack([arrays["joint_velocities"], arrays["gripper_joint_velocities"]])
+    return known(positions), known(np.hstack([arrays["joint_velocities"], arrays["gripper_joint_velocities"]]))
 
 
 def _robot(steps: Steps) -> Array:
     """Pose of the base, which stands still, its velocities, joints, their velocities: F x 31."""
-    base = _actor(np.tile(robot_base(steps.episode), (steps.count + 1, 1)))
+    base = _actor(np.tile(known(robot_base(steps.episode)), (steps.count + 1, 1)))
     return np.hstack([base, *_joints(steps)])
 
 

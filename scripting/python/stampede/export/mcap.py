@@ -32,6 +32,7 @@ import numpy as np
 
 from stampede.catalogue import StoredEpisode
 from stampede.export import cameras_of
+from stampede.export.pictures import is_png
 from stampede.export.scene import Part, parts_of, pose_of, quaternion
 from stampede.export.steps import Array, channels_of, matrices
 
@@ -214,9 +215,10 @@ class _EpisodeFile:
             "seed": e.seed,
             "success": e.success,
             "reason": e.reason,
+            "frame_hz": e.frame_hz,
         }
         about["key"] = e.catalogue.query("SELECT key FROM episodes WHERE episode = ?1", e.id).values("key")[0]
-        return {name: str(value) for name, value in about.items()} | {"instruction": "; ".join(e.instructions())}
+        return {name: str(value) for name, value in about.items() if value is not None} | {"instruction": "; ".join(e.instructions())}
 
     def _write_segments(self, segments: Sequence[Any]) -> None:
         rate = self._episode.frame_hz
@@ -263,7 +265,8 @@ class _EpisodeFile:
         if len(stored) == self._episode.frames:
             for row in stored:
                 time_ns, data = self._time_ns(row["frame"]), base64.b64encode(row["data"]).decode()
-                image = {"timestamp": _stamp(time_ns), "frame_id": camera, "data": data, "format": "png"}
+                form = "png" if is_png(row["data"]) else "jpeg"
+                image = {"timestamp": _stamp(time_ns), "frame_id": camera, "data": data, "format": form}
                 self._put(f"/camera/{camera}/image", "foxglove.CompressedImage", time_ns, image)
                 self._write_calibration(camera, time_ns, {**lens, **row})
             return

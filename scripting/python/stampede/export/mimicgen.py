@@ -24,7 +24,7 @@ class Writer(robomimic.Writer):
     """Writes FOLDER/TASK.hdf5."""
 
     def columns(self, episode: StoredEpisode) -> list[str]:
-        return ["object_pose", "facts"]
+        return [*(["object_pose"] if bodies_of(episode) else []), "facts"]
 
     def facts(self, steps: Steps) -> Facts:
         entries = {
@@ -89,7 +89,7 @@ def _subtasks(steps: Steps) -> list[Facts]:
 
 def _reference(steps: Steps, skill: Segment) -> str | None:
     """The thing relative to which the hand moves: the skill's first that is not in the hand already, else its first."""
-    things = [name for name in skill.arguments if f"object_pose/{name}" in steps.arrays]
+    things = [name for name in skill.arguments if f"object_pose/{name}" in steps.arrays]  # none of a real one
     facts = steps.arrays["facts"][skill.first_frame]
     held = {
         atom.arguments[1]

@@ -12,13 +12,20 @@ from stampede.export.steps import Array
 
 
 def png_files(episode: StoredEpisode, camera: str) -> list[bytes]:
-    """One a frame: those that are stored as they are; where some are not, all are drawn or read, and packed."""
+    """One a frame: those that are stored as they are; where some are not, or not as PNG, all are drawn or read, and
+    packed."""
     stored = episode.catalogue.query(
         "SELECT data FROM images WHERE episode = ?1 AND camera = ?2 AND kind = 'rgb' ORDER BY frame", episode.id, camera
     )
-    if len(stored) == episode.frames:
-        return stored.values("data")  # type: ignore[return-value]
+    files: list[bytes] = stored.values("data")  # type: ignore[assignment]
+    if len(files) == episode.frames and all(map(is_png, files)):
+        return files
     return [packed(picture) for picture in episode.pictures(f"{camera}_rgb", draw=True)]
+
+
+def is_png(file: bytes) -> bool:
+    """Else it is JPEG, as real robots' cameras have it."""
+    return file[:8] == b"\x89PNG\r\n\x1a\n"
 
 
 def packed(picture: Array) -> bytes:

@@ -20,6 +20,7 @@ from stampede import _core
 from stampede._core import EpisodeArrays, Error
 from stampede.catalogue import StoredEpisode
 from stampede.export import cameras_of
+from stampede.export.steps import is_real
 from stampede.faults import fault
 from stampede.rlbench.backend.const import (
     EPISODE_FOLDER,
@@ -104,6 +105,12 @@ class Writer:
         """No file is open between two episodes."""
 
     def _variation_index(self, episode: StoredEpisode) -> int:
+        if is_real(episode):
+            raise fault(
+                f"episode {episode.id}",
+                "it is a recording of a real robot, and RLBench's folders are of variations of a simulated task",
+                "--where \"outcome = 'success' AND source <> 'real'\" leaves such out; lerobot, rlds and mcap take them",
+            )
         if episode.task not in self._orders:
             try:
                 self._orders[episode.task] = self._session.variations(episode.task)

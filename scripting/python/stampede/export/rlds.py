@@ -223,7 +223,7 @@ def _columns(steps: Steps, action: str) -> dict[str, Array | list[bytes]]:
 def _about(steps: Steps) -> dict[str, Array | list[bytes]]:
     """What is known of the episode. Readers repeat each value for all steps, so none is a list."""
     meta = steps.meta() | {"file_path": steps.episode.catalogue.path.name}
-    meta["seed"] = -1 if meta["seed"] is None else meta["seed"]
+    meta |= {"seed": -1 if meta["seed"] is None else meta["seed"], "variation": meta["variation"] or ""}
     about: dict[str, Array | list[bytes]] = {}
     for name, (kind, _) in _EPISODE.items():
         value = json.dumps(meta[name]) if isinstance(meta[name], list) else meta[name]

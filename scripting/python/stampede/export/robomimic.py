@@ -124,8 +124,9 @@ def put_filter(file: Any, name: str, demos: Sequence[str]) -> None:
 
 def _observed(steps: Steps) -> dict[str, Array]:
     """Numbers at all frames, by robomimic's names."""
-    pose = steps.arrays["gripper_pose"]
+    pose = known(steps.arrays["gripper_pose"])
     observed = {name: known(steps.arrays[column]) for name, column in _OBSERVED.items()}
+    observed = {name: rows for name, rows in observed.items() if rows.shape[1]}  # no things of a real one
     return {**observed, "robot0_eef_pos": pose[:, :3], "robot0_eef_quat": pose[:, 3:], **steps.channels}
 
 

@@ -79,8 +79,22 @@ def known(values: Array) -> Array:
     return np.nan_to_num(values, nan=0.0)
 
 
+def is_real(episode: StoredEpisode) -> bool:
+    """Recorded from a robot: it has no seed, no variation, and no poses of things."""
+    return episode.catalogue.query("SELECT source FROM episodes WHERE episode = ?1", episode.id).values("source") == [
+        "real"
+    ]
+
+
+def key_of(episode: StoredEpisode) -> str:
+    """What it is stored once by."""
+    return str(episode.catalogue.query("SELECT key FROM episodes WHERE episode = ?1", episode.id).values("key")[0])
+
+
 def bodies_of(episode: StoredEpisode) -> list[str]:
-    """Names of things, without their parts, regions and the hand."""
+    """Names of things whose poses are known, without their parts, regions and the hand."""
+    if is_real(episode):
+        return []
     rows = episode.catalogue.query(
         "SELECT object FROM objects WHERE episode = ?1 AND kind = 'body' ORDER BY object", episode.id
     )
@@ -129,6 +143,25 @@ class Steps:
         self._asked = channels
         if self.arrays["joint_positions"].shape[1] != len(JOINT_SPEED):
             raise fault(f"episode {episode.id}", "its arm does not have seven joints", "only the Panda can be exported")
+        self._check_known()
+
+    def _check_known(self) -> None:
+        """Raises Error where a step lacks what the arm did or was to do: 0 would be a pose that it never had."""
+        leave_out = f"--where \"outcome = 'success' AND episode <> {self.episode.id}\" leaves it out; mcap has no steps"
+        needed = {
+            "action/gripper": ("opening of the gripper", "a stream `gripper`, or `opening_m` in `command`"),
+            "action/joint_position": ("command of the arm", "commands without gaps of more than 1 s"),
+            "action/tool_pose": ("command of the tool", "commands without gaps of more than 1 s"),
+            "joint_positions": ("position of the arm", "joint states without gaps"),
+        }
+        for column, (what, cure) in needed.items():
+            values = self.arrays[column][: -1 if column.startswith("action") else None]
+            missing = np.flatnonzero(np.isnan(values.reshape(len(values), -1)).any(axis=1))
+            if len(missing):
+                count = "any" if len(missing) == len(values) else f"{len(missing)} of {len(values)}"
+                where = "" if count == "any" else f", the first at frame {missing[0]}"
+                told = f"it was recorded without {count} {what}{where}: a dataset of steps needs it"
+                raise fault(f"episode {self.episode.id}", told, f"record {cure}; {leave_out}")
 
     def observed(self, column: str) -> Array:
         """A column at the frames that have an action, unknown values as 0."""

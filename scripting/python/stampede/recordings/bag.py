@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stampede.export.scene import quaternion
 from stampede.faults import fault
 from stampede.recordings.bags import Bag, open_bag
 from stampede.recordings.folder import FolderWriter, Stream
@@ -124,7 +125,7 @@ class _Conversion:
             camera = self._roles.lenses[topic]
             return lambda message, time: self._keep_lens(camera, message)  # type: ignore[arg-type]
         if isinstance(first, TransformReading):
-            return lambda message, time: self._frames.add(message)  # type: ignore[arg-type]
+            return lambda message, time: self._frames.add(message, time)  # type: ignore[arg-type]
         return lambda message, time: self._keep_segment(message)  # type: ignore[arg-type]
 
     def _joints(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
@@ -218,21 +219,23 @@ class _Conversion:
 
     def _finish(self) -> None:
         self._tell_streams()
-        document = self._given.document(self._bag.about())
+        self._find_base()
+        about = self._bag.about()
+        document = self._given.document(about)
         document["source"] = f"{Path(self._options.source).name}: " + ", ".join(sorted(self._roles.all()))
-        if self._segments:
-            self._folder.write_json(
-                "labels.json", {"labelled_by": "model", "model": "stampede", "segments": self._segments}
-            )
+        language = [{"level": "task", "text": one} for one in about.get("instruction", "").split("; ") if one]
+        if self._segments or language:
+            joints = next(one for one in self._folder.streams if one.described["kind"] == "joints")
+            segments = self._given.fit(self._segments, about, joints.counts.duration_s)
+            labels = {"labelled_by": "model", "model": "stampede", "segments": segments, "language": language}
+            self._folder.write_json("labels.json", labels)
             document["labels"] = "labels.json"
         self._write_cameras(document)
         self._given.copy_files(self._folder)
         self._folder.finish(document)
 
     def _write_cameras(self, document: Json) -> None:
-        if self._given.camera_file is not None:
-            self._folder.copy(self._given.camera_file, "cameras.json")
-            document["cameras"] = "cameras.json"
+        if self._given.copy_cameras(self._folder, document):
             return
         cameras = sorted({camera for _, camera in self._roles.pictures.values()})
         placed, lenses = [], []
@@ -246,10 +249,10 @@ class _Conversion:
             assert lens is not None
             frame = self._camera_frames.get(camera) or lens.frame_id
             mount = self._frames.mount_of(frame, self._given.robot, self._given.world_from_base)
-            if mount is None:
+            if isinstance(mount, str):
                 self._given.tell(
-                    f"camera {camera}: no transform says where {frame or 'it'} is; "
-                    "python -m stampede.calibrate extrinsics finds its pose, --cameras FILE gives it"
+                    f"camera {camera}: {mount}; python -m stampede.calibrate extrinsics finds its pose, "
+                    "--cameras FILE gives it"
                 )
                 continue
             placed.append({**found, "mount": mount[0], "mount_from_camera": mount[1].tolist()})
@@ -258,6 +261,20 @@ class _Conversion:
         if placed:
             self._folder.write_json("cameras.json", {"cameras": placed})
             document["cameras"] = "cameras.json"
+            for camera in self._folder.leave_out(one["name"] for one in placed):
+                self._given.tell(
+                    f"camera {camera}: its pictures are in the folder, but left out of the recording; "
+                    f"python -m stampede.calibrate extrinsics {self._given.out} --camera {camera} --apply brings them "
+                    "in, or convert again with --cameras FILE"
+                )
+
+    def _find_base(self) -> None:
+        """Where the robot stands, as the transforms say, unless the command line did."""
+        stands = None if self._given.base_said else self._frames.base_in_world(self._given.robot)
+        if stands is None:
+            return
+        self._given.base = [*map(float, stands[:3, 3]), *map(float, quaternion(stands[:3, :3]))]
+        self._given.tell("base: at " + " ".join(f"{one:.4g}" for one in self._given.base) + ", as the transforms say")
 
     def _tell_streams(self) -> None:
         for stream in self._folder.streams:

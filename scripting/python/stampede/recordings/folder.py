@@ -14,6 +14,7 @@ from typing import IO, Any
 from stampede.faults import fault
 
 FORM = 1  # `stampede_recording` of recording.json
+UNPLACED = "unplaced.json"  # streams of cameras of which nobody knows where they are
 _SECOND = 10**9  # ns
 
 Json = dict[str, Any]
@@ -107,6 +108,7 @@ class FolderWriter:
         self._part = path.with_name(path.name + ".part")
         self._files: list[IO[str]] = []
         self.streams: list[Stream] = []
+        self._unplaced: list[str] = []
         self._finished = False
 
     def __enter__(self) -> FolderWriter:
@@ -146,9 +148,19 @@ class FolderWriter:
     def copy(self, source: Path, name: str) -> None:
         shutil.copyfile(source, self._part / name)
 
+    def leave_out(self, placed: Iterable[str]) -> list[str]:
+        """Cameras with pictures that are none of these; their streams go to unplaced.json, until a calibration says
+        where they are: beside a camera file that lacks them nothing could be imported."""
+        there = {str(one.described["camera"]) for one in self.streams if "camera" in one.described}
+        self._unplaced = sorted(there.difference(placed))
+        return self._unplaced
+
     def finish(self, document: Json) -> None:
         """recording.json: this, and the streams that have readings."""
-        written = [stream.described for stream in self.streams if stream.counts.written]
+        every = [stream.described for stream in self.streams if stream.counts.written]
+        written = [one for one in every if one.get("camera") not in self._unplaced]
+        if len(written) < len(every):
+            self.write_json(UNPLACED, {"streams": [one for one in every if one not in written]})
         clocks: Json = {str(one["clock"]): {} for one in written}
         self.write_json(
             "recording.json", {"stampede_recording": FORM, **document, "clocks": clocks, "streams": written}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -19,6 +20,8 @@ from stampede.robots import Robot, described_robot, robot_of
 
 Json = dict[str, Any]
 
+FRAME_HZ = 30  # of a recording that does not say it
+
 
 @dataclass
 class Given:
@@ -33,13 +36,14 @@ class Given:
     frame_hz: int  # 0: as the recording's form has it
     tell: Callable[[str], None]
     files: list[Path] = field(default_factory=list)  # that recording.json names
+    base_said: bool = False  # by the command line
 
     @property
     def world_from_base(self) -> NDArray[Any]:
         return matrices(np.array([self.base]))[0]
 
     def document(self, about: Json, **further: Any) -> Json:
-        """recording.json but for its streams. about: what the source itself says of task and outcome."""
+        """recording.json but for its streams. about: what the source itself says of task, success and frame_hz."""
         task = self.task or str(about.get("task", "")) or self.out.name
         outcome = self.outcome or ("failure" if str(about.get("success", "True")) == "False" else "success")
         base = {"position": self.base[:3], "quaternion": self.base[3:]}
@@ -51,9 +55,39 @@ class Given:
         }
         if self.world:
             document["world"] = self.world
-        if self.frame_hz:
-            document["frame_hz"] = self.frame_hz
+        if self.rate_of(about):
+            document["frame_hz"] = self.rate_of(about)
         return document
+
+    def rate_of(self, about: Json) -> int:
+        """Frames a second; 0: as the recording's form has it."""
+        said = float(about.get("frame_hz") or 0)
+        return self.frame_hz or (int(said) if said.is_integer() else 0)
+
+    def fit(self, segments: list[Json], about: Json, last_s: float) -> list[Json]:
+        """Cut at the end of the episode's last frame; without those that take no time. last_s: the last joint state,
+        since the first."""
+        rate = self.rate_of(about) or FRAME_HZ
+        end_s = (int(last_s * rate + 1e-6) + 1) / rate
+        cut = [{**one, "end_s": min(one["end_s"], end_s)} for one in segments]
+        return [one for one in cut if one["start_s"] < one["end_s"]]
+
+    def copy_cameras(self, folder: FolderWriter, document: Json) -> bool:
+        """The camera file that was named, if one was; pictures of cameras that it lacks are left out. Raises Error."""
+        if self.camera_file is None:
+            return False
+        try:
+            names = [str(one["name"]) for one in json.loads(self.camera_file.read_text())["cameras"]]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise fault(str(self.camera_file), f"no camera file: {error}", '{"cameras": [{"name": …}]}') from error
+        for camera in folder.leave_out(names):
+            self.tell(
+                f"camera {camera}: it is not in {self.camera_file}, so its pictures are left out; "
+                f"python -m stampede.calibrate extrinsics {self.out} --camera {camera} --apply brings them in"
+            )
+        folder.copy(self.camera_file, "cameras.json")
+        document["cameras"] = "cameras.json"
+        return True
 
     def copy_files(self, folder: FolderWriter) -> None:
         for file in self.files:
@@ -67,7 +101,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="panda",
         help="of worlds/robots, or a JSON file with the object `robot` of recording.json (default: %(default)s)",
     )
-    parser.add_argument("--base", default="0 0 0", metavar="'X Y Z [QX QY QZ QW]'", help="of the robot in the world, m")
+    parser.add_argument(
+        "--base",
+        default="",
+        metavar="'X Y Z [QX QY QZ QW]'",
+        help="of the robot in the world, m (default: what a bag's transforms say, else 0 0 0)",
+    )
     parser.add_argument(
         "--task", default="", help="what was done (default: what the source says, else the folder's name)"
     )
@@ -95,7 +134,7 @@ def given_by(options: argparse.Namespace, tell: Callable[[str], None]) -> Given:
         out=Path(options.out),
         robot=robot_of(described, files[0].parent if files else Path()),
         described={key: value for key, value in described.items() if key != "base"},
-        base=_pose_of(options.base),
+        base=_pose_of(options.base or "0 0 0"),
         camera_file=camera_file,
         task=options.task,
         outcome=options.outcome or "",
@@ -103,6 +142,7 @@ def given_by(options: argparse.Namespace, tell: Callable[[str], None]) -> Given:
         frame_hz=options.frame_hz,
         tell=tell,
         files=files,
+        base_said=bool(options.base),
     )
 
 

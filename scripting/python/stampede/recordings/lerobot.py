@@ -154,7 +154,8 @@ def _write(folder: FolderWriter, dataset: _Dataset, number: int, given: Given, o
     table = dataset.table(number)
     place = f"{options.source}, episode {number}"
     rows = _rows(dataset, table, given, options, place)
-    about = {"task": steps.name_of(rows.labels["language"][0]["text"]) if rows.labels.get("language") else ""}
+    task = steps.name_of(rows.labels["language"][0]["text"]) if rows.labels.get("language") else ""
+    about: Json = {"task": task, "frame_hz": dataset.fps}
     if "next.success" in table.column_names:
         about["success"] = str(bool(np.ravel(table["next.success"].to_pylist()[-1])[0]))
     steps.write_numbers(folder, rows, given.robot.arm)

@@ -71,6 +71,9 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
     rate = _rate(data, meta, options, place)
     rows = _rows(demo["obs"], rate, given, options, place)
     rows.labels = _labels(meta, rate)
+    if "action_dict/joint_position" in demo:  # rad, as our exporter writes them
+        command = np.asarray(demo["action_dict/joint_position"], dtype=float)
+        rows.command = command if command.shape == rows.position.shape else None
     steps.write_numbers(folder, rows, given.robot.arm)
     for key in demo["obs"]:
         camera = camera_name(key.rpartition("_")[0])
@@ -81,7 +84,7 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
         elif key.endswith("_depth"):
             files = _depths(demo["obs"][key], rows)
             steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=6.5)
-    about = {"task": meta.get("task", ""), "success": str(meta.get("success", True))}
+    about = {"task": meta.get("task", ""), "success": str(meta.get("success", True)), "frame_hz": rate}
     steps.finish(folder, given, rows, about, f"{options.source}, {name}")
 
 

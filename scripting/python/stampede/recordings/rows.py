@@ -120,11 +120,11 @@ def write_pictures(
 
 def finish(folder: FolderWriter, given: Given, rows: Rows, about: Json, source: str) -> None:
     if rows.labels:
-        folder.write_json("labels.json", rows.labels)
+        last_s = (rows.stamps_ns[-1] - rows.stamps_ns[0]) / 1e9
+        segments = given.fit(rows.labels.get("segments", []), about, last_s)
+        folder.write_json("labels.json", {**rows.labels, "segments": segments})
     document = given.document(about, source=source, **({"labels": "labels.json"} if rows.labels else {}))
-    if given.camera_file is not None:
-        folder.copy(given.camera_file, "cameras.json")
-        document["cameras"] = "cameras.json"
+    given.copy_cameras(folder, document)
     given.copy_files(folder)
     folder.finish(document)
 
