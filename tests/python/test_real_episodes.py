@@ -197,7 +197,7 @@ def test_real_episodes_are_exported(recorded: Path, tmp_path: Path, form: str, w
     # Without commands the arm's next joints are what it was to do.
     wanted = episode.arrays("action")["action/joint_position"][:-1]
     if form == "lerobot":
-        import pyarrow.parquet as parquet
+        from pyarrow import parquet
 
         table = parquet.read_table(out / "data/chunk-000/file-000.parquet")
         assert "observation.environment_state" not in table.column_names
@@ -213,6 +213,32 @@ def test_real_episodes_are_exported(recorded: Path, tmp_path: Path, form: str, w
             assert all(np.isfinite(one[()]).all() for one in numbers if one.dtype.kind == "f")
             if form in ("robomimic", "mimicgen"):
                 assert np.allclose(file["data/demo_0/action_dict/joint_position"][()], wanted)
+
+
+def test_channels_without_components_are_refused(recorded: Path, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    arguments = ["lerobot", str(imported(recorded, ())), "--out", str(tmp_path), "--channels", "object_joint_positions"]
+    with pytest.raises(stampede.Error, match="channel 'object_joint_positions' has no component"):
+        export(arguments, tell=lambda line: None)
+
+
+def test_camera_files_that_lack_a_camera(demos: Path, recorded: Path, tmp_path: Path) -> None:
+    pytest.importorskip("h5py")
+    source = next(written("robomimic", demos, tmp_path / "export").glob("*.hdf5"))
+    file = tmp_path / "front.json"
+    known = json.loads((recorded / "cameras.json").read_text())["cameras"]
+    file.write_text(json.dumps({"cameras": [one for one in known if one["name"] == "front"]}))
+    told: list[str] = []
+    arguments = ["robomimic", str(source), "--out", str(tmp_path / "out"), "--cameras", str(file)]
+    convert([*arguments, "--into", str(tmp_path / "real.db")], tell=told.append)
+    assert any("camera wrist: it is not in" in line and "left out" in line for line in told)
+    (episode,) = stampede.Catalogue(tmp_path / "real.db").episodes()
+    assert set(episode.stored_pictures) == {"front_rgb"}
+    file.write_text("{")
+    arguments[3] = str(tmp_path / "other")
+    with pytest.raises(stampede.Error, match="no camera file"):
+        convert(arguments, tell=told.append)
+    assert not list(tmp_path.glob("other*"))
 
 
 @pytest.mark.parametrize("form", STEPS)

@@ -148,6 +148,10 @@ class Writer:
     def _columns(self, steps: Steps) -> tuple[dict[str, Array], dict[str, list[str]], list[str]]:
         """Rows of all steps, names of the components of vectors, and what `subtask_index` counts in this episode."""
         arrays = steps.arrays
+        for name, values in steps.channels.items():
+            if not values.shape[1]:
+                told = f"channel '{name}' has no component here, which LeRobot has no feature for"
+                raise fault(f"episode {steps.episode.id}", told, "leave it out of --channels")
         state = np.hstack([steps.observed("joint_positions"), steps.observed("gripper_opening")[:, None]])
         things = steps.observed("task_low_dim_state")
         labels = list(_numbered([skill.label for skill in steps.skills if skill.label]))

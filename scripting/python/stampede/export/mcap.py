@@ -218,7 +218,9 @@ class _EpisodeFile:
             "frame_hz": e.frame_hz,
         }
         about["key"] = e.catalogue.query("SELECT key FROM episodes WHERE episode = ?1", e.id).values("key")[0]
-        return {name: str(value) for name, value in about.items() if value is not None} | {"instruction": "; ".join(e.instructions())}
+        return {name: str(value) for name, value in about.items() if value is not None} | {
+            "instruction": "; ".join(e.instructions())
+        }
 
     def _write_segments(self, segments: Sequence[Any]) -> None:
         rate = self._episode.frame_hz

@@ -109,7 +109,7 @@ class Writer:
             raise fault(
                 f"episode {episode.id}",
                 "it is a recording of a real robot, and RLBench's folders are of variations of a simulated task",
-                "--where \"outcome = 'success' AND source <> 'real'\" leaves such out; lerobot, rlds and mcap take them",
+                "--where \"outcome = 'success' AND source <> 'real'\" leaves such out; lerobot and others take them",
             )
         if episode.task not in self._orders:
             try:

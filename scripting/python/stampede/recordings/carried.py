@@ -20,8 +20,8 @@ _ASKED = 200  # moments at which two frames are compared
 
 
 class Tracks:
-    """Poses of moving frames over time. Of a long recording every second, fourth … window of 0.25 s is kept, the same of
-    all frames: within one they are as dense as they came."""
+    """Poses of moving frames over time. Of a long recording every second, fourth … window of 0.25 s is kept, the same
+    of all frames: within one they are as dense as they came."""
 
     def __init__(self) -> None:
         self._times: dict[str, list[int]] = {}

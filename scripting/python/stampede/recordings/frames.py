@@ -43,7 +43,8 @@ class Frames:
 
     def mount_of(self, frame: str, robot: Robot, world_from_base: Array) -> tuple[str, Array] | str:
         """`world` or `robot.LINK`, and mount_from_frame; or why the transforms do not say it."""
-        if not frame or frame in self._torn or (frame not in self._hung and not link_named(frame, robot)):
+        known = frame in self._hung or frame == "world" or link_named(frame, robot)
+        if not known or frame in self._torn:
             return f"no transform says where {frame or 'it'} is"
         chain, pose = [frame], np.eye(4)
         while chain[-1] != "world":
