@@ -54,7 +54,7 @@ Marks marks_of(const Meaning& meaning, const std::vector<Reading>& own) {
       marks.telling.insert(sense);
   for (const std::string& sense : said)
     if (marks.telling.contains(sense)) marks.ours.insert(sense);
-  for (const Reading& reading : own) marks.own.push_back(marks_in(reading, marks.telling));
+  for (const Reading& reading : own) marks.own.push_back(marks_in(reading, marks.telling, totals_in(reading)));
   return marks;
 }
 
@@ -71,12 +71,13 @@ const std::array<std::pair<const char*, const char*>, 10> kOpposites = {{{"open"
 
 }  // namespace
 
-std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling) {
+std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling,
+                                  const std::set<std::size_t>& skip) {
   std::vector<std::string> marks;
   for (const std::size_t segment : reading.in_time)
     for (std::size_t i = reading.segments[segment].begin; i < reading.segments[segment].end; ++i) {
       const Word& word = reading.words[i];
-      if (tells(word) && telling.contains(word.sense) &&
+      if (tells(word) && telling.contains(word.sense) && !skip.contains(i) &&
           std::find(marks.begin(), marks.end(), word.sense) == marks.end())
         marks.push_back(word.sense);
     }
@@ -90,16 +91,38 @@ std::set<std::string> relations_in(const Reading& reading) {
       {"between", "between"}, {"outside", "outside"}, {"around", "around"}, {"before-thing", "front"},
       {"against", "against"}, {"through", "through"}, {"across", "across"}};
   std::set<std::string> relations;
-  for (const Word& word : reading.words) {
-    const auto found = kRelations.find(word.text);
-    if (found != kRelations.end()) relations.insert(found->second);
+  for (std::size_t i = 0; i < reading.words.size(); ++i) {
+    const auto found = kRelations.find(reading.words[i].text);
+    const bool way = i + 1 < reading.words.size() && reading.words[i + 1].text == "to";  // `over to the table`
+    if (found != kRelations.end() && !way) relations.insert(found->second);
   }
   return relations;
+}
+
+bool keeps_others(const Reading& reading, const Segment& segment) {
+  static const std::set<std::string> kKeeps = {"leave", "leaving", "keep", "keeping", "stay", "stays"};
+  bool keeps = false, others = false;
+  for (std::size_t i = segment.begin; i < segment.end; ++i) {
+    keeps |= kKeeps.contains(reading.words[i].text);
+    others |= reading.words[i].kind == WordKind::exclusion && reading.words[i].sense == "other";
+  }
+  return keeps && others && std::all_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
+           return mention.other || mention.head < segment.begin || mention.head >= segment.end;
+         });
+}
+
+std::set<std::size_t> totals_in(const Reading& reading) {
+  std::set<std::size_t> totals;
+  for (const Mention& mention : reading.mentions)
+    for (std::size_t i = mention.first; mention.total && i < mention.head; ++i)
+      if (reading.words[i].kind == WordKind::number) totals.insert(i);
+  return totals;
 }
 
 std::set<std::string> directions_in(const Reading& reading) {
   std::set<std::string> directions;
   for (const Segment& segment : reading.segments) {
+    if (keeps_others(reading, segment)) continue;
     bool switches = false, puts = false;
     for (std::size_t i = segment.begin; i < segment.end; ++i) {
       const Word& word = reading.words[i];
@@ -123,7 +146,10 @@ std::set<std::string> directions_in(const Reading& reading) {
       else if (word.text == "off" || word.text == "out" || word.text == "outof" || word.text == "from")
         directions.insert("out");
       if (word.text == "on" && switches) directions.insert("switch_on");
-      if (word.text == "into" || (word.text == "in" && puts)) directions.insert("in");
+      const bool aside = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
+        return mention.aside && mention.first == i + 1;  // `bring the cube in the drawer to …`
+      });
+      if (word.text == "into" || (word.text == "in" && puts && !aside)) directions.insert("in");
       if (word.text == "up" || word.text == "down") directions.insert(word.text);
       for (const auto& [one, other] : kOpposites)
         if (word.kind != WordKind::function && (word.text == one || word.text == other)) directions.insert(word.text);
@@ -164,17 +190,19 @@ std::set<std::pair<std::string, std::string>> free_places(const Reading& reading
   for (std::size_t i = 0; i < reading.words.size(); ++i) {
     if (reading.words[i].kind != WordKind::place) continue;
     const bool tells = std::any_of(reading.mentions.begin(), reading.mentions.end(),
-                                   [&](const Mention& mention) { return i >= mention.first && i <= mention.head; });
+                                   [&](const Mention& mention) {
+                                     return (i >= mention.first && i <= mention.head) || mention.placed_by == i;
+                                   });
     if (!tells) places.emplace(i == 0 ? "" : reading.words[i - 1].text, reading.words[i].sense);
   }
   return places;
 }
 
-std::vector<std::string> free_numbers(const Reading& reading) {
+std::vector<std::string> free_numbers(const Reading& reading, const std::set<std::size_t>& skip) {
   std::vector<std::string> numbers;
   for (std::size_t i = 0; i < reading.words.size(); ++i) {
     const Word& word = reading.words[i];
-    if (word.kind != WordKind::number || word.sense.size() > 4) continue;
+    if (word.kind != WordKind::number || word.sense.size() > 4 || skip.contains(i)) continue;
     const bool counts = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
       return mention.count && ((i >= mention.first && i <= mention.head) ||
                                (i + 1 < reading.words.size() && reading.words[i + 1].text == "of" && i < mention.head &&

@@ -19,7 +19,9 @@ struct Marks {
   std::vector<std::set<std::string>> theirs;  // by variation
 };
 // Those that a sentence says, the first time that it says each.
-std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling);
+// `skip`: words that tell of other things.
+std::vector<std::string> marks_in(const Reading& reading, const std::set<std::string>& telling,
+                                  const std::set<std::size_t>& skip = {});
 
 struct Claims {
   std::vector<Reading> own;
@@ -42,11 +44,16 @@ Claims claims_of(const Meaning& meaning);
 // Where things are put that `on` and `in` do not say: behind, under, beside …
 std::set<std::string> relations_in(const Reading& reading);
 // What is done, of pairs of opposites: open close, up down, in out, switch_on switch_off, push pull …
+// Not of what is to stay as it is: `leave the others shut`.
 std::set<std::string> directions_in(const Reading& reading);
+// `leave the others alone`, `keep the other two closed`
+bool keeps_others(const Reading& reading, const Segment& segment);
+// The second number of `two of the three cups`.
+std::set<std::size_t> totals_in(const Reading& reading);
 std::string opposite_of(const std::string& direction);  // empty: none
 
 // Numbers that belong to no noun: `three, then two, then one`.
-std::vector<std::string> free_numbers(const Reading& reading);
+std::vector<std::string> free_numbers(const Reading& reading, const std::set<std::size_t>& skip = {});
 
 // A mention's role, with what is handled there or what it is a part of.
 std::string role_key(const Reading& reading, const Mention& mention);

@@ -140,7 +140,7 @@ const std::set<std::string> kBeforeNouns = {"a",     "an",   "the",  "its",   "t
 const std::set<std::string> kBeforeVerbs = {"to",    "and",   "then",   "please", "or",     "not",  "don't",
                                             "you",   "it",    "never",  "must",   "should", "can",  "will",
                                             "would", "could", "may",    "might",  "them",   "that", "let",
-                                            "first", "by",    "kindly", "now",    "which",  "is",   "be"};
+                                            "first", "by",    "kindly", "now",    "which",  "is",   "be",  "been", "being"};
 
 bool leads_to_noun(const Word& before) {
   return kBeforeNouns.contains(before.text) || before.kind == WordKind::adjective || before.kind == WordKind::colour ||
@@ -282,6 +282,9 @@ Word Lexicon::choose(const std::string& text, const std::vector<Word>& before, c
   else
     order = {WordKind::function, WordKind::noun, WordKind::place, WordKind::verb};
   if (noun_due) order.push_back(WordKind::verb);
+  // `the drawer pushed shut`, `the block marked 2`: done to what was named, and no noun
+  if (last != nullptr && last->kind == WordKind::noun && text.ends_with("ed"))
+    order.insert(order.begin(), WordKind::verb);
   bool plural = false;
   for (const WordKind kind : order) {
     const std::vector<Entry>* known = entries(text, plural, kind);
@@ -313,7 +316,7 @@ std::vector<Word> Lexicon::read(std::string_view sentence) const {
       char before = plain.before;
       std::istringstream parts(plain.text);
       for (std::string part; std::getline(parts, part, '-'); before = ' ')
-        if (!part.empty()) words.push_back(choose(part, words, before, ""));
+        if (!part.empty() && part != "coloured" && part != "colored") words.push_back(choose(part, words, before, ""));
       continue;
     }
     words.push_back(std::move(word));

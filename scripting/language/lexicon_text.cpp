@@ -13,12 +13,14 @@ function -: inside within through along against around across between among towa
 function -: back together if when while until because since also too still already yet else than such very just only
 function -: i you we your my our me us he she his her themselves itself yourself let make sure ensure need want use using how where way
 function -: each every any some both all several same own whole it's that's there's please please kindly now
+function -: another outof i'd i'll let's
 function -: would like begin start continue proceed keep allow help try become stay so that
 function -: thing something somebody someone everything anything object item task job one's itself
 harmless -: carefully gently slowly softly safely quickly firmly securely properly neatly precisely exactly correctly
 harmless -: completely fully entirely tightly smoothly steadily lightly directly straight well careful gentle
 harmless -: simply again once far close-by nearby correct proper right-hand-side robot arm gripper fingertip finger fingers fingertips
 harmless -: available sure ready able possible position place spot location work workspace inside-out upright flat level
+harmless -: high aloft further
 harmless -: your time quick goal aim whichever carefully slow steady firm necessary required desired appropriate designated
 harmless -: specific given particular current respective respectively accordingly
 exclusion other: other others rest remaining
@@ -137,7 +139,7 @@ noun napkin: napkin serviette
 noun tray: tray
 noun pan: pan pot saucepan
 noun meat: meat
-noun steak: steak
+noun steak: steak beef
 noun chicken: chicken
 noun pepper: pepper
 noun tomato: tomato
@@ -237,10 +239,10 @@ verb remove [extract take_out take_from_shelf unhang pick lift]: remove extract 
 verb empty []: empty
 verb lift [lift pick open]: lift raise hoist elevate
 verb lower [place set_down lay drop close open]: lower
-verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put place lay set rest deposit store stow leave return deliver transfer move bring carry tuck load pack position arrange tidy replace relocate shift dock shelve bin seat post stick
+verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put place lay set rest deposit store stow leave return deliver transfer move bring carry tuck load pack position arrange tidy replace relocate shift dock shelve bin seat post stick stash park slip pop
 verb serve []: serve
 verb setup []: setup
-verb drop [drop]: drop release throw toss
+verb drop [drop put_in]: drop release throw toss
 verb insert [insert put_in place drop]: insert plug fit connect slot-in feed attach
 verb stack [stack place put_in insert]: nest stack pile heap
 verb build [stack place]: build construct assemble create form make
@@ -305,6 +307,33 @@ away from=outof
 one of=1 of
 right side up=upright
 at once=quickly
+dark blue=navy
+dark-blue=navy
+dark red=maroon
+dark-red=maroon
+followed by=then
+go on to=then
+after that=then
+after it=then
+after this=then
+after both=then
+after them=then
+after which=then
+one on top of another=up
+one on top of the other=up
+on top of each other=up
+on top of one another=up
+one upon another=up
+bring it up=lift it
+bring them up=lift them
+bring up=lift
+put up=build
+where it is=there
+where they are=there
+where it stands=there
+all the way=fully
+i'd like=i want
+would like=want
 right now=now
 as well=also
 )";

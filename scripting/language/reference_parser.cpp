@@ -62,8 +62,46 @@ std::vector<Segment> segments_of(const std::vector<Word>& words) {
       }
       if (words[i].kind == WordKind::noun || words[i].kind == WordKind::own || words[i].kind == WordKind::colour) break;
     }
+    // `get the drawer open`: to open
+    for (std::size_t i = segment.verb.value_or(segment.end) + 1; i < segment.end; ++i)
+      if (words[*segment.verb].text == "get" && words[i].kind == WordKind::verb &&
+          (words[i].sense == "open" || words[i].sense == "close"))
+        segment.verb = i;
   }
   return segments;
+}
+
+// `the red one last, the lime one second`: those with a rank change places among themselves; the last comes last.
+void rank_in_time(const std::vector<Word>& words, const std::vector<Segment>& segments,
+                  std::vector<std::size_t>& order) {
+  static const std::map<std::string, int> kRanks = {{"first", 1}, {"second", 2}, {"third", 3}, {"fourth", 4}, {"last", 99}};
+  const auto rank = [&](std::size_t segment) {
+    for (std::size_t k = segments[segment].begin; k < segments[segment].end; ++k)
+      if (words[k].kind == WordKind::order && kRanks.contains(words[k].sense)) return kRanks.at(words[k].sense);
+    return 0;
+  };
+  std::vector<std::size_t> places, ranked;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (rank(order[i]) > 0) places.push_back(i), ranked.push_back(order[i]);
+  std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  for (std::size_t i = 0; i < places.size(); ++i) order[places[i]] = ranked[i];
+  for (std::size_t i = 0; i + 1 < order.size(); ++i)
+    if (rank(order[i]) == 99) {
+      std::rotate(order.begin() + static_cast<std::ptrdiff_t>(i), order.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  order.end());
+      break;
+    }
+}
+
+// `the red button first, the lime button second`: a turn, and no place.
+void read_turns(std::vector<Word>& words) {
+  static const std::set<std::string> kTurns = {"first", "second", "third", "fourth", "last"};
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const bool ends = i + 1 == words.size() || words[i + 1].before != ' ' || kJoins.contains(words[i + 1].text);
+    const bool named = words[i - 1].kind == WordKind::noun || words[i - 1].kind == WordKind::colour ||
+                       words[i - 1].text == "one" || words[i - 1].text == "ones";
+    if (ends && named && words[i].before == ' ' && kTurns.contains(words[i].text)) words[i].kind = WordKind::order;
+  }
 }
 
 std::vector<std::size_t> order_in_time(const std::vector<Word>& words, const std::vector<Segment>& segments) {
@@ -74,19 +112,19 @@ std::vector<std::size_t> order_in_time(const std::vector<Word>& words, const std
     bool first = false;
     for (std::size_t k = segment.begin; k < segment.end; ++k)
       first |= words[k].kind == WordKind::order && words[k].sense == "first";
-    if (segment.intro == "after" && !order.empty()) {
+    if ((segment.intro == "after" || segment.intro == "once") && !order.empty()) {
       order.insert(order.end() - 1, i);
     } else if (segment.intro == "before" && order.empty() && i + 1 < segments.size()) {
-      waiting = i;
+      waiting = i;  // until all else is done: `before c, do a and then b`
       continue;
     } else if (first) {
       order.insert(order.begin(), i);
     } else {
       order.push_back(i);
     }
-    if (waiting) order.push_back(*std::exchange(waiting, std::nullopt));
   }
   if (waiting) order.push_back(*waiting);
+  rank_in_time(words, segments, order);
   return order;
 }
 
@@ -111,6 +149,7 @@ class MentionReader {
       step(i, segment);
     }
     for (Mention& mention : reading_.mentions) resolve(mention);
+    for (std::size_t i = 1; i < reading_.mentions.size(); ++i) reading_.mentions[i].aside |= says_where(i);
     for (std::size_t i = 0; i < reading_.mentions.size(); ++i) {
       reading_.mentions[i].role = role_of(i);
       if (i > 0 && reading_.mentions[i].role == "of") narrow(reading_.mentions[i - 1], reading_.mentions[i]);
@@ -142,8 +181,20 @@ class MentionReader {
       }
       return;
     }
+    if (word.kind == WordKind::place && says_where_last_is(i)) {
+      reading_.mentions.back().places.push_back(word.sense);  // `the drawer at the bottom`
+      reading_.mentions.back().placed_by = i;
+      begun_ = false;
+      open_ = {};
+      preposition_.clear();
+      return;
+    }
     if (word.kind == WordKind::place) return begin_at(i), open_.places.push_back(word.sense);
     if (word.kind == WordKind::adjective) return begin_at(i), open_.adjectives.push_back(word.sense);
+    // `block 2`, `number two`: a name, and no count
+    const bool named = i > 0 && word.before == ' ' && reading_.words[i - 1].kind == WordKind::noun &&
+                       !reading_.words[i - 1].plural;
+    if (word.kind == WordKind::number && named) return;
     if (word.kind == WordKind::number) return begin_at(i), open_.count = number_of(word), void();
     if (word.kind == WordKind::exclusion && word.sense == "other") return begin_at(i), open_.other = true, void();
     if (is_article(word.text) && !(word.text == "that" && i > 0 && reading_.words[i - 1].kind == WordKind::noun)) {
@@ -157,6 +208,10 @@ class MentionReader {
       begun_ = false;
       if (part) part_of_ = part;  // `three of the blocks`
       preposition_ = word.text;
+      return;
+    }
+    if (word.text == "'s" && !reading_.mentions.empty()) {
+      preposition_ = reading_.mentions.back().preposition;  // `on the tree's spokes`: on the spokes
       return;
     }
     aside_ |= (word.text == "that" || word.text == "which") && i > 0 && reading_.words[i - 1].kind == WordKind::noun;
@@ -179,6 +234,9 @@ class MentionReader {
     };
     if (after("'s")) return "of";
     if (mention.partitive && mention.preposition == "of") return "part";
+    if (mention.preposition == "with" && i > 0 && belongs(mention, reading_.mentions[i - 1])) return "of";
+    const bool built = segment.verb && reading_.words[*segment.verb].sense == "build" && *segment.verb < mention.first;
+    if (built && (mention.preposition == "from" || mention.preposition == "outof")) return "object build";
     const bool where = mention.first > 0 && reading_.words[mention.first - 1].text == "where";
     if (where) return "where";
     if (after("is") && mention.head + 2 < reading_.words.size() && reading_.words[mention.head + 2].text == "where")
@@ -193,10 +251,51 @@ class MentionReader {
     // `solve the puzzle`: of a verb that only the author explains
     if (mention.first > segment.begin && reading_.words[mention.first - 1].kind == WordKind::own)
       return "object " + reading_.words[mention.first - 1].sense;
+    // `the blocks are to form a pyramid`
+    if (const auto verb = verb_before(mention); verb && !segment.verb) return "object " + reading_.words[*verb].sense;
     // `the bowl, the fork and the glass`
     const bool listed = i > 0 && segment.begin > 0 && reading_.words[segment.begin].before != ':' &&
                         reading_.words[segment.begin].before != ';' && !verb_in(segment);
     return listed ? reading_.mentions[i - 1].role : "subject" + verb_after(mention, segment);
+  }
+
+  // `the cube in the drawer should …`, `bring the cube in the drawer to …`: where it is, not where it goes
+  bool says_where(std::size_t i) const {
+    static const std::set<std::string> kWhere = {"in", "on", "inside", "within", "behind"};
+    static const std::set<std::string> kIs = {"should", "must", "needs", "has", "ought", "goes", "belongs"};
+    const Mention &mention = reading_.mentions[i], &before = reading_.mentions[i - 1];
+    const bool possessive = i > 1 && before.head + 1 < reading_.words.size() && reading_.words[before.head + 1].text == "'s";
+    const Mention& last = possessive ? reading_.mentions[i - 2] : before;  // `the cup on the cabinet's shelf`
+    if (last.segment != mention.segment || !last.preposition.empty() || !kWhere.contains(mention.preposition))
+      return false;
+    if (last.head + 1 >= reading_.words.size() || reading_.words[last.head + 1].text != mention.preposition)
+      return false;
+    const Segment& segment = reading_.segments[mention.segment];
+    for (std::size_t k = mention.head + 1; k < segment.end; ++k)
+      if (kIs.contains(reading_.words[k].text)) return true;
+    if (i + 1 == reading_.mentions.size() || !segment.verb || *segment.verb > last.first) return false;
+    const Mention& next = reading_.mentions[i + 1];
+    return next.segment == mention.segment && (next.preposition == "to" || next.preposition == "onto");
+  }
+
+  // `the button with the navy cap`: a part of what was named just before, or that itself
+  bool belongs(const Mention& part, const Mention& whole) const {
+    if (part.segment != whole.segment || whole.head + 1 >= reading_.words.size() ||
+        reading_.words[whole.head + 1].text != "with")
+      return false;
+    return std::any_of(part.things.begin(), part.things.end(), [&](const std::string& name) {
+      return std::any_of(whole.things.begin(), whole.things.end(),
+                         [&](const std::string& one) { return name == one || name.starts_with(one + "."); });
+    });
+  }
+
+  // Since the last thing that was named.
+  std::optional<std::size_t> verb_before(const Mention& mention) const {
+    const Segment& segment = reading_.segments[mention.segment];
+    const bool first = &mention == reading_.mentions.data() || (&mention - 1)->segment != mention.segment;
+    for (std::size_t k = mention.first; !first && k > segment.begin && k > (&mention - 1)->head; --k)
+      if (reading_.words[k - 1].kind == WordKind::verb) return k - 1;
+    return std::nullopt;
   }
 
   std::string verb_after(const Mention& mention, const Segment& segment) const {
@@ -210,6 +309,16 @@ class MentionReader {
       if (reading_.words[k].kind == WordKind::verb || reading_.words[k].text == "is" || reading_.words[k].text == "are")
         return true;
     return false;
+  }
+
+  // `the door on the left`, `the drawer at the top of the chest`, not `put it on the left shelf`
+  bool says_where_last_is(std::size_t i) const {
+    const std::vector<Word>& words = reading_.words;
+    if (i < 3 || words[i - 1].text != "the" || words[i].before != ' ' || words[i - 1].before != ' ') return false;
+    if (words[i - 2].text != "on" && words[i - 2].text != "at" && words[i - 2].text != "in") return false;
+    if (reading_.mentions.empty() || reading_.mentions.back().head + 3 != i) return false;
+    return i + 1 == words.size() || words[i + 1].before != ' ' || words[i + 1].text == "of" ||
+           words[i + 1].kind == WordKind::function || words[i + 1].kind == WordKind::order;
   }
 
   // `blocks that are red`, `the box is blue`
@@ -237,7 +346,7 @@ class MentionReader {
       if (!open_.count)
         open_.count = part_of_;
       else if (preposition_ == "of")
-        open_.count = part_of_;  // `two of the three blocks`: two
+        open_.total = std::exchange(open_.count, part_of_);  // `two of the three blocks`: two
     } else if (preposition_ == "of" && open_.plural) {
       open_.partitive = true;
     }
@@ -299,6 +408,7 @@ Reading read_sentence(const std::string& sentence, const Meaning& meaning) {
   reading.words = meaning.lexicon.read(sentence);
   for (std::size_t i = 0; i < reading.words.size(); ++i)
     if (is_pronoun_one(reading.words, i)) reading.words[i].kind = WordKind::function;
+  read_turns(reading.words);
   reading.segments = segments_of(reading.words);
   reading.in_time = order_in_time(reading.words, reading.segments);
   MentionReader(reading, meaning).read();

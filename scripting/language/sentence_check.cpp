@@ -14,6 +14,9 @@ constexpr std::array<std::string_view, 21> kRejections = {
 
 Verdict no(Rejection reason, std::string detail) { return {reason, std::move(detail)}; }
 
+// What is there only once it is done.
+const std::set<std::string> kBuilt = {"tower", "stack", "pile", "pyramid"};
+
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 using Maybe = std::optional<Verdict>;
@@ -84,6 +87,55 @@ class Checker {
                         [&](const Mention& mention) { return within(mention, segment) && !mention.other; });
   }
 
+  // What is said of it holds anyway: it has no part in this.
+  bool spares(const Segment& segment) const {
+    return spares_others(segment) || keeps_others(reading_, segment) || leaves_idle(segment);
+  }
+
+  // `leave the chicken where it is`, `the steak still on the grill`, `the left one shut`
+  bool leaves_idle(const Segment& segment) const {
+    static const std::set<std::string> kKeeps = {"leave", "leaving", "leaves", "keep", "keeping",
+                                                 "keeps", "stay",    "stays",  "still"};
+    if (segment.negated) return false;
+    const Mention* first = nullptr;
+    for (const Mention& mention : reading_.mentions)
+      if (first == nullptr && within(mention, segment)) first = &mention;
+    if (first == nullptr || !first->preposition.empty() || first->things.empty() || may_be(*first, meaning_, &SpokenThing::wanted)) return false;
+    bool keeps = false, state = false;
+    for (std::size_t i = segment.begin; i < segment.end; ++i) {
+      keeps |= kKeeps.contains(reading_.words[i].text);
+      state |= i > first->head && (reading_.words[i].text == "shut" || reading_.words[i].text == "closed");
+    }
+    return keeps || (state && segment.verb.value_or(segment.end) > first->head);
+  }
+
+  // `leave the block on the table`: it has to go somewhere else.
+  Maybe left() const {
+    for (const Segment& segment : reading_.segments) {
+      if (!segment.verb || !reading_.words[*segment.verb].text.starts_with("lea") || vouched(segment)) continue;
+      const Mention* object = nullptr;
+      bool to = false;
+      for (const Mention& mention : reading_.mentions) {
+        if (!within(mention, segment)) continue;
+        if (object == nullptr && mention.preposition.empty()) object = &mention;
+        to |= mention.role.starts_with("to") && may_be(mention, meaning_, &SpokenThing::destination) &&
+              !may_be(mention, meaning_, &SpokenThing::source);
+      }
+      if (object != nullptr && !object->other && may_be(*object, meaning_, &SpokenThing::wanted) && !to)
+        return no(Rejection::negated, "the " + object->sense + " may not be left");
+    }
+    return {};
+  }
+
+  // Words of what tells nothing of this variation.
+  std::set<std::size_t> beside() const {
+    std::set<std::size_t> words = totals_in(reading_);
+    for (const Segment& segment : reading_.segments)
+      if (spares(segment))
+        for (std::size_t i = segment.begin; i < segment.end; ++i) words.insert(i);
+    return words;
+  }
+
   bool within(const Mention& mention, const Segment& segment) const {
     return mention.head >= segment.begin && mention.head < segment.end;
   }
@@ -91,11 +143,11 @@ class Checker {
   Maybe denials() const {
     for (const Segment& segment : reading_.segments)
       if ((segment.negated || segment.excluding) && !vouched(segment) && !spares_others(segment) &&
-          !spares_idle(segment))
+          !spares_idle(segment) && !leaves_idle(segment))
         for (std::size_t i = segment.begin; i < segment.end; ++i)
           if (reading_.words[i].kind == WordKind::negation || reading_.words[i].kind == WordKind::exclusion)
             return no(Rejection::negated, quoted(reading_.words[i].text));
-    return {};
+    return left();
   }
 
   // `spare the tomatoes`: things that have no part in it
@@ -142,7 +194,7 @@ class Checker {
   Maybe marks() const {
     const Marks& marks = claims_.marks;
     if (marks.telling.empty()) return {};
-    const std::vector<std::string> said = marks_in(reading_, marks.telling);
+    const std::vector<std::string> said = marks_in(reading_, marks.telling, beside());
     for (const std::string& sense : said)
       if (!marks.ours.contains(sense)) return no(kind_of_mark(sense), quoted(sense) + " is another variation's");
     for (const std::vector<std::string>& own : marks.own)
@@ -178,18 +230,70 @@ class Checker {
     for (const Mention& mention : reading_.mentions) {
       const Segment& segment = reading_.segments[mention.segment];
       if (vouched(segment) && segment.negated) continue;
+      if (spares(segment)) {
+        if (Maybe bad = known(mention)) return bad;
+        continue;
+      }
       for (const auto part :
            {&Checker::known, &Checker::coloured, &Checker::counted, &Checker::placed, &Checker::has_part})
         if (Maybe bad = (this->*part)(mention)) return bad;
     }
-    const std::vector<std::string> numbers = free_numbers(reading_);
-    if (!numbers.empty() && std::find(claims_.numbers.begin(), claims_.numbers.end(), numbers) == claims_.numbers.end())
-      return no(Rejection::wrong_count, numbers.front());
+    if (Maybe bad = numbers()) return bad;
     if (Maybe bad = colours()) return bad;
     for (const auto& [before, place] : free_places(reading_))
       if (!claims_.places.contains({before, place})) return no(Rejection::wrong_side, quoted(before + " " + place));
     for (const std::string& relation : relations_in(reading_))
-      if (!claims_.relations.contains(relation)) return no(Rejection::wrong_side, quoted(relation));
+      if (!claims_.relations.contains(relation) && !(relation == "over" && rises())) return no(Rejection::wrong_side, quoted(relation));
+    return {};
+  }
+
+  // Lifting ends in the air, above the table.
+  bool lifts() const {
+    return meaning_.skills.contains("lift") || (meaning_.skills.size() == 1 && meaning_.skills.contains("pick"));
+  }
+
+  bool rises() const {
+    return lifts() && std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [](const Mention& mention) {
+             return (mention.preposition != "over" && mention.preposition != "above") || mention.sense == "table";
+           });
+  }
+
+  // How many there are of what a noun names, and how many of these are handled.
+  std::pair<int, int> all_and_handled(const std::string& sense) const {
+    int all = 0, handled = 0;
+    for (const SpokenThing& one : meaning_.things) {
+      if (!one.heads.contains(sense) || one.region) continue;
+      ++all;
+      handled += one.handled ? 1 : 0;
+    }
+    return {all, handled};
+  }
+
+  // Those that count nothing that is named. Of what is left alone: how many there are.
+  Maybe numbers() const {
+    for (const Segment& segment : reading_.segments) {
+      if (!spares(segment)) continue;
+      for (std::size_t i = segment.begin; i < segment.end; ++i) {
+        const Word& word = reading_.words[i];
+        if (word.kind != WordKind::number || vouched(segment)) continue;
+        std::set<std::string> kinds;
+        for (const Mention& mention : reading_.mentions)
+          if (mention.head < segment.begin) kinds.insert(mention.sense);
+        if (std::none_of(kinds.begin(), kinds.end(), [&](const std::string& kind) {
+              const auto [all, handled] = all_and_handled(kind);
+              return handled > 0 && std::to_string(all - handled) == word.sense;
+            }))
+          return no(Rejection::wrong_count, word.sense + " others");
+      }
+    }
+    const std::vector<std::string> ours = free_numbers(reading_, beside());
+    const auto bare = [](std::vector<std::string> list) {
+      for (std::string& one : list) one = one.substr(0, one.find(' '));
+      return list;
+    };
+    const bool said = ours.empty() || std::any_of(claims_.numbers.begin(), claims_.numbers.end(),
+                                                  [&](const auto& own) { return own == ours || bare(own) == bare(ours); });
+    if (!said) return no(Rejection::wrong_count, ours.front());
     return {};
   }
 
@@ -213,7 +317,7 @@ class Checker {
     static const std::set<std::string> kGeneral = {"side", "order",  "colour", "space", "thing",
                                                    "end",  "number", "hand",   "shape", "item"};
     const auto there = [&](const std::string& sense) {
-      return sense.empty() || kGeneral.contains(sense) || claims_.senses.contains(sense) ||
+      return sense.empty() || (sense == "air" && lifts()) || kGeneral.contains(sense) || claims_.senses.contains(sense) ||
              std::any_of(meaning_.things.begin(), meaning_.things.end(),
                          [&](const SpokenThing& one) { return one.words.contains(sense); });
     };
@@ -234,14 +338,19 @@ class Checker {
       if (claims_.attributes.contains({colour, mention.sense})) continue;
       const bool borne = std::any_of(mention.things.begin(), mention.things.end(),
                                      [&](const std::string& name) { return thing(name)->colours.contains(colour); });
-      if (!borne) return no(Rejection::wrong_colour, "the " + mention.sense + " is not " + colour + " in every start");
+      const bool built = mention.things.empty() && kBuilt.contains(mention.sense) && claims_.marks.ours.contains(colour);
+      if (!borne && !built) return no(Rejection::wrong_colour, "the " + mention.sense + " is not " + colour + " in every start");
     }
     return {};
   }
 
   int count_of(const Mention& mention, bool SpokenThing::*role) const {
     int count = 0;
-    for (const std::string& name : mention.things) count += thing(name)->*role ? 1 : 0;
+    for (const std::string& name : mention.things) {
+      const std::string whole = name.substr(0, name.find('.'));
+      const bool again = whole != name && std::find(mention.things.begin(), mention.things.end(), whole) != mention.things.end();
+      count += thing(name)->*role && !again ? 1 : 0;  // a button's cap is no other button
+    }
     return count;
   }
 
@@ -250,6 +359,13 @@ class Checker {
     if (mention.count) {
       if (*mention.count == 1 && mention.plural && !mention.partitive)
         return no(Rejection::wrong_count, "one of several " + mention.sense);
+      if (mention.total && *mention.total != all_and_handled(mention.sense).first)
+        return no(Rejection::wrong_count, "of " + std::to_string(*mention.total) + " " + mention.sense);
+      if (*mention.count == 1 && mention.things.empty() && kBuilt.contains(mention.sense)) return {};
+      const bool all = reading_.words[mention.first].text == "all" || reading_.words[mention.first].text == "both";
+      if (mention.plural && !mention.partitive && !all && *mention.count > 1 &&
+          *mention.count == count_of(mention, mention.other ? &SpokenThing::moved : &SpokenThing::handled))
+        return {};
       const auto of_role = claims_.counts.find(mention.sense + " " + mention.role);
       if (of_role != claims_.counts.end()) {
         if (of_role->second.contains(*mention.count)) return {};
@@ -361,15 +477,29 @@ class Checker {
     return !names.empty() && std::all_of(names.begin(), names.end(), [&](const auto& name) { return is_named(name); });
   }
 
+  // `take the handle`, `go to the button`: on the way to what is done
+  bool takes_part(const Segment& segment) const {
+    const std::string& verb = reading_.words[*segment.verb].sense;
+    const bool more = std::any_of(reading_.segments.begin(), reading_.segments.end(),
+                                  [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
+    if (!more || (verb != "take" && verb != "hold" && verb != "reach")) return false;
+    return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& mention) {
+      return within(mention, segment) && mention.role == "object " + verb &&
+             (verb == "reach" ? may_be(mention, meaning_, &SpokenThing::handled)
+                              : mention.sense == "handle" && may_be(mention, meaning_, &SpokenThing::wanted));
+    });
+  }
+
   Maybe actions() const {
+    static const std::set<std::string> kSays = {"is", "are", "be", "want", "need"};
     static const std::set<std::string> kStates = {"find", "switch", "belong", "complete", "lie",      "contain",
                                                   "mark", "show",   "locate", "colour",   "take-care"};
     bool any = false;
     for (const Word& word : reading_.words)
-      any |= word.kind == WordKind::verb || word.kind == WordKind::own || word.text == "is" || word.text == "are";
+      any |= word.kind == WordKind::verb || word.kind == WordKind::own || kSays.contains(word.text);
     if (!any) return no(Rejection::not_a_sentence, "there is no verb");
     for (const Segment& segment : reading_.segments) {
-      if (!segment.verb || spares_others(segment)) continue;
+      if (!segment.verb || spares(segment) || takes_part(segment)) continue;
       const std::string& verb = reading_.words[*segment.verb].sense;
       if (claims_.verbs.contains(verb) || kStates.contains(verb)) continue;
       const std::set<std::string>& skills = meaning_.lexicon.skills_of(verb);
@@ -415,6 +545,7 @@ class Checker {
         if (!alike) return no(Rejection::other_thing, "the other " + mention.sense);
         continue;
       }
+      if (spares(reading_.segments[mention.segment])) continue;
       const bool until = reading_.segments[mention.segment].intro == "until";
       if (!until && (has_role(mention) || stands_on_table(mention))) continue;
       const std::string role = role_key(reading_, mention);
@@ -514,7 +645,12 @@ class Checker {
     const std::string role = mention.role.substr(0, mention.role.find(' '));
     const bool accessory = may_be(mention, meaning_, &SpokenThing::accessory);
     if (mention.role == "subject belong" && carries()) return may_be(mention, meaning_, &SpokenThing::moved);
+    const bool above = mention.preposition == "above" || mention.preposition == "over";
+    if (above && mention.sense == "table" && lifts()) return true;
+    if (role == "to" && arrives(mention)) return may_be(mention, meaning_, &SpokenThing::handled);
+    if (mention.role == "subject hold" && may_be(mention, meaning_, &SpokenThing::destination)) return true;
     if (role == "subject") return accessory || (may_be(mention, meaning_, &SpokenThing::handled) && !shows(mention));
+    if (role == "object" && verb_of(mention) != nullptr && takes_part(reading_.segments[mention.segment])) return true;
     if (role == "object") return accessory || steps_have(mention, false);
     if (role == "of") return accessory || is_whole(mention);
     if (role == "part")
@@ -532,10 +668,21 @@ class Checker {
     if (mention.aside) return may_be(mention, meaning_, &SpokenThing::source);
     const bool fetched = verb_of(mention) != nullptr && fetches(verb_of(mention)->sense) &&
                          !mention.preposition.starts_with("in") && mention.preposition != "on";
-    if (verb_of(mention) == nullptr || fetched ? may_be(mention, meaning_, &SpokenThing::destination)
+    const bool builds = verb_of(mention) != nullptr && verb_of(mention)->sense == "build";
+    const bool up = lifts() && verb_of(mention) != nullptr && verb_of(mention)->sense == "put" &&
+                    mention.preposition != "on" && !may_be(mention, meaning_, &SpokenThing::source);
+    if (verb_of(mention) == nullptr || fetched || builds || up ? may_be(mention, meaning_, &SpokenThing::destination)
                                                : steps_have(mention, true))
       return true;
     return may_be(mention, meaning_, &SpokenThing::source) && takes(mention);
+  }
+
+  // `go to the button and …`
+  bool arrives(const Mention& mention) const {
+    const Segment& segment = reading_.segments[mention.segment];
+    return segment.verb && reading_.words[*segment.verb].text == "go" &&
+           std::any_of(reading_.segments.begin(), reading_.segments.end(),
+                       [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
   }
 
   bool shows(const Mention& mention) const {
@@ -550,7 +697,11 @@ class Checker {
 
   const Word* verb_of(const Mention& mention) const {
     const Segment& segment = reading_.segments[mention.segment];
-    return segment.verb ? &reading_.words[*segment.verb] : nullptr;
+    if (segment.verb) return &reading_.words[*segment.verb];
+    if (!mention.role.starts_with("object ")) return nullptr;
+    for (std::size_t k = mention.first; k > segment.begin; --k)
+      if (reading_.words[k - 1].kind == WordKind::verb) return &reading_.words[k - 1];
+    return nullptr;
   }
 
   // A step that the verb may tell of has it as what is handled, or as where that goes.
@@ -581,9 +732,10 @@ class Checker {
     const bool possessive = mention.head + 1 < reading_.words.size() && reading_.words[mention.head + 1].text == "'s";
     const Mention* other = possessive ? &mention + 1 : &mention - 1;
     if (other < reading_.mentions.data() || other >= reading_.mentions.data() + reading_.mentions.size()) return false;
-    for (const std::string& part : other->things)
-      for (const std::string& whole : mention.things)
-        if (part.starts_with(whole + ".")) return true;
+    const bool with = mention.preposition == "with";  // `the button with the navy cap`
+    for (const std::string& part : with ? mention.things : other->things)
+      for (const std::string& whole : with ? other->things : mention.things)
+        if (part.starts_with(whole + ".") || (with && part == whole)) return true;
     return false;
   }
 
