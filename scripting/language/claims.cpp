@@ -107,7 +107,8 @@ bool keeps_others(const Reading& reading, const Segment& segment) {
     others |= reading.words[i].kind == WordKind::exclusion && reading.words[i].sense == "other";
   }
   return keeps && others && std::all_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
-           return mention.other || mention.head < segment.begin || mention.head >= segment.end;
+           return mention.other || !mention.preposition.empty() || mention.head < segment.begin ||
+                  mention.head >= segment.end;
          });
 }
 

@@ -275,7 +275,7 @@ verb lie []: lie sit
 verb contain []: contain
 verb locate []: located
 verb mark []: marked labelled labeled numbered
-verb show []: show say
+verb show []: show say bear
 verb colour []: coloured colored painted
 verb take-care []: care
 )";

@@ -264,7 +264,7 @@ class Checker {
     for (const SpokenThing& one : meaning_.things) {
       if (!one.heads.contains(sense) || one.region) continue;
       ++all;
-      handled += one.handled ? 1 : 0;
+      handled += (carries() ? one.moved : one.handled) ? 1 : 0;
     }
     return {all, handled};
   }
@@ -635,7 +635,7 @@ class Checker {
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const {
     for (const Mention& other : reading_.mentions)
-      if (other.segment == mention.segment && &other < &mention &&
+      if (other.segment == mention.segment && &other < &mention && !kBuilt.contains(other.sense) &&
           (other.role.starts_with("subject") || other.role.starts_with("object ")))
         return &other;
     return nullptr;
@@ -700,7 +700,8 @@ class Checker {
     if (segment.verb) return &reading_.words[*segment.verb];
     if (!mention.role.starts_with("object ")) return nullptr;
     for (std::size_t k = mention.first; k > segment.begin; --k)
-      if (reading_.words[k - 1].kind == WordKind::verb) return &reading_.words[k - 1];
+      if (reading_.words[k - 1].kind == WordKind::verb && mention.role.substr(7) == reading_.words[k - 1].sense)
+        return &reading_.words[k - 1];
     return nullptr;
   }
 

@@ -8,10 +8,13 @@
 #include "engine/base/temporary_folder.h"
 #include "scripting/language/similarity.h"
 #include "scripting/session/text_file.h"
+#include "model_answers.h"
 #include "shipped.h"
 #include "stub_server.h"
 
 using namespace stampede;
+using stub::asks_back;
+using stub::right_answer;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -24,27 +27,6 @@ ChatSettings quick_settings(const std::string& url) {
   one.timeout_s = 5;
   return one;
 }
-
-// Answers back questions rightly: the goal that the author's first sentence is, the things that the meaning wants.
-std::string right_answer(const std::string& body, const Meaning& meaning) {
-  const std::string text = nlohmann::json::parse(body)["messages"].back()["content"];
-  nlohmann::json answer = {{"things", nlohmann::json::array()}, {"goal", 0}};
-  std::istringstream lines(text);
-  bool goals = false;
-  for (std::string line; std::getline(lines, line);) {
-    goals |= line == "Goals:";
-    const std::size_t dot = line.find(". ");
-    if (dot == std::string::npos || dot > 2) continue;
-    const int number = std::stoi(line);
-    const std::string name = line.substr(dot + 2);
-    if (goals && name == meaning.own.front()) answer["goal"] = number;
-    for (const SpokenThing& thing : meaning.things)
-      if (!goals && thing.phrase == name && thing.wanted && !thing.region) answer["things"].push_back(number);
-  }
-  return answer.dump();
-}
-
-bool asks_back(const std::string& body) { return body.find("which goal does it mean") != std::string::npos; }
 
 }  // namespace
 

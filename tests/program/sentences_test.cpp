@@ -1,0 +1,83 @@
+// Sentences of a model through the program: asked, checked, asked back, stored, resumed; in episodes; in questions.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "scripting/language/meaning.h"
+#include "scripting/library/library.h"
+#include "tests/program/say.h"
+#include "../scripting/language/model_answers.h"
+#include "../scripting/language/stub_server.h"
+
+namespace stampede::program {
+namespace {
+
+constexpr const char* kVariation = "colour=maroon";
+
+// A task of one's own, so that its file of sentences stands in no other's folder.
+struct Mine {
+  Folder folder;
+  Mine() { put(folder, "tasks/press_it.lua", file_text(std::string(kRoot) + "/tasks/push_button.lua")); }
+  std::string file() const { return folder / "tasks/press_it.sentences.json"; }
+
+  Said say(const std::vector<std::string>& words) const {
+    std::vector<std::string> all = words;
+    for (const char* word : {"--root", kRoot, "--path"}) all.emplace_back(word);
+    all.push_back(folder.text());
+    return program::say(all);
+  }
+  Said paraphrase(const stub::Server& server) const {
+    return say({"paraphrase", "press_it", "--variation", kVariation, "--url", server.url(), "--model", "small", "--count",
+                "4", "--retries", "0", "--json"});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a model is asked, its sentences are checked, asked back, stored, and not asked for again") {
+  const Mine mine;
+  const auto library = Library::load({{kRoot}});
+  const Meaning meaning = meaning_of(library, "push_button", kVariation, 0, sentences_of(library, "push_button"));
+  const stub::Server server([&](int, const std::string& body) {
+    if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};
+    return stub::Reply{stub::chat("Could you tap the maroon button?\nPress the white button\nNever touch the maroon "
+                                  "button\nI want the maroon button pushed down")};
+  });
+  const Said first = mine.paraphrase(server);
+  INFO(first.out + first.err);
+  REQUIRE(first.code == kDone);
+  const nlohmann::json told = nlohmann::json::parse(first.out);
+  CHECK(told["received"] == 4);
+  CHECK(told["passed"] == 2);
+  CHECK(told["refused"]["wrong_colour"] == 1);
+  CHECK(told["refused"]["negated"] == 1);
+  const int asked = server.requests();
+  CHECK(asked == 3);  // once for sentences, once for each that passed
+  const std::string stored = file_text(mine.file());
+  CHECK(nlohmann::json::parse(stored)["sentences"].size() == 2);
+
+  const nlohmann::json again = nlohmann::json::parse(mine.paraphrase(server).out);
+  CHECK(again["there_already"] == 1);
+  CHECK(server.requests() == asked);
+  CHECK(file_text(mine.file()) == stored);
+  CHECK(checked(mine.folder).code == kDone);
+
+  // Any number of workers makes the same catalogue, and a second run nothing new.
+  const auto run = [&](const std::string& out, const char* workers) {
+    return mine.say({"run", "press_it", "--variation", kVariation, "--episodes", "2", "--sentences", "--workers", workers,
+                     "--out", mine.folder / out});
+  };
+  const auto hash = [&](const std::string& out) { return say({"query", mine.folder / out, "--hash"}).out; };
+  REQUIRE(run("one.db", "1").code == kDone);
+  REQUIRE(run("two.db", "2").code == kDone);
+  CHECK(says(hash("one.db"), "content_hash"));
+  CHECK(hash("one.db") == hash("two.db"));
+  const std::string before = hash("one.db");
+  CHECK(run("one.db", "2").code == kDone);
+  CHECK(hash("one.db") == before);
+  const Said rows = say({"query", mine.folder / "one.db", "--json",
+                         "SELECT DISTINCT text FROM language WHERE source = 'model' ORDER BY text"});
+  INFO(rows.out + rows.err);
+  CHECK(says(rows.out, "Could you tap the maroon button"));
+}
+
+}  // namespace stampede::program
