@@ -190,10 +190,9 @@ std::set<std::pair<std::string, std::string>> free_places(const Reading& reading
   std::set<std::pair<std::string, std::string>> places;
   for (std::size_t i = 0; i < reading.words.size(); ++i) {
     if (reading.words[i].kind != WordKind::place) continue;
-    const bool tells = std::any_of(reading.mentions.begin(), reading.mentions.end(),
-                                   [&](const Mention& mention) {
-                                     return (i >= mention.first && i <= mention.head) || mention.placed_by == i;
-                                   });
+    const bool tells = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
+      return (i >= mention.first && i <= mention.head) || mention.placed_by == i;
+    });
     if (!tells) places.emplace(i == 0 ? "" : reading.words[i - 1].text, reading.words[i].sense);
   }
   return places;

@@ -1,7 +1,6 @@
 #include "scripting/language/lexicon.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <sstream>
 
@@ -57,90 +56,13 @@ bool is_digits(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '\'' || c == '-' || c == '{' || c == '}' ||
-         c == '_' || static_cast<unsigned char>(c) >= 0x80;
-}
-
-// Quotes and dashes of typography as plain characters.
-std::string plain_text(std::string_view sentence) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns = {{{"\xE2\x80\x99", "'"},
-                                                                                           {"\xE2\x80\x98", "'"},
-                                                                                           {"\xE2\x80\x9C", " "},
-                                                                                           {"\xE2\x80\x9D", " "},
-                                                                                           {"\xE2\x80\x93", ", "},
-                                                                                           {"\xE2\x80\x94", ", "}}};
-  std::string text;
-  for (std::size_t i = 0; i < sentence.size();) {
-    const auto sign = std::find_if(kSigns.begin(), kSigns.end(),
-                                   [&](const auto& one) { return sentence.substr(i).starts_with(one.first); });
-    if (sign != kSigns.end()) {
-      text += sign->second;
-      i += sign->first.size();
-      continue;
-    }
-    const char c = sentence[i++];
-    text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return text;
-}
-
-using Phrases = std::map<std::string, std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>>;
-
-std::vector<std::string> words_in(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
-
-// By first word, the longest first.
-const Phrases& phrases() {
-  static const Phrases all = [] {
-    Phrases made;
-    std::istringstream lines(kPhraseText);
-    for (std::string line; std::getline(lines, line);) {
-      const std::size_t equals = line.find('=');
-      if (equals == std::string::npos) continue;
-      const std::vector<std::string> from = words_in(line.substr(0, equals));
-      made[from.front()].emplace_back(from, words_in(line.substr(equals + 1)));
-    }
-    for (auto& [word, list] : made)
-      std::stable_sort(list.begin(), list.end(),
-                       [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
-    return made;
-  }();
-  return all;
-}
-
-std::vector<PlainWord> with_phrases(const std::vector<PlainWord>& words) {
-  std::vector<PlainWord> result;
-  for (std::size_t i = 0; i < words.size();) {
-    std::size_t taken = 0;
-    if (const auto found = phrases().find(words[i].text); found != phrases().end()) {
-      for (const auto& [from, to] : found->second) {
-        bool same = i + from.size() <= words.size();
-        for (std::size_t k = 0; same && k < from.size(); ++k)
-          same = words[i + k].text == from[k] && (k == 0 || words[i + k].before == ' ');
-        if (!same) continue;
-        for (std::size_t k = 0; k < to.size(); ++k) result.push_back({to[k], k == 0 ? words[i].before : ' '});
-        taken = from.size();
-        break;
-      }
-    }
-    if (taken == 0) result.push_back(words[i]);
-    i += std::max<std::size_t>(taken, 1);
-  }
-  return result;
-}
-
 const std::set<std::string> kBeforeNouns = {"a",     "an",   "the",  "its",   "their", "this", "that",  "these",
                                             "those", "your", "each", "every", "all",   "both", "other", "another",
                                             "'s",    "no",   "same", "own",   "which", "any",  "of"};
-const std::set<std::string> kBeforeVerbs = {"to",    "and",   "then",   "please", "or",     "not",  "don't",
-                                            "you",   "it",    "never",  "must",   "should", "can",  "will",
-                                            "would", "could", "may",    "might",  "them",   "that", "let",
-                                            "first", "by",    "kindly", "now",    "which",  "is",   "be",  "been", "being"};
+const std::set<std::string> kBeforeVerbs = {"to",  "and",   "then", "please", "or",   "not",   "don't", "you",
+                                            "it",  "never", "must", "should", "can",  "will",  "would", "could",
+                                            "may", "might", "them", "that",   "let",  "first", "by",    "kindly",
+                                            "now", "which", "is",   "be",     "been", "being"};
 
 bool leads_to_noun(const Word& before) {
   return kBeforeNouns.contains(before.text) || before.kind == WordKind::adjective || before.kind == WordKind::colour ||
@@ -148,35 +70,6 @@ bool leads_to_noun(const Word& before) {
 }
 
 }  // namespace
-
-std::vector<PlainWord> plain_words(std::string_view sentence) {
-  std::vector<PlainWord> words;
-  std::string text;
-  char before = ' ';
-  const auto end_word = [&] {
-    while (text.ends_with('\'') || text.ends_with('-')) text.pop_back();
-    while (text.starts_with('\'') || text.starts_with('-')) text.erase(0, 1);
-    if (text.empty()) return;
-    const bool possessive = text.size() > 2 && text.ends_with("'s") && text != "it's" && text != "that's" &&
-                            text != "there's" && text != "let's";
-    if (possessive) text.resize(text.size() - 2);
-    words.push_back({text, before});
-    if (possessive) words.push_back({"'s", ' '});
-    text.clear();
-    before = ' ';
-  };
-  for (const char c : plain_text(sentence)) {
-    if (is_letter(c)) {
-      text += c;
-      continue;
-    }
-    end_word();
-    if (c == ',' || c == ';' || c == ':' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')')
-      before = c == '!' || c == '?' ? '.' : c == '(' || c == ')' ? ',' : c;
-  }
-  end_word();
-  return with_phrases(words);
-}
 
 Lexicon::Lexicon() {
   std::istringstream lines(kLexiconText);

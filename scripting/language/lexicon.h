@@ -71,5 +71,6 @@ struct PlainWord {
   char before = ' ';
 };
 std::vector<PlainWord> plain_words(std::string_view sentence);
+std::vector<std::string> words_in(const std::string& text);  // between blanks
 
 }  // namespace stampede

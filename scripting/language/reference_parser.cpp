@@ -74,7 +74,8 @@ std::vector<Segment> segments_of(const std::vector<Word>& words) {
 // `the red one last, the lime one second`: those with a rank change places among themselves; the last comes last.
 void rank_in_time(const std::vector<Word>& words, const std::vector<Segment>& segments,
                   std::vector<std::size_t>& order) {
-  static const std::map<std::string, int> kRanks = {{"first", 1}, {"second", 2}, {"third", 3}, {"fourth", 4}, {"last", 99}};
+  static const std::map<std::string, int> kRanks = {
+      {"first", 1}, {"second", 2}, {"third", 3}, {"fourth", 4}, {"last", 99}};
   const auto rank = [&](std::size_t segment) {
     for (std::size_t k = segments[segment].begin; k < segments[segment].end; ++k)
       if (words[k].kind == WordKind::order && kRanks.contains(words[k].sense)) return kRanks.at(words[k].sense);
@@ -192,8 +193,8 @@ class MentionReader {
     if (word.kind == WordKind::place) return begin_at(i), open_.places.push_back(word.sense);
     if (word.kind == WordKind::adjective) return begin_at(i), open_.adjectives.push_back(word.sense);
     // `block 2`, `number two`: a name, and no count
-    const bool named = i > 0 && word.before == ' ' && reading_.words[i - 1].kind == WordKind::noun &&
-                       !reading_.words[i - 1].plural;
+    const bool named =
+        i > 0 && word.before == ' ' && reading_.words[i - 1].kind == WordKind::noun && !reading_.words[i - 1].plural;
     if (word.kind == WordKind::number && named) return;
     if (word.kind == WordKind::number) return begin_at(i), open_.count = number_of(word), void();
     if (word.kind == WordKind::exclusion && word.sense == "other") return begin_at(i), open_.other = true, void();
@@ -264,7 +265,8 @@ class MentionReader {
     static const std::set<std::string> kWhere = {"in", "on", "inside", "within", "behind"};
     static const std::set<std::string> kIs = {"should", "must", "needs", "has", "ought", "goes", "belongs"};
     const Mention &mention = reading_.mentions[i], &before = reading_.mentions[i - 1];
-    const bool possessive = i > 1 && before.head + 1 < reading_.words.size() && reading_.words[before.head + 1].text == "'s";
+    const bool possessive =
+        i > 1 && before.head + 1 < reading_.words.size() && reading_.words[before.head + 1].text == "'s";
     const Mention& last = possessive ? reading_.mentions[i - 2] : before;  // `the cup on the cabinet's shelf`
     if (last.segment != mention.segment || !last.preposition.empty() || !kWhere.contains(mention.preposition))
       return false;

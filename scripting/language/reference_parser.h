@@ -20,7 +20,7 @@ struct Mention {
   std::set<std::string> modifiers;  // further nouns: knife block
   std::vector<std::string> colours, places, adjectives;
   std::optional<int> count;
-  std::optional<int> total;  // `two of the three blocks`: three
+  std::optional<int> total;              // `two of the three blocks`: three
   std::optional<std::size_t> placed_by;  // the word after it that says where it is: `the door on the left`
   bool plural = false;
   bool partitive = false;   // `of the blocks`: some of them are meant

@@ -1,12 +1,15 @@
 // Sentences of a model through the program: asked, checked, asked back, stored, resumed; in episodes; in questions.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "../scripting/language/model_answers.h"
+#include "../scripting/language/stub_server.h"
+#include "db/catalogue.h"
 #include "scripting/language/meaning.h"
 #include "scripting/library/library.h"
 #include "tests/program/say.h"
-#include "../scripting/language/model_answers.h"
-#include "../scripting/language/stub_server.h"
 
 namespace stampede::program {
 namespace {
@@ -26,8 +29,8 @@ struct Mine {
     return program::say(all);
   }
   Said paraphrase(const stub::Server& server) const {
-    return say({"paraphrase", "press_it", "--variation", kVariation, "--url", server.url(), "--model", "small", "--count",
-                "4", "--retries", "0", "--json"});
+    return say({"paraphrase", "press_it", "--variation", kVariation, "--url", server.url(), "--model", "small",
+                "--count", "4", "--retries", "0", "--json"});
   }
 };
 
@@ -39,8 +42,9 @@ TEST_CASE("a model is asked, its sentences are checked, asked back, stored, and 
   const Meaning meaning = meaning_of(library, "push_button", kVariation, 0, sentences_of(library, "push_button"));
   const stub::Server server([&](int, const std::string& body) {
     if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};
-    return stub::Reply{stub::chat("Could you tap the maroon button?\nPress the white button\nNever touch the maroon "
-                                  "button\nI want the maroon button pushed down")};
+    return stub::Reply{
+        stub::chat("Could you tap the maroon button?\nPress the white button\nNever touch the maroon "
+                   "button\nI want the maroon button pushed down")};
   });
   const Said first = mine.paraphrase(server);
   INFO(first.out + first.err);
@@ -63,8 +67,8 @@ TEST_CASE("a model is asked, its sentences are checked, asked back, stored, and 
 
   // Any number of workers makes the same catalogue, and a second run nothing new.
   const auto run = [&](const std::string& out, const char* workers) {
-    return mine.say({"run", "press_it", "--variation", kVariation, "--episodes", "2", "--sentences", "--workers", workers,
-                     "--out", mine.folder / out});
+    return mine.say({"run", "press_it", "--variation", kVariation, "--episodes", "2", "--sentences", "--workers",
+                     workers, "--out", mine.folder / out});
   };
   const auto hash = [&](const std::string& out) { return say({"query", mine.folder / out, "--hash"}).out; };
   REQUIRE(run("one.db", "1").code == kDone);
@@ -78,6 +82,44 @@ TEST_CASE("a model is asked, its sentences are checked, asked back, stored, and 
                          "SELECT DISTINCT text FROM language WHERE source = 'model' ORDER BY text"});
   INFO(rows.out + rows.err);
   CHECK(says(rows.out, "Could you tap the maroon button"));
+}
+
+TEST_CASE("questions about stored pictures name their camera, hold by the catalogue's facts, and come out the same") {
+  const Folder folder;
+  const std::string db = folder / "q.db";
+  REQUIRE(say({"run", "meat_off_grill", "--variation", "meat=chicken", "--root", kRoot, "--images", "keyframes",
+               "--size", "48x48", "--kinds", "rgb,instance", "--out", db})
+              .code == kDone);
+  const auto asked = [&](const std::string& out) {
+    const Said said =
+        say({"questions", db, "--root", kRoot, "--per-frame", "40", "--frames", "4", "--out", folder / out});
+    INFO(said.out + said.err);
+    CHECK(said.code == kDone);
+    return file_text(folder / out);
+  };
+  const std::string lines = asked("a.jsonl");
+  CHECK(asked("b.jsonl") == lines);
+  const Catalogue catalogue = Catalogue::open(db);
+  std::set<std::string> cameras, types;
+  for (const ImageEntry& image : catalogue.images(1)) cameras.insert(image.camera);
+  const EpisodeRecord episode = catalogue.read_episode(1);
+  const auto holds = [&](const std::string& fact, std::int64_t frame) {
+    return std::any_of(episode.facts.begin(), episode.facts.end(), [&](const FactRecord& one) {
+      return to_text(one.fact) == fact && one.first_frame <= frame && frame < one.end_frame;
+    });
+  };
+  std::istringstream in(lines);
+  for (std::string text; std::getline(in, text);) {
+    const nlohmann::json line = nlohmann::json::parse(text);
+    INFO(text);
+    const std::string type = line["type"], answer = line["answer"];
+    types.insert(type);
+    REQUIRE(line["camera"].is_string());
+    CHECK(cameras.contains(line["camera"]));
+    if (type == "where") CHECK(holds(line["fact"], line["frame"]));
+    if (type == "side") CHECK((answer == "yes" || answer == "no"));
+  }
+  for (const char* type : {"where", "changed", "side", "holds"}) CHECK(types.contains(type));
 }
 
 }  // namespace stampede::program

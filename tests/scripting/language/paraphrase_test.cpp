@@ -6,16 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/temporary_folder.h"
+#include "model_answers.h"
 #include "scripting/language/similarity.h"
 #include "scripting/session/text_file.h"
-#include "model_answers.h"
 #include "shipped.h"
 #include "stub_server.h"
 
 using namespace stampede;
+using Catch::Matchers::Contains;
 using stub::asks_back;
 using stub::right_answer;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -1,0 +1,89 @@
+// What is denied, left alone or kept as it is.
+#include "scripting/language/one_sentence.h"
+
+namespace stampede {
+
+bool OneSentence::vouched(const Segment& segment) const {
+  return claims_.segments.contains(content_of(reading_, segment.begin, segment.end));
+}
+
+// `and no others`, `leave the other blocks alone`
+bool OneSentence::spares_others(const Segment& segment) const {
+  bool others = false;
+  for (std::size_t i = segment.begin; i < segment.end; ++i)
+    others |= (reading_.words[i].kind == WordKind::exclusion && reading_.words[i].sense == "other") ||
+              reading_.words[i].text == "else";
+  return others && !claims_.others &&
+         std::none_of(reading_.mentions.begin(), reading_.mentions.end(),
+                      [&](const Mention& mention) { return within(mention, segment) && !mention.other; });
+}
+
+// What is said of it holds anyway: it has no part in this.
+bool OneSentence::spares(const Segment& segment) const {
+  return spares_others(segment) || keeps_others(reading_, segment) || leaves_idle(segment);
+}
+
+// `leave the chicken where it is`, `the steak still on the grill`, `the left one shut`
+bool OneSentence::leaves_idle(const Segment& segment) const {
+  static const std::set<std::string> kKeeps = {"leave", "leaving", "leaves", "keep", "keeping",
+                                               "keeps", "stay",    "stays",  "still"};
+  if (segment.negated) return false;
+  const Mention* first = nullptr;
+  for (const Mention& mention : reading_.mentions)
+    if (first == nullptr && within(mention, segment)) first = &mention;
+  if (first == nullptr || !first->preposition.empty() || first->things.empty() ||
+      may_be(*first, meaning_, &SpokenThing::wanted))
+    return false;
+  bool keeps = false, state = false;
+  for (std::size_t i = segment.begin; i < segment.end; ++i) {
+    keeps |= kKeeps.contains(reading_.words[i].text);
+    state |= i > first->head && (reading_.words[i].text == "shut" || reading_.words[i].text == "closed");
+  }
+  return keeps || (state && segment.verb.value_or(segment.end) > first->head);
+}
+
+// `leave the block on the table`: it has to go somewhere else.
+Maybe OneSentence::left() const {
+  for (const Segment& segment : reading_.segments) {
+    if (!segment.verb || !reading_.words[*segment.verb].text.starts_with("lea") || vouched(segment)) continue;
+    const Mention* object = nullptr;
+    bool to = false;
+    for (const Mention& mention : reading_.mentions) {
+      if (!within(mention, segment)) continue;
+      if (object == nullptr && mention.preposition.empty()) object = &mention;
+      to |= mention.role.starts_with("to") && may_be(mention, meaning_, &SpokenThing::destination) &&
+            !may_be(mention, meaning_, &SpokenThing::source);
+    }
+    if (object != nullptr && !object->other && may_be(*object, meaning_, &SpokenThing::wanted) && !to)
+      return no(Rejection::negated, "the " + object->sense + " may not be left");
+  }
+  return {};
+}
+
+bool OneSentence::within(const Mention& mention, const Segment& segment) const {
+  return mention.head >= segment.begin && mention.head < segment.end;
+}
+
+Maybe OneSentence::denials() const {
+  for (const Segment& segment : reading_.segments)
+    if ((segment.negated || segment.excluding) && !vouched(segment) && !spares_others(segment) &&
+        !spares_idle(segment) && !leaves_idle(segment))
+      for (std::size_t i = segment.begin; i < segment.end; ++i)
+        if (reading_.words[i].kind == WordKind::negation || reading_.words[i].kind == WordKind::exclusion)
+          return no(Rejection::negated, quoted(reading_.words[i].text));
+  return left();
+}
+
+// `spare the tomatoes`: things that have no part in it
+bool OneSentence::spares_idle(const Segment& segment) const {
+  if (segment.negated) return false;
+  bool any = false;
+  for (const Mention& mention : reading_.mentions) {
+    if (!within(mention, segment)) continue;
+    if (may_be(mention, meaning_, &SpokenThing::wanted)) return false;
+    any |= !mention.things.empty();
+  }
+  return any;
+}
+
+}  // namespace stampede
