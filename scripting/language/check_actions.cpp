@@ -5,6 +5,7 @@ namespace stampede {
 
 // `take the handle`, `go to the button`: on the way to what is done
 bool OneSentence::takes_part(const Segment& segment) const {
+  if (!segment.verb) return false;
   const std::string& verb = reading_.words[*segment.verb].sense;
   const bool more = std::any_of(reading_.segments.begin(), reading_.segments.end(),
                                 [&](const Segment& one) { return one.verb && one.begin > segment.begin; });

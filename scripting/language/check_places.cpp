@@ -16,8 +16,7 @@ bool OneSentence::has_role(const Mention& mention) const {
   if (role == "object") return accessory || steps_have(mention, false);
   if (role == "of") return accessory || is_whole(mention);
   if (role == "part")
-    return (mention.count && mention.count &&
-            may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled));
+    return mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled);
   if (role == "with") return accessory || steps_have(mention, true);
   const Mention* object = object_of(mention);
   if (object != nullptr && !object->by_head && object->role.starts_with("object") && !object->sense.empty())
