@@ -64,20 +64,28 @@ class Matching {
 
 }  // namespace
 
-std::vector<int> best_assignment(const std::vector<std::vector<double>>& gains) {
+std::vector<int> full_assignment(const std::vector<std::vector<double>>& gains) {
   std::size_t size = gains.size();
   for (const auto& row : gains) size = std::max(size, row.size());
   std::vector<std::vector<double>> costs(size, std::vector<double>(size, 0));
   for (std::size_t row = 0; row < gains.size(); ++row)
-    for (std::size_t column = 0; column < gains[row].size(); ++column)
-      costs[row][column] = -std::max(0.0, gains[row][column]);
+    for (std::size_t column = 0; column < gains[row].size(); ++column) costs[row][column] = -gains[row][column];
   const Matching matching(std::move(costs));
   std::vector<int> found(gains.size(), -1);
   for (std::size_t column = 0; column < size; ++column) {
     const std::size_t row = matching.row_of(column);
-    if (row < gains.size() && column < gains[row].size() && gains[row][column] > 0)
-      found[row] = static_cast<int>(column);
+    if (row < gains.size() && column < gains[row].size()) found[row] = static_cast<int>(column);
   }
+  return found;
+}
+
+std::vector<int> best_assignment(const std::vector<std::vector<double>>& gains) {
+  std::vector<std::vector<double>> wanted = gains;
+  for (auto& row : wanted)
+    for (double& gain : row) gain = std::max(0.0, gain);
+  std::vector<int> found = full_assignment(wanted);
+  for (std::size_t row = 0; row < gains.size(); ++row)
+    if (found[row] >= 0 && gains[row][static_cast<std::size_t>(found[row])] <= 0) found[row] = -1;
   return found;
 }
 

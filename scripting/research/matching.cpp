@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "engine/learning/assignment.h"
 
 namespace stampede::research {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double entropy_of(const Eigen::VectorXd& counts, double total) {
   double entropy = 0;
@@ -27,51 +26,11 @@ double pairs_in(const Eigen::MatrixXd& counts) {
 }  // namespace
 
 std::vector<int> best_matching(const Eigen::MatrixXd& weights) {
-  const auto rows = static_cast<int>(weights.rows()), columns = static_cast<int>(weights.cols());
-  const int n = std::max(rows, columns);
-  const auto cost = [&](int row, int column) {  // from 1; what is not there costs nothing
-    return row <= rows && column <= columns ? -weights(row - 1, column - 1) : 0.0;
-  };
-  const auto size = static_cast<std::size_t>(n) + 1;
-  std::vector<double> of_row(size, 0), of_column(size, 0);
-  std::vector<int> row_of(size, 0), way(size, 0);
-  for (int row = 1; row <= n; ++row) {
-    row_of[0] = row;
-    int column = 0;
-    std::vector<double> least(size, kFar);
-    std::vector<bool> used(size, false);
-    do {
-      used[static_cast<std::size_t>(column)] = true;
-      const int at = row_of[static_cast<std::size_t>(column)];
-      double step = kFar;
-      int next = 0;
-      for (int j = 1; j <= n; ++j) {
-        const auto place = static_cast<std::size_t>(j);
-        if (used[place]) continue;
-        const double reduced = cost(at, j) - of_row[static_cast<std::size_t>(at)] - of_column[place];
-        if (reduced < least[place]) least[place] = reduced, way[place] = column;
-        if (least[place] < step) step = least[place], next = j;
-      }
-      for (std::size_t j = 0; j < size; ++j) {
-        if (used[j])
-          of_row[static_cast<std::size_t>(row_of[j])] += step, of_column[j] -= step;
-        else
-          least[j] -= step;
-      }
-      column = next;
-    } while (row_of[static_cast<std::size_t>(column)] != 0);
-    while (column != 0) {
-      const int before = way[static_cast<std::size_t>(column)];
-      row_of[static_cast<std::size_t>(column)] = row_of[static_cast<std::size_t>(before)];
-      column = before;
-    }
-  }
-  std::vector<int> match(static_cast<std::size_t>(rows), -1);
-  for (int column = 1; column <= columns; ++column) {
-    const int row = row_of[static_cast<std::size_t>(column)];
-    if (row >= 1 && row <= rows) match[static_cast<std::size_t>(row) - 1] = column - 1;
-  }
-  return match;
+  std::vector<std::vector<double>> gains(static_cast<std::size_t>(weights.rows()));
+  for (Eigen::Index row = 0; row < weights.rows(); ++row)
+    for (Eigen::Index column = 0; column < weights.cols(); ++column)
+      gains[static_cast<std::size_t>(row)].push_back(weights(row, column));
+  return learning::full_assignment(gains);
 }
 
 double normalised_mutual_information(const Eigen::MatrixXd& counts) {
