@@ -27,9 +27,9 @@ return task {
     is.reachable("a*"), is.reachable("b*"), is.reachable("c*") },
   goal = { is.on("a*", "a_tray"), is.on("b*", "b_tray"), is.on("c*", "c_tray"), is.hand_empty() },
   subgoals = {
-    { "first_colour", is.on("a*", "a_tray") },
-    { "second_colour", is.on("b*", "b_tray") },
-    { "third_colour", is.on("c*", "c_tray") },
+    { "first_colour", is.on("a*", "a_tray"), "put the {first} blocks into the {first} tray" },
+    { "second_colour", is.on("b*", "b_tray"), "put the {second} blocks into the {second} tray" },
+    { "third_colour", is.on("c*", "c_tray"), "put the {third} blocks into the {third} tray" },
   },
   horizon = 900, -- s
   instructions = {

@@ -98,6 +98,8 @@ void close_record(Rollout& rollout, const SkillResult& verdict, const std::strin
   for (const SegmentRecord& segment : record.segments)
     if (segment.kind == SegmentKind::skill && !segment.label.empty())
       record.language.push_back({.level = LanguageLevel::skill, .text = segment.label, .segment = segment.ordinal});
+    else if (segment.kind == SegmentKind::subgoal && segment.label != segment.skill)
+      record.language.push_back({.level = LanguageLevel::subgoal, .text = segment.label, .segment = segment.ordinal});
   record.keyframes["stopped"] = stopped_keyframes(record);
   for (DocumentRecord& document : record.documents)
     if (document.kind == DocumentKind::plan) document.text = plan;

@@ -50,6 +50,13 @@ struct TaskStep {
   CallSettings set;
 };
 
+// A part of a task that an episode's frames are told apart by.
+struct Subgoal {
+  std::string name;
+  Formula formula;
+  std::string sentence;  // of the author, filled in for this variation; may be empty
+};
+
 // One draw of a task: all that is decided before physics runs. What a run asks for changes these values (altered_task).
 struct Task {
   std::string name;
@@ -67,8 +74,8 @@ struct Task {
   Formula goal;
   std::vector<Formula> stages;  // in_order { … }; goal is their conjunction
   std::optional<std::vector<TaskStep>> steps;
-  std::vector<std::pair<std::string, Formula>> subgoals;
-  double hold_s = 1.0;  // the goal must stay true for this long at the end
+  std::vector<Subgoal> subgoals;  // in the order in which they come true
+  double hold_s = 1.0;            // the goal must stay true for this long at the end
   double horizon_s = 120;
   std::vector<std::string> instructions;  // filled in for this variation
 

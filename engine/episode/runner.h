@@ -22,14 +22,20 @@ std::optional<OnFailure> on_failure_from(std::string_view text);
 std::string_view to_string(Behaviour value);
 std::optional<Behaviour> behaviour_from(std::string_view text);
 
-// A sentence that a model made and checks let pass. `of`: the variation; of other levels the skill, predicate or kind
-// of motion whose label it says in other words, with the label's {slots}.
+// A sentence that a model made and checks let pass. `of`: the variation; of a subgoal its name, a blank and the
+// variation (subgoal_key); of other levels the skill, predicate or kind of motion whose label it says in other words,
+// with the label's {slots}.
 struct MadeSentence {
   LanguageLevel level = LanguageLevel::task;
   std::string of, text;
   LanguageGrain grain = LanguageGrain::goal;
   std::string model;
 };
+
+// A task without variations: the name alone.
+inline std::string subgoal_key(const std::string& name, const std::string& variation) {
+  return variation.empty() ? name : name + " " + variation;
+}
 
 // Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
 struct RunOptions {

@@ -45,7 +45,7 @@ SkillResult SkillTrack::end(std::size_t position) {
 
 void SkillTrack::advance_subgoals() {
   const auto& subgoals = rollout_.task().subgoals;
-  while (subgoal_ < subgoals.size() && rollout_.holds_now(subgoals[subgoal_].second)) {
+  while (subgoal_ < subgoals.size() && rollout_.holds_now(subgoals[subgoal_].formula)) {
     rollout_.recorder().close_segment(subgoal_segment_, rollout_.step(), Outcome::success, Reason::none, {});
     ++subgoal_;
     open_subgoal();
@@ -105,8 +105,9 @@ void SkillTrack::open_subgoal() {
   SegmentRecord segment;
   segment.kind = SegmentKind::subgoal;
   segment.robot = rollout_.view().scene().robot.name;
-  segment.skill = subgoal_ < subgoals.size() ? subgoals[subgoal_].first : "goal";
+  segment.skill = subgoal_ < subgoals.size() ? subgoals[subgoal_].name : "goal";
   segment.label = segment.skill;
+  if (subgoal_ < subgoals.size() && !subgoals[subgoal_].sentence.empty()) segment.label = subgoals[subgoal_].sentence;
   subgoal_segment_ = rollout_.recorder().open_segment(std::move(segment), rollout_.step());
 }
 

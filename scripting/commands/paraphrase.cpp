@@ -37,11 +37,9 @@ struct Asked {
 
 Asked asked_of(const Arguments& arguments) {
   Asked asked;
-  asked.levels = chosen(arguments, "--level", LanguageLevel::task, language_level_from, "task, world, skill, motion");
+  asked.levels =
+      chosen(arguments, "--level", LanguageLevel::task, language_level_from, "task, world, subgoal, skill, motion");
   asked.grains = chosen(arguments, "--grain", Grain::goal, language_grain_from, "goal, steps, motions");
-  if (std::find(asked.levels.begin(), asked.levels.end(), LanguageLevel::subgoal) != asked.levels.end())
-    throw UsageError("subgoals have no sentences of their own to say in other words",
-                     "ask for task, world, skill or motion");
   asked.seed = in_range(arguments, "--seed", 0, kLargestSeed);
   asked.count = static_cast<int>(in_range(arguments, "--count", 1, 1000));
   asked.each_request = static_cast<int>(in_range(arguments, "--each", 1, 100));
@@ -89,11 +87,9 @@ class Asker {
     if (file.task != task) throw Error(path.string(), "it is of task '" + file.task + "'", "name another --out");
     const std::vector<OwnSentences> all = sentences_of(library_, task);
     for (const LanguageLevel level : asked_.levels) {
-      const bool of_task = level == LanguageLevel::task;
-      const std::vector<std::string> names =
-          of_task ? matching_variations(task_info(*library_, task), variation_) : labels_for(task, level, all);
-      for (const std::string& name : names)
-        for (const Grain grain : of_task ? asked_.grains : std::vector<Grain>{Grain::goal})
+      const bool of_goal = level == LanguageLevel::task || level == LanguageLevel::subgoal;
+      for (const std::string& name : names_for(task, level, all))
+        for (const Grain grain : of_goal ? asked_.grains : std::vector<Grain>{Grain::goal})
           ask(task, level, name, grain, all, path, file);
     }
   }
@@ -119,6 +115,21 @@ class Asker {
     for (const Refused& one : refused) console_.err << fmt::format("  {} ({}): {}\n", one.reason, one.detail, one.text);
   }
 
+  std::vector<std::string> names_for(const std::string& task, LanguageLevel level,
+                                     const std::vector<OwnSentences>& all) const {
+    if (level != LanguageLevel::task && level != LanguageLevel::subgoal) return labels_for(task, level, all);
+    const std::vector<std::string> variations = matching_variations(task_info(*library_, task), variation_);
+    if (level == LanguageLevel::task) return variations;
+    std::vector<std::string> names;
+    for (const OwnSentences& one : all)
+      if (std::find(variations.begin(), variations.end(), one.variation) != variations.end())
+        for (const Subgoal& subgoal : one.subgoals) names.push_back(subgoal_key(subgoal.name, one.variation));
+    if (names.empty())
+      throw Error(task, "it has no subgoals with a sentence to say in other words",
+                  "give it some: subgoals = { { \"open_it\", is.open(…), \"open the drawer\" } }");
+    return names;
+  }
+
   // Of skills those that the plan of the first variation has.
   std::vector<std::string> labels_for(const std::string& task, LanguageLevel level,
                                       const std::vector<OwnSentences>& all) const {
@@ -135,9 +146,13 @@ class Asker {
   std::vector<std::string> distractors(const std::string& task, LanguageLevel level,
                                        const std::vector<OwnSentences>& all) const {
     std::vector<std::string> others;
-    if (level == LanguageLevel::task) {
+    if (level == LanguageLevel::task || level == LanguageLevel::subgoal) {
       std::vector<std::string> near, far;
-      for (const OwnSentences& one : all) near.push_back(one.sentences.front());
+      for (const OwnSentences& one : all) {
+        if (level == LanguageLevel::task) near.push_back(one.sentences.front());
+        if (level == LanguageLevel::subgoal)
+          for (const Subgoal& subgoal : one.subgoals) near.push_back(subgoal.sentence);
+      }
       for (const ScriptFile* file : library_->files(DefinitionKind::task)) {
         const Library::TaskInfo* info = library_->task(file->name);
         if (info != nullptr && info->name != task && !info->instructions.empty() &&
@@ -210,14 +225,14 @@ CommandRow paraphrase_command() {
        {"--each", "N", "of these, in one request; small models do better with 1", Takes::integer, "5", {}, false},
        {"--grain",
         "NAME",
-        "how much a task's sentence says: goal (which is taken), steps, motions",
+        "how much a task's or subgoal's sentence says: goal (which is taken), steps, motions",
         Takes::text,
         "",
         {},
         true},
        {"--level",
         "NAME",
-        "what is said in other words: task (which is taken), world, skill, motion",
+        "what is said in other words: task (which is taken), world, subgoal, skill, motion",
         Takes::text,
         "",
         {},

@@ -13,7 +13,8 @@ bool OneSentence::takes_part(const Segment& segment) const {
   return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& mention) {
     return within(mention, segment) && mention.role == "object " + verb &&
            (verb == "reach" ? may_be(mention, meaning_, &SpokenThing::handled)
-                            : mention.sense == "handle" && may_be(mention, meaning_, &SpokenThing::wanted));
+                            : mention.sense == "handle" &&
+                                  (mention.things.empty() || may_be(mention, meaning_, &SpokenThing::wanted)));
   });
 }
 
@@ -33,7 +34,8 @@ Maybe OneSentence::actions() const {
     if (std::none_of(skills.begin(), skills.end(), [&](const auto& one) { return meaning_.skills.contains(one); }))
       return no(Rejection::other_action, quoted(verb));
   }
-  for (const std::string& direction : directions_in(reading_)) {
+  for (const std::string& direction :
+       directions_in(reading_, [this](const Segment& segment) { return denies_start(segment); })) {
     const std::string opposite = opposite_of(direction);
     if (!claims_.directions.contains(direction) && !opposite.empty() && claims_.directions.contains(opposite) &&
         !planned(direction))
@@ -50,7 +52,8 @@ bool OneSentence::planned(const std::string& direction) const {
       {"insert", {"insert", "put_in"}},
       {"remove", {"extract", "take_out", "take_from_shelf", "unhang"}},
       {"out", {"extract", "take_out", "take_from_shelf", "unhang", "pick"}},
-      {"up", {"pick", "lift"}}};
+      {"up", {"pick", "lift"}},
+      {"down", {"place", "set_down", "lay", "stack"}}};
   const auto found = kOf.find(direction);
   if (found == kOf.end()) return false;
   return std::any_of(found->second.begin(), found->second.end(),

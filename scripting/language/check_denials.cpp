@@ -20,7 +20,7 @@ bool OneSentence::spares_others(const Segment& segment) const {
 
 // What is said of it holds anyway: it has no part in this.
 bool OneSentence::spares(const Segment& segment) const {
-  return spares_others(segment) || keeps_others(reading_, segment) || leaves_idle(segment);
+  return spares_others(segment) || keeps_others(reading_, segment) || leaves_idle(segment) || denies_start(segment);
 }
 
 // `leave the chicken where it is`, `the steak still on the grill`, `the left one shut`
@@ -67,11 +67,45 @@ bool OneSentence::within(const Mention& mention, const Segment& segment) const {
 Maybe OneSentence::denials() const {
   for (const Segment& segment : reading_.segments)
     if ((segment.negated || segment.excluding) && !vouched(segment) && !spares_others(segment) &&
-        !spares_idle(segment) && !leaves_idle(segment))
+        !spares_idle(segment) && !leaves_idle(segment) && !denies_start(segment))
       for (std::size_t i = segment.begin; i < segment.end; ++i)
         if (reading_.words[i].kind == WordKind::negation || reading_.words[i].kind == WordKind::exclusion)
           return no(Rejection::negated, quoted(reading_.words[i].text));
   return left();
+}
+
+// `it should no longer be on its stand`, `the door must not stay open`, `in the block instead of on the board`: what
+// holds at the start and has to end
+bool OneSentence::denies_start(const Segment& segment) const {
+  static const std::set<std::string> kStays = {"belong", "lie", "stand", "hang", "leave", "open", "close"};
+  static const std::map<std::string, std::string> kStates = {
+      {"open", "close"}, {"closed", "open"}, {"shut", "open"}, {"on", "switch_off"}, {"off", "switch_on"}};
+  const bool instead = std::any_of(reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.begin),
+                                   reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.end),
+                                   [](const Word& word) { return word.text == "instead"; });
+  if (!segment.negated && !instead) return false;
+  std::size_t from = segment.begin;
+  for (std::size_t i = segment.begin; i < segment.end; ++i)
+    if (reading_.words[i].kind == WordKind::negation) from = i;
+  bool ends = false, is = instead;
+  for (std::size_t i = segment.begin; i < segment.end; ++i) {
+    const Word& word = reading_.words[i];
+    is |= word.text == "be" || word.text == "is" || word.text == "are" || word.text == "stay" ||
+          word.sense == "belong" || word.text == "remain";
+    if (i <= from) continue;
+    if (word.kind == WordKind::verb && !kStays.contains(word.sense) && word.sense != "put") return false;
+    const auto state = kStates.find(word.text);
+    if (state == kStates.end()) continue;
+    if (word.text != "on" && word.text != "off" && !claims_.directions.contains(state->second)) return false;
+    ends |= word.text != "on" && word.text != "off";
+  }
+  for (const Mention& mention : reading_.mentions) {
+    if (!within(mention, segment) || mention.head < from) continue;
+    if (may_be(mention, meaning_, &SpokenThing::destination) || !may_be(mention, meaning_, &SpokenThing::source))
+      return false;
+    ends = true;
+  }
+  return ends && is;
 }
 
 // `spare the tomatoes`: things that have no part in it

@@ -36,6 +36,9 @@ bool OneSentence::lifts() const {
   return meaning_.skills.contains("lift") || (meaning_.skills.size() == 1 && meaning_.skills.contains("pick"));
 }
 
+// What swings or slides has something to take hold of.
+bool OneSentence::swings() const { return meaning_.skills.contains("open") || meaning_.skills.contains("close"); }
+
 bool OneSentence::rises() const {
   return lifts() && std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [](const Mention& mention) {
            return (mention.preposition != "over" && mention.preposition != "above") || mention.sense == "table";
@@ -101,7 +104,8 @@ Maybe OneSentence::known(const Mention& mention) const {
   static const std::set<std::string> kGeneral = {"side", "order",  "colour", "space", "thing",
                                                  "end",  "number", "hand",   "shape", "item"};
   const auto there = [&](const std::string& sense) {
-    return sense.empty() || (sense == "air" && lifts()) || kGeneral.contains(sense) || claims_.senses.contains(sense) ||
+    return sense.empty() || (sense == "air" && lifts()) || (sense == "handle" && swings()) ||
+           kGeneral.contains(sense) || claims_.senses.contains(sense) ||
            std::any_of(meaning_.things.begin(), meaning_.things.end(),
                        [&](const SpokenThing& one) { return one.words.contains(sense); });
   };
@@ -147,6 +151,9 @@ Maybe OneSentence::counted(const Mention& mention) const {
       return no(Rejection::wrong_count, "one of several " + mention.sense);
     if (mention.total && *mention.total != all_and_handled(mention.sense).first)
       return no(Rejection::wrong_count, "of " + std::to_string(*mention.total) + " " + mention.sense);
+    if (mention.partitive && mention.preposition == "of" && !mention.total &&
+        *mention.count == all_and_handled(mention.sense).first)
+      return {};  // `of the two jars, …`
     if (*mention.count == 1 && mention.things.empty() && kBuilt.contains(mention.sense)) return {};
     const bool all = reading_.words[mention.first].text == "all" || reading_.words[mention.first].text == "both";
     if (mention.plural && !mention.partitive && !all && *mention.count > 1 &&

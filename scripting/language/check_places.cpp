@@ -17,10 +17,11 @@ bool OneSentence::has_role(const Mention& mention) const {
   if (role == "of") return accessory || is_whole(mention);
   if (role == "part")
     return mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled);
-  if (role == "with") return accessory || steps_have(mention, true);
+  if (role == "with") return accessory || may_be(mention, meaning_, &SpokenThing::tool) || steps_have(mention, true);
   const Mention* object = object_of(mention);
-  if (object != nullptr && !object->by_head && object->role.starts_with("object") && !object->sense.empty())
-    return false;  // of that nothing is known
+  const bool known = object == nullptr || object->by_head ||
+                     (may_be(*object, meaning_, &SpokenThing::moved) && claims_.senses.contains(object->sense));
+  if (!known && object->role.starts_with("object") && !object->sense.empty()) return false;
   if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;
   if (role == "from")
     return may_be(mention, meaning_, hangs(mention) ? &SpokenThing::destination : &SpokenThing::source);
@@ -35,6 +36,33 @@ bool OneSentence::has_role(const Mention& mention) const {
                                                              : steps_have(mention, true))
     return true;
   return may_be(mention, meaning_, &SpokenThing::source) && takes(mention);
+}
+
+Maybe OneSentence::contained() const {
+  static const std::map<std::string, std::string> kClasses = {
+      {"on", "on"}, {"onto", "on"}, {"upon", "on"}, {"in", "in"}, {"into", "in"}, {"inside", "in"}, {"within", "in"}};
+  static const std::map<std::string, std::string> kOf = {{"put_in", "in"}, {"insert", "in"},   {"drop", "in"},
+                                                         {"place", "on"},  {"set_down", "on"}, {"lay", "on"},
+                                                         {"stack", "on"}};
+  for (const Mention& mention : reading_.mentions) {
+    const auto found = kClasses.find(mention.preposition);
+    if (found == kClasses.end() || !mention.role.starts_with("to") || mention.aside || mention.things.empty() ||
+        !may_be(mention, meaning_, &SpokenThing::destination) || vouched(reading_.segments[mention.segment]))
+      continue;
+    std::set<std::string> classes;
+    for (const Reading& own : claims_.own)
+      for (const Mention& one : own.mentions)
+        if (one.sense == mention.sense && one.role.starts_with("to") && kClasses.contains(one.preposition))
+          classes.insert(kClasses.at(one.preposition));
+    for (const PlanStep& step : meaning_.steps)
+      for (std::size_t i = 1; i < step.arguments.size(); ++i)
+        for (const std::string& name : mention.things)
+          if (kOf.contains(step.action) && (step.arguments[i] == name || step.arguments[i].starts_with(name + ".")))
+            classes.insert(kOf.at(step.action));
+    if (!classes.empty() && !classes.contains(found->second))
+      return no(Rejection::wrong_side, quoted(mention.preposition) + " the " + mention.sense);
+  }
+  return {};
 }
 
 // `go to the button and …`
@@ -73,8 +101,8 @@ bool OneSentence::steps_have(const Mention& mention, bool as_place) const {
   const std::set<std::string>& skills = meaning_.lexicon.skills_of(verb->sense);
   for (const PlanStep& step : meaning_.steps) {
     if (!skills.contains(step.action) || (as_place && kTakes.contains(step.action))) continue;
-    // Of what is pressed with a thing, the thing comes first.
-    const std::size_t handled = step.action == "press_with" ? 1 : 0;
+    // Of what is pressed or dragged with a thing, the thing comes first.
+    const std::size_t handled = step.action == "press_with" || step.action == "drag" ? 1 : 0;
     for (std::size_t i = 0; i < step.arguments.size(); ++i) {
       if ((i == handled) == as_place || (step.action == "point" && i > 1)) continue;
       for (const std::string& name : mention.things) {

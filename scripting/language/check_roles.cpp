@@ -12,8 +12,9 @@ Maybe OneSentence::roles() const {
   for (const Mention& mention : reading_.mentions) {
     if (mention.things.empty() || vouched(reading_.segments[mention.segment])) continue;
     if (mention.other) {
+      const bool place = mention.role.starts_with("to");  // `from this rail to the other one`
       const bool alike = std::any_of(meaning_.things.begin(), meaning_.things.end(), [&](const SpokenThing& one) {
-        return one.handled && one.words.contains(mention.sense);
+        return (place ? one.destination : one.handled) && one.words.contains(mention.sense);
       });
       if (!alike) return no(Rejection::other_thing, "the other " + mention.sense);
       continue;

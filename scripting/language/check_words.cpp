@@ -32,6 +32,10 @@ Maybe OneSentence::words() const {
   if (foreign > 0 || 2 * unknown > count)
     return no(Rejection::other_language, std::to_string(unknown) + " of " + std::to_string(count) + " words unknown");
   if (first != nullptr) return no(Rejection::unknown_word, quoted(first->text));
+  for (const Segment& segment : reading_.segments)
+    for (std::size_t i = segment.begin; i < segment.end; ++i)
+      if (reading_.words[i].text == "already" && !vouched(segment))
+        return no(Rejection::unproved, "what is so already");
   return {};
 }
 

@@ -120,10 +120,17 @@ std::set<std::size_t> totals_in(const Reading& reading) {
   return totals;
 }
 
-std::set<std::string> directions_in(const Reading& reading) {
+// `fold the screen back`, `turn the hand back by …`, not `put it back on the shelf`
+static bool leads_back(const Reading& reading, std::size_t i, const Segment& segment) {
+  if (!segment.verb) return false;
+  if (i + 1 < segment.end && reading.words[i + 1].text == "by") return true;
+  return i + 1 == segment.end && reading.words[*segment.verb].sense == "swing";
+}
+
+std::set<std::string> directions_in(const Reading& reading, const std::function<bool(const Segment&)>& skip) {
   std::set<std::string> directions;
   for (const Segment& segment : reading.segments) {
-    if (keeps_others(reading, segment)) continue;
+    if (keeps_others(reading, segment) || (skip && skip(segment))) continue;
     bool switches = false, puts = false;
     for (std::size_t i = segment.begin; i < segment.end; ++i) {
       const Word& word = reading.words[i];
@@ -148,9 +155,13 @@ std::set<std::string> directions_in(const Reading& reading) {
         directions.insert("out");
       if (word.text == "on" && switches) directions.insert("switch_on");
       const bool aside = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
-        return mention.aside && mention.first == i + 1;  // `bring the cube in the drawer to …`
+        const bool built = mention.things.empty() && (mention.sense == "pyramid" || mention.sense == "tower" ||
+                                                      mention.sense == "stack" || mention.sense == "pile");
+        return (mention.aside || built) && mention.first == i + 1;  // `bring the cube in the drawer to …`
       });
-      if (word.text == "into" || (word.text == "in" && puts && !aside)) directions.insert("in");
+      if (word.text == "back" && leads_back(reading, i, segment))
+        directions.insert(i + 1 < segment.end && reading.words[i + 1].text == "by" ? "backward" : "open");
+      if (!aside && (word.text == "into" || (word.text == "in" && puts))) directions.insert("in");
       if (word.text == "up" || word.text == "down") directions.insert(word.text);
       for (const auto& [one, other] : kOpposites)
         if (word.kind != WordKind::function && (word.text == one || word.text == other)) directions.insert(word.text);
@@ -229,10 +240,13 @@ Claims claims_of(const Meaning& meaning) {
   for (const Reading& reading : claims.own) {
     for (const Word& word : reading.words) {
       if (tells(word)) claims.senses.insert(word.sense);
-      if (word.kind == WordKind::verb) claims.verbs.insert(word.sense);
     }
-    for (const Segment& segment : reading.segments)
+    for (const Segment& segment : reading.segments) {
       claims.segments.insert(content_of(reading, segment.begin, segment.end));
+      if (segment.verb) claims.verbs.insert(reading.words[*segment.verb].sense);
+    }
+    claims.done.push_back(verbs_in(reading, [&](const Segment& one) { return keeps_others(reading, one); }));
+    claims.done.back().merge(directions_in(reading));
     std::vector<Mention> wanted;
     for (const Mention& mention : reading.mentions) {
       for (const auto* words : {&mention.colours, &mention.adjectives, &mention.places})

@@ -1,6 +1,7 @@
 // What the author's own sentences vouch for, gathered once for many candidates.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -25,8 +26,9 @@ std::vector<std::string> marks_in(const Reading& reading, const std::set<std::st
 
 struct Claims {
   std::vector<Reading> own;
-  std::set<std::string> senses;  // of all content words
-  std::set<std::string> verbs;
+  std::set<std::string> senses;             // of all content words
+  std::set<std::string> verbs;              // that begin a stretch
+  std::vector<std::set<std::string>> done;  // by sentence: all verbs of what is to be done, and directions
   std::set<std::pair<std::string, std::string>> attributes;  // (red, mark), (wooden, box)
   std::map<std::string, std::set<int>> counts;               // of a noun, and of `noun role`
   std::set<std::vector<std::string>> segments;               // whole stretches, as content
@@ -41,11 +43,13 @@ struct Claims {
 };
 Claims claims_of(const Meaning& meaning);
 
+std::set<std::string> verbs_in(const Reading& reading, const std::function<bool(const Segment&)>& skip);
+
 // Where things are put that `on` and `in` do not say: behind, under, beside …
 std::set<std::string> relations_in(const Reading& reading);
 // What is done, of pairs of opposites: open close, up down, in out, switch_on switch_off, push pull …
 // Not of what is to stay as it is: `leave the others shut`.
-std::set<std::string> directions_in(const Reading& reading);
+std::set<std::string> directions_in(const Reading& reading, const std::function<bool(const Segment&)>& skip = {});
 // `leave the others alone`, `keep the other two closed`
 bool keeps_others(const Reading& reading, const Segment& segment);
 // The second number of `two of the three cups`.

@@ -163,7 +163,7 @@ class QuestionMaker {
     std::string changes;
     for (const EffectRecord& effect : last->declared_effects) {
       const Predicate* predicate = told(effect.fact);
-      if (predicate == nullptr) continue;
+      if (predicate == nullptr || !came_true(effect, last->span)) continue;
       const std::string label = fill(predicate->label, predicate->parameters, effect.fact.arguments, scene_);
       changes += (changes.empty() ? "" : "; ") + (effect.negated ? "no longer: " + label : label);
     }
@@ -172,6 +172,14 @@ class QuestionMaker {
                                   "segment " + std::to_string(last->ordinal));
     question.slots["a"] = last->label;
     question.things.insert(last->arguments.begin(), last->arguments.end());
+  }
+
+  // What was so before is declared too, and is no change.
+  bool came_true(const EffectRecord& effect, const Span& span) const {
+    return std::any_of(episode_.facts.begin(), episode_.facts.end(), [&](const FactRecord& one) {
+      const std::int64_t at = effect.negated ? one.end_frame : one.first_frame;
+      return one.fact == effect.fact && at > span.first_frame && at <= span.end_frame;
+    });
   }
 
   // Left and right in the picture of the first camera that stands in the world.

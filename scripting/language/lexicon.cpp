@@ -39,7 +39,8 @@ std::vector<Stem> stems(const std::string& word) {
   if (const auto form = irregular().find(word); form != irregular().end()) all.push_back({form->second, ends("ves")});
   if (ends("ies")) all.push_back({without(3) + "y", true});
   if (ends("ves")) all.push_back({without(3) + "f", true});
-  if (ends("es")) all.push_back({without(2), true});
+  if (ends("ses") || ends("xes") || ends("zes") || ends("ches") || ends("shes") || ends("oes"))
+    all.push_back({without(2), true});
   if (ends("s") && !ends("ss")) all.push_back({without(1), true});
   for (const std::string tail : {"ing", "ed"}) {
     if (!ends(tail)) continue;
@@ -51,6 +52,9 @@ std::vector<Stem> stems(const std::string& word) {
   }
   return all;
 }
+
+// `notes` is no form of `not`.
+bool has_forms(WordKind kind) { return kind != WordKind::negation; }
 
 bool is_digits(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -136,6 +140,7 @@ const std::vector<Lexicon::Entry>* Lexicon::entries(const std::string& word, boo
   for (const Stem& stem : stems(word)) {
     const auto found = words_.find(stem.text);
     if (found == words_.end()) continue;
+    if (stem.text != word && !has_forms(found->second.front().kind)) continue;
     const bool fits =
         std::any_of(found->second.begin(), found->second.end(), [&](const Entry& one) { return one.kind == wanted; });
     if (any == nullptr || fits) plural = stem.plural;
@@ -166,6 +171,8 @@ Word Lexicon::choose(const std::string& text, const std::vector<Word>& before, c
   const bool verb_due = starts || says || last->kind == WordKind::order || last->kind == WordKind::harmless ||
                         kBeforeVerbs.contains(last->text);
   static const std::set<std::string> kLeave = {"been", "have", "has", "is", "somebody", "someone", "was", "being"};
+  if (text == "can" && (next == "you" || next == "we" || next == "i")) return word.kind = WordKind::function, word;
+  if (text == "half" && (next == "a" || next == "an")) return word.kind = WordKind::number, word;
   if (text == "left" && last != nullptr && kLeave.contains(last->text)) return word.kind = WordKind::function, word;
   std::vector<WordKind> order;
   if (noun_due)

@@ -13,6 +13,7 @@ function -: inside within through along against around across between among towa
 function -: back together if when while until because since also too still already yet else than such very just only
 function -: i you we your my our me us he she his her themselves itself yourself let make sure ensure need want use using how where way
 function -: each every any some both all several same own whole it's that's there's please please kindly now
+function -: anymore longer somewhere i'm i've
 function -: another outof i'd i'll let's
 function -: would like begin start continue proceed keep allow help try become stay so that
 function -: thing something somebody someone everything anything object item task job one's itself
@@ -42,7 +43,8 @@ number 6: six
 number 7: seven
 number 8: eight
 number 9: nine
-number 10: ten dozen
+number 10: ten
+number 12: twelve dozen
 place left: left leftmost left-hand leftward
 place right: right rightmost right-hand rightward
 place top: top upper uppermost topmost highest
@@ -97,7 +99,7 @@ noun usb: usb
 noun stick: stick
 noun port: port
 noun socket: socket outlet
-noun charger: charger
+noun charger: charger adapter
 noun pin: pin prong
 noun phone: phone handset telephone smartphone
 noun cradle: cradle dock
@@ -235,21 +237,21 @@ verb unscrew [unscrew turn]: unscrew untwist
 verb take [pick take_out take_from_shelf extract unhang unscrew lift]: take grab grasp grip get fetch collect seize retrieve pick obtain gather clutch
 verb hold [pick lift]: hold
 verb find [pick take_out reach]: find locate search look identify select choose
-verb remove [extract take_out take_from_shelf unhang pick lift]: remove extract withdraw eject unplug detach unload unpack unhook free
+verb remove [unscrew extract take_out take_from_shelf unhang pick lift]: remove extract withdraw eject unplug detach unload unpack unhook free
 verb empty []: empty
-verb lift [lift pick open]: lift raise hoist elevate
+verb lift [lift pick open take_out extract unhang]: lift raise hoist elevate
 verb lower [place set_down lay drop close open]: lower
 verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put place lay set rest deposit store stow leave return deliver transfer move bring carry tuck load pack position arrange tidy replace relocate shift dock shelve bin seat post stick stash park slip pop
 verb serve []: serve
 verb setup []: setup
-verb drop [drop put_in]: drop release throw toss
-verb insert [insert put_in place drop]: insert plug fit connect slot-in feed attach
+verb drop [drop put_in insert hang]: drop release throw toss fall falls
+verb insert [insert put_in place drop hang]: insert plug fit connect slot-in feed attach
 verb stack [stack place put_in insert]: nest stack pile heap
 verb build [stack place]: build construct assemble create form make
-verb hang [hang]: hang suspend dangle
+verb hang [hang]: hang suspend dangle hook
 verb press [press press_with push]: press depress tap click hit
 verb pull [open close take_out extract drag pick]: pull draw tug yank
-verb slide [open close insert push drag put_in]: slide
+verb slide [open close insert push drag put_in unhang hang place]: slide
 verb swing [open close]: swing fold tilt flip
 verb push [push close press press_with insert put_in]: push shove nudge
 verb drag [drag]: drag sweep
@@ -284,8 +286,8 @@ const char* const kPhraseText = R"(
 get rid of=remove
 set the table=serve the table
 lay the table=serve the table
-take hold of=take
-get hold of=take
+take hold of=hold
+get hold of=hold
 keep hold of=hold
 let go=drop
 let go of=drop
@@ -306,6 +308,8 @@ out of=outof
 away from=outof
 one of=1 of
 right side up=upright
+face down=facedown
+upside down=upsidedown
 at once=quickly
 dark blue=navy
 dark-blue=navy
@@ -336,6 +340,10 @@ i'd like=i want
 would like=want
 right now=now
 as well=also
+any more=anymore
+no longer=not longer
+would you mind=please
+do you mind=please
 )";
 
 }  // namespace stampede

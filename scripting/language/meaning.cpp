@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::int64_t kStarts = 4;  // what differs among so many is not said of a variation
 
+const std::set<std::string> kWithTool = {"press_with", "drag", "point"};  // their first argument
 const std::set<std::string> kMoves = {"lift", "drag", "push", "unscrew"};
 
 std::vector<std::string> name_words(std::string name) {
@@ -136,9 +137,24 @@ std::string skill_of(const Domain& domain, const std::string& action) {
   return found == nullptr ? action : found->skill;
 }
 
+// Of the remote that is picked up, one button is pressed: the others have no part in it.
+void leave_out_siblings(const std::set<std::string>& direct, Meaning& meaning) {
+  const auto whole_of = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
+  for (SpokenThing& thing : meaning.things) {
+    if (direct.contains(thing.name) || thing.name.find('.') == std::string::npos) continue;
+    const bool beside = std::any_of(meaning.things.begin(), meaning.things.end(), [&](const SpokenThing& other) {
+      return direct.contains(other.name) && whole_of(other.name) == whole_of(thing.name) &&
+             std::any_of(thing.heads.begin(), thing.heads.end(),
+                         [&](const std::string& head) { return other.heads.contains(head); });
+    });
+    if (beside) thing.wanted = thing.handled = thing.source = thing.destination = false;
+  }
+}
+
 // `assumed`: of what nobody can see; what a plan does because of it is not said.
 void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, const Formula& goal, Meaning& meaning) {
   RoleMarker roles(meaning);
+  std::set<std::string> direct;  // named by the goal or the plan, not as parts
   std::vector<Fact> atoms;
   atoms_of(goal, atoms);
   for (const Fact& atom : atoms)
@@ -146,8 +162,10 @@ void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, 
       for (std::size_t i = 0; i < atom.arguments.size(); ++i) {
         roles.mark(atom.arguments[i], &SpokenThing::wanted);
         roles.mark(atom.arguments[i], i == 0 ? &SpokenThing::handled : &SpokenThing::destination);
+        direct.insert(atom.arguments[i]);
       }
   std::set<std::string> guessed, carried, sources, destinations;
+  for (const PlanStep& step : meaning.steps) direct.insert(step.arguments.begin(), step.arguments.end());
   for (const Fact& fact : assumed)
     for (std::size_t i = 1; i < fact.arguments.size(); ++i) {
       guessed.insert(fact.arguments[i]);
@@ -163,6 +181,9 @@ void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, 
       if (!guessed.contains(name)) roles.mark(name, &SpokenThing::wanted);
     if (step.arguments.empty()) continue;
     roles.mark(step.arguments.front(), &SpokenThing::handled);
+    if (kWithTool.contains(step.action)) roles.mark(step.arguments.front(), &SpokenThing::tool);
+    if (step.action == "drag" && step.arguments.size() > 1)
+      roles.mark(step.arguments[1], &SpokenThing::moved), carried.insert(step.arguments[1]);
     const bool takes = kTakes.contains(step.action);
     if (takes || kPuts.contains(step.action) || kMoves.contains(step.action))
       roles.mark(step.arguments.front(), &SpokenThing::moved), carried.insert(step.arguments.front());
@@ -172,6 +193,7 @@ void read_roles(const Domain& domain, const Facts& facts, const Facts& assumed, 
         (takes ? sources : destinations).insert(step.arguments[i]);
       }
   }
+  leave_out_siblings(direct, meaning);
   // A door's handle: a part beside what is handled, of another kind.
   for (SpokenThing& thing : meaning.things) {
     const std::size_t dot = thing.name.rfind('.');
@@ -206,22 +228,15 @@ Scene drawn_scene(const std::shared_ptr<const Library>& library, const std::stri
   return EpisodeScripts(library, task, variation, seed).task()(0).scene;
 }
 
-}  // namespace
-
-std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& library, const std::string& task) {
-  std::vector<OwnSentences> all;
-  for (const std::string& variation : task_info(*library, task).variation_texts)
-    all.push_back({variation, EpisodeScripts(library, task, variation, 0).task()(0).instructions});
-  return all;
-}
-
-Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
-                   std::int64_t seed, const std::vector<OwnSentences>& all) {
+// What is to be done at a start of the variation; `goal`: instead of the task's.
+Meaning meaning_at_start(const std::shared_ptr<const Library>& library, const std::string& task,
+                         const std::string& variation, std::int64_t seed, const std::optional<Formula>& goal) {
   Meaning meaning;
   meaning.task = task;
   meaning.variation = variation;
   RunOptions options;
   options.seed = seed;
+  options.goal = goal;
   PreparedEpisode prepared(library, {task, variation, seed}, options);
   const StartQuestion question = question_at_start(prepared.scripts(), prepared.options(), nullptr);
   const std::string place = task + (variation.empty() ? "" : " " + variation);
@@ -238,12 +253,52 @@ Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::str
   meaning.goal = to_pddl(question.plain.goal);
   meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
   meaning.facts = describe_world(question.state.facts, domain, *question.start.scene);
+  return meaning;
+}
+
+}  // namespace
+
+std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& library, const std::string& task) {
+  std::vector<OwnSentences> all;
+  for (const std::string& variation : task_info(*library, task).variation_texts) {
+    Task drawn = EpisodeScripts(library, task, variation, 0).task()(0);
+    std::erase_if(drawn.subgoals, [](const Subgoal& one) { return one.sentence.empty(); });
+    all.push_back({variation, std::move(drawn.instructions), std::move(drawn.subgoals)});
+  }
+  return all;
+}
+
+Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
+                   std::int64_t seed, const std::vector<OwnSentences>& all) {
+  Meaning meaning = meaning_at_start(library, task, variation, seed, {});
   for (const OwnSentences& one : all) {
     if (one.variation == variation)
       meaning.own = one.sentences;
     else
       meaning.elsewhere.push_back(one);
   }
+  learn_sentences(meaning);
+  return meaning;
+}
+
+Meaning meaning_of_subgoal(const std::shared_ptr<const Library>& library, const std::string& task,
+                           const std::string& variation, const std::string& name, std::int64_t seed,
+                           const std::vector<OwnSentences>& all) {
+  std::optional<Formula> goal;
+  std::vector<std::string> own;
+  std::vector<OwnSentences> elsewhere;
+  for (const OwnSentences& one : all)
+    for (const Subgoal& subgoal : one.subgoals) {
+      if (one.variation == variation && subgoal.name == name)
+        goal = subgoal.formula, own = {subgoal.sentence};
+      else
+        elsewhere.push_back({subgoal_key(subgoal.name, one.variation), {subgoal.sentence}});
+    }
+  if (!goal) throw Error(task, "there is no subgoal '" + name + "' with a sentence");
+  Meaning meaning = meaning_at_start(library, task, variation, seed, goal);
+  meaning.own = std::move(own);
+  std::erase_if(elsewhere, [&](const OwnSentences& one) { return one.sentences == meaning.own; });
+  meaning.elsewhere = std::move(elsewhere);
   learn_sentences(meaning);
   return meaning;
 }
@@ -290,6 +345,13 @@ std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library
         std::any_of(all.begin(), all.end(), [&](const OwnSentences& one) { return one.variation == of; });
     if (!there) return std::nullopt;
     return meaning_of(library, task, of, seed, all);
+  }
+  if (level == LanguageLevel::subgoal) {
+    for (const OwnSentences& one : all)
+      for (const Subgoal& subgoal : one.subgoals)
+        if (subgoal_key(subgoal.name, one.variation) == of)
+          return meaning_of_subgoal(library, task, one.variation, subgoal.name, seed, all);
+    return std::nullopt;
   }
   const std::map<std::string, std::string> labels = labels_of(*library, level);
   const auto label = labels.find(of);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/episode/interfaces.h"
 #include "engine/episode/record.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/language/lexicon.h"
@@ -29,19 +30,21 @@ struct SpokenThing {
   bool handled = false;                      // a step is about it: pressed, opened, carried …
   bool moved = false;                        // the plan carries it somewhere
   bool accessory = false;                    // a part that helps: the handle of what is opened
+  bool tool = false;                         // with which something else is handled
   bool source = false, destination = false;  // of what is moved
 };
 
-// The sentences of one of the task's variations.
+// The sentences of one of the task's variations, or of one of its subgoals.
 struct OwnSentences {
   std::string variation;
   std::vector<std::string> sentences;
+  std::vector<Subgoal> subgoals = {};  // of the variation, those that have a sentence
 };
 
 struct Meaning {
   std::string task, variation;          // of a skill's or predicate's label: its name, and nothing
   std::vector<std::string> own;         // the author's sentences
-  std::vector<OwnSentences> elsewhere;  // of the other variations
+  std::vector<OwnSentences> elsewhere;  // of the other variations; of a subgoal: of the other ones
   std::vector<SpokenThing> things;
   Plan steps;                      // what does it; empty where nothing has to be done
   std::set<std::string> skills;    // of the steps
@@ -63,6 +66,11 @@ std::vector<OwnSentences> sentences_of(const std::shared_ptr<const Library>& lib
 Meaning meaning_of(const std::shared_ptr<const Library>& library, const std::string& task, const std::string& variation,
                    std::int64_t seed, const std::vector<OwnSentences>& all);
 
+// Of a part of the variation's goal, from the same start: its own sentence is what the author says of it.
+Meaning meaning_of_subgoal(const std::shared_ptr<const Library>& library, const std::string& task,
+                           const std::string& variation, const std::string& name, std::int64_t seed,
+                           const std::vector<OwnSentences>& all);
+
 // Of a label with slots, such as a skill's `pick up the {obj}`; `skill`: whose it is, or empty.
 Meaning meaning_of_label(const std::string& name, const std::string& label, const std::string& skill);
 
@@ -70,7 +78,8 @@ Meaning meaning_of_label(const std::string& name, const std::string& label, cons
 // kinds of motions.
 std::map<std::string, std::string> labels_of(const Library& library, LanguageLevel level);
 
-// Of either: `of` is a variation at level task, else a name of labels_of. Nothing where there is none of that name.
+// Of any: `of` is a variation at level task, a subgoal_key at level subgoal, else a name of labels_of. Nothing where
+// there is none of that name.
 std::optional<Meaning> meaning_for(const std::shared_ptr<const Library>& library, const std::string& task,
                                    LanguageLevel level, const std::string& of, std::int64_t seed,
                                    const std::vector<OwnSentences>& all);

@@ -41,6 +41,7 @@ class OneSentence {
   std::set<std::size_t> beside() const;
   bool within(const Mention& mention, const Segment& segment) const;
   Maybe denials() const;
+  bool denies_start(const Segment& segment) const;
   // `spare the tomatoes`: things that have no part in it
   bool spares_idle(const Segment& segment) const;
   Maybe slots() const;
@@ -52,6 +53,7 @@ class OneSentence {
   // Lifting ends in the air, above the table.
   bool lifts() const;
   bool rises() const;
+  bool swings() const;
   // How many there are of what a noun names, and how many of these are handled.
   std::pair<int, int> all_and_handled(const std::string& sense) const;
   // Those that count nothing that is named. Of what is left alone: how many there are.
@@ -76,6 +78,8 @@ class OneSentence {
   // `take the handle`, `go to the button`: on the way to what is done
   bool takes_part(const Segment& segment) const;
   Maybe actions() const;
+  Maybe ends() const;
+  Maybe undone() const;
   bool planned(const std::string& direction) const;
   // What each thing is in the sentence (what is handled, where to, where from) must be what it is in the plan, or in a
   // sentence of the author.
@@ -91,6 +95,8 @@ class OneSentence {
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const;
   bool has_role(const Mention& mention) const;
+  // `put the bottle on the fridge` for in it
+  Maybe contained() const;
   // `go to the button and …`
   bool arrives(const Mention& mention) const;
   bool shows(const Mention& mention) const;

@@ -1,6 +1,7 @@
 // From characters to words: typography, possessives, and phrases of several words that are one.
 #include <algorithm>
 #include <array>
+#include <set>
 #include <sstream>
 
 #include "scripting/language/lexicon.h"
@@ -78,6 +79,21 @@ std::vector<PlainWord> with_phrases(const std::vector<PlainWord>& words) {
   return result;
 }
 
+// `give the button a push`: push the button
+std::vector<PlainWord> without_giving(std::vector<PlainWord> words) {
+  static const std::set<std::string> kDone = {"push", "shove", "pull", "twist", "press", "turn", "tap", "nudge", "tug"};
+  for (std::size_t i = 0; i + 3 < words.size(); ++i) {
+    if (words[i].text != "give" && words[i].text != "giving") continue;
+    for (std::size_t k = i + 2; k + 1 < words.size() && words[k].before == ' '; ++k) {
+      if (words[k].text != "a" || words[k + 1].before != ' ' || !kDone.contains(words[k + 1].text)) continue;
+      words[i].text = words[k + 1].text;
+      words.erase(words.begin() + static_cast<std::ptrdiff_t>(k), words.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+      break;
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 std::vector<std::string> words_in(const std::string& text) {
@@ -113,7 +129,7 @@ std::vector<PlainWord> plain_words(std::string_view sentence) {
       before = c == '!' || c == '?' ? '.' : c == '(' || c == ')' ? ',' : c;
   }
   end_word();
-  return with_phrases(words);
+  return with_phrases(without_giving(std::move(words)));
 }
 
 }  // namespace stampede

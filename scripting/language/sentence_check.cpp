@@ -16,9 +16,10 @@ constexpr std::array<std::string_view, 21> kRejections = {
 }  // namespace
 
 Verdict OneSentence::check() const {
-  for (const auto part : {&OneSentence::form, &OneSentence::words, &OneSentence::denials, &OneSentence::slots,
-                          &OneSentence::marks, &OneSentence::mentions, &OneSentence::coverage, &OneSentence::actions,
-                          &OneSentence::roles, &OneSentence::order, &OneSentence::steps})
+  for (const auto part :
+       {&OneSentence::form, &OneSentence::words, &OneSentence::denials, &OneSentence::slots, &OneSentence::marks,
+        &OneSentence::mentions, &OneSentence::coverage, &OneSentence::actions, &OneSentence::roles,
+        &OneSentence::contained, &OneSentence::order, &OneSentence::ends, &OneSentence::undone, &OneSentence::steps})
     if (Maybe bad = (this->*part)()) return *bad;
   return {};
 }

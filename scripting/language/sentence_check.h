@@ -35,7 +35,7 @@ enum class Rejection {
   swapped_roles,  // the drawer into the cube
   swapped_order,
   negated,
-  misses_steps,    // the grain asks for more
+  misses_steps,    // the grain asks for more, or it ends before the goal
   near_duplicate,  // of the author's, or of one that was taken
   asked_back,      // the model did not know its own sentence again
   no_answer,       // the model gave none that can be read

@@ -132,6 +132,7 @@ class LibraryBuilder {
                            const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups);
   void check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line);
   void check_instructions(const Definition& definition, const Value& texts, const Value& variation);
+  void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 
   std::vector<Error>& complaints_;
   std::shared_ptr<Library> library_;

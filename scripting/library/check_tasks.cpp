@@ -136,6 +136,9 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
   }
   check_task_formulas(definition, fields, objects, groups);
   if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
+  if (fields.contains("subgoals"))
+    for (const Value& one : fields["subgoals"].items)
+      if (one.items.size() > 2) check_slots(definition, "subgoals", one.items[2].text, variation);
 }
 
 void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Value>& fields,
@@ -210,8 +213,10 @@ void LibraryBuilder::check_task_formulas(const Definition& definition, const std
     where.field = field;
     std::vector<const Value*> formulas;
     if (field == std::string_view("goal")) formulas.push_back(&found->second);
-    for (const auto& [name, formula] : found->second.fields) {
-      if (field == std::string_view("subgoals")) formulas.push_back(&formula);
+    if (field == std::string_view("subgoals")) {
+      for (const auto& [name, formula] : found->second.fields) formulas.push_back(&formula);
+      for (const Value& one : found->second.items)
+        if (one.items.size() > 1) formulas.push_back(&one.items[1]);
     }
     for (const Value* formula : formulas) {
       guarded([&] {
@@ -299,24 +304,24 @@ void LibraryBuilder::check_arguments(const Definition& definition, const Formula
 }
 
 void LibraryBuilder::check_instructions(const Definition& definition, const Value& texts, const Value& variation) {
-  std::vector<std::string> axes;
-  collect_variables(variation, axes);
   std::vector<std::string> all;
   if (texts.is_text()) all.push_back(texts.text);
   for (const Value& text : texts.items) all.push_back(text.text);
   if (all.empty()) complain(definition, "instructions", "at least one sentence is needed", "instructions = { \"…\" }");
-  for (const std::string& text : all) {
-    for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
-      const std::size_t close = text.find('}', open);
-      if (close == std::string::npos) {
-        complain(definition, "instructions", "a { without } in \"" + text + "\"");
-        break;
-      }
-      const std::string name = text.substr(open + 1, close - open - 1);
-      if (std::find(axes.begin(), axes.end(), name) == axes.end()) {
-        complain(definition, "instructions", "there is no axis '" + name + "'", did_you_mean(name, axes));
-      }
-    }
+  for (const std::string& text : all) check_slots(definition, "instructions", text, variation);
+}
+
+// `stack {height} blocks`: of the variation's axes.
+void LibraryBuilder::check_slots(const Definition& definition, const char* field, const std::string& text,
+                                 const Value& variation) {
+  std::vector<std::string> axes;
+  collect_variables(variation, axes);
+  for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) return complain(definition, field, "a { without } in \"" + text + "\"");
+    const std::string name = text.substr(open + 1, close - open - 1);
+    if (std::find(axes.begin(), axes.end(), name) == axes.end())
+      complain(definition, field, "there is no axis '" + name + "'", did_you_mean(name, axes));
   }
 }
 

@@ -25,8 +25,11 @@ const Record kTask{
      {"also", "function", false, "", "", "function(w): a further test beside the goal"},
      {"fails", "function", false, "", "", "function(w): true ends the episode as failed"},
      {"reward", "function", false, "", "", "function(w): a shaped reward, added to 1 at success"},
-     {"subgoals", "table", false, "{}", "", "formulas by name, or a list of { \"name\", formula } in order",
-      "{ open_it = is.open(\"chest.top_drawer\") }", true},
+     {"subgoals", "table", false, "{}", "",
+      "formulas by name, or a list in order of { \"name\", formula } or { \"name\", formula, \"sentence\" }; {axis} in "
+      "it is "
+      "the variation's value",
+      "{ { \"open_it\", is.open(\"chest.top_drawer\"), \"open the drawer\" } }", true},
      {"horizon", "number", false, "120", "s", "the longest an episode may take", "60", true},
      {"observe", "observe", false, "{}", "", "pictures and sensors to record; goes before the world's, field by field"},
      {"hold", "number", false, "1.0", "s", "for how long the goal must stay true at the end", "0.2", true},

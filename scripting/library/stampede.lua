@@ -15,7 +15,7 @@
 ---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal
 ---@field fails? (fun(w: stampede.world_view): any)  function(w): true ends the episode as failed
 ---@field reward? (fun(w: stampede.world_view): any)  function(w): a shaped reward, added to 1 at success
----@field subgoals? table|fun(v: table<string, any>): any  formulas by name, or a list of { "name", formula } in order (default {})
+---@field subgoals? table|fun(v: table<string, any>): any  formulas by name, or a list in order of { "name", formula } or { "name", formula, "sentence" }; {axis} in it is the variation's value (default {})
 ---@field horizon? number|fun(v: table<string, any>): any  the longest an episode may take [s] (default 120)
 ---@field observe? stampede.observe  pictures and sensors to record; goes before the world's, field by field (default {})
 ---@field hold? number|fun(v: table<string, any>): any  for how long the goal must stay true at the end [s] (default 1.0)

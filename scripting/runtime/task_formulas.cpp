@@ -60,20 +60,23 @@ void TaskReader::read_goal() {
 // Named formulas in the order in which they are written: a table of names has none of its own, lines do.
 void TaskReader::read_subgoals() {
   if (!push_field("subgoals")) return;
-  const Value subgoals = value_as_written(state_, -1, file_.shown_path + ": subgoals");
+  const std::string place = file_.shown_path + ": subgoals";
+  const Value subgoals = value_as_written(state_, -1, place);
   lua_pop(state_, 1);
+  const auto add = [&](const std::string& name, const Value& formula, std::string sentence) {
+    if (name.find_first_of(" \t\n") != std::string::npos)
+      throw Error(place, "'" + name + "' is no name: it has blanks", "put _ in their place");
+    drawn_.task.subgoals.push_back({name, formula_from(formula, context_of("subgoals." + name)), std::move(sentence)});
+  };
   std::vector<std::pair<int, std::string>> order;
   for (const auto& [name, node] : subgoals.fields) order.emplace_back(node.line(), name);
   std::sort(order.begin(), order.end());
-  for (const auto& [line, name] : order) {
-    drawn_.task.subgoals.emplace_back(name, formula_from(subgoals[name], context_of("subgoals." + name)));
-  }
-  for (const Value& pair : subgoals.items) {  // { { "open_it", is.open(…) }, … }
-    if (pair.items.size() != 2 || !pair.items[0].is_text()) {
-      throw Error(file_.shown_path + ": subgoals", "expected { \"name\", formula }");
-    }
-    const std::string& name = pair.items[0].text;
-    drawn_.task.subgoals.emplace_back(name, formula_from(pair.items[1], context_of("subgoals." + name)));
+  for (const auto& [line, name] : order) add(name, subgoals[name], "");
+  for (const Value& one : subgoals.items) {  // { { "open_it", is.open(…), "open the drawer" }, … }
+    const bool said = one.items.size() == 3 && one.items[2].is_text();
+    if ((one.items.size() != 2 && !said) || !one.items[0].is_text())
+      throw Error(place, "expected { \"name\", formula } or { \"name\", formula, \"sentence\" }");
+    add(one.items[0].text, one.items[1], said ? filled(one.items[2].text) : "");
   }
 }
 

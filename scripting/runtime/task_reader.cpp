@@ -12,22 +12,6 @@
 namespace stampede {
 namespace {
 
-// `stack {height} {colour} blocks` with the axes' values for their names.
-std::string filled(const std::string& text, const std::map<std::string, std::string>& axes) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = text[i] == '{' ? text.find('}', i) : std::string::npos;
-    const auto axis = end == std::string::npos ? axes.end() : axes.find(text.substr(i + 1, end - i - 1));
-    if (axis == axes.end()) {
-      result += text[i++];
-      continue;
-    }
-    for (const char c : axis->second) result += c == '_' ? ' ' : c;
-    i = end + 1;
-  }
-  return result;
-}
-
 // An entry's fields replace the file's; its attributes and numbers are added to the file's. What `place` holds goes
 // where the entry's own at, yaw, rpy and quaternion would be: so one draw can choose all of them.
 Value overlaid(Value file, const Value& entry) {
@@ -328,10 +312,26 @@ void TaskReader::place_clutter() {
   for (const std::string& name : drawn_.task.clutter) drawn_.task.init.push_back({{"on", {name, widest->name}}, false});
 }
 
+// `stack {height} {colour} blocks` with the axes' values for their names.
+std::string TaskReader::filled(const std::string& text) const {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = text[i] == '{' ? text.find('}', i) : std::string::npos;
+    const auto axis = end == std::string::npos ? axes_.end() : axes_.find(text.substr(i + 1, end - i - 1));
+    if (axis == axes_.end()) {
+      result += text[i++];
+      continue;
+    }
+    for (const char c : axis->second) result += c == '_' ? ' ' : c;
+    i = end + 1;
+  }
+  return result;
+}
+
 void TaskReader::read_instructions() {
   const Value value = field("instructions");
   if (!value.present()) return;
-  for (const std::string& text : value.as_texts()) drawn_.task.instructions.push_back(filled(text, axes_));
+  for (const std::string& text : value.as_texts()) drawn_.task.instructions.push_back(filled(text));
 }
 
 }  // namespace stampede

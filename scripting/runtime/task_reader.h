@@ -37,6 +37,7 @@ class TaskReader {
   void read_subgoals();
   void read_steps();
   void read_instructions();
+  std::string filled(const std::string& text) const;
 
   ObjectSource source_of(const Value& spec, const std::string& name, const std::string& path);
   Value definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where);

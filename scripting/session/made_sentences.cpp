@@ -14,13 +14,19 @@ LanguageRecord row_of(const MadeSentence& sentence, std::string text, int segmen
           .model = sentence.model};
 }
 
+bool is_of(const MadeSentence& one, const std::string& variation) {
+  if (one.level == LanguageLevel::task) return one.of == variation;
+  if (one.level == LanguageLevel::subgoal) return one.of == subgoal_key(one.of.substr(0, one.of.find(' ')), variation);
+  return true;
+}
+
 }  // namespace
 
 std::shared_ptr<const std::vector<MadeSentence>> sentences_for(const std::vector<MadeSentence>& all,
                                                                const std::string& variation) {
   auto ours = std::make_shared<std::vector<MadeSentence>>();
   for (const MadeSentence& one : all)
-    if (one.level != LanguageLevel::task || one.of == variation) ours->push_back(one);
+    if (is_of(one, variation)) ours->push_back(one);
   return ours;
 }
 
@@ -38,6 +44,9 @@ void add_sentences(const std::vector<MadeSentence>& sentences, const Library& li
     }
     const SkillInfo* skill = one.level == LanguageLevel::skill ? library.skill(one.of) : nullptr;
     for (const SegmentRecord& segment : record.segments) {
+      if (one.level == LanguageLevel::subgoal && segment.kind == SegmentKind::subgoal &&
+          one.of == subgoal_key(segment.skill, record.variation))
+        record.language.push_back(row_of(one, one.text, segment.ordinal));
       if (segment.skill != one.of) continue;
       if (skill != nullptr && segment.kind == SegmentKind::skill)
         record.language.push_back(

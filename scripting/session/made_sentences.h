@@ -10,12 +10,12 @@
 
 namespace stampede {
 
-// Those of the variation, and those with slots.
+// Those of the variation and of its subgoals, and those with slots.
 std::shared_ptr<const std::vector<MadeSentence>> sentences_for(const std::vector<MadeSentence>& all,
                                                                const std::string& variation);
 
-// Slots are filled with what things are called at the start. Of a skill or motion: one row a segment; of a predicate:
-// one row a fact that holds at the start.
+// Slots are filled with what things are called at the start. Of a subgoal, skill or motion: one row a segment; of a
+// predicate: one row a fact that holds at the start.
 void add_sentences(const std::vector<MadeSentence>& sentences, const Library& library, EpisodeRecord& record);
 
 }  // namespace stampede

@@ -1,5 +1,6 @@
 // Sentences of a model through the program: asked, checked, asked back, stored, resumed; in episodes; in questions.
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -82,6 +83,74 @@ TEST_CASE("a model is asked, its sentences are checked, asked back, stored, and 
                          "SELECT DISTINCT text FROM language WHERE source = 'model' ORDER BY text"});
   INFO(rows.out + rows.err);
   CHECK(says(rows.out, "Could you tap the maroon button"));
+}
+
+TEST_CASE("subgoals have sentences: the author's and a model's, each beside its segment") {
+  const Folder folder;
+  std::string text = file_text(std::string(kRoot) + "/tasks/push_buttons.lua");
+  const std::string at = "  instructions =";
+  text.insert(text.find(at),
+              "  subgoals = function(v) return { { \"first_one\", is.pressed(\"button1.cap\"), \"push the {first} "
+              "button\" } } end,\n");
+  put(folder, "tasks/press_all.lua", text);
+  const auto mine = [&](std::vector<std::string> words) {
+    for (const std::string& word : {std::string("--root"), std::string(kRoot), std::string("--path"), folder.text()})
+      words.push_back(word);
+    return say(words);
+  };
+  const Said listed = mine({"list", "press_all", "--json"});
+  const std::size_t begin = listed.out.find("count=");
+  const std::string first = listed.out.substr(begin, listed.out.find('"', begin) - begin);
+  const auto library = Library::load({{kRoot, folder.text()}});
+  const Meaning meaning =
+      meaning_of_subgoal(library, "press_all", first, "first_one", 0, sentences_of(library, "press_all"));
+  const std::string colour = meaning.own.front().substr(9, meaning.own.front().find(" button") - 9);
+  const stub::Server server([&](int, const std::string& body) {
+    if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};
+    return stub::Reply{stub::chat("Could you tap the " + colour + " button?\nPush the white button\nDo not push the " +
+                                  colour + " button")};
+  });
+  const Said asked = mine({"paraphrase", "press_all", "--level", "subgoal", "--variation", first, "--url", server.url(),
+                           "--model", "small", "--count", "3", "--retries", "0", "--json"});
+  INFO(asked.out + asked.err);
+  REQUIRE(asked.code == kDone);
+  CHECK(nlohmann::json::parse(asked.out)["passed"] == 1);
+  CHECK(checked(folder).code == kDone);
+  REQUIRE(mine({"run", "press_all", "--variation", first, "--sentences", "--out", folder / "p.db"}).code == kDone);
+  const Said rows = say({"query", folder / "p.db", "--json",
+                         "SELECT l.text, l.source, s.kind FROM language l JOIN segment s ON s.episode = l.episode AND "
+                         "s.ordinal = l.segment WHERE l.level = 'subgoal' ORDER BY l.source"});
+  INFO(rows.out + rows.err);
+  CHECK(says(rows.out, "push the " + colour + " button"));
+  CHECK(says(rows.out, "Could you tap the " + colour + " button"));
+  const Said none = mine({"paraphrase", "close_box", "--level", "subgoal", "--dry-run"});
+  CHECK(none.code == kBadInput);
+  CHECK(says(none.err, "no subgoals with a sentence"));
+}
+
+TEST_CASE("Ctrl-C ends paraphrase, and what is done is kept") {
+  const Mine mine;
+  const auto library = Library::load({{kRoot}});
+  const Meaning meaning = meaning_of(library, "push_button", kVariation, 0, sentences_of(library, "push_button"));
+  std::atomic<bool> stop = false;
+  const stub::Server server([&](int n, const std::string& body) {
+    if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};
+    if (n < 2) return stub::Reply{stub::chat("Could you tap the maroon button?")};
+    stop = true;
+    return stub::Reply{stub::chat("I want the maroon button pushed down"), 5};
+  });
+  std::ostringstream out, err;
+  Console console{out, err, false, false, 100, &stop};
+  const std::vector<std::string> words = {"paraphrase", "press_it", "--variation", kVariation, "--grain",
+                                          "goal",       "--grain",  "steps",       "--url",    server.url(),
+                                          "--model",    "small",    "--count",     "1",        "--retries",
+                                          "0",          "--root",   kRoot,         "--path",   mine.folder.text()};
+  CHECK(run_program(all_commands(), words, console) == kNo);
+  INFO(out.str() + err.str());
+  CHECK(says(err.str(), "interrupted: what is done is kept"));
+  const nlohmann::json kept = nlohmann::json::parse(file_text(mine.file()));
+  CHECK(kept["sentences"].size() == 1);
+  CHECK(kept["asked"].size() == 1);
 }
 
 TEST_CASE("questions about stored pictures name their camera, hold by the catalogue's facts, and come out the same") {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
+#include <sstream>
 
+#include "engine/episode/language.h"
 #include "scripting/language/frame_questions.h"
 #include "scripting/session/episode_job.h"
 #include "scripting/session/made_sentences.h"
@@ -57,6 +59,63 @@ TEST_CASE("sentences are part of the key, and only those of the variation") {
   CHECK(key(with_sentences(others)) == key(with_sentences(kMade)));
   others[0].text = "press what is maroon";
   CHECK(key(with_sentences(others)) != key(with_sentences(kMade)));
+}
+
+TEST_CASE("what a skill is said to have changed came true or ended while it ran") {
+  const Scene scene = scene_from_document(episode().scene_document);
+  const Domain& domain = shipped::library()->domain_of(kJob.task);
+  int asked = 0;
+  for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(episode().frames.size()); frame += 10)
+    for (const FrameQuestion& one : questions_about(episode(), domain, scene, frame)) {
+      if (one.type != "changed") continue;
+      ++asked;
+      const SegmentRecord& segment = episode().segments.at(std::stoul(one.proof.substr(one.proof.find(' ') + 1)));
+      CHECK(segment.span.end_frame <= frame);
+      std::set<std::string> changes;
+      for (const FactRecord& fact : episode().facts)
+        for (const bool ends : {false, true}) {
+          const std::int64_t at = ends ? fact.end_frame : fact.first_frame;
+          if (at <= segment.span.first_frame || at > segment.span.end_frame) continue;
+          const Predicate& predicate = *domain.predicate(fact.fact.predicate);
+          changes.insert((ends ? "no longer: " : "") +
+                         fill(predicate.label, predicate.parameters, fact.fact.arguments, scene));
+        }
+      std::istringstream parts(one.answer);
+      for (std::string part; std::getline(parts, part, ';');) {
+        INFO(part << " of " << one.answer);
+        CHECK(changes.contains(part.substr(part.find_first_not_of(' '))));
+      }
+    }
+  CHECK(asked > 0);
+}
+
+TEST_CASE("what is said to be left of another is so in the picture") {
+  const EpisodeJob job{"stack_blocks", shipped::library()->task("stack_blocks")->variation_texts.front(), 3};
+  PreparedEpisode prepared(shipped::library(), job, {});
+  const EpisodeRecord record = prepared.run(nullptr);
+  const Scene scene = scene_from_document(record.scene_document);
+  const std::int64_t frame = 5;
+  int yes = 0, no = 0;
+  for (const FrameQuestion& one : questions_about(record, shipped::library()->domain_of(job.task), scene, frame)) {
+    if (one.type != "side") continue;
+    const auto camera = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                     [&](const Camera& each) { return each.name == one.camera; });
+    REQUIRE(camera != scene.cameras.end());
+    const auto column = [&](const std::string& slot) {
+      for (std::size_t i = 0; i < record.posed.size(); ++i)
+        if (scene.object(record.posed[i]) != nullptr && phrase(scene, record.posed[i]) == one.slots.at(slot)) {
+          const Pose& pose = record.frames[frame].object_pose[i];
+          const Vector3 seen = camera->mount_from_camera.inverse() * to_transform(pose).translation();
+          return camera->centre_x + camera->focal_x * seen.x() / seen.z();
+        }
+      FAIL("nothing is called " << one.slots.at(slot));
+      return 0.0;
+    };
+    CHECK((column("a") < column("b")) == (one.answer == "yes"));
+    (one.answer == "yes" ? yes : no) += 1;
+  }
+  CHECK(yes > 0);
+  CHECK(no > 0);
 }
 
 TEST_CASE("answers about frames are true, and yes as often as no") {

@@ -166,6 +166,13 @@ TEST_CASE("golden: names") {
             .find("type: there is no type 'cubes'\n    did you mean 'cube'?") != std::string::npos);
   CHECK(said("worlds/objects/cube.lua", "\"movable\"", "\"movble\"")
             .find("there is no trait 'movble'\n    did you mean 'movable'?") != std::string::npos);
+  const std::string parts =
+      said("tasks/take.lua", "  goal =", "  subgoals = { { \"it\", is.holding(\"lon\"), \"take {m}\" } },\n  goal =");
+  INFO(parts);
+  CHECK(parts.find("subgoals: there is no axis 'm'\n    did you mean 'n'?") != std::string::npos);
+  CHECK(parts.find("'lon'") != std::string::npos);
+  CHECK(said("tasks/take.lua", "  goal =", "  subgoals = { { \"two words\", is.holding(\"lone\") } },\n  goal =") ==
+        "");
   CHECK(said("tasks/take.lua", "{n}", "{m}").find("instructions: there is no axis 'm'\n    did you mean 'n'?") !=
         std::string::npos);
 }

@@ -185,10 +185,20 @@ TEST_CASE("fields that are functions of the variation, sentences, and subgoals i
   CHECK(task.axes == std::map<std::string, std::string>{{"colour", "red"}, {"height", "3"}});
   CHECK(task.instructions == std::vector<std::string>{"stack 3 red blocks", "a tower of 3"});
   REQUIRE(task.subgoals.size() == 2);
-  CHECK(task.subgoals[0].first == "zebra");
-  CHECK(task.subgoals[0].second == atom("holding", {{false, "mini.hand"}, {false, "block1"}}));
+  CHECK(task.subgoals[0].name == "zebra");
+  CHECK(task.subgoals[0].formula == atom("holding", {{false, "mini.hand"}, {false, "block1"}}));
   CHECK_FALSE(task.steps.has_value());
   CHECK(task.stages.empty());
+}
+
+TEST_CASE("subgoals of a list keep their order, and their sentences are filled in") {
+  EpisodeScripts scripts(small_library(), "parts", "colour=blue,where=on_it", 1);
+  const std::vector<Subgoal> parts = scripts.task()(0).subgoals;
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].name == "zebra");
+  CHECK(parts[0].sentence == "leave the blue cube on it");
+  CHECK(parts[1].name == "ape");
+  CHECK(parts[1].sentence.empty());
 }
 
 TEST_CASE("steps leave open what they do not name, an ordered goal has stages") {
