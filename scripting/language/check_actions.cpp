@@ -22,6 +22,7 @@ Maybe OneSentence::actions() const {
   static const std::set<std::string> kSays = {"is", "are", "be", "want", "need"};
   static const std::set<std::string> kStates = {"find", "switch", "belong", "complete", "lie",      "contain",
                                                 "mark", "show",   "locate", "colour",   "take-care"};
+  static const std::set<std::string> kMotions = {"reach", "take", "hold", "lift", "lower", "drop", "put", "pull"};
   bool any = false;
   for (const Word& word : reading_.words)
     any |= word.kind == WordKind::verb || word.kind == WordKind::own || kSays.contains(word.text);
@@ -30,6 +31,7 @@ Maybe OneSentence::actions() const {
     if (!segment.verb || spares(segment) || takes_part(segment)) continue;
     const std::string& verb = reading_.words[*segment.verb].sense;
     if (claims_.verbs.contains(verb) || kStates.contains(verb)) continue;
+    if (grain_ == Grain::motions && kMotions.contains(verb)) continue;
     const std::set<std::string>& skills = meaning_.lexicon.skills_of(verb);
     if (std::none_of(skills.begin(), skills.end(), [&](const auto& one) { return meaning_.skills.contains(one); }))
       return no(Rejection::other_action, quoted(verb));
@@ -37,6 +39,8 @@ Maybe OneSentence::actions() const {
   for (const std::string& direction :
        directions_in(reading_, [this](const Segment& segment) { return denies_start(segment); })) {
     const std::string opposite = opposite_of(direction);
+    if (direction.starts_with("switch_") && !claims_.directions.contains(direction))
+      return no(Rejection::other_action, quoted(direction));
     if (!claims_.directions.contains(direction) && !opposite.empty() && claims_.directions.contains(opposite) &&
         !planned(direction))
       return no(Rejection::other_action, quoted(direction) + " for " + quoted(opposite));

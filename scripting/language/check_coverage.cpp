@@ -3,22 +3,25 @@
 
 namespace stampede {
 
+// All that the author's sentence `own` names of what is wanted.
+bool OneSentence::names_as(std::size_t own) const {
+  const std::vector<Mention>& theirs = claims_.wanted[own];
+  if (theirs.empty()) return says_all_of(claims_.own[own]);
+  return std::all_of(theirs.begin(), theirs.end(), [&](const Mention& one) {
+    return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& ours) {
+      return std::any_of(ours.things.begin(), ours.things.end(), [&](const std::string& name) {
+        return std::find(one.things.begin(), one.things.end(), name) != one.things.end();
+      });
+    });
+  });
+}
+
 // At least what one of the author's own sentences names.
 Maybe OneSentence::coverage() const {
   bool names = false;
   for (std::size_t i = 0; i < claims_.wanted.size(); ++i) {
-    const std::vector<Mention>& own = claims_.wanted[i];
-    if (own.empty() && says_all_of(claims_.own[i])) return {};
-    if (own.empty()) continue;
-    names = true;
-    const bool all = std::all_of(own.begin(), own.end(), [&](const Mention& one) {
-      return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& ours) {
-        return std::any_of(ours.things.begin(), ours.things.end(), [&](const std::string& name) {
-          return std::find(one.things.begin(), one.things.end(), name) != one.things.end();
-        });
-      });
-    });
-    if (all) return {};
+    if (names_as(i)) return {};
+    names |= !claims_.wanted[i].empty();
   }
   if (!names || names_all()) return {};
   for (const std::string& name : goal_things())
@@ -55,9 +58,30 @@ bool OneSentence::is_named(const std::string& name) const {
   });
 }
 
+// `hang up the picture`, `plug in the charger`: where there is one place for it
+bool OneSentence::is_implied(const std::string& name) const {
+  static const std::map<std::string, std::string> kImply = {{"hang", "hang"}, {"insert", "insert"}};
+  for (const Segment& segment : reading_.segments) {
+    const auto skill = segment.verb ? kImply.find(reading_.words[*segment.verb].sense) : kImply.end();
+    if (skill == kImply.end()) continue;
+    const SpokenThing* place = thing(name);
+    for (const PlanStep& step : meaning_.steps)
+      for (std::size_t i = 1; i < step.arguments.size() && step.action == skill->second; ++i)
+        if ((step.arguments[i] == name || step.arguments[i].starts_with(name + ".")) &&
+            std::none_of(meaning_.things.begin(), meaning_.things.end(), [&](const SpokenThing& other) {
+              return other.name != name && !other.name.starts_with(name + ".") && !name.starts_with(other.name + ".") &&
+                     std::any_of(other.heads.begin(), other.heads.end(),
+                                 [&](const std::string& head) { return place->heads.contains(head); });
+            }))
+          return true;
+  }
+  return false;
+}
+
 bool OneSentence::names_all() const {
   const std::vector<std::string> names = goal_things();
-  return !names.empty() && std::all_of(names.begin(), names.end(), [&](const auto& name) { return is_named(name); });
+  return !names.empty() &&
+         std::all_of(names.begin(), names.end(), [&](const auto& name) { return is_named(name) || is_implied(name); });
 }
 
 }  // namespace stampede

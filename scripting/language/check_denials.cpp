@@ -45,7 +45,9 @@ bool OneSentence::leaves_idle(const Segment& segment) const {
 // `leave the block on the table`: it has to go somewhere else.
 Maybe OneSentence::left() const {
   for (const Segment& segment : reading_.segments) {
-    if (!segment.verb || !reading_.words[*segment.verb].text.starts_with("lea") || vouched(segment)) continue;
+    if (!segment.verb || !reading_.words[*segment.verb].text.starts_with("lea") || vouched(segment) ||
+        denies_start(segment))
+      continue;
     const Mention* object = nullptr;
     bool to = false;
     for (const Mention& mention : reading_.mentions) {
@@ -78,8 +80,7 @@ Maybe OneSentence::denials() const {
 // holds at the start and has to end
 bool OneSentence::denies_start(const Segment& segment) const {
   static const std::set<std::string> kStays = {"belong", "lie", "stand", "hang", "leave", "open", "close"};
-  static const std::map<std::string, std::string> kStates = {
-      {"open", "close"}, {"closed", "open"}, {"shut", "open"}, {"on", "switch_off"}, {"off", "switch_on"}};
+  static const std::map<std::string, std::string> kStates = {{"open", "close"}, {"closed", "open"}, {"shut", "open"}};
   const bool instead = std::any_of(reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.begin),
                                    reading_.words.begin() + static_cast<std::ptrdiff_t>(segment.end),
                                    [](const Word& word) { return word.text == "instead"; });
@@ -87,25 +88,26 @@ bool OneSentence::denies_start(const Segment& segment) const {
   std::size_t from = segment.begin;
   for (std::size_t i = segment.begin; i < segment.end; ++i)
     if (reading_.words[i].kind == WordKind::negation) from = i;
-  bool ends = false, is = instead;
+  bool state = false, place = false, is = instead;
   for (std::size_t i = segment.begin; i < segment.end; ++i) {
     const Word& word = reading_.words[i];
     is |= word.text == "be" || word.text == "is" || word.text == "are" || word.text == "stay" ||
-          word.sense == "belong" || word.text == "remain";
+          word.text == "remain" || word.sense == "belong" || word.text.starts_with("lea") || word.text == "left";
     if (i <= from) continue;
     if (word.kind == WordKind::verb && !kStays.contains(word.sense) && word.sense != "put") return false;
-    const auto state = kStates.find(word.text);
-    if (state == kStates.end()) continue;
-    if (word.text != "on" && word.text != "off" && !claims_.directions.contains(state->second)) return false;
-    ends |= word.text != "on" && word.text != "off";
+    const auto opposite = kStates.find(word.text);
+    if (opposite == kStates.end()) continue;
+    if (!claims_.directions.contains(opposite->second)) return false;
+    state = true;
   }
   for (const Mention& mention : reading_.mentions) {
     if (!within(mention, segment) || mention.head < from) continue;
+    if (state && mention.preposition.empty() && may_be(mention, meaning_, &SpokenThing::wanted)) continue;
     if (may_be(mention, meaning_, &SpokenThing::destination) || !may_be(mention, meaning_, &SpokenThing::source))
       return false;
-    ends = true;
+    place = true;
   }
-  return ends && is;
+  return (state || place) && is;
 }
 
 // `spare the tomatoes`: things that have no part in it

@@ -34,13 +34,30 @@ Maybe OneSentence::ends() const {
   std::set<std::string> ours =
       verbs_in(reading_, [this](const Segment& segment) { return spares(segment) || segment.excluding; });
   if (ours.empty()) return {};
+  const std::set<std::string> directions = directions_in(reading_);
   const std::string& last = meaning_.steps.back().action;
+  const bool away = directions.contains("out") || directions.contains("up") || directions.contains("down");
   for (const std::string& verb : ours)
-    if (meaning_.lexicon.skills_of(verb).contains(last)) return {};
-  ours.merge(directions_in(reading_));
-  for (const std::set<std::string>& own : claims_.done)
-    if (!own.empty() && std::includes(ours.begin(), ours.end(), own.begin(), own.end())) return {};
+    if (meaning_.lexicon.skills_of(verb).contains(last) &&
+        (verb != "take" || away || !kTakes.contains(last) || last == "pick"))
+      return {};
+  const std::set<std::string> reached = skills_told(ours);
+  for (std::size_t i = 0; i < claims_.done.size(); ++i) {
+    const std::set<std::string>&own = claims_.done[i], theirs = skills_told(own);
+    if (own.empty() || !(names_as(i) || names_all())) continue;
+    if (std::includes(ours.begin(), ours.end(), own.begin(), own.end())) return {};
+    if (!theirs.empty() && std::includes(reached.begin(), reached.end(), theirs.begin(), theirs.end())) return {};
+  }
   return no(Rejection::misses_steps, "it ends before the goal is reached");
+}
+
+// Of the plan's.
+std::set<std::string> OneSentence::skills_told(const std::set<std::string>& verbs) const {
+  std::set<std::string> told;
+  for (const std::string& verb : verbs)
+    for (const std::string& skill : meaning_.lexicon.skills_of(verb))
+      if (meaning_.skills.contains(skill)) told.insert(skill);
+  return told;
 }
 
 // `flip the switch over, then flip it back again`

@@ -26,7 +26,7 @@ Maybe OneSentence::mentions() const {
   for (const auto& [before, place] : free_places(reading_))
     if (!claims_.places.contains({before, place})) return no(Rejection::wrong_side, quoted(before + " " + place));
   for (const std::string& relation : relations_in(reading_))
-    if (!claims_.relations.contains(relation) && !(relation == "over" && rises()))
+    if (!claims_.relations.contains(relation) && !(relation == "over" && (rises() || moves_above())))
       return no(Rejection::wrong_side, quoted(relation));
   return {};
 }
@@ -43,6 +43,18 @@ bool OneSentence::rises() const {
   return lifts() && std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [](const Mention& mention) {
            return (mention.preposition != "over" && mention.preposition != "above") || mention.sense == "table";
          });
+}
+
+// Where motions are told: `move it over the bin and let go`
+bool OneSentence::moves_above() const {
+  return grain_ != Grain::goal &&
+         std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& mention) {
+           return (mention.preposition != "over" && mention.preposition != "above") || is_above(mention);
+         });
+}
+
+bool OneSentence::is_above(const Mention& mention) const {
+  return may_be(mention, meaning_, &SpokenThing::destination) || may_be(mention, meaning_, &SpokenThing::handled);
 }
 
 // How many there are of what a noun names, and how many of these are handled.

@@ -9,18 +9,20 @@ bool OneSentence::has_role(const Mention& mention) const {
   if (mention.role == "subject belong" && carries()) return may_be(mention, meaning_, &SpokenThing::moved);
   const bool above = mention.preposition == "above" || mention.preposition == "over";
   if (above && mention.sense == "table" && lifts()) return true;
+  if (above && grain_ != Grain::goal && is_above(mention)) return true;
   if (role == "to" && arrives(mention)) return may_be(mention, meaning_, &SpokenThing::handled);
   if (mention.role == "subject hold" && may_be(mention, meaning_, &SpokenThing::destination)) return true;
   if (role == "subject") return accessory || (may_be(mention, meaning_, &SpokenThing::handled) && !shows(mention));
   if (role == "object" && verb_of(mention) != nullptr && takes_part(reading_.segments[mention.segment])) return true;
   if (role == "object") return accessory || steps_have(mention, false);
-  if (role == "of") return accessory || is_whole(mention);
+  const bool handle = &mention != reading_.mentions.data() && (&mention - 1)->sense == "handle";
+  if (role == "of")
+    return accessory || is_whole(mention) || (handle && swings() && may_be(mention, meaning_, &SpokenThing::handled));
   if (role == "part")
     return mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled);
   if (role == "with") return accessory || may_be(mention, meaning_, &SpokenThing::tool) || steps_have(mention, true);
   const Mention* object = object_of(mention);
-  const bool known = object == nullptr || object->by_head ||
-                     (may_be(*object, meaning_, &SpokenThing::moved) && claims_.senses.contains(object->sense));
+  const bool known = object == nullptr || object->by_head || (role == "to" && is_handled_by_author(object->sense));
   if (!known && object->role.starts_with("object") && !object->sense.empty()) return false;
   if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;
   if (role == "from")
@@ -38,12 +40,16 @@ bool OneSentence::has_role(const Mention& mention) const {
   return may_be(mention, meaning_, &SpokenThing::source) && takes(mention);
 }
 
+// A word of the author for what is handled: `the crumpled paper`
+bool OneSentence::is_handled_by_author(const std::string& sense) const {
+  return std::any_of(claims_.roles.begin(), claims_.roles.end(), [&](const auto& one) {
+    return one.second == sense && (one.first.starts_with("object ") || one.first.starts_with("subject"));
+  });
+}
+
 Maybe OneSentence::contained() const {
   static const std::map<std::string, std::string> kClasses = {
       {"on", "on"}, {"onto", "on"}, {"upon", "on"}, {"in", "in"}, {"into", "in"}, {"inside", "in"}, {"within", "in"}};
-  static const std::map<std::string, std::string> kOf = {{"put_in", "in"}, {"insert", "in"},   {"drop", "in"},
-                                                         {"place", "on"},  {"set_down", "on"}, {"lay", "on"},
-                                                         {"stack", "on"}};
   for (const Mention& mention : reading_.mentions) {
     const auto found = kClasses.find(mention.preposition);
     if (found == kClasses.end() || !mention.role.starts_with("to") || mention.aside || mention.things.empty() ||
@@ -54,12 +60,18 @@ Maybe OneSentence::contained() const {
       for (const Mention& one : own.mentions)
         if (one.sense == mention.sense && one.role.starts_with("to") && kClasses.contains(one.preposition))
           classes.insert(kClasses.at(one.preposition));
+    bool inside = false;
     for (const PlanStep& step : meaning_.steps)
       for (std::size_t i = 1; i < step.arguments.size(); ++i)
-        for (const std::string& name : mention.things)
-          if (kOf.contains(step.action) && (step.arguments[i] == name || step.arguments[i].starts_with(name + ".")))
-            classes.insert(kOf.at(step.action));
-    if (!classes.empty() && !classes.contains(found->second))
+        for (const std::string& name : mention.things) {
+          const bool whole = step.arguments[i].starts_with(name + ".");
+          const bool into = step.action == "put_in" || step.action == "put_on_shelf" || step.action == "insert";
+          if (!into || !(whole || step.arguments[i] == name)) continue;
+          inside = true;
+          classes.insert("in");
+          if (step.action == "put_on_shelf" && !whole) classes.insert("on");
+        }
+    if (inside && !classes.contains(found->second))
       return no(Rejection::wrong_side, quoted(mention.preposition) + " the " + mention.sense);
   }
   return {};

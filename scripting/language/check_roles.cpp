@@ -23,6 +23,7 @@ Maybe OneSentence::roles() const {
     const bool until = reading_.segments[mention.segment].intro == "until";
     if (!until && (has_role(mention) || stands_on_table(mention))) continue;
     const std::string role = role_key(reading_, mention);
+    if (meaning_.slots && !meaning_.skills.empty() && same_part(role, mention.sense)) continue;
     const bool vouched_for =
         (!mention.by_head && claims_.roles.contains({role, mention.sense})) ||
         (mention.by_head && std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {
@@ -31,6 +32,13 @@ Maybe OneSentence::roles() const {
     if (!vouched_for) return no(Rejection::swapped_roles, "the " + mention.sense + " as " + quoted(mention.role));
   }
   return {};
+}
+
+// Of a label: the same part with another verb, which is looked at by itself.
+bool OneSentence::same_part(const std::string& role, const std::string& sense) const {
+  const auto part = [](const std::string& text) { return text.substr(0, text.find(' ')); };
+  return std::any_of(claims_.roles.begin(), claims_.roles.end(),
+                     [&](const auto& one) { return one.second == sense && part(one.first) == part(role); });
 }
 
 // `the lamp is dark: …` is the author's to say: no fact tells.

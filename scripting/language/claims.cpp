@@ -93,7 +93,11 @@ std::set<std::string> relations_in(const Reading& reading) {
   std::set<std::string> relations;
   for (std::size_t i = 0; i < reading.words.size(); ++i) {
     const auto found = kRelations.find(reading.words[i].text);
-    const bool way = i + 1 < reading.words.size() && reading.words[i + 1].text == "to";  // `over to the table`
+    // `over to the table`, `fold the lid over`
+    const bool way =
+        reading.words[i].text == "over" &&
+        (i + 1 == reading.words.size() || reading.words[i + 1].before != ' ' || reading.words[i + 1].text == "to" ||
+         reading.words[i + 1].text == "until" || reading.words[i + 1].text == "and");
     if (found != kRelations.end() && !way) relations.insert(found->second);
   }
   return relations;
@@ -246,7 +250,6 @@ Claims claims_of(const Meaning& meaning) {
       if (segment.verb) claims.verbs.insert(reading.words[*segment.verb].sense);
     }
     claims.done.push_back(verbs_in(reading, [&](const Segment& one) { return keeps_others(reading, one); }));
-    claims.done.back().merge(directions_in(reading));
     std::vector<Mention> wanted;
     for (const Mention& mention : reading.mentions) {
       for (const auto* words : {&mention.colours, &mention.adjectives, &mention.places})

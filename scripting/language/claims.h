@@ -26,9 +26,9 @@ std::vector<std::string> marks_in(const Reading& reading, const std::set<std::st
 
 struct Claims {
   std::vector<Reading> own;
-  std::set<std::string> senses;             // of all content words
-  std::set<std::string> verbs;              // that begin a stretch
-  std::vector<std::set<std::string>> done;  // by sentence: all verbs of what is to be done, and directions
+  std::set<std::string> senses;                              // of all content words
+  std::set<std::string> verbs;                               // that begin a stretch
+  std::vector<std::set<std::string>> done;                   // by sentence: all verbs of what is to be done
   std::set<std::pair<std::string, std::string>> attributes;  // (red, mark), (wooden, box)
   std::map<std::string, std::set<int>> counts;               // of a noun, and of `noun role`
   std::set<std::vector<std::string>> segments;               // whole stretches, as content

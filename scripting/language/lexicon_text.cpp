@@ -245,13 +245,13 @@ verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put pl
 verb serve []: serve
 verb setup []: setup
 verb drop [drop put_in insert hang]: drop release throw toss fall falls
-verb insert [insert put_in place drop hang]: insert plug fit connect slot-in feed attach
+verb insert [insert put_in place drop hang stack]: insert plug fit connect slot-in feed attach
 verb stack [stack place put_in insert]: nest stack pile heap
 verb build [stack place]: build construct assemble create form make
 verb hang [hang]: hang suspend dangle hook
 verb press [press press_with push]: press depress tap click hit
 verb pull [open close take_out extract drag pick]: pull draw tug yank
-verb slide [open close insert push drag put_in unhang hang place]: slide
+verb slide [open close insert push drag put_in put_on_shelf unhang hang place]: slide
 verb swing [open close]: swing fold tilt flip
 verb push [push close press press_with insert put_in]: push shove nudge
 verb drag [drag]: drag sweep
@@ -339,6 +339,8 @@ all the way=fully
 i'd like=i want
 would like=want
 right now=now
+make sure=ensure
+making sure=ensure
 as well=also
 any more=anymore
 no longer=not longer

@@ -88,6 +88,51 @@ void read_things(const Domain& domain, const Scene& scene, Meaning& meaning) {
     if (object.kind != ObjectKind::hand) meaning.things.push_back(reader.read(scene, object));
 }
 
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// What a thing is called in every start: `cube`, where each start has another colour; `top drawer of the chest`.
+std::string common_phrase(const Scene& scene, const SpokenThing& thing, const std::vector<SpokenThing>& things) {
+  const Object* object = scene.object(thing.name);
+  const std::size_t dot = thing.name.rfind('.');
+  if (object == nullptr) return thing.phrase;
+  if (dot != std::string::npos) {
+    for (const SpokenThing& whole : things)
+      if (whole.name == thing.name.substr(0, dot))
+        return spaced(thing.name.substr(dot + 1)) + " of the " + common_phrase(scene, whole, things);
+    return thing.phrase;
+  }
+  const int body = scene.body_index(object->body);
+  const bool stays = body >= 0 && !scene.bodies[static_cast<std::size_t>(body)].free;
+  if (object->kind == ObjectKind::region || (stays && phrase(scene, thing.name) == thing.phrase)) return thing.phrase;
+  const std::string name = spaced(object->class_name.empty() ? object->name : object->class_name);
+  return thing.colours.empty() ? name : spaced(*thing.colours.begin()) + " " + name;
+}
+
+// As in every start, in what is told of this one too.
+void name_alike(const std::vector<Scene>& others, Meaning& meaning) {
+  std::map<std::string, std::string> phrases;
+  for (const SpokenThing& thing : meaning.things)
+    for (const Scene& scene : others)
+      if (const std::string common = common_phrase(scene, thing, meaning.things); common != thing.phrase)
+        phrases[thing.phrase] = common;
+  for (SpokenThing& thing : meaning.things)
+    if (const auto found = phrases.find(thing.phrase); found != phrases.end()) thing.phrase = found->second;
+  std::vector<std::pair<std::string, std::string>> longest(phrases.begin(), phrases.end());
+  std::stable_sort(longest.begin(), longest.end(),
+                   [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
+  std::vector<std::string> facts;
+  for (std::string fact : meaning.facts) {
+    for (const auto& [from, to] : longest)
+      for (std::size_t at = fact.find(from); at != std::string::npos; at = fact.find(from, at + to.size()))
+        fact.replace(at, from.size(), to);
+    if (std::find(facts.begin(), facts.end(), fact) == facts.end()) facts.push_back(std::move(fact));
+  }
+  meaning.facts = std::move(facts);
+}
+
 // What another start of the variation has otherwise is said of none.
 void keep_common(const Scene& scene, Meaning& meaning) {
   std::erase_if(meaning.things, [&](const SpokenThing& thing) { return scene.object(thing.name) == nullptr; });
@@ -247,12 +292,15 @@ Meaning meaning_at_start(const std::shared_ptr<const Library>& library, const st
   if (!found.solved) throw Error(place, "no plan: " + found.explanation, "try another --seed");
   const Domain& domain = prepared.scripts().symbols().domain();
   read_things(domain, *question.start.scene, meaning);
-  for (std::int64_t i = 1; i < kStarts; ++i) keep_common(drawn_scene(library, task, variation, seed + i), meaning);
+  std::vector<Scene> others;
+  for (std::int64_t i = 1; i < kStarts; ++i) others.push_back(drawn_scene(library, task, variation, seed + i));
+  for (const Scene& scene : others) keep_common(scene, meaning);
   meaning.steps = found.plan;
   read_roles(question.asked.domain, question.state.facts, question.assumed, question.plain.goal, meaning);
   meaning.goal = to_pddl(question.plain.goal);
   meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
   meaning.facts = describe_world(question.state.facts, domain, *question.start.scene);
+  name_alike(others, meaning);
   return meaning;
 }
 

@@ -21,7 +21,7 @@ class Library;
 // A thing as it can be spoken of: senses of words, in the sense of Lexicon.
 struct SpokenThing {
   std::string name;                          // `chest.top_drawer`
-  std::string phrase;                        // `top drawer of the chest`, at the start that was made
+  std::string phrase;                        // `top drawer of the chest`, without what other starts have otherwise
   std::set<std::string> heads;               // nouns that name it: `drawer`
   std::set<std::string> words;               // all words of its names, its whole's too: top drawer chest
   std::set<std::string> colours;             // that it has in every start of the variation

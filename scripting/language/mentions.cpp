@@ -101,7 +101,9 @@ class MentionReader {
     if (word.kind == WordKind::adjective) return begin_at(i), open_.adjectives.push_back(word.sense);
     // `block 2`, `number two`: a name, and no count
     const bool named =
-        i > 0 && word.before == ' ' && reading_.words[i - 1].kind == WordKind::noun && !reading_.words[i - 1].plural;
+        i > 0 && word.before == ' ' && reading_.words[i - 1].kind == WordKind::noun && !reading_.words[i - 1].plural &&
+        (i + 1 == reading_.words.size() || reading_.words[i + 1].before != ' ' ||
+         reading_.words[i + 1].kind == WordKind::function || reading_.words[i + 1].kind == WordKind::verb);
     if (word.kind == WordKind::number && named) return;
     if (word.kind == WordKind::number) return begin_at(i), open_.count = number_of(word), void();
     if (word.kind == WordKind::exclusion && word.sense == "other") return begin_at(i), open_.other = true, void();

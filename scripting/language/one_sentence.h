@@ -53,6 +53,8 @@ class OneSentence {
   // Lifting ends in the air, above the table.
   bool lifts() const;
   bool rises() const;
+  bool moves_above() const;
+  bool is_above(const Mention& mention) const;
   bool swings() const;
   // How many there are of what a noun names, and how many of these are handled.
   std::pair<int, int> all_and_handled(const std::string& sense) const;
@@ -66,6 +68,7 @@ class OneSentence {
   Maybe counted(const Mention& mention) const;
   Maybe placed(const Mention& mention) const;
   Maybe has_part(const Mention& mention) const;
+  bool names_as(std::size_t own) const;
   // At least what one of the author's own sentences names.
   Maybe coverage() const;
   // All nouns of a sentence that names nothing by the scene's words: `bin the paper`.
@@ -74,16 +77,19 @@ class OneSentence {
   // What is carried, and to where; else what is handled. The table goes without saying.
   std::vector<std::string> goal_things() const;
   bool is_named(const std::string& name) const;
+  bool is_implied(const std::string& name) const;
   bool names_all() const;
   // `take the handle`, `go to the button`: on the way to what is done
   bool takes_part(const Segment& segment) const;
   Maybe actions() const;
   Maybe ends() const;
+  std::set<std::string> skills_told(const std::set<std::string>& verbs) const;
   Maybe undone() const;
   bool planned(const std::string& direction) const;
   // What each thing is in the sentence (what is handled, where to, where from) must be what it is in the plan, or in a
   // sentence of the author.
   Maybe roles() const;
+  bool same_part(const std::string& role, const std::string& sense) const;
   // `the lamp is dark: …` is the author's to say: no fact tells.
   Maybe prefaces() const;
   // `put the cup on the cup`; of a thing that a short sentence names twice, one is another's place.
@@ -95,6 +101,7 @@ class OneSentence {
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const;
   bool has_role(const Mention& mention) const;
+  bool is_handled_by_author(const std::string& sense) const;
   // `put the bottle on the fridge` for in it
   Maybe contained() const;
   // `go to the button and …`

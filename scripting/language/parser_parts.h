@@ -12,6 +12,8 @@ bool is_pronoun_one(const std::vector<Word>& words, std::size_t i);
 
 // `the red button first, the lime button second`: a turn, and no place.
 void read_turns(std::vector<Word>& words);
+// `get the tray into the oven`: put; `turn the lamp on`: switch. By what follows them.
+void read_light_verbs(std::vector<Word>& words);
 std::vector<Segment> segments_of(const std::vector<Word>& words);
 std::vector<std::size_t> order_in_time(const std::vector<Word>& words, const std::vector<Segment>& segments);
 // Of words and segments that are there.

@@ -10,6 +10,7 @@ Reading read_sentence(const std::string& sentence, const Meaning& meaning) {
   for (std::size_t i = 0; i < reading.words.size(); ++i)
     if (is_pronoun_one(reading.words, i)) reading.words[i].kind = WordKind::function;
   read_turns(reading.words);
+  read_light_verbs(reading.words);
   reading.segments = segments_of(reading.words);
   reading.in_time = order_in_time(reading.words, reading.segments);
   read_mentions(reading, meaning);

@@ -37,10 +37,10 @@ std::vector<Segment> segments_of(const std::vector<Word>& words) {
       }
       if (words[i].kind == WordKind::noun || words[i].kind == WordKind::own || words[i].kind == WordKind::colour) break;
     }
-    // `get the drawer open`: to open
+    // `get the drawer open`, `get the button pressed`
     for (std::size_t i = segment.verb.value_or(segment.end) + 1; i < segment.end; ++i)
       if (words[*segment.verb].text == "get" && words[i].kind == WordKind::verb &&
-          (words[i].sense == "open" || words[i].sense == "close"))
+          (words[i].sense == "open" || words[i].sense == "close" || words[i].text.ends_with("ed")))
         segment.verb = i;
   }
   return segments;
@@ -81,6 +81,18 @@ void read_turns(std::vector<Word>& words) {
     const bool named = words[i - 1].kind == WordKind::noun || words[i - 1].kind == WordKind::colour ||
                        words[i - 1].text == "one" || words[i - 1].text == "ones";
     if (ends && named && words[i].before == ' ' && kTurns.contains(words[i].text)) words[i].kind = WordKind::order;
+  }
+}
+
+void read_light_verbs(std::vector<Word>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool gets = words[i].text == "get" || words[i].text == "getting", turns = words[i].sense == "turn";
+    if (words[i].kind != WordKind::verb || !(gets || turns)) continue;
+    for (std::size_t k = i + 1; k < words.size() && words[k].before == ' ' && words[k].kind != WordKind::verb; ++k) {
+      const bool ends = k + 1 == words.size() || words[k + 1].before != ' ' || kJoins.contains(words[k + 1].text);
+      if (turns && (words[k].text == "on" || words[k].text == "off") && (k == i + 1 || ends)) words[i].sense = "switch";
+      if (gets && (words[k].text == "into" || words[k].text == "onto" || words[k].text == "to")) words[i].sense = "put";
+    }
   }
 }
 
