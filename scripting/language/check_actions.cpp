@@ -78,9 +78,11 @@ Maybe OneSentence::order() const {
     int next = -1, any = -1;
     for (int i = 0; i < static_cast<int>(meaning_.steps.size()); ++i) {
       if (!skills.contains(meaning_.steps[static_cast<std::size_t>(i)].action)) continue;
-      if (!concerns(segment, meaning_.steps[static_cast<std::size_t>(i)])) continue;
+      const Concern concern = concerns(segment, meaning_.steps[static_cast<std::size_t>(i)]);
+      if (concern == Concern::none) continue;
       if (any < 0) any = i;
-      if (i >= reached && next < 0) next = i;
+      // `open the dishwasher` is its door, whatever else of it is opened after
+      if (i >= reached && next < 0 && (concern == Concern::itself || any == i || any >= reached)) next = i;
     }
     if (next >= 0)
       reached = next;
@@ -115,17 +117,19 @@ Maybe OneSentence::relative_order() const {
   return {};
 }
 
-// False where the stretch names wanted things and the step handles none of them.
-bool OneSentence::concerns(const Segment& segment, const PlanStep& step) const {
-  bool named = false;
+// Of what the stretch names; `none` where the step handles none of the wanted things that are named.
+OneSentence::Concern OneSentence::concerns(const Segment& segment, const PlanStep& step) const {
+  bool named = false, part = false;
   for (const Mention& mention : reading_.mentions) {
     if (!within(mention, segment) || !may_be(mention, meaning_, &SpokenThing::wanted)) continue;
     named = true;
     for (const std::string& name : mention.things)
-      for (const std::string& argument : step.arguments)
-        if (argument == name || argument.starts_with(name + ".")) return true;
+      for (const std::string& argument : step.arguments) {
+        if (argument == name) return Concern::itself;
+        part |= argument.starts_with(name + ".");
+      }
   }
-  return !named;
+  return named && !part ? Concern::none : part ? Concern::part : Concern::itself;
 }
 
 Maybe OneSentence::steps() const {

@@ -6,6 +6,13 @@ namespace stampede {
 // All that the author's sentence `own` names of what is wanted.
 bool OneSentence::names_as(std::size_t own) const {
   const std::vector<Mention>& theirs = claims_.wanted[own];
+  for (const Mention& one : claims_.own[own].mentions)  // `into the marked area`
+    if (one.role.starts_with("to") && one.things.empty() &&
+        std::none_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& ours) {
+          return ours.sense == one.sense ||
+                 (ours.role.starts_with("to") && may_be(ours, meaning_, &SpokenThing::destination));
+        }))
+      return false;
   if (theirs.empty()) return says_all_of(claims_.own[own]);
   return std::all_of(theirs.begin(), theirs.end(), [&](const Mention& one) {
     return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& ours) {

@@ -65,6 +65,8 @@ Maybe OneSentence::undone() const {
   std::set<std::string> done;
   for (const std::size_t at : reading_.in_time) {
     const Segment& segment = reading_.segments[at];
+    for (std::size_t i = segment.begin; i < segment.end && !done.empty() && !vouched(segment); ++i)
+      if (reading_.words[i].text == "again") return no(Rejection::other_action, "done, and again");
     if (!segment.verb) continue;
     const std::string& verb = reading_.words[*segment.verb].sense;
     bool back = false;

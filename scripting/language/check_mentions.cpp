@@ -163,6 +163,10 @@ Maybe OneSentence::counted(const Mention& mention) const {
       return no(Rejection::wrong_count, "one of several " + mention.sense);
     if (mention.total && *mention.total != all_and_handled(mention.sense).first)
       return no(Rejection::wrong_count, "of " + std::to_string(*mention.total) + " " + mention.sense);
+    const auto [all_of_them, handled_of_them] = all_and_handled(mention.sense);
+    if (mention.partitive && own == claims_.counts.end() && handled_of_them > 0 && *mention.count < all_of_them &&
+        may_be(mention, meaning_, &SpokenThing::handled))
+      return no(Rejection::missing_thing, "which " + mention.sense + " of several");
     if (mention.partitive && mention.preposition == "of" && !mention.total &&
         *mention.count == all_and_handled(mention.sense).first)
       return {};  // `of the two jars, …`

@@ -22,7 +22,8 @@ bool OneSentence::has_role(const Mention& mention) const {
     return mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled);
   if (role == "with") return accessory || may_be(mention, meaning_, &SpokenThing::tool) || steps_have(mention, true);
   const Mention* object = object_of(mention);
-  const bool known = object == nullptr || object->by_head || (role == "to" && is_handled_by_author(object->sense));
+  const bool known = object == nullptr || object->by_head ||
+                     (is_handled_by_author(object->sense) && (role == "to" || left_by_author(mention)));
   if (!known && object->role.starts_with("object") && !object->sense.empty()) return false;
   if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;
   if (role == "from")
@@ -44,6 +45,14 @@ bool OneSentence::has_role(const Mention& mention) const {
 bool OneSentence::is_handled_by_author(const std::string& sense) const {
   return std::any_of(claims_.roles.begin(), claims_.roles.end(), [&](const auto& one) {
     return one.second == sense && (one.first.starts_with("object ") || one.first.starts_with("subject"));
+  });
+}
+
+bool OneSentence::left_by_author(const Mention& mention) const {
+  return std::any_of(claims_.roles.begin(), claims_.roles.end(), [&](const auto& one) {
+    return one.first.starts_with("from") &&
+           (one.second == mention.sense ||
+            std::find(mention.things.begin(), mention.things.end(), one.second) != mention.things.end());
   });
 }
 

@@ -24,6 +24,8 @@ Maybe OneSentence::roles() const {
     if (!until && (has_role(mention) || stands_on_table(mention))) continue;
     const std::string role = role_key(reading_, mention);
     if (meaning_.slots && !meaning_.skills.empty() && same_part(role, mention.sense)) continue;
+    if (role.starts_with("subject ") && claims_.roles.contains({"object " + role.substr(8), mention.sense}))
+      continue;  // `the television should be switched on`
     const bool vouched_for =
         (!mention.by_head && claims_.roles.contains({role, mention.sense})) ||
         (mention.by_head && std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& name) {

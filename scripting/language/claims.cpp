@@ -16,8 +16,8 @@ bool tells(const Word& word) {
     case WordKind::own:
     case WordKind::adjective:
       return true;
-    case WordKind::order:  // the next channel
-      return false;
+    case WordKind::order:
+      return word.text == "next";  // the next channel
     case WordKind::function:
       return word.text == "up" || word.text == "down";
     case WordKind::harmless:

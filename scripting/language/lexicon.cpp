@@ -37,6 +37,7 @@ std::vector<Stem> stems(const std::string& word) {
   const auto ends = [&](std::string_view tail) { return word.size() > tail.size() + 1 && word.ends_with(tail); };
   const auto without = [&](std::size_t n) { return word.substr(0, word.size() - n); };
   if (const auto form = irregular().find(word); form != irregular().end()) all.push_back({form->second, ends("ves")});
+  if (ends("ied")) all.push_back({without(3) + "y", false});
   if (ends("ies")) all.push_back({without(3) + "y", true});
   if (ends("ves")) all.push_back({without(3) + "f", true});
   if (ends("ses") || ends("xes") || ends("zes") || ends("ches") || ends("shes") || ends("oes"))
@@ -171,7 +172,8 @@ Word Lexicon::choose(const std::string& text, const std::vector<Word>& before, c
   const bool verb_due = starts || says || last->kind == WordKind::order || last->kind == WordKind::harmless ||
                         kBeforeVerbs.contains(last->text);
   static const std::set<std::string> kLeave = {"been", "have", "has", "is", "somebody", "someone", "was", "being"};
-  if (text == "can" && (next == "you" || next == "we" || next == "i")) return word.kind = WordKind::function, word;
+  if (text == "can" && (starts || last->kind == WordKind::noun || !noun_due))
+    return word.kind = WordKind::function, word;
   if (text == "half" && (next == "a" || next == "an")) return word.kind = WordKind::number, word;
   if (text == "left" && last != nullptr && kLeave.contains(last->text)) return word.kind = WordKind::function, word;
   std::vector<WordKind> order;

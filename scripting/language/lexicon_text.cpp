@@ -13,7 +13,7 @@ function -: inside within through along against around across between among towa
 function -: back together if when while until because since also too still already yet else than such very just only
 function -: i you we your my our me us he she his her themselves itself yourself let make sure ensure need want use using how where way
 function -: each every any some both all several same own whole it's that's there's please please kindly now
-function -: anymore longer somewhere i'm i've
+function -: anymore longer somewhere aside i'm i've
 function -: another outof i'd i'll let's
 function -: would like begin start continue proceed keep allow help try become stay so that
 function -: thing something somebody someone everything anything object item task job one's itself
@@ -58,7 +58,7 @@ place third: third
 place fourth: fourth
 adjective big: big large huge tall long wide
 adjective small: small little tiny short narrow
-adjective -: wooden metal plastic round square empty full bare free clean dirty hot cold dark bright heavy light-weight
+adjective -: wooden metal plastic low round square empty full bare free clean dirty hot cold dark bright heavy light-weight
 adjective -: lit open-topped closed-up old new ripe broken soft hard
 colour -: red green blue yellow black white grey orange purple violet cyan magenta pink brown navy teal olive maroon
 colour -: azure lime rose silver gold golden beige turquoise crimson scarlet
@@ -102,7 +102,7 @@ noun socket: socket outlet
 noun charger: charger adapter
 noun pin: pin prong
 noun phone: phone handset telephone smartphone
-noun cradle: cradle dock
+noun cradle: cradle dock base
 noun lamp: lamp
 noun light: light
 noun tap: tap faucet
@@ -149,7 +149,7 @@ noun bottle: bottle
 noun wine: wine
 noun jar: jar
 noun safe: safe
-noun money: money cash banknote
+noun money: money cash banknote note
 noun scale: scale
 noun switch: switch rocker
 noun window: window
@@ -159,7 +159,7 @@ noun net: net
 noun ring: ring
 noun puzzle: puzzle
 noun piece: piece
-noun hole: hole
+noun hole: hole gap
 noun sorter: sorter
 noun checker: checker
 noun chess: chess
@@ -234,10 +234,10 @@ noun opening: opening
 verb open [open unscrew]: open unlatch unlock uncover
 verb close [close]: close shut
 verb unscrew [unscrew turn]: unscrew untwist
-verb take [pick take_out take_from_shelf extract unhang unscrew lift]: take grab grasp grip get fetch collect seize retrieve pick obtain gather clutch
+verb take [pick take_out take_from_shelf extract unhang unscrew]: take grab grasp grip get fetch collect seize retrieve pick obtain gather clutch
 verb hold [pick lift]: hold
 verb find [pick take_out reach]: find locate search look identify select choose
-verb remove [unscrew extract take_out take_from_shelf unhang pick lift]: remove extract withdraw eject unplug detach unload unpack unhook free
+verb remove [unscrew extract take_out take_from_shelf unhang pick lift]: disconnect remove extract withdraw eject unplug detach unload unpack unhook free
 verb empty []: empty
 verb lift [lift pick open take_out extract unhang]: lift raise hoist elevate
 verb lower [place set_down lay drop close open]: lower
@@ -341,6 +341,8 @@ would like=want
 right now=now
 make sure=ensure
 making sure=ensure
+a little=slightly
+in order to=to
 as well=also
 any more=anymore
 no longer=not longer

@@ -101,6 +101,7 @@ class OneSentence {
   // The thing that the stretch says is handled; null: none, or a pronoun.
   const Mention* object_of(const Mention& mention) const;
   bool has_role(const Mention& mention) const;
+  bool left_by_author(const Mention& mention) const;  // `from the fridge`
   bool is_handled_by_author(const std::string& sense) const;
   // `put the bottle on the fridge` for in it
   Maybe contained() const;
@@ -121,8 +122,8 @@ class OneSentence {
   Maybe order() const;
   // Verbs that the author's sentences have in one order only.
   Maybe relative_order() const;
-  // False where the stretch names wanted things and the step handles none of them.
-  bool concerns(const Segment& segment, const PlanStep& step) const;
+  enum class Concern { none, part, itself };
+  Concern concerns(const Segment& segment, const PlanStep& step) const;
   Maybe steps() const;
   const std::string& sentence_;
   const Meaning& meaning_;

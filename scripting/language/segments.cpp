@@ -86,7 +86,7 @@ void read_turns(std::vector<Word>& words) {
 
 void read_light_verbs(std::vector<Word>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool gets = words[i].text == "get" || words[i].text == "getting", turns = words[i].sense == "turn";
+    const bool gets = words[i].text == "get" || words[i].text == "getting", turns = words[i].text.starts_with("turn");
     if (words[i].kind != WordKind::verb || !(gets || turns)) continue;
     for (std::size_t k = i + 1; k < words.size() && words[k].before == ' ' && words[k].kind != WordKind::verb; ++k) {
       const bool ends = k + 1 == words.size() || words[k + 1].before != ' ' || kJoins.contains(words[k + 1].text);
