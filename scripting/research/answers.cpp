@@ -230,7 +230,8 @@ std::string example_answers(const ResearchProblem& problem, const std::string& d
   for (std::size_t i = 0; !problem.answer.empty() && i < std::min<std::size_t>(units.size(), 2); ++i) {
     Json row = Json::object();
     for (const AnswerColumn& column : problem.answer)
-      row[column.name] = &column == &problem.answer.front() ? Json(units[i]) : example_value(column);
+      if (!column.example.empty())
+        row[column.name] = &column == &problem.answer.front() ? Json(units[i]) : example_value(column);
     json["answers"].push_back(row);
   }
   return json.dump(2) + "\n";

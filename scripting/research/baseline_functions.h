@@ -18,9 +18,11 @@ Answers one_cluster(const ResearchProblem& problem, const PlainFile& given);
 Answers stay_there(const ResearchProblem& problem, const PlainFile& given);
 Answers nearest_action(const ResearchProblem& problem, const PlainFile& given);
 Answers linear_action(const ResearchProblem& problem, const PlainFile& given);
+// baseline_rewards.cpp
 Answers random_values(const ResearchProblem& problem, const PlainFile& given);
 Answers elapsed_time(const ResearchProblem& problem, const PlainFile& given);
 Answers learned_value(const ResearchProblem& problem, const PlainFile& given);
+Answers goal_relations(const ResearchProblem& problem, const PlainFile& given);
 // baseline_predictions.cpp
 Answers nothing_moves(const ResearchProblem& problem, const PlainFile& given);
 Answers constant_velocity(const ResearchProblem& problem, const PlainFile& given);

@@ -25,7 +25,7 @@ struct AnswerColumn {
   std::string name;
   AnswerType type = AnswerType::text;
   std::string about;
-  std::string example;
+  std::string example;  // empty: left out of the example of answers
   bool optional = false;
 };
 
