@@ -177,12 +177,19 @@ TEST_CASE("data sets for research problems") {
         given_file("behaviour")
             .query("SELECT max(frame % 20) AS off FROM joints JOIN episodes USING (episode) WHERE split = 'test'");
     CHECK(moments.integer(0, "off") == 0);
-    const Rows future =
-        given_file("transition_models")
-            .query(
-                "SELECT count(*) AS n FROM poses JOIN episodes USING (episode) WHERE split = 'test' AND "
-                "frame % 40 NOT IN (39, 0)");
-    CHECK(future.integer(0, "n") == 0);
+    const PlainFile models = given_file("transition_models");
+    for (const auto& [table, frame] : {std::pair{"poses", "frame"},
+                                       {"hands", "frame"},
+                                       {"joints", "frame"},
+                                       {"object_joints", "frame"},
+                                       {"facts", "first_frame"},
+                                       {"facts", "end_frame - 1"}}) {
+      INFO(table);
+      const Rows future =
+          models.query(std::string("SELECT count(*) AS n FROM ") + table +
+                       " JOIN episodes USING (episode) WHERE split = 'test' AND (" + frame + ") % 40 NOT IN (39, 0)");
+      CHECK(future.integer(0, "n") == 0);
+    }
   }
   SECTION("numbers of two data sets do not tell which episodes are the same, nor in which order they were made") {
     const auto seeds = [](const std::string& problem) {

@@ -1,0 +1,2 @@
+-- All joints at every 40th frame and 1, 5 and 20 frames after it (rad, m): kind (hinge, slider), and whether the robot drives it.
+SELECT frame, joint, kind, driven, position FROM joints WHERE episode = ?1 AND frame % 40 IN (0, 1, 5, 20) ORDER BY frame, joint;
