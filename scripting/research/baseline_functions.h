@@ -30,6 +30,7 @@ Answers linear_tip(const ResearchProblem& problem, const PlainFile& given);
 // baseline_facts.cpp
 Answers geometry_facts(const ResearchProblem& problem, const PlainFile& given);
 Answers geometry_symbols(const ResearchProblem& problem, const PlainFile& given);
+Answers invented_predicates(const ResearchProblem& problem, const PlainFile& given);  // baseline_inventions.cpp
 
 Answers operators_with_labels(const ResearchProblem& problem, const PlainFile& given);     // baseline_operators.cpp
 Answers operators_without_labels(const ResearchProblem& problem, const PlainFile& given);  // baseline_operators.cpp
