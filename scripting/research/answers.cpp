@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -27,6 +28,19 @@ const AnswerColumn* find_column(const ResearchProblem& problem, std::string_view
   return nullptr;
 }
 
+std::string shown(const std::string& text) { return text.size() > 60 ? text.substr(0, 60) + "…" : text; }
+
+[[noreturn]] void refuse_column(const std::string& where, const std::string& name, const ResearchProblem& problem) {
+  throw Error(where, "there is no column '" + shown(name) + "'", column_names(problem));
+}
+
+// As text; of lists and objects only that they are ones.
+std::string shown(const Json& json) {
+  if (json.is_array()) return "a list";
+  if (json.is_object()) return "an object";
+  return shown(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 [[noreturn]] void refuse_value(const std::string& where, const AnswerColumn& column, const std::string& found) {
   const char* wanted = column.type == AnswerType::integer ? "a whole number"
                        : column.type == AnswerType::real  ? "a finite number"
@@ -36,7 +50,9 @@ const AnswerColumn* find_column(const ResearchProblem& problem, std::string_view
 
 SqlValue value_from(const Json& json, const AnswerColumn& column, const std::string& where) {
   if (json.is_null() && column.optional) return std::monostate{};
-  if (column.type == AnswerType::integer && json.is_number_integer()) return json.get<std::int64_t>();
+  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  const bool fits = !json.is_number_unsigned() || json.get<std::uint64_t>() <= kMost;
+  if (column.type == AnswerType::integer && json.is_number_integer() && fits) return json.get<std::int64_t>();
   if (column.type == AnswerType::integer && json.is_number_float()) {
     const double number = json.get<double>();
     if (std::abs(number) < 1e15 && number == std::floor(number)) return static_cast<std::int64_t>(number);
@@ -44,13 +60,13 @@ SqlValue value_from(const Json& json, const AnswerColumn& column, const std::str
   if (column.type == AnswerType::real && json.is_number() && std::isfinite(json.get<double>()))
     return json.get<double>();
   if (column.type == AnswerType::text && json.is_string()) return json.get<std::string>();
-  refuse_value(where, column, json.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40));
+  refuse_value(where, column, shown(json));
 }
 
 std::vector<SqlValue> row_from(const Json& json, const ResearchProblem& problem, const std::string& where) {
   if (!json.is_object()) throw Error(where, "an answer is an object", column_names(problem));
   for (const auto& [name, value] : json.items())
-    if (!find_column(problem, name)) throw Error(where, "there is no column '" + name + "'", column_names(problem));
+    if (!find_column(problem, name)) refuse_column(where, name, problem);
   std::vector<SqlValue> row;
   for (const AnswerColumn& column : problem.answer) {
     const auto found = json.find(column.name);
@@ -61,22 +77,34 @@ std::vector<SqlValue> row_from(const Json& json, const ResearchProblem& problem,
   return row;
 }
 
-// `NaN` and `Infinity`, as Python writes them, are no JSON: say so, where a parser would only say that it is lost.
-void refuse_not_numbers(const std::string& text, const std::string& where) {
+// What a parser says too little of, or takes a stack frame each for: `NaN` and `Infinity`, as Python writes them, and
+// brackets within brackets.
+void refuse_no_answers(const std::string& text, const std::string& where) {
+  constexpr int kDeepest = 16;  // answers need three
   bool quoted = false;
+  int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && quoted)
+    const char c = text[i];
+    const auto place = [&] {
+      return where + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(i), '\n'));
+    };
+    if (c == '\\' && quoted)
       ++i;
-    else if (text[i] == '"')
+    else if (c == '"')
       quoted = !quoted;
-    else if (!quoted && (text.compare(i, 3, "NaN") == 0 || text.compare(i, 8, "Infinity") == 0))
-      throw Error(where + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(i), '\n')),
-                  "a number is not finite", "leave out what was not predicted, or predict it");
+    else if (quoted)
+      continue;
+    else if (text.compare(i, 3, "NaN") == 0 || text.compare(i, 8, "Infinity") == 0)
+      throw Error(place(), "a number is not finite", "leave out what was not predicted, or predict it");
+    else if ((c == '[' || c == '{') && ++depth > kDeepest)
+      throw Error(place(), "brackets are " + std::to_string(depth) + " deep", "compare it with answers.example.json");
+    else if (c == ']' || c == '}')
+      --depth;
   }
 }
 
 void read_json(const std::string& text, const ResearchProblem& problem, Answers& answers) {
-  refuse_not_numbers(text, answers.where);
+  refuse_no_answers(text, answers.where);
   Json json;
   try {
     json = Json::parse(text);
@@ -88,7 +116,7 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   for (const auto& [name, value] : json.items()) {
     if (name == "answers") continue;
     if (!value.is_string())
-      throw Error(answers.where, "'" + name + "' is a text", "compare it with answers.example.json");
+      throw Error(answers.where, "'" + shown(name) + "' is a text", "compare it with answers.example.json");
     if (name == "dataset")
       answers.dataset = value.get<std::string>();
     else if (name == "problem")
@@ -135,7 +163,7 @@ SqlValue value_from(const std::string& cell, const AnswerColumn& column, const s
         read.ec == std::errc{} && read.ptr == end && std::isfinite(number))
       return number;
   }
-  refuse_value(where, column, "'" + cell.substr(0, 40) + "'");
+  refuse_value(where, column, "'" + shown(cell) + "'");
 }
 
 void read_csv(const std::string& text, const ResearchProblem& problem, Answers& answers) {
@@ -154,7 +182,10 @@ void read_csv(const std::string& text, const ResearchProblem& problem, Answers& 
     if (header.empty()) {
       header = cells;
       for (const std::string& name : header)
-        if (!find_column(problem, name)) throw Error(where, "there is no column '" + name + "'", column_names(problem));
+        if (!find_column(problem, name)) refuse_column(where, name, problem);
+      for (const std::string& name : header)
+        if (std::count(header.begin(), header.end(), name) > 1)
+          throw Error(where, "the column '" + name + "' is there twice", column_names(problem));
       for (const AnswerColumn& column : problem.answer)
         if (!column.optional && std::find(header.begin(), header.end(), column.name) == header.end())
           throw Error(where, "the column '" + column.name + "' is missing", column_names(problem));

@@ -33,8 +33,8 @@ std::vector<std::string> words_of(const std::string& atom) {
 std::vector<std::string> words_or_refuse(const ScoringJob& job, const std::string& atom, std::size_t row) {
   const std::vector<std::string> words = words_of(atom);
   if (words.empty())
-    throw Error(job.answers.where + ", answer " + std::to_string(row + 1), "'" + atom + "' is no ground atom",
-                "write it as (on block1 table)");
+    throw Error(job.answers.where + ", answer " + std::to_string(row + 1),
+                "'" + atom.substr(0, 60) + "' is no ground atom", "write it as (on block1 table)");
   return words;
 }
 

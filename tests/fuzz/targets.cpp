@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <lua.hpp>
+#include <stdexcept>
 
 #include "db/catalogue.h"
 #include "engine/base/error.h"
@@ -19,6 +20,7 @@
 #include "fuzz_pddl.h"
 #include "scripting/library/library.h"
 #include "scripting/lua/sandbox.h"
+#include "scripting/research/answers.h"
 #include "tests/fuzz/catalogue.h"
 
 namespace stampede::fuzz {
@@ -122,6 +124,19 @@ void ask(std::string_view question) {
   setitimer(ITIMER_VIRTUAL, &kNever, nullptr);
 }
 
+// As answers to each research problem; what is read is what is written.
+void read_as_answers(std::string_view bytes) {
+  const fs::path file = scratch().put("answers", bytes);
+  for (const research::ResearchProblem& problem : research::all_problems())
+    answered([&] {
+      const research::Answers answers = research::read_answers(file, problem);
+      scratch().put("again", research::answers_text(answers));
+      const research::Answers again = research::read_answers(scratch().path() / "again", problem);
+      if (again.rows.rows != answers.rows.rows || again.texts != answers.texts)
+        throw std::logic_error("answers to " + problem.name + " change when they are written");
+    });
+}
+
 // What reads a file of that name, as a reader of bytes.
 template <typename Read>
 Target of_file(const std::string& name, const std::string& file, const Read& read) {
@@ -133,6 +148,7 @@ Target of_file(const std::string& name, const std::string& file, const Read& rea
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
       {"pddl", read_pddl},
+      {"answers", read_as_answers},
       {"bddl", [](std::string_view bytes) { answered([&] { check_bddl(read_bddl(bytes, "fuzzed.bddl").problem); }); }},
       {"lua", read_lua},
       of_file("urdf", "fuzzed.urdf", [](const fs::path& file) { return read_urdf(file); }),

@@ -80,4 +80,42 @@ TEST_CASE("answers that are wrong are refused with their place") {
   refused("{\"answers\": [{\"episode\": 1, \"frame\": 0, \"value\": 1e999}]}", "", "rewards");
 }
 
+TEST_CASE("answers that mean harm are refused in a line or two") {
+  const auto refused_shortly = [](const std::string& text, const std::string& why, const std::string& problem) {
+    try {
+      read(text, problem);
+      FAIL("it was read");
+    } catch (const Error& error) {
+      const std::string said = error.what();
+      CHECK_THAT(said, Catch::Contains(why));
+      CHECK(said.size() < 1000);
+    }
+  };
+  const std::string large(10'000'000, 'x'), deep(1'000'000, '['), shut(1'000'000, ']');
+  const std::string start = "{\"dataset\": \"abc\", \"answers\": [{\"episode\": ";
+  refused_shortly(start + deep, "brackets are 17 deep", "rewards");
+  refused_shortly(start + deep + shut + ", \"frame\": 0, \"value\": 0}]}", ":1: brackets are 17 deep", "rewards");
+  refused_shortly(start + "[[]], \"frame\": 0, \"value\": 0}]}", "whole number, not a list", "rewards");
+  refused_shortly(start + "{}, \"frame\": 0, \"value\": 0}]}", "not an object", "rewards");
+  refused_shortly(start + "1, \"" + large + "\": 0}]}", "no column 'xxx", "rewards");
+  refused_shortly(start + "\"" + large + "\", \"frame\": 0, \"value\": 0}]}", "whole number", "rewards");
+  refused_shortly(start + "18446744073709551615, \"frame\": 0, \"value\": 0}]}", "whole number", "rewards");
+  refused_shortly(start + "1, \"frame\": 0, \"value\": true}]}", "finite number, not true", "rewards");
+  refused_shortly(start + "1, \"frame\": 0, \"value\": -Infinity}]}", "not finite", "rewards");
+  refused_shortly("{\"dataset\": [" + deep + shut + "]}", "deep", "rewards");
+  refused_shortly("{\"dataset\": [[]]}", "'dataset' is a text", "rewards");
+  refused_shortly(large, "no column 'xxx", "rewards");
+  refused_shortly("episode,frame,value\n1,0," + large, "finite number", "rewards");
+  refused_shortly("episode,frame,value,frame\n1,0,1,2\n", "'frame' is there twice", "rewards");
+  refused_shortly("episode,frame,value\n99999999999999999999,0,1\n", "whole number", "rewards");
+  refused_shortly(std::string("\0\0\0\0", 4), "no column", "rewards");
+}
+
+TEST_CASE("ten megabytes of answers are read") {
+  std::string text = "# dataset: abc\nepisode,frame,value\n";
+  std::size_t rows = 0;
+  while (text.size() < 10'000'000) text += "1," + std::to_string(rows++) + ",0.123456789012345\n";
+  CHECK(read(text, "rewards").rows.size() == rows);
+}
+
 }  // namespace stampede::research
