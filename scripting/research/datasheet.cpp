@@ -52,6 +52,14 @@ std::string counts_text(const ResearchProblem& problem, const DatasetReport& rep
                      problem.unit == Unit::piece ? "piece" : "episode", report.train, report.validation, report.test);
 }
 
+const char* pictures_text(const ResearchProblem& problem, const DatasheetFacts& facts) {
+  if (std::none_of(problem.given.begin(), problem.given.end(),
+                   [](const TableUse& use) { return use.table() == "images"; }))
+    return "not of this problem";
+  if (!facts.pictures) return "none (they are of catalogues made with `stampede run --images all` or `keyframes`)";
+  return "yes, in table `images`";
+}
+
 }  // namespace
 
 DatasheetFacts datasheet_facts(const Catalogue& catalogue, const std::vector<SplitEpisode>& episodes,
@@ -94,7 +102,7 @@ std::string given_sheet(const ResearchProblem& problem, const DatasheetFacts& fa
       "N, quaternions xyzw, spans half-open. Numbers are new and in no order: nothing here names seed, variation or "
       "source of "
       "an episode.\n\n{}\n",
-      counts_text(problem, report), facts.successes, facts.failures, facts.pictures ? "yes" : "none",
+      counts_text(problem, report), facts.successes, facts.failures, pictures_text(problem, facts),
       tables_text(problem.given, problem));
   const bool acts = std::any_of(problem.given.begin(), problem.given.end(), [](const TableUse& use) {
     return use.table() == "instructions" || use.table() == "tasks";

@@ -256,6 +256,8 @@ std::vector<ResearchProblem> make_problems() {
                      {"facts", Part::train},
                      {"context_facts", Part::test, "facts"},
                      {"objects"},
+                     {"images", Part::train},
+                     {"context_images", Part::test, "images"},
                      {"actions", Part::train},
                      {"context_actions", Part::test, "actions"}},
        .hidden = Uses{{"future_hands", Part::test, "hands"},

@@ -324,6 +324,40 @@ TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
   CHECK(made().dataset("rewards", failed, "failed").code == kDone);
 }
 
+TEST_CASE("pictures: with their cameras, and none that tells where a skill begins") {
+  for (const auto& [which, file] : {std::pair{"keyframes", "some.db"}, {"all", "every.db"}}) {
+    INFO(which);
+    const std::string seen = made().path(file);
+    REQUIRE(say({"run", "stack_blocks", "--root", kRoot, "--out", seen, "--episodes", "3", "--images", which,
+                 "--camera", "front", "--size", "16x16"})
+                .code == kDone);
+    REQUIRE(made().dataset("segments_and_conditions", seen, file + std::string("_set")).code == kDone);
+    const std::string folder = made().path(file + std::string("_set"));
+    const PlainFile given = PlainFile::open(folder + "/given/given.db"),
+                    hidden = PlainFile::open(folder + "/hidden/hidden.db");
+    const Rows wrong = given.query(
+        "SELECT count(*) AS n FROM images WHERE x IS NULL OR qw IS NULL OR focal_x IS NULL OR substr(data, 2, 3) <> "
+        "CAST('PNG' AS BLOB)");
+    CHECK(wrong.integer(0, "n") == 0);
+    CHECK(says(file_text(folder + "/given/README.md"), "Pictures: yes"));
+    const Rows frames = given.query("SELECT episode, frame FROM images GROUP BY 1, 2");
+    const Rows whole = given.query("SELECT sum(frames) AS n FROM episodes");
+    const bool every = std::string(which) == "all";
+    CHECK((static_cast<std::int64_t>(frames.size()) == whole.integer(0, "n")) == every);
+    CHECK(frames.size() > 6);
+    std::size_t starts = 0;  // skills that begin where there is a picture
+    const Rows skills = hidden.query("SELECT episode, first_frame FROM skills WHERE first_frame > 0");
+    for (std::size_t i = 0; i < skills.size(); ++i)
+      starts += given
+                    .query("SELECT DISTINCT 1 FROM images WHERE episode = ?1 AND frame = ?2",
+                           {skills.integer(i, "episode"), skills.integer(i, "first_frame")})
+                    .size();
+    CHECK((starts == skills.size()) == every);
+  }
+  CHECK(says(file_text(made().given("rewards") + "/README.md"), "Pictures: none (they are of catalogues"));
+  CHECK(says(file_text(made().given("segments") + "/README.md"), "Pictures: not of this problem"));
+}
+
 TEST_CASE("the list of problems, for people and programs") {
   const Said text = say({"dataset", "--list"}), json = say({"dataset", "--list", "--json"});
   CHECK(says(text.out, "transition_models"));
