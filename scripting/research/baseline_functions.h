@@ -34,5 +34,6 @@ Answers invented_predicates(const ResearchProblem& problem, const PlainFile& giv
 
 Answers operators_with_labels(const ResearchProblem& problem, const PlainFile& given);     // baseline_operators.cpp
 Answers operators_without_labels(const ResearchProblem& problem, const PlainFile& given);  // baseline_operators.cpp
+Answers actions_of_plans(const ResearchProblem& problem, const PlainFile& given);          // baseline_operators.cpp
 
 }  // namespace stampede::research

@@ -1,6 +1,8 @@
 // Baselines that learn operators from facts.
 #include <algorithm>
+#include <set>
 
+#include "engine/base/error.h"
 #include "engine/learning/operators.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/research/baseline_functions.h"
@@ -57,6 +59,21 @@ Answers operators_without_labels(const ResearchProblem& problem, const PlainFile
   Answers answers;
   answers.texts["domain"] = to_pddl(learned.domain);
   cut_by_events(problem, given, gap, learned, answers);
+  return answers;
+}
+
+Answers actions_of_plans(const ResearchProblem&, const PlainFile& given) {
+  const std::string where = given.path().string();
+  std::set<std::string> used;
+  const Rows plans = given.query("SELECT plan FROM plans");
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    for (const PlanStep& step : plan_from_text(plans.text(i, "plan"), where)) used.insert(step.action);
+  Answers answers;
+  const Rows problems = given.query("SELECT domain FROM problems WHERE domain IS NOT NULL ORDER BY episode LIMIT 1");
+  if (problems.size() == 0) throw Error(where, "no episode has a planning problem");
+  Domain domain = domain_from_pddl(problems.text(0, "domain"), where);
+  std::erase_if(domain.actions, [&](const Action& action) { return !used.contains(action.name); });
+  answers.texts["domain"] = to_pddl(domain);
   return answers;
 }
 

@@ -49,6 +49,7 @@ const std::vector<Baseline>& all_baselines() {
        {"conditions", "conditions_supervised"},
        "calls with equal effects are cases, what held before all is the precondition (Silver et al., IROS 2021)",
        operators_with_labels},
+      {"used_actions", {"abstractions"}, "the actions that plans of training take, and nothing else", actions_of_plans},
       {"thresholds",
        {"inventions"},
        "thresholds of distances that skills change are predicates (2-means), and operators learned with them",
