@@ -54,7 +54,7 @@ Tally tally_of(bool unseen) {
 
 }  // namespace
 
-TEST_CASE("what a person said wrongly is turned down, all of it") {
+TEST_CASE("what is said wrongly is turned down, all of it") {
   int wrong = 0;
   for (const bool unseen : {false, true})
     for (const Said& one : said(unseen)) {
@@ -66,7 +66,7 @@ TEST_CASE("what a person said wrongly is turned down, all of it") {
   CHECK(wrong == 980);
 }
 
-TEST_CASE("most of what a person said rightly passes") {
+TEST_CASE("most of what is said rightly passes") {
   const Tally seen = tally_of(false), unseen = tally_of(true);
   INFO(seen.passed << " of " << seen.right << " and " << unseen.passed << " of " << unseen.right);
   CHECK(seen.passed >= 340);
@@ -74,7 +74,7 @@ TEST_CASE("most of what a person said rightly passes") {
 }
 
 // For people: test_language "[figures]"
-TEST_CASE("figures of what a person said", "[.figures]") {
+TEST_CASE("figures of what is said", "[.figures]") {
   for (const bool unseen : {false, true}) {
     const char* set = unseen ? "unseen" : "seen";
     std::map<std::string, int> refused, kinds;
