@@ -7,12 +7,12 @@
 #include <ostream>
 #include <set>
 
+#include "engine/base/ordered_work.h"
 #include "engine/base/text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/render_overlay.h"
 #include "scripting/program/json_text.h"
-#include "scripting/program/ordered_work.h"
 
 namespace stampede::program {
 

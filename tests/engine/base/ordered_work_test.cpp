@@ -1,8 +1,9 @@
-#include "scripting/program/ordered_work.h"
+#include "engine/base/ordered_work.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 
 namespace stampede {
 namespace {
@@ -52,6 +53,23 @@ TEST_CASE("what is thrown first comes out, whoever waits for a turn that never c
     CHECK_THROWS_WITH(in_order(
                           20, workers, nullptr, fail, [](int, std::size_t i) { return slow_square(i); }, count),
                       "no worker");
+  }
+}
+
+TEST_CASE("of two that throw the first in order comes out, though the other was sooner") {
+  for (const int workers : {1, 2, 5}) {
+    std::size_t taken = 0;
+    const auto make = [](int, std::size_t i) {
+      if (i == 3 || i == 4) {
+        slow_square(i == 3 ? 0 : 19);
+        throw std::runtime_error(std::to_string(i));
+      }
+      return static_cast<int>(i);
+    };
+    CHECK_THROWS_WITH(in_order(
+                          20, workers, nullptr, [] { return 0; }, make, [&](std::size_t, int) { ++taken; }),
+                      "3");
+    CHECK(taken == 3);
   }
 }
 

@@ -7,14 +7,17 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace stampede {
 
 // For i = 0 … count-1: take(i, make(worker, i)), take in this order and one at a time, make in `workers` threads, each
 // with a worker of its own that start() made there. Who is ahead waits, so at most one result a thread is kept.
-// Ends early when `stop` is set: what was being made is taken no more. Throws what was thrown first.
+// Ends early when `stop` is set: what was being made is taken no more. Throws what the first i of these threw, whoever
+// was quicker.
 template <typename Start, typename Make, typename Take>
 void in_order(std::size_t count, int workers, const std::atomic<bool>* stop, const Start& start, const Make& make,
               const Take& take) {
@@ -32,11 +35,21 @@ void in_order(std::size_t count, int workers, const std::atomic<bool>* stop, con
         if (over() || next >= count) return;
         i = next++;
       }
-      auto result = make(worker, i);
+      std::optional<decltype(make(worker, i))> result;
+      std::exception_ptr fault;  // waits for its turn: of two, the first in this order comes out
+      try {
+        result.emplace(make(worker, i));
+      } catch (const std::exception&) {
+        fault = std::current_exception();
+      }
       std::unique_lock lock(mutex);
       moved.wait(lock, [&] { return turn == i || over(); });
       if (over()) return;
-      take(i, std::move(result));
+      if (fault) {
+        first = fault;
+        return;
+      }
+      take(i, std::move(*result));
       ++turn;
       moved.notify_all();
     }
