@@ -49,20 +49,27 @@ std::int64_t Catalogue::add(const EpisodeRecord& episode, const EngineInfo& engi
 }
 
 std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, const EngineInfo& engine) {
+  return add_if_new(episode, engine, {});
+}
+
+std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, const EngineInfo& engine,
+                                                  const std::function<std::string()>& key) {
   check_record(episode);
   const sql::Database& database = impl_->database;
   if (!impl_->writable) database.fail(SQLITE_READONLY);
   if (!impl_->writer) impl_->writer = std::make_unique<EpisodeWriter>(database);
   try {
     database.run("BEGIN IMMEDIATE");
-    if (find(episode.key)) {
-      database.run("ROLLBACK");
-      return std::nullopt;
-    }
+    bool there = find(episode.key).has_value();
     const std::int64_t id = database.number("SELECT coalesce(max(id), 0) + 1 FROM episode");
-    impl_->writer->write(id, episode, engine);
-    database.run("COMMIT");
-    return id;
+    if (!there) impl_->writer->write(id, episode, engine);
+    if (!there && key) {
+      const std::string final_key = key();
+      there = find(final_key).has_value();
+      if (!there) sql::Statement(database, "UPDATE episode SET key = ?2 WHERE id = ?1").run(id, final_key);
+    }
+    database.run(there ? "ROLLBACK" : "COMMIT");
+    return there ? std::nullopt : std::optional(id);
   } catch (...) {
     roll_back(database);
     throw;

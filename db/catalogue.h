@@ -59,11 +59,16 @@ struct AddedImages {
 // Throws: CatalogueError with the cure when the file cannot serve: another application's, a newer schema's, one of no
 // release, not a database, not there, read-only, a full disk. A file that was not ours is never changed.
 // A catalogue of an earlier release opens: read, it stays as it is; written, it is migrated first, all or nothing.
+// How a transaction can be undone. `log`: what is new goes beside the file first, so others read it meanwhile.
+// `in_place`: what is new goes into the file, what was there before goes beside it: every byte is written once, which
+// large pictures want, and others wait. A file that others have open keeps its log.
+enum class Journal { log, in_place };
+
 class Catalogue {
  public:
-  static Catalogue open(const std::filesystem::path& path);   // read-only; works in a read-only folder
-  static Catalogue write(const std::filesystem::path& path);  // made when it is not there
-  ~Catalogue();                                               // closes; throws nothing
+  static Catalogue open(const std::filesystem::path& path);  // read-only; works in a read-only folder
+  static Catalogue write(const std::filesystem::path& path, Journal journal = Journal::log);  // made when not there
+  ~Catalogue();                                                                               // closes; throws nothing
   Catalogue(Catalogue&&) noexcept;
   Catalogue& operator=(Catalogue&&) noexcept;
 
@@ -82,6 +87,9 @@ class Catalogue {
   std::int64_t add(const EpisodeRecord& episode, const EngineInfo& engine);
   // The same, but nothing where the key is there already: another run may write to the file too.
   std::optional<std::int64_t> add_if_new(const EpisodeRecord& episode, const EngineInfo& engine);
+  // The same for an episode whose key is known only when its pictures were read: `key` is asked once all is written.
+  std::optional<std::int64_t> add_if_new(const EpisodeRecord& episode, const EngineInfo& engine,
+                                         const std::function<std::string()>& key);
 
   // Segments, facts, sentences and keyframes of a real episode become those of the record; all or nothing. Throws Error
   // for a simulated one: what its segments say is what was done.

@@ -107,6 +107,18 @@ void check_path(const fs::path& path, bool writing) {
     throw CatalogueError(path.string(), "the folder " + folder.string() + " does not exist", "make it first");
 }
 
+// What a killed writer left half done.
+void undo(const fs::path& path) {
+  const std::string shown = path.string();
+  sql::Database database(uri_of(path) + "?mode=rw", SQLITE_OPEN_READWRITE | SQLITE_OPEN_URI, shown);
+  const int code = sqlite3_exec(database.handle(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+  if (code == SQLITE_OK) return;
+  const int kind = code & 0xff;
+  if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) database.fail(code);
+  throw CatalogueError(shown, "an import that was killed is half in it, and it may not be written to",
+                       "copy the file together with its -journal to a folder that you may write in");
+}
+
 struct ReadFile {
   sql::Database database;
   std::string uri;
@@ -121,6 +133,10 @@ ReadFile open_to_read(const fs::path& path) {
   sql::Database database(uri, kReading, shown);
   const int code = sqlite3_exec(database.handle(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
   if (code == SQLITE_OK) return {std::move(database), uri};
+  if (code == SQLITE_READONLY_ROLLBACK) {
+    undo(path);
+    return open_to_read(path);
+  }
   const int kind = code & 0xff;
   if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) database.fail(code);
   if (::access(shown.c_str(), R_OK) != 0)
@@ -142,6 +158,17 @@ void use_log(const sql::Database& database) {
   }
   // Checkpoints are for others to read quickly, and copy what has changed often only once when they are rare.
   database.run("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536; PRAGMA wal_autocheckpoint = 4000;");
+}
+
+// Not while others have the file open: then it keeps its log.
+void use_undo_file(const sql::Database& database) {
+  sqlite3_busy_timeout(database.handle(), 0);
+  const int code = sqlite3_exec(database.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  sqlite3_busy_timeout(database.handle(), sql::kBusyTimeoutMs);
+  if (code == SQLITE_OK)
+    database.run("PRAGMA synchronous = FULL");
+  else if ((code & 0xff) != SQLITE_BUSY && (code & 0xff) != SQLITE_LOCKED)
+    database.fail(code);
 }
 
 void add_reasons(const sql::Database& database) {
@@ -201,7 +228,7 @@ Catalogue Catalogue::open(const fs::path& path) {
   return Catalogue(std::move(impl));
 }
 
-Catalogue Catalogue::write(const fs::path& path) {
+Catalogue Catalogue::write(const fs::path& path, Journal journal) {
   check_path(path, true);
   auto impl = std::make_unique<Impl>();
   sql::Database& database = impl->database;
@@ -210,6 +237,7 @@ Catalogue Catalogue::write(const fs::path& path) {
   if (sqlite3_db_readonly(database.handle(), "main")) database.fail(SQLITE_READONLY);
   use_log(database);
   make_ready(database, path);
+  if (journal == Journal::in_place) use_undo_file(database);
   database.run("PRAGMA foreign_keys = ON");
   impl->writable = true;
   return Catalogue(std::move(impl));

@@ -55,7 +55,7 @@ Database::Database(const std::string& path, int flags, const std::string& shown_
   handle_.reset(handle);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(handle, 1);
-  sqlite3_busy_timeout(handle, 10'000);
+  sqlite3_busy_timeout(handle, kBusyTimeoutMs);
 }
 
 void Database::run(const std::string& statements) const {

@@ -16,6 +16,8 @@
 
 namespace stampede::sql {
 
+inline constexpr int kBusyTimeoutMs = 10'000;  // how long others are waited for
+
 struct Blob {
   std::string_view bytes;
 };

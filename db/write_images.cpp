@@ -71,13 +71,12 @@ void EpisodeWriter::write_image(const ImageRecord& image, int camera, const std:
   for (const auto& [instance, pixels] : visible) visible_.run(id_, image.frame, camera, instance, pixels);
 }
 
-// One picture in memory at a time.
+// One picture in memory at a time, and one for each thread that makes some.
 void EpisodeWriter::write_images(const EpisodeRecord& episode) {
   if (!episode.images) return;
-  for (std::size_t i = 0; i < episode.images->count(); ++i) {
-    const ImageRecord& image = episode.images->record(i);
-    write_image(image, image.camera, episode.images->read(i));
-  }
+  episode.images->read_all([&](const ImageRecord& image, const std::vector<std::uint8_t>& bytes) {
+    write_image(image, image.camera, bytes);
+  });
 }
 
 // The body's name where its part has none.

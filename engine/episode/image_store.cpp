@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "engine/base/error.h"
+#include "engine/base/ordered_work.h"
 #include "engine/episode/observation.h"
 
 namespace stampede {
@@ -12,22 +13,13 @@ constexpr std::size_t kInMemory = 8'000'000;  // bytes; an episode of five camer
   throw Error("images", "the temporary file for pictures cannot be written", "free space in /tmp, or set TMPDIR");
 }
 
-std::vector<std::uint8_t> whole(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  std::error_code code;
-  std::vector<std::uint8_t> bytes(file ? static_cast<std::size_t>(std::filesystem::file_size(path, code)) : 0);
-  if (!file || code || std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-    throw Error(path.string(), "it cannot be read", "it must stay as it is until it is stored");
-  return bytes;
-}
-
 }  // namespace
 
 struct ImageStore::Impl {
   struct Place {
     std::int64_t begin = 0;
     std::size_t size = 0;
-    std::filesystem::path elsewhere = {};
+    std::function<std::vector<std::uint8_t>()> make = {};
   };
   ~Impl() {
     if (file != nullptr) std::fclose(file);
@@ -45,6 +37,7 @@ struct ImageStore::Impl {
   std::vector<std::uint8_t> memory;  // what lies behind the file's end
   std::FILE* file = nullptr;
   std::int64_t in_file = 0;
+  int makers = 1;
 };
 
 ImageStore::ImageStore() : impl_(std::make_unique<Impl>()) {}
@@ -57,8 +50,8 @@ void ImageStore::append(ImageRecord image, const std::vector<std::uint8_t>& byte
   impl_->records.push_back(std::move(image));
 }
 
-void ImageStore::append_file(ImageRecord image, std::filesystem::path file) {
-  impl_->places.push_back({0, 0, std::move(file)});
+void ImageStore::append_made(ImageRecord image, std::function<std::vector<std::uint8_t>()> make) {
+  impl_->places.push_back({0, 0, std::move(make)});
   impl_->records.push_back(std::move(image));
 }
 
@@ -68,7 +61,7 @@ const ImageRecord& ImageStore::record(std::size_t index) const { return impl_->r
 
 std::vector<std::uint8_t> ImageStore::read(std::size_t index) const {
   const Impl::Place& place = impl_->places.at(index);
-  if (!place.elsewhere.empty()) return whole(place.elsewhere);
+  if (place.make) return place.make();
   std::vector<std::uint8_t> bytes(place.size);
   if (place.begin >= impl_->in_file) {
     const auto first = impl_->memory.begin() + (place.begin - impl_->in_file);
@@ -79,5 +72,15 @@ std::vector<std::uint8_t> ImageStore::read(std::size_t index) const {
   }
   return bytes;
 }
+
+void ImageStore::read_all(const Take& take) const {
+  using Bytes = std::vector<std::uint8_t>;
+  in_order(
+      count(), impl_->makers, nullptr, [] { return 0; },
+      [&](int, std::size_t i) { return impl_->places[i].make ? impl_->places[i].make() : Bytes(); },
+      [&](std::size_t i, Bytes made) { take(record(i), impl_->places[i].make ? made : read(i)); });
+}
+
+void ImageStore::set_makers(int threads) { impl_->makers = threads; }
 
 }  // namespace stampede

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -72,12 +72,17 @@ class ImageStore {
   ImageStore(const ImageStore&) = delete;
   ImageStore& operator=(const ImageStore&) = delete;
   void append(ImageRecord image, const std::vector<std::uint8_t>& bytes);  // throws Error when the disk is full
-  // A picture that stays where it is: read when it is asked for. The file must not change as long as the store lives.
-  void append_file(ImageRecord image, std::filesystem::path file);
+  // A picture that is made when it is asked for: the same bytes each time, by any thread. What `make` throws, the
+  // reader gets.
+  void append_made(ImageRecord image, std::function<std::vector<std::uint8_t>()> make);
   std::size_t count() const;
   std::int64_t bytes() const;  // that the store holds itself
   const ImageRecord& record(std::size_t index) const;
   std::vector<std::uint8_t> read(std::size_t index) const;
+  // All of them, taken in order and one at a time, each made once, by set_makers() threads. Not twice at the same time.
+  using Take = std::function<void(const ImageRecord&, const std::vector<std::uint8_t>&)>;
+  void read_all(const Take& take) const;
+  void set_makers(int threads);  // 1 where it is not said
 
  private:
   struct Impl;

@@ -26,16 +26,17 @@ struct Imported {
 
 Imported import_one(const std::string& folder, Catalogue& catalogue, const std::shared_ptr<const Library>& library,
                     const ImportOptions& options) {
-  const EpisodeRecord record = record_of(folder, library, options);
+  const StoredRecording stored =
+      store_recording(folder, library, options, catalogue, {STAMPEDE_VERSION, numerics_probe()});
+  const EpisodeRecord& record = stored.episode;
   Imported one;
   one.folder = folder;
   one.frames = static_cast<std::int64_t>(record.frames.size());
   one.pictures = record.images ? static_cast<std::int64_t>(record.images->count()) : 0;
   one.duration_s = record.duration_s();
   one.streams = record.streams;
-  const auto id = catalogue.add_if_new(record, {STAMPEDE_VERSION, numerics_probe()});
-  one.added = id.has_value();
-  one.episode = id ? *id : catalogue.find(record.key).value_or(0);
+  one.added = stored.added;
+  one.episode = stored.id;
   return one;
 }
 
@@ -85,7 +86,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
     options.frame_hz = static_cast<int>(in_range(arguments, "--frame-hz", 1, kMostFrameHz));
   if (arguments.has("--world")) options.world = arguments.text("--world");
   const auto library = load_usable_library(arguments);
-  Catalogue catalogue = Catalogue::write(arguments.text("--out"));
+  Catalogue catalogue = Catalogue::write(arguments.text("--out"), Journal::in_place);
   std::vector<Imported> all;
   for (const std::string& folder : folders) {
     if (console.stopped()) break;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kTicks = 1'000'000;  // a second, about: steps of a real episode
 constexpr std::size_t kMostFrames = 10'000'000;
+constexpr const char* kNoKey = "no key yet: its pictures are being read";
 constexpr double kSameMoment = 1e-6;  // s
 
 std::string seconds(double value) {
@@ -33,6 +34,7 @@ class Importer {
     if (options.world) recording_.world = *options.world;
     hasher_.text("recording 1").text(recording_.text).number(recording_.frame_hz).text(recording_.world);
   }
+  // All but the pictures themselves, and so without the key.
   EpisodeRecord import() {
     scene_ = scene_of(recording_, library_, hasher_);
     read_robot();
@@ -47,8 +49,9 @@ class Importer {
     std::sort(record_.image_times.begin(), record_.image_times.end(), [](const auto& a, const auto& b) {
       return std::tie(a.frame, a.camera, a.kind) < std::tie(b.frame, b.camera, b.kind);
     });
+    images_->set_makers(options_.workers);
     if (images_->count() > 0) record_.images = images_;
-    record_.key = hasher_.digest();
+    record_.key = kNoKey;
     record_.keyframes["stopped"] = stopped_keyframes(record_);
     if (!recording_.labels.empty()) {
       const std::filesystem::path file = recording_.path_of(recording_.labels, recording_.shown);
@@ -56,6 +59,11 @@ class Importer {
                  record_);
     }
     return std::move(record_);
+  }
+  // Once, when all pictures were read.
+  std::string key() {
+    for (const auto& part : later_) part(hasher_);
+    return hasher_.digest();
   }
 
  private:
@@ -65,19 +73,30 @@ class Importer {
     return nullptr;
   }
 
+  // Into the key: now, or after the pictures that come before it.
+  void hash(const std::string& text) {
+    if (later_.empty())
+      hasher_.text(text);
+    else
+      later_.emplace_back([text](Hasher& hasher) { hasher.text(text); });
+  }
+  Track track_of(const RecordedStream& stream, std::vector<TrackColumn> columns) {
+    return read_track(recording_, stream, std::move(columns), [this](const std::string& text) { hash(text); });
+  }
+
   void read_robot() {
     const Robot& robot = scene_.stage.scene.robot;
     const RecordedStream& joints = *stream_of(StreamKind::joints);
-    joints_ = read_track(recording_, joints, joint_columns(robot), hasher_);
+    joints_ = track_of(joints, joint_columns(robot));
     check_joint_limits(recording_, joints, joints_, robot);
     tracks_.joints = &joints_;
     if (const RecordedStream* gripper = stream_of(StreamKind::gripper)) {
-      gripper_ = read_track(recording_, *gripper, {{"opening_m", true}, {"effort_n", false}}, hasher_);
+      gripper_ = track_of(*gripper, {{"opening_m", true}, {"effort_n", false}});
       check_openings(recording_, *gripper, gripper_, robot);
       tracks_.gripper = &gripper_;
     }
     if (const RecordedStream* command = stream_of(StreamKind::command)) {
-      command_ = read_track(recording_, *command, command_columns(robot), hasher_);
+      command_ = track_of(*command, command_columns(robot));
       check_joint_limits(recording_, *command, command_, robot);
       check_openings(recording_, *command, command_, robot);
       tracks_.command = &command_;
@@ -170,7 +189,7 @@ class Importer {
       for (const char* name : {"force_x_n", "force_y_n", "force_z_n", "torque_x_nm", "torque_y_nm", "torque_z_nm"})
         columns.push_back({name, true});
     }
-    const Track track = read_track(recording_, stream, columns, hasher_);
+    const Track track = track_of(stream, columns);
     require_overlap(stream, track.time);
     ChannelRecord channel;
     channel.name = stream.name;
@@ -206,14 +225,18 @@ class Importer {
       record_.image_times.push_back(
           {static_cast<std::int64_t>(frame), index, std::string(to_string(stream.kind)), time});
     }
-    hasher_.text(add_pictures(stream, pictures, chosen, *camera, index, std::max(1, options_.workers), *images_));
-    for (const double time : pictures.time) hasher_.number(time);
+    later_.emplace_back([digest = add_pictures(stream, pictures, chosen, *camera, index, *images_),
+                         times = pictures.time](Hasher& hasher) {
+      hasher.text(digest());
+      for (const double time : times) hasher.number(time);
+    });
   }
 
   RecordingFile recording_;
   const std::shared_ptr<const Library>& library_;
   ImportOptions options_;
   Hasher hasher_;
+  std::vector<std::function<void(Hasher&)>> later_;
   RecordingScene scene_;
   Track joints_, gripper_, command_;
   RobotTracks tracks_;
@@ -226,7 +249,33 @@ class Importer {
 
 EpisodeRecord record_of(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
                         const ImportOptions& options) {
-  return Importer(folder, library, options).import();
+  Importer importer(folder, library, options);
+  EpisodeRecord record = importer.import();
+  if (record.images) record.images->read_all([](const ImageRecord&, const Bytes&) {});
+  record.key = importer.key();
+  return record;
+}
+
+StoredRecording store_recording(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
+                                const ImportOptions& options, Catalogue& catalogue, const EngineInfo& engine) {
+  Importer importer(folder, library, options);
+  StoredRecording stored{importer.import()};
+  EpisodeRecord& episode = stored.episode;
+  const auto alike = [&](const EpisodeSummary& one) {
+    return one.task == episode.task && one.frames == static_cast<std::int64_t>(episode.frames.size());
+  };
+  const std::vector<EpisodeSummary> there = catalogue.episodes();
+  std::optional<std::int64_t> id;
+  if (!episode.images || std::any_of(there.begin(), there.end(), alike)) {
+    if (episode.images) episode.images->read_all([](const ImageRecord&, const Bytes&) {});
+    episode.key = importer.key();
+    id = catalogue.add_if_new(episode, engine);
+  } else {
+    id = catalogue.add_if_new(episode, engine, [&] { return episode.key = importer.key(); });
+  }
+  stored.added = id.has_value();
+  stored.id = id ? *id : catalogue.find(episode.key).value_or(0);
+  return stored;
 }
 
 }  // namespace stampede

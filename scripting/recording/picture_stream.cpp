@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <exception>
-#include <thread>
+#include <memory>
 
 #include "engine/base/hash.h"
 #include "engine/render/png.h"
@@ -77,7 +76,9 @@ PictureHeader check_jpeg(std::string_view bytes, StreamKind kind, const std::str
   throw Error(where, "this is no JPEG picture that can be read", "write it anew");
 }
 
-std::string whole_file(const fs::path& path, const std::string& shown) {
+std::string_view as_text(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+Bytes whole_file(const fs::path& path, const std::string& shown) {
   struct Descriptor {
     int number;
     ~Descriptor() {
@@ -86,7 +87,7 @@ std::string whole_file(const fs::path& path, const std::string& shown) {
   } file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) throw Error(shown, "it cannot be read");
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  Bytes bytes(static_cast<std::size_t>(status.st_size));
   std::size_t at = 0;
   while (at < bytes.size()) {
     const ssize_t got = ::read(file.number, bytes.data() + at, bytes.size() - at);
@@ -97,21 +98,15 @@ std::string whole_file(const fs::path& path, const std::string& shown) {
 }
 
 // Depths in our unit, within the range; the bytes as they are where nothing would change.
-Bytes converted_depth(const std::string& bytes, const RecordedStream& stream) {
+Bytes converted_depth(const Bytes& bytes, const RecordedStream& stream) {
   Picture picture;
-  from_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, PictureKind::depth, picture);
+  from_png(bytes, PictureKind::depth, picture);
   for (float& depth : picture.depth) {
     const double metres = std::round(depth / kDepthUnit) * stream.unit_m;
     depth = metres >= stream.near_m && metres <= stream.far_m ? static_cast<float>(metres) : 0;
   }
   return to_png(picture, PictureKind::depth);
 }
-
-struct Checked {
-  Bytes depth;  // of colours the file is read again where it is wanted
-  std::string hash;
-  std::exception_ptr fault;
-};
 
 double stamp_of(const fs::path& file, const std::string& shown) {
   const std::string name = file.stem().string();
@@ -166,6 +161,32 @@ void list_by_times(const RecordingFile& recording, const RecordedStream& stream,
   }
 }
 
+// Pictures of one stream, read by several threads at once, each of another.
+struct PictureReader {
+  PictureReader(const RecordedStream& its_stream, const PictureStream& all, const Camera& its_camera)
+      : stream(its_stream), pictures(all), camera(its_camera) {}
+
+  Bytes read(std::size_t at) {
+    const std::string& where = pictures.shown[chosen[at]];
+    Bytes bytes = whole_file(pictures.files[chosen[at]], where);
+    const PictureHeader header = check_picture(as_text(bytes), stream.kind, where);
+    if (header.width != camera.width || header.height != camera.height)
+      throw Error(where,
+                  "this picture has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
+                      " pixels, and camera " + camera.name + " was measured at " + std::to_string(camera.width) +
+                      " x " + std::to_string(camera.height),
+                  "calibrate at the size of the pictures, or scale the camera file to it");
+    hashes[at] = content_hash(as_text(bytes));
+    return stream.kind == StreamKind::depth ? converted_depth(bytes, stream) : bytes;
+  }
+
+  const RecordedStream stream;
+  const PictureStream pictures;
+  const Camera camera;
+  std::vector<std::size_t> chosen;  // which of the stream's, in the order of the store
+  std::vector<std::string> hashes;  // of the recorded bytes, likewise
+};
+
 }  // namespace
 
 PictureStream read_picture_stream(const RecordingFile& recording, const RecordedStream& stream) {
@@ -179,7 +200,7 @@ PictureStream read_picture_stream(const RecordingFile& recording, const Recorded
 std::array<int, 2> first_size(const RecordingFile& recording, const RecordedStream& stream) {
   const PictureStream pictures = read_picture_stream(recording, stream);
   const PictureHeader header =
-      check_picture(whole_file(pictures.files[0], pictures.shown[0]), stream.kind, pictures.shown[0]);
+      check_picture(as_text(whole_file(pictures.files[0], pictures.shown[0])), stream.kind, pictures.shown[0]);
   return {header.width, header.height};
 }
 
@@ -190,52 +211,24 @@ PictureHeader check_picture(std::string_view bytes, StreamKind kind, const std::
               "write PNG (8 bits a channel, depth 16), or JPEG for colours");
 }
 
-std::string add_pictures(const RecordedStream& stream, const PictureStream& pictures,
-                         const std::vector<std::int64_t>& chosen, const Camera& camera, int camera_index, int workers,
-                         ImageStore& images) {
-  std::vector<std::size_t> frames;
-  for (std::size_t frame = 0; frame < chosen.size(); ++frame)
-    if (chosen[frame] >= 0) frames.push_back(frame);
-  constexpr std::size_t kAtOnce = 64;
-  Hasher hasher;
-  for (std::size_t first = 0; first < frames.size(); first += kAtOnce) {
-    std::vector<Checked> batch(std::min(kAtOnce, frames.size() - first));
-    const auto work = [&](std::size_t worker) {
-      for (std::size_t i = worker; i < batch.size(); i += static_cast<std::size_t>(workers)) {
-        const auto which = static_cast<std::size_t>(chosen[frames[first + i]]);
-        const std::string& where = pictures.shown[which];
-        try {
-          const std::string bytes = whole_file(pictures.files[which], where);
-          const PictureHeader header = check_picture(bytes, stream.kind, where);
-          if (header.width != camera.width || header.height != camera.height)
-            throw Error(where,
-                        "this picture has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                            " pixels, and camera " + camera.name + " was measured at " + std::to_string(camera.width) +
-                            " x " + std::to_string(camera.height),
-                        "calibrate at the size of the pictures, or scale the camera file to it");
-          batch[i].hash = content_hash(bytes);
-          if (stream.kind == StreamKind::depth) batch[i].depth = converted_depth(bytes, stream);
-        } catch (...) {
-          batch[i].fault = std::current_exception();
-        }
-      }
-    };
-    std::vector<std::jthread> others;
-    for (int worker = 1; worker < workers; ++worker) others.emplace_back(work, static_cast<std::size_t>(worker));
-    work(0);
-    others.clear();
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (batch[i].fault) std::rethrow_exception(batch[i].fault);
-      hasher.text(batch[i].hash);
-      ImageRecord record{static_cast<std::int64_t>(frames[first + i]), camera_index,
-                         std::string(to_string(stream.kind)), camera.width, camera.height};
-      if (stream.kind == StreamKind::depth)
-        images.append(std::move(record), batch[i].depth);
-      else
-        images.append_file(std::move(record), pictures.files[static_cast<std::size_t>(chosen[frames[first + i]])]);
-    }
+std::function<std::string()> add_pictures(const RecordedStream& stream, const PictureStream& pictures,
+                                          const std::vector<std::int64_t>& chosen, const Camera& camera,
+                                          int camera_index, ImageStore& images) {
+  auto reader = std::make_shared<PictureReader>(stream, pictures, camera);
+  for (std::size_t frame = 0; frame < chosen.size(); ++frame) {
+    if (chosen[frame] < 0) continue;
+    const std::size_t at = reader->chosen.size();
+    reader->chosen.push_back(static_cast<std::size_t>(chosen[frame]));
+    images.append_made({static_cast<std::int64_t>(frame), camera_index, std::string(to_string(stream.kind)),
+                        camera.width, camera.height},
+                       [reader, at] { return reader->read(at); });
   }
-  return hasher.digest();
+  reader->hashes.resize(reader->chosen.size());
+  return [reader] {
+    Hasher hasher;
+    for (const std::string& hash : reader->hashes) hasher.text(hash);
+    return hasher.digest();
+  };
 }
 
 }  // namespace stampede

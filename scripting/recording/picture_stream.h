@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,12 @@ struct PictureHeader {
 };
 PictureHeader check_picture(std::string_view bytes, StreamKind kind, const std::string& where);
 
-// Pictures of the frames, those that are chosen[frame] >= 0, into the store: colours byte by byte as they were
-// recorded, depths in our unit, cut to the stream's range. Works in `workers` threads; the store is filled in order.
-// Result: a digest of the recorded bytes. Throws Error for pictures that are not whole, or of another size than the
-// camera's.
-std::string add_pictures(const RecordedStream& stream, const PictureStream& pictures,
-                         const std::vector<std::int64_t>& chosen, const Camera& camera, int camera_index, int workers,
-                         ImageStore& images);
+// Pictures of the frames, those that are chosen[frame] >= 0, for the store: colours byte by byte as they were recorded,
+// depths in our unit, cut to the stream's range. The files are read, checked and hashed when the store is asked for
+// them, which throws Error for pictures that are not whole, or of another size than the camera's.
+// Result: a digest of the recorded bytes, to be asked for when all of the store has been read.
+std::function<std::string()> add_pictures(const RecordedStream& stream, const PictureStream& pictures,
+                                          const std::vector<std::int64_t>& chosen, const Camera& camera,
+                                          int camera_index, ImageStore& images);
 
 }  // namespace stampede

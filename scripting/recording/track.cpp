@@ -45,10 +45,10 @@ std::vector<std::size_t> places_of(const CsvFile& csv, const RecordedStream& str
 }  // namespace
 
 Track read_track(const RecordingFile& recording, const RecordedStream& stream, std::vector<TrackColumn> columns,
-                 Hasher& hasher) {
+                 const std::function<void(const std::string&)>& hash) {
   const std::string shown = recording.shown_path(stream.file);
   CsvFile csv(recording.path_of(stream.file, stream.place), shown);
-  hasher.text(csv.text());
+  hash(csv.text());
   Track track;
   const std::vector<std::size_t> places = places_of(csv, stream, columns, shown);
   track.columns = std::move(columns);

@@ -1,10 +1,10 @@
 // Numbers that were read one after the other, on the recording's time line.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "engine/base/hash.h"
 #include "scripting/recording/recording_file.h"
 
 namespace stampede {
@@ -24,10 +24,10 @@ struct Track {
   double at(std::size_t row, std::size_t column) const { return values[row * width() + column]; }
 };
 
-// Reads a stream's CSV: `time_s` and these columns, in any order; with no columns given, all that it has. Its bytes go
-// to the hasher. Throws Error with the line: other columns, missing ones, stamps that do not rise, no rows.
+// Reads a stream's CSV: `time_s` and these columns, in any order; with no columns given, all that it has. `hash` is
+// called with its bytes. Throws Error with the line: other columns, missing ones, stamps that do not rise, no rows.
 Track read_track(const RecordingFile& recording, const RecordedStream& stream, std::vector<TrackColumn> columns,
-                 Hasher& hasher);
+                 const std::function<void(const std::string&)>& hash);
 
 // What is said of a stream's times: by the part of them within [begin, end].
 void describe_times(const std::vector<double>& time, double begin, double end, StreamRecord& record);

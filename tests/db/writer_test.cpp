@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "db/catalogue_writer.h"
+#include "engine/episode/observation.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -186,6 +187,58 @@ TEST_CASE("a killed run leaves whole episodes only") {
   CHECK_FALSE(std::filesystem::exists(path.string() + "-wal"));
   Catalogue catalogue = Catalogue::open(path);
   CHECK(catalogue.read_episode(2).frames.size() == episodes[1].frames.size());
+}
+
+TEST_CASE("killed while it writes in place, the file is what it was, also for who only reads") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  Catalogue::write(path).add(sample_episode("lift", "colour=red", 0), kEngine);
+  const std::string before = Catalogue::open(path).content_hash();
+  const auto size = std::filesystem::file_size(path);
+  EpisodeRecord large = sample_episode("lift", "colour=red", 1, {120, 15, 10});
+  const auto images = std::make_shared<ImageStore>();
+  for (int i = 0; i < 100; ++i)  // more than stays in memory
+    images->append_made({i, 0, "rgb", 8, 8}, [i]() -> std::vector<std::uint8_t> {
+      if (i == 99) ::kill(::getpid(), SIGKILL);
+      return std::vector<std::uint8_t>(1'000'000, static_cast<std::uint8_t>(i));
+    });
+  large.images = images;
+  const pid_t child = ::fork();
+  if (child == 0) Catalogue::write(path, Journal::in_place).add(large, kEngine);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  REQUIRE(std::filesystem::file_size(path) > size + 10'000'000);
+  CHECK(Catalogue::open(path).content_hash() == before);
+  CHECK(std::filesystem::file_size(path) == size);
+  CHECK_FALSE(std::filesystem::exists(path.string() + "-journal"));
+}
+
+TEST_CASE("a file that others read is written beside them, and they see the end") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  Catalogue held = Catalogue::write(path);
+  held.add(sample_episode("lift", "colour=red", 0), kEngine);
+  Catalogue catalogue = Catalogue::write(path, Journal::in_place);
+  catalogue.add(sample_episode("lift", "colour=red", 1), kEngine);
+  CHECK(held.episodes().size() == 2);
+  held.add(sample_episode("lift", "colour=red", 2), kEngine);
+  CHECK(catalogue.episodes().size() == 3);
+}
+
+TEST_CASE("a key that is known last is the episode's, and one that is there already changes nothing") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  EpisodeRecord e = sample_episode("lift", "colour=red", 0);
+  const std::string key = e.key;
+  e.key = "not yet";
+  CHECK(catalogue.add_if_new(e, kEngine, [&] { return key; }) == 1);
+  CHECK(catalogue.find(key) == 1);
+  CHECK_FALSE(catalogue.find("not yet"));
+  const std::string before = catalogue.content_hash();
+  CHECK_FALSE(catalogue.add_if_new(e, kEngine, [&] { return key; }));
+  CHECK_THROWS_WITH(catalogue.add_if_new(e, kEngine, []() -> std::string { throw std::runtime_error("no"); }), "no");
+  CHECK(catalogue.content_hash() == before);
 }
 
 TEST_CASE("killed at any moment, what is there is whole") {

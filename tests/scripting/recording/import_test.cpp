@@ -92,6 +92,50 @@ TEST_CASE("pictures are kept byte by byte, with the time at which they were take
   CHECK(std::get<double>(rows[0][1]) == Approx(0.01).margin(1e-5));
 }
 
+TEST_CASE("a recording is stored with the key that it has alone, whichever of its streams come first") {
+  const Lab lab;
+  lab.add_pictures("front", 30, 100.01, 15);
+  lab.write("pull.csv", "time_s,pull_n\n100.5,1\n101,2\n");
+  lab.change([](auto& json) {
+    json["streams"].push_back({{"kind", "channel"}, {"name", "pull"}, {"unit", "n"}, {"file", "pull.csv"}});
+  });
+  lab.add_pictures("wrist", 30, 100.02, 15);
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db", Journal::in_place);
+  const StoredRecording first = store_recording(lab.folder(), our_library(), {}, catalogue, kEngine);
+  CHECK(first.added);
+  CHECK(first.id == 1);
+  CHECK(first.episode.key == lab.import().key);
+  CHECK(catalogue.find(first.episode.key) == 1);
+  const StoredRecording again = store_recording(lab.folder(), our_library(), {}, catalogue, kEngine);
+  CHECK_FALSE(again.added);
+  CHECK(again.id == 1);
+  lab.replace("pull.csv", "101,2", "101,3");
+  const StoredRecording other = store_recording(lab.folder(), our_library(), {{}, {}, 1}, catalogue, kEngine);
+  CHECK(other.added);
+  CHECK(other.id == 2);
+  CHECK(other.episode.key == lab.import().key);
+  for (const int workers : {1, 3}) {
+    Catalogue one = Catalogue::write(lab.folder() / (std::to_string(workers) + ".db"));
+    store_recording(lab.folder(), our_library(), {{}, {}, workers}, one, kEngine);
+    CHECK(one.episode_hash(1) == catalogue.episode_hash(2));
+  }
+}
+
+TEST_CASE("a bad picture late in a recording leaves the catalogue as it was, and the first one is named") {
+  const Lab lab;
+  lab.add_pictures("front", 41, 100, 20);
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db", Journal::in_place);
+  store_recording(lab.folder(), our_library(), {}, catalogue, kEngine);
+  const std::string before = catalogue.content_hash();
+  lab.change([](auto& json) { json["task"] = "another"; });  // so that nothing is read before it is stored
+  for (const char* name : {"front/38.png", "front/39.png"}) lab.write(name, lab.read(name).substr(0, 60));
+  for (const int workers : {1, 4})
+    CHECK_THROWS_WITH(store_recording(lab.folder(), our_library(), {{}, {}, workers}, catalogue, kEngine),
+                      Catch::Contains("front/38.png") && Catch::Contains("ends too early"));
+  CHECK(catalogue.content_hash() == before);
+  CHECK(catalogue.episodes().size() == 1);
+}
+
 TEST_CASE("depths become metres in our unit, and those out of range no reading") {
   const Lab lab;
   Picture millimetres;
