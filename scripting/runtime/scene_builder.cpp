@@ -233,6 +233,11 @@ void SceneBuilder::set_classes(std::vector<std::string> classes) {
   scene_.classes = std::move(classes);
 }
 
+void SceneBuilder::add_class(const std::string& name) {
+  const std::vector<std::string>& classes = scene_.classes;
+  if (std::find(classes.begin(), classes.end(), name) == classes.end()) scene_.classes.push_back(name);
+}
+
 void SceneBuilder::set_rates(int physics_hz, int frame_hz, const Vector3& gravity) {
   if (physics_hz < 1 || frame_hz < 1 || physics_hz % frame_hz != 0) {
     throw Error(scene_.world,

@@ -30,6 +30,7 @@ class SceneBuilder {
   void set_light(const Value& fields);
   void add_drawn(const DrawnAssets& drawn) { drawn_.join(drawn); }
   void set_classes(std::vector<std::string> classes);  // Scene::classes, in any order
+  void add_class(const std::string& name);             // behind those, where it is not among them
   std::string hand() const { return scene_.robot.name + "." + scene_.robot.hand; }
 
   std::vector<std::string> unplaced() const { return unplaced_; }

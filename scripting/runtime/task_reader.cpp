@@ -185,6 +185,7 @@ Stage TaskReader::read_stage(lua_State* state, const StageRequest& request) {
     builder_->set_light(world["light"]);
   }
   set_classes();
+  builder_->add_class(request.robot);  // no file of the library's may be of it
   Stage stage{builder_->build(), drawn_.files};
   stage.scene.robot.body.world_from_body = request.world_from_base;
   return stage;

@@ -1,0 +1,163 @@
+// Recordings of a robot that is not ours: it comes as a URDF in the folder.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "db/catalogue.h"
+#include "lab.h"
+#include "scripting/recording/export_recording.h"
+#include "scripting/session/stored_episode.h"
+
+using namespace stampede;
+using namespace stampede::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// It turns at its foot, and bends at shoulder, elbow and wrist: shapes are boxes, so that no other file is needed.
+const char* const kUrdf = R"(<robot name="crane">
+  <link name="foot"><inertial><mass value="8"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+    <visual><origin xyz="0 0 0.2"/><geometry><box size="0.12 0.12 0.4"/></geometry></visual>
+    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.12 0.12 0.4"/></geometry></collision></link>
+  <link name="mast"><inertial><mass value="2"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>
+  <link name="boom"><inertial><mass value="2"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial>
+    <visual><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.05 0.05"/></geometry></visual>
+    <collision><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.05 0.05"/></geometry></collision></link>
+  <link name="forearm"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+    <visual><origin xyz="0.125 0 0"/><geometry><box size="0.25 0.05 0.05"/></geometry></visual></link>
+  <link name="palm"><inertial><mass value="0.5"/><inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial>
+    <visual><geometry><box size="0.04 0.1 0.03"/></geometry></visual></link>
+  <link name="left"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial>
+    <collision><origin xyz="0 0 -0.05"/><geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
+  <link name="right"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial>
+    <collision><origin xyz="0 0 -0.05"/><geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
+  <joint name="turn" type="revolute"><parent link="foot"/><child link="mast"/><origin xyz="0 0 0.4"/><axis xyz="0 0 1"/>
+    <limit lower="-2.5" upper="2.5" velocity="2" effort="50"/></joint>
+  <joint name="shoulder" type="revolute"><parent link="mast"/><child link="boom"/><axis xyz="0 1 0"/>
+    <limit lower="-1.8" upper="0.8" velocity="2" effort="50"/></joint>
+  <joint name="elbow" type="revolute"><parent link="boom"/><child link="forearm"/><origin xyz="0.3 0 0"/><axis xyz="0 1 0"/>
+    <limit lower="-2.6" upper="2.6" velocity="2" effort="30"/></joint>
+  <joint name="wrist" type="revolute"><parent link="forearm"/><child link="palm"/><origin xyz="0.25 0 0"/><axis xyz="0 1 0"/>
+    <limit lower="-3" upper="3" velocity="3" effort="10"/></joint>
+  <joint name="left_slide" type="prismatic"><parent link="palm"/><child link="left"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="0.03" velocity="0.2" effort="20"/></joint>
+  <joint name="right_slide" type="prismatic"><parent link="palm"/><child link="right"/><axis xyz="0 -1 0"/>
+    <limit lower="0" upper="0.03" velocity="0.2" effort="20"/></joint>
+</robot>
+)";
+
+const char* const kRobot = R"({ "name": "crane", "urdf": "crane.urdf", "arm": ["turn", "shoulder", "elbow", "wrist"],
+  "tip": { "link": "palm", "at": [0.08, 0, 0] }, "fingers": ["left_slide", "right_slide"], "opening": 0.06,
+  "base": { "position": [0.1, 0.2, 0.3] } })";
+
+std::array<double, 4> crane_at(double time) {
+  return {0.8 * std::sin(time), -0.6 + 0.3 * std::cos(time), 0.5 + 0.3 * std::sin(2 * time), -time};
+}
+
+// The lab with that robot in place of the panda, for two seconds, with a camera on its palm.
+void put_crane(const Lab& lab) {
+  lab.write("crane.urdf", kUrdf);
+  std::string joints =
+      "time_s,turn_position_rad,shoulder_position_rad,elbow_position_rad,wrist_position_rad,shoulder_effort_nm\n";
+  for (int row = 0; row <= 200; ++row) {
+    joints += std::to_string(100 + row * 0.01);
+    for (const double value : crane_at(row * 0.01)) joints += "," + std::to_string(value);
+    joints += ",35\n";
+  }
+  lab.write("joints.csv", joints);
+  std::string gripper = "time_s,opening_m\n";
+  for (int row = 0; row <= 100; ++row) gripper += std::to_string(100 + row * 0.02) + ",0.05\n";
+  lab.write("gripper.csv", gripper);
+  lab.replace("cameras.json", "robot.hand", "robot.palm");
+  lab.change([](auto& json) { json["robot"] = nlohmann::json::parse(kRobot); });
+}
+
+template <typename Change>
+void refuse(const Change& change, const std::string& place, const std::string& complaint, const std::string& cure) {
+  const Lab lab;
+  put_crane(lab);
+  change(lab);
+  INFO(complaint);
+  try {
+    lab.import();
+    FAIL("it was taken");
+  } catch (const Error& error) {
+    CHECK_THAT(error.what(), Contains(place) && Contains(complaint));
+    CHECK_THAT(error.hint(), Contains(cure));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a robot of one's own comes as a URDF, and its poses are those of its kinematics") {
+  const Lab lab;
+  put_crane(lab);
+  lab.add_pictures("wrist", 10, 100, 5);
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+  const std::int64_t id = store_recording(lab.folder(), our_library(), {}, catalogue, {"test", "test"}).id;
+  const EpisodeRecord e = catalogue.read_episode(id);
+  REQUIRE(e.frames.size() == 41);
+  std::vector<std::string> names;
+  for (const JointName& joint : e.joints) names.push_back(joint.name);
+  CHECK(names == std::vector<std::string>{"crane.turn", "crane.shoulder", "crane.elbow", "crane.wrist",
+                                          "crane.left_slide", "crane.right_slide"});
+  CHECK(e.joints[4].unit == "m");
+  for (std::size_t i = 0; i < e.frames.size(); ++i) {
+    const FrameRecord& frame = e.frames[i];
+    const auto [turn, shoulder, elbow, wrist] = crane_at(0.05 * static_cast<double>(i));
+    const std::array<double, 6> wanted{turn, shoulder, elbow, wrist, 0.025, 0.025};
+    for (std::size_t j = 0; j < wanted.size(); ++j) CHECK(frame.joint_position.at(j) == Approx(wanted[j]).margin(1e-5));
+    CHECK(frame.joint_effort[1] == 35);
+    CHECK(std::isnan(frame.joint_effort[0]));
+    const Pose& tip = frame.hands.at(0).tip;
+    double reach = 0, height = 0, bent = 0;
+    for (const auto& [bend, length] : {std::pair(shoulder, 0.3), {elbow, 0.25}, {wrist, 0.08}}) {
+      bent += bend;  // downwards
+      reach += length * std::cos(bent), height -= length * std::sin(bent);
+    }
+    CHECK(tip.position[0] == Approx(0.1 + reach * std::cos(turn)).margin(1e-5));
+    CHECK(tip.position[1] == Approx(0.2 + reach * std::sin(turn)).margin(1e-5));
+    CHECK(tip.position[2] == Approx(0.3 + 0.4 + height).margin(1e-5));
+    CHECK(std::abs(tip.quaternion[3]) == Approx(std::abs(std::cos(turn / 2) * std::cos(bent / 2))).margin(1e-5));
+    CHECK(frame.hands[0].opening == Approx(0.05));
+  }
+  const StoredEpisode stored = read_stored(catalogue, id);
+  REQUIRE(stored.scene);  // whole: without the folder
+  CHECK(stored.scene->robot.body.parts.size() == 7);
+  export_recording(catalogue, stored, lab.folder() / "again");
+  CHECK_THROWS_WITH(record_of(lab.folder() / "again", our_library(), {}), Contains("there is no robot 'crane'"));
+  lab.write("again/crane.urdf", kUrdf);
+  nlohmann::json json = nlohmann::json::parse(lab.read("again/recording.json"));
+  json["robot"] = nlohmann::json::parse(kRobot);
+  lab.write("again/recording.json", json.dump());
+  const EpisodeRecord back = record_of(lab.folder() / "again", our_library(), {});
+  CHECK(back.frames.at(17).joint_position == e.frames.at(17).joint_position);
+  CHECK(back.frames[17].hands[0].tip == e.frames[17].hands[0].tip);
+}
+
+TEST_CASE("a URDF that is another robot's than the recording is refused, with what is there") {
+  refuse([](const Lab& lab) { lab.replace("joints.csv", "elbow_position_rad", "joint3_position_rad"); }, "joints.csv:1",
+         "no column 'joint3_position_rad'", "");
+  refuse([](const Lab& lab) { lab.replace("joints.csv", "shoulder_position_rad", "shoulder_position_m"); },
+         "joints.csv:1", "no column 'shoulder_position_m'", "did you mean 'shoulder_position_rad'?");
+  refuse(
+      [](const Lab& lab) {
+        lab.replace("crane.urdf", "\"shoulder\" type=\"revolute\"", "\"shoulder\" type=\"prismatic\"");
+        lab.replace("joints.csv", "shoulder_position_rad", "shoulder_position_m");
+        lab.replace("joints.csv", "shoulder_effort_nm", "shoulder_effort_n");
+      },
+      "crane", "joint 'shoulder' of the arm is not a hinge", "only turning joints");
+  refuse([](const Lab& lab) { lab.replace("crane.urdf", "joint name=\"wrist\"", "joint name=\"roll\""); },
+         "recording.json", "wrist", "");
+  refuse([](const Lab& lab) { lab.change([](auto& json) {
+                                json["robot"]["arm"] = {"turn", "shoulder", "elbow"};
+                              }); },
+         "joints.csv:1", "no column 'wrist_position_rad'", "");
+  refuse([](const Lab& lab) { lab.change([](auto& json) { json["robot"]["tip"]["link"] = "hand"; }); },
+         "recording.json", "hand", "");
+  refuse([](const Lab& lab) { lab.replace("crane.urdf", "lower=\"-1.8\"", "lower=\"-0.1\""); }, "joints.csv:2",
+         "another robot", "");
+  refuse([](const Lab& lab) { lab.replace("crane.urdf", "</robot>", ""); }, "crane.urdf", "", "");
+  refuse([](const Lab& lab) { lab.change([](auto& json) { json["robot"]["urdf"] = "other.urdf"; }); }, "recording.json",
+         "other.urdf", "");
+}
