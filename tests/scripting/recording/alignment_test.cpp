@@ -121,6 +121,32 @@ TEST_CASE("the outline's offset grows with the camera's error, and agrees with t
     agrees(rotation_rpy(0, degrees * std::numbers::pi / 180, 0), std::to_string(degrees) + " deg", last);
 }
 
+TEST_CASE("an error of a millimetre shows in the shift; beyond the search most edges are missing") {
+  Bench bench;
+  const Measured none = bench.measure(Transform::Identity());
+  const auto told = [](const Measured& m) {
+    const Alignment& a = m.alignment;
+    return "found " + std::to_string(a.found) + " of " + std::to_string(a.points) + ", median " +
+           std::to_string(a.median_px) + ", true " + std::to_string(m.true_px) + "; shift " +
+           std::to_string(a.shift_px[0]) + " " + std::to_string(a.shift_px[1]) + ", true " +
+           std::to_string(m.true_shift_px[0]) + " " + std::to_string(m.true_shift_px[1]);
+  };
+  double last = none.alignment.shift_px[0];
+  for (const double millimetres : {1.0, 2.0}) {
+    const Measured m = bench.measure(translation(millimetres / 1000, 0, 0));
+    INFO(told(m));
+    CHECK(m.alignment.shift_px[0] == Approx(m.true_shift_px[0]).margin(0.2));
+    CHECK(m.alignment.shift_px[0] > last + 0.15);
+    last = m.alignment.shift_px[0];
+  }
+  const Measured far = bench.measure(rotation_rpy(0, 2 * std::numbers::pi / 180, 0));
+  INFO(told(far));
+  CHECK(far.true_px > 15);
+  CHECK(far.alignment.median_px > 3);
+  CHECK(far.alignment.median_px < 12);
+  CHECK(far.alignment.found < far.alignment.points / 2);  // what is told then is of other edges
+}
+
 TEST_CASE("an outline without edges has no offset") {
   const std::vector<std::uint8_t> grey(3 * 100 * 100, 128);
   std::vector<std::uint8_t> mask(100 * 100, 0);
