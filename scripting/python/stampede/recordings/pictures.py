@@ -30,11 +30,17 @@ def packed(picture: Array) -> bytes:
         [np.full((height, 1), 1, dtype=np.uint8), _left_differences(raw.reshape(height, -1), 2 if deep else 3)]
     )
     head = struct.pack(">IIBBBBB", width, height, 16 if deep else 8, 0 if deep else 2, 0, 0, 0)  # 0: grey, 2: colours
-    parts = [(b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 1)), (b"IEND", b"")]
+    parts = [(b"IHDR", head), (b"IDAT", _deflated(rows.tobytes())), (b"IEND", b"")]
     chunks = [
         struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in parts
     ]
     return _PNG + b"".join(chunks)
+
+
+def _deflated(data: bytes) -> bytes:
+    """Runs and no other repeats: of differences twice as quick as zlib's level 1, and smaller."""
+    packer = zlib.compressobj(1, strategy=zlib.Z_RLE)
+    return packer.compress(data) + packer.flush()
 
 
 def _left_differences(rows: Array, step: int) -> Array:
