@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shutil
 import struct
 import subprocess
 import sys
@@ -271,6 +272,33 @@ def test_unknown_encodings(tmp_path: Path, encoding: str) -> None:
     bag = write_bag(tmp_path / "bag", encoding=encoding)
     error = refused(tmp_path, bag)
     assert f"encoding '{encoding}'" in error.message and "/wrist/image_raw" in error.where and "rgb=none" in error.hint
+
+
+def test_raw_pictures_are_packed_in_their_order(tmp_path: Path) -> None:
+    """By several threads: each file is its picture, and of several bad ones the first is named."""
+
+    def write(name: str, bad: tuple[int, ...]) -> Path:
+        with RosBag(tmp_path / name) as bag:
+            for k in range(60):
+                stamp = START + k * 10**7
+                bag.joint_state("/joint_states", stamp, stamp, NAMES, HOME, 0 * HOME, 0 * HOME)
+                form = "rgba8" if k in bad else "rgb8"  # it says more bytes than there are
+                tall = k % 3 + 1  # they take unlike times
+                pixels = np.full((6 * (1 if k in bad else 40 * tall), 8, 3), k, dtype=np.uint8)
+                bag.image("/front/image_raw", stamp, stamp, form, pixels, "front_optical")
+        return tmp_path / name
+
+    out, _ = run(write("good", ()), tmp_path / "whole")
+    names = sorted(one.name for one in (out / "front_rgb").iterdir())
+    assert names == [f"{k + 1:06d}.png" for k in range(60)] == [one["file"] for one in table(out / "front_rgb.csv")]
+    for k, name in enumerate(names):
+        with Image.open(out / "front_rgb" / name) as picture:
+            pixels = np.asarray(picture)
+        assert pixels.shape == (240 * (k % 3 + 1), 8, 3) and (pixels == k).all()
+    for _ in range(5):
+        error = refused(tmp_path, write("bad", (57, 58)))
+        assert error.where.endswith("picture 58")
+        shutil.rmtree(tmp_path / "bad")
 
 
 def test_messages_in_other_encodings(tmp_path: Path) -> None:

@@ -214,6 +214,9 @@ if __name__ == "__main__":
         if form not in ("jpeg", "raw" if what == "speed" else "png"):
             sys.exit(__doc__)
         ours = str(Path(stampede.__file__).parent / "engine" / "bin" / "stampede")
-        speed(minutes, form) if what == "speed" else import_speed(minutes, form, numbers[2:] or [ours])
+        if what == "speed":
+            speed(minutes, form)
+        else:
+            import_speed(minutes, form, numbers[2:] or [ours])
     else:
         recover(int(numbers[0]) if numbers else 5, float(numbers[1]) if len(numbers) > 1 else 60)

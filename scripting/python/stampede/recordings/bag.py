@@ -9,7 +9,9 @@ is no reading. Pictures that are JPEG or PNG files go through as they are.
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +34,7 @@ from stampede.recordings.messages import (
     WrenchReading,
     decoder,
 )
-from stampede.recordings.pictures import file_of
+from stampede.recordings.pictures import Packers, file_of
 from stampede.recordings.roles import Roles, joint_for, parse_map, roles_of
 
 Array = NDArray[Any]
@@ -64,14 +66,24 @@ def convert(given: Given, options: argparse.Namespace) -> list[Path]:
     source = Path(options.source)
     bag = open_bag(source, options.truncated)
     roles = roles_of(bag, str(source), given.robot.arm, parse_map(options.map))
-    with FolderWriter(given.out, options.skip_bad) as folder:
-        _Conversion(bag, roles, given, options, folder).run()
+    cores = len(os.sched_getaffinity(0))
+    with FolderWriter(given.out, options.skip_bad) as folder, ThreadPoolExecutor(cores) as pool:
+        _Conversion(bag, roles, given, options, folder, Packers(pool)).run()
     return [given.out]
 
 
 class _Conversion:
-    def __init__(self, bag: Bag, roles: Roles, given: Given, options: argparse.Namespace, folder: FolderWriter) -> None:
+    def __init__(
+        self,
+        bag: Bag,
+        roles: Roles,
+        given: Given,
+        options: argparse.Namespace,
+        folder: FolderWriter,
+        packers: Packers,
+    ) -> None:
         self._bag, self._roles, self._given, self._options, self._folder = bag, roles, given, options, folder
+        self._packers = packers
         self._logged: dict[str, bool] = {}  # topics whose times are the recorder's
         self._frames = Frames()
         self._lenses: dict[str, LensReading] = {}
@@ -89,6 +101,7 @@ class _Conversion:
             if name not in takers:
                 takers[name] = self._taker(name, message)
             takers[name](message, self._time_of(name, message))
+        self._packers.finish()
         if not any(one.described["kind"] == "joints" and one.counts.written for one in self._folder.streams):
             raise fault(str(self._options.source), "no joint state in it can be used", "record again")
         self._finish()
@@ -185,8 +198,11 @@ class _Conversion:
 
         def take(message: PictureReading, time: int) -> None:
             if stream.takes(time):
-                data, ending = file_of(message, kind, f"{place}, picture {stream.counts.written + 1}")
-                stream.picture(time, folder, data, ending)
+                here = f"{place}, picture {stream.counts.written + 1}"
+                if message.width == 0:
+                    stream.picture(time, folder, *file_of(message, kind, here))
+                else:
+                    self._packers.put(stream.picture_file(time, folder, "png"), message, kind, here)
             if not self._logged[topic]:
                 stream.counts.latency_ns.append(message.log_ns - message.stamp_ns)
 

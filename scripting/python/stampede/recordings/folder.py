@@ -82,9 +82,13 @@ class Stream:
         self._put(stamp_ns, text)
 
     def picture(self, stamp_ns: int, folder: Path, data: bytes, ending: str) -> None:
+        self.picture_file(stamp_ns, folder, ending).write_bytes(data)
+
+    def picture_file(self, stamp_ns: int, folder: Path, ending: str) -> Path:
+        """Its row; the file is for the caller to write."""
         name = f"{self.counts.written + 1:06d}.{ending}"
-        (folder / name).write_bytes(data)
         self._put(stamp_ns, name)
+        return folder / name
 
     def _put(self, stamp_ns: int, text: str) -> None:
         self._file.write(f"{stamp_text(stamp_ns)},{text}\n")

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -48,6 +51,26 @@ def _left_differences(rows: Array, step: int) -> Array:
     result = rows.copy()
     result[:, step:] -= rows[:, :-step]
     return result
+
+
+class Packers:
+    """Threads that pack raw pictures into files. What was put last is there after finish(), which raises the first
+    Error in the order of put(). The pool is the caller's, and ends before the folder does."""
+
+    _MOST = 8  # that wait: they are large
+
+    def __init__(self, pool: ThreadPoolExecutor) -> None:
+        self._pool = pool
+        self._waiting: deque[Future[int]] = deque()
+
+    def put(self, path: Path, picture: PictureReading, kind: str, place: str) -> None:
+        if len(self._waiting) == self._MOST:
+            self._waiting.popleft().result()
+        self._waiting.append(self._pool.submit(lambda: path.write_bytes(file_of(picture, kind, place)[0])))
+
+    def finish(self) -> None:
+        while self._waiting:
+            self._waiting.popleft().result()
 
 
 def file_of(picture: PictureReading, kind: str, place: str) -> tuple[bytes, str]:
