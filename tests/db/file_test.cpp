@@ -81,6 +81,50 @@ TEST_CASE("missing files, folders and empty files say what to do") {
   CHECK_NOTHROW(make(folder / "empty.db"));  // a run that was killed at once leaves such a file
 }
 
+TEST_CASE("killed while it writes in place, the file is what it was, also for who only reads") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  Catalogue::write(path).add(sample_episode("lift", "colour=red", 0), kEngine);
+  const std::string before = Catalogue::open(path).content_hash();
+  const auto size = std::filesystem::file_size(path);
+  EpisodeRecord large = sample_episode("lift", "colour=red", 1, {120, 15, 10});
+  const auto images = std::make_shared<ImageStore>();
+  for (int i = 0; i < 100; ++i)  // more than stays in memory
+    images->append_made({i, 0, "rgb", 8, 8}, [i]() -> std::vector<std::uint8_t> {
+      if (i == 99) ::kill(::getpid(), SIGKILL);
+      return std::vector<std::uint8_t>(1'000'000, static_cast<std::uint8_t>(i));
+    });
+  large.images = images;
+  const pid_t child = ::fork();
+  if (child == 0) Catalogue::write(path, Journal::in_place).add(large, kEngine);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  REQUIRE(std::filesystem::file_size(path) > size + 10'000'000);
+  const auto locked = folder / "locked";  // where the half cannot be undone it is not shown either
+  std::filesystem::create_directory(locked);
+  ::chmod(folder.path().c_str(), 0755);
+  for (const std::string name : {"a.db", "a.db-journal"}) {
+    std::filesystem::copy_file(folder / name, locked / name);
+    ::chmod((locked / name).c_str(), 0444);
+  }
+  ::chmod(locked.c_str(), 0555);
+  CHECK(child_does([&] {
+    become_nobody();
+    try {
+      Catalogue::open(locked / "a.db");
+    } catch (const CatalogueError& error) {
+      return std::string(error.what()).find("half in it") != std::string::npos &&
+             error.hint().find("-journal") != std::string::npos;
+    }
+    return false;
+  }));
+  ::chmod(locked.c_str(), 0755);
+  CHECK(Catalogue::open(path).content_hash() == before);
+  CHECK(std::filesystem::file_size(path) == size);
+  CHECK_FALSE(std::filesystem::exists(path.string() + "-journal"));
+}
+
 TEST_CASE("a catalogue in a read-only folder can be questioned and not written") {
   const Folder folder;
   make(folder / "plain.db");

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "db/catalogue_writer.h"
-#include "engine/episode/observation.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -187,31 +186,6 @@ TEST_CASE("a killed run leaves whole episodes only") {
   CHECK_FALSE(std::filesystem::exists(path.string() + "-wal"));
   Catalogue catalogue = Catalogue::open(path);
   CHECK(catalogue.read_episode(2).frames.size() == episodes[1].frames.size());
-}
-
-TEST_CASE("killed while it writes in place, the file is what it was, also for who only reads") {
-  const Folder folder;
-  const auto path = folder / "a.db";
-  Catalogue::write(path).add(sample_episode("lift", "colour=red", 0), kEngine);
-  const std::string before = Catalogue::open(path).content_hash();
-  const auto size = std::filesystem::file_size(path);
-  EpisodeRecord large = sample_episode("lift", "colour=red", 1, {120, 15, 10});
-  const auto images = std::make_shared<ImageStore>();
-  for (int i = 0; i < 100; ++i)  // more than stays in memory
-    images->append_made({i, 0, "rgb", 8, 8}, [i]() -> std::vector<std::uint8_t> {
-      if (i == 99) ::kill(::getpid(), SIGKILL);
-      return std::vector<std::uint8_t>(1'000'000, static_cast<std::uint8_t>(i));
-    });
-  large.images = images;
-  const pid_t child = ::fork();
-  if (child == 0) Catalogue::write(path, Journal::in_place).add(large, kEngine);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  REQUIRE(WIFSIGNALED(status));
-  REQUIRE(std::filesystem::file_size(path) > size + 10'000'000);
-  CHECK(Catalogue::open(path).content_hash() == before);
-  CHECK(std::filesystem::file_size(path) == size);
-  CHECK_FALSE(std::filesystem::exists(path.string() + "-journal"));
 }
 
 TEST_CASE("a file that others read is written beside them, and they see the end") {
