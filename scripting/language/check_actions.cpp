@@ -3,19 +3,25 @@
 
 namespace stampede {
 
-// `take the handle`, `go to the button`: on the way to what is done
+// `take the handle`, `go to the button`, `take the seat by its grip`: on the way to what is done
 bool OneSentence::takes_part(const Segment& segment) const {
   if (!segment.verb) return false;
   const std::string& verb = reading_.words[*segment.verb].sense;
   const bool more = std::any_of(reading_.segments.begin(), reading_.segments.end(),
                                 [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
   if (!more || (verb != "take" && verb != "hold" && verb != "reach")) return false;
-  return std::any_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& mention) {
-    return within(mention, segment) && mention.role == "object " + verb &&
-           (verb == "reach" ? may_be(mention, meaning_, &SpokenThing::handled)
-                            : mention.sense == "handle" &&
-                                  (mention.things.empty() || may_be(mention, meaning_, &SpokenThing::wanted)));
-  });
+  const auto is_handle = [&](const Mention& mention) {
+    return mention.sense == "handle" && (mention.things.empty() || may_be(mention, meaning_, &SpokenThing::wanted));
+  };
+  bool by_handle = false, own = false, handle = false;
+  for (const Mention& mention : reading_.mentions) {
+    if (!within(mention, segment)) continue;
+    handle |= is_handle(mention);
+    by_handle |= is_handle(mention) && mention.preposition == "by";
+    own |= mention.role == "object " + verb && may_be(mention, meaning_, &SpokenThing::handled);
+    if (mention.role == "object " + verb && is_handle(mention)) return true;
+  }
+  return verb == "reach" ? own || handle : own && by_handle && !carries();
 }
 
 Maybe OneSentence::actions() const {
@@ -31,7 +37,8 @@ Maybe OneSentence::actions() const {
     if (!segment.verb || spares(segment) || takes_part(segment)) continue;
     const std::string& verb = reading_.words[*segment.verb].sense;
     if (claims_.verbs.contains(verb) || kStates.contains(verb)) continue;
-    if (grain_ == Grain::motions && kMotions.contains(verb)) continue;
+    if (meaning_.slots && meaning_.skills.empty() && claims_.senses.contains(verb)) continue;  // `is pressed`
+    if (grain_ == Grain::motions && (kMotions.contains(verb) || moves_fingers(reading_, *segment.verb))) continue;
     const std::set<std::string>& skills = meaning_.lexicon.skills_of(verb);
     if (std::none_of(skills.begin(), skills.end(), [&](const auto& one) { return meaning_.skills.contains(one); }))
       return no(Rejection::other_action, quoted(verb));

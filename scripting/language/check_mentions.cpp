@@ -25,9 +25,11 @@ Maybe OneSentence::mentions() const {
   if (Maybe bad = colours()) return bad;
   for (const auto& [before, place] : free_places(reading_))
     if (!claims_.places.contains({before, place})) return no(Rejection::wrong_side, quoted(before + " " + place));
-  for (const std::string& relation : relations_in(reading_))
+  for (const std::string& relation : relations_in(reading_)) {
+    if (relation == "around" && grain_ == Grain::motions) continue;  // the fingers
     if (!claims_.relations.contains(relation) && !(relation == "over" && (rises() || moves_above())))
       return no(Rejection::wrong_side, quoted(relation));
+  }
   return {};
 }
 

@@ -22,7 +22,7 @@ bool OneSentence::has_role(const Mention& mention) const {
     return mention.count && may_be(mention, meaning_, carries() ? &SpokenThing::moved : &SpokenThing::handled);
   if (role == "with") return accessory || may_be(mention, meaning_, &SpokenThing::tool) || steps_have(mention, true);
   const Mention* object = object_of(mention);
-  const bool known = object == nullptr || object->by_head ||
+  const bool known = object == nullptr || object->by_head || may_be(*object, meaning_, &SpokenThing::moved) ||
                      (is_handled_by_author(object->sense) && (role == "to" || left_by_author(mention)));
   if (!known && object->role.starts_with("object") && !object->sense.empty()) return false;
   if ((role == "to" || role == "in") && mention.sense == "table" && mention.preposition.starts_with("in")) return false;

@@ -131,6 +131,13 @@ static bool leads_back(const Reading& reading, std::size_t i, const Segment& seg
   return i + 1 == segment.end && reading.words[*segment.verb].sense == "swing";
 }
 
+bool moves_fingers(const Reading& reading, std::size_t verb) {
+  static const std::set<std::string> kFingers = {"hand", "fingers", "finger", "gripper", "fingertips"};
+  for (std::size_t i = verb + 1; i < reading.words.size() && i < verb + 4 && reading.words[i].before == ' '; ++i)
+    if (kFingers.contains(reading.words[i].text)) return true;
+  return false;
+}
+
 std::set<std::string> directions_in(const Reading& reading, const std::function<bool(const Segment&)>& skip) {
   std::set<std::string> directions;
   for (const Segment& segment : reading.segments) {
@@ -144,7 +151,8 @@ std::set<std::string> directions_in(const Reading& reading, const std::function<
         static const std::set<std::string> kIs = {"stands", "stand", "left",    "is",   "are",
                                                   "wide",   "been",  "already", "still"};
         const bool state = i > 0 && kIs.contains(reading.words[i - 1].text);  // `the box stands open`
-        if ((word.sense == "open" || word.sense == "close") && !state) directions.insert(word.sense);
+        if ((word.sense == "open" || word.sense == "close") && !state && !moves_fingers(reading, i))
+          directions.insert(word.sense);
         if (word.sense == "lift") directions.insert("up");
         if (word.sense == "lower") directions.insert("down");
         if (word.sense == "pull") directions.insert("pull");

@@ -54,6 +54,8 @@ std::set<std::string> directions_in(const Reading& reading, const std::function<
 bool keeps_others(const Reading& reading, const Segment& segment);
 // The second number of `two of the three cups`.
 std::set<std::size_t> totals_in(const Reading& reading);
+// `close the fingers on it`, `open the hand`
+bool moves_fingers(const Reading& reading, std::size_t verb);
 std::string opposite_of(const std::string& direction);  // empty: none
 
 // Numbers that belong to no noun: `three, then two, then one`.

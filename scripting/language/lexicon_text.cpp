@@ -240,7 +240,7 @@ verb find [pick take_out reach]: find locate search look identify select choose
 verb remove [unscrew extract take_out take_from_shelf unhang pick lift]: disconnect remove extract withdraw eject unplug detach unload unpack unhook free
 verb empty []: empty
 verb lift [lift pick open take_out extract unhang]: lift raise hoist elevate
-verb lower [place set_down lay drop close open]: lower
+verb lower [place set_down lay drop close open put_in insert stack hang put_on_shelf]: lower
 verb put [place put_in put_on_shelf set_down lay drop stack insert hang]: put place lay set rest deposit store stow leave return deliver transfer move bring carry tuck load pack position arrange tidy replace relocate shift dock shelve bin seat post stick stash park slip pop
 verb serve []: serve
 verb setup []: setup

@@ -86,6 +86,15 @@ void read_turns(std::vector<Word>& words) {
 
 void read_light_verbs(std::vector<Word>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].sense == "build" && words[i].text.starts_with("mak")) {  // `make the lamp shine`
+      bool built = false;
+      for (std::size_t k = i + 1; k < words.size() && words[k].before == ' '; ++k)
+        built |= words[k].sense == "tower" || words[k].sense == "stack" || words[k].sense == "pile" ||
+                 words[k].sense == "pyramid";
+      const bool goes = std::any_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(),
+                                    [](const Word& word) { return word.text == "go"; });  // `make it go dark`
+      if (!built && !goes) words[i].kind = WordKind::function;
+    }
     const bool gets = words[i].text == "get" || words[i].text == "getting", turns = words[i].text.starts_with("turn");
     if (words[i].kind != WordKind::verb || !(gets || turns)) continue;
     for (std::size_t k = i + 1; k < words.size() && words[k].before == ' ' && words[k].kind != WordKind::verb; ++k) {
