@@ -46,10 +46,16 @@ double rightness(const Scene& scene, const Vector3& point) {
   return -point.y();
 }
 
+constexpr double kClear = 0.03;  // of the distance: by so much one is seen beside another
+
+struct Told {
+  std::string words;
+  bool clear = true;
+};
+
 // Things that share their words are told apart by where they are in the first picture: one above the other, or else
 // from left to right.
-std::string told_apart(const Scene& scene, const Object& thing, std::vector<const Object*> same,
-                       const std::string& own) {
+Told told_apart(const Scene& scene, const Object& thing, std::vector<const Object*> same, const std::string& own) {
   static constexpr std::array kOrdinals = {"first", "second",  "third",  "fourth", "fifth",
                                            "sixth", "seventh", "eighth", "ninth",  "tenth"};
   const auto order = [&](const auto& value) {
@@ -61,24 +67,37 @@ std::string told_apart(const Scene& scene, const Object& thing, std::vector<cons
   for (std::size_t i = 0; i + 1 < same.size(); ++i)
     stacked = stacked && height(*same[i + 1]) - height(*same[i]) > kHigher_m;
   if (!stacked) order([&](const Object& one) { return rightness(scene, start_of(scene, one)); });
+  bool clear = true;
+  for (std::size_t i = 0; i + 1 < same.size() && !stacked; ++i)
+    clear =
+        clear && rightness(scene, start_of(scene, *same[i + 1])) - rightness(scene, start_of(scene, *same[i])) > kClear;
   const auto rank = static_cast<std::size_t>(std::find(same.begin(), same.end(), &thing) - same.begin());
   const bool last = rank + 1 == same.size();
-  if (same.size() <= 3 && !(rank == 0 || last)) return "middle " + own;
-  if (same.size() <= 3) return (stacked ? rank == 0 ? "lower " : "upper " : rank == 0 ? "left " : "right ") + own;
-  if (rank == 0 || last) return (last ? "rightmost " : "leftmost ") + own;
-  return rank < kOrdinals.size() ? kOrdinals[rank] + (" " + own) + " from the left" : own;
+  if (same.size() <= 3 && !(rank == 0 || last)) return {"middle " + own, clear};
+  if (same.size() <= 3)
+    return {(stacked ? rank == 0 ? "lower " : "upper " : rank == 0 ? "left " : "right ") + own, clear};
+  if (rank == 0 || last) return {(last ? "rightmost " : "leftmost ") + own, clear};
+  return {rank < kOrdinals.size() ? kOrdinals[rank] + (" " + own) + " from the left" : own, clear};
 }
 
-}  // namespace
-
-std::string phrase(const Scene& scene, const std::string& name) {
+Told told(const Scene& scene, const std::string& name) {
   const Object* thing = scene.object(name);
-  if (thing == nullptr) return spaced(name);
+  if (thing == nullptr) return {spaced(name)};
   const std::string own = words(scene, *thing);
   std::vector<const Object*> same;
   for (const Object& other : scene.objects)
     if (other.kind != ObjectKind::region && words(scene, other) == own) same.push_back(&other);
-  return same.size() > 1 && thing->kind != ObjectKind::region ? told_apart(scene, *thing, std::move(same), own) : own;
+  if (same.size() < 2 || thing->kind == ObjectKind::region) return {own};
+  return told_apart(scene, *thing, std::move(same), own);
+}
+
+}  // namespace
+
+std::string phrase(const Scene& scene, const std::string& name) { return told(scene, name).words; }
+
+std::optional<std::string> clear_phrase(const Scene& scene, const std::string& name) {
+  Told found = told(scene, name);
+  return found.clear ? std::optional(std::move(found.words)) : std::nullopt;
 }
 
 std::string fill(const std::string& text, const std::vector<Parameter>& parameters,

@@ -1,6 +1,7 @@
 // Sentences by template: what things are called, what holds, what a skill does.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace stampede {
 // `red cube`, `top drawer of the chest`; where others share the words, with its place among them in the first
 // picture: `left red cube`, `second red cube from the left`, `upper money`.
 std::string phrase(const Scene& scene, const std::string& object);
+
+// The same; nothing where things that share the words do not stand clearly apart in the picture: one on the other, or
+// side by side along the view.
+std::optional<std::string> clear_phrase(const Scene& scene, const std::string& object);
 
 // Fills {name} from the binding, as phrases for objects and as they are otherwise; `the {obj}` reads well.
 std::string fill(const std::string& text, const std::vector<Parameter>& parameters,

@@ -85,7 +85,8 @@ void print_complaints(const std::vector<Error>& complaints, std::size_t files, b
     return;
   }
   for (const Error& error : complaints) console.out << error.what() << "\n";
-  console.out << fmt::format("{} files, {} mistake{}\n", files, complaints.size(), complaints.size() == 1 ? "" : "s");
+  console.out << fmt::format("{} file{}, {} mistake{}\n", files, files == 1 ? "" : "s", complaints.size(),
+                             complaints.size() == 1 ? "" : "s");
 }
 
 std::vector<std::string> tasks_to_run(const Library& library, const std::vector<std::string>& names) {

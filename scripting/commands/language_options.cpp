@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <ostream>
 
 #include "scripting/session/episode_job.h"
 
@@ -78,7 +80,12 @@ void write_cost(const ChatCost& cost, const ChatSettings& settings, JsonText& js
 
 std::filesystem::path sentence_path_of(const Library& library, const std::string& task) {
   task_info(library, task);
-  return sentence_path(library.file(DefinitionKind::task, task)->path);
+  const std::filesystem::path beside = sentence_path(library.file(DefinitionKind::task, task)->path);
+  const std::vector<std::filesystem::path>& roots = library.roots().folders;  // the last goes first
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+    if (const std::filesystem::path path = *root / "tasks" / beside.filename(); std::filesystem::exists(path))
+      return path;
+  return beside;
 }
 
 std::string shown_sentence_path(const Library& library, const std::string& task) {
@@ -87,7 +94,8 @@ std::string shown_sentence_path(const Library& library, const std::string& task)
 }
 
 std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library,
-                                                                const std::vector<std::string>& tasks) {
+                                                                const std::vector<std::string>& tasks,
+                                                                Console& console) {
   std::map<std::string, std::vector<MadeSentence>> all;
   for (const std::string& task : tasks) {
     const std::filesystem::path path = sentence_path_of(library, task);
@@ -100,6 +108,13 @@ std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& l
       throw Error(shown, "it is of task '" + file.task + "'", "make it anew: stampede paraphrase " + task);
     for (const StoredSentence& one : file.sentences)
       all[task].push_back({one.level, one.of, one.text, one.grain, one.model});
+    const std::vector<std::string>& variations = task_info(library, task).variation_texts;
+    const auto lacking = std::count_if(variations.begin(), variations.end(), [&](const std::string& variation) {
+      return file.of(LanguageLevel::task, variation).empty();
+    });
+    if (lacking > 0)
+      console.err << fmt::format("{}: no sentences for {} of {} variations of {}; those of others stay without\n",
+                                 shown, lacking, variations.size(), task);
   }
   return all;
 }

@@ -23,12 +23,13 @@ ChatSettings chat_settings(const Arguments& arguments);
 std::string cost_line(const ChatCost& cost, const ChatSettings& settings);
 void write_cost(const ChatCost& cost, const ChatSettings& settings, JsonText& json);
 
-// Beside the task's file in its own root.
+// In the last of the roots that has one; else beside the task's file.
 std::filesystem::path sentence_path_of(const Library& library, const std::string& task);
 std::string shown_sentence_path(const Library& library, const std::string& task);
 
-// Of each task, for RunSettings::sentences. Throws Error where a task has no file, with the cure.
+// Of each task, for RunSettings::sentences; tells of variations without any. Throws Error where a task has no file.
 std::map<std::string, std::vector<MadeSentence>> made_sentences(const Library& library,
-                                                                const std::vector<std::string>& tasks);
+                                                                const std::vector<std::string>& tasks,
+                                                                Console& console);
 
 }  // namespace stampede::program

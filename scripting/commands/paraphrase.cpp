@@ -75,7 +75,7 @@ class Asker {
     }
     finish();
     if (interrupted_) console_.err << "interrupted: what is done is kept; the same command goes on from there\n";
-    return interrupted_ ? kNo : kDone;
+    return interrupted_ || (total_.asked > 0 && total_.received == 0) ? kNo : kDone;
   }
 
  private:
@@ -100,8 +100,12 @@ class Asker {
     const SentenceChecker checker(*meaning_for(library_, task, level, name, asked_.seed, all));
     const ParaphraseJob job{level, name, grain, asked_.count, asked_.each_request, asked_.seed};
     if (dry_) {
-      for (const ChatRequest& request : requests_of(job, checker.meaning()))
-        console_.out << prompt_text(request) << "\n";
+      const std::vector<ChatRequest> requests = requests_of(job, checker.meaning());
+      for (std::size_t i = 0; i < requests.size(); ++i)
+        if (i == 0 || prompt_text(requests[i]) != prompt_text(requests[i - 1]))
+          console_.out << prompt_text(requests[i]) << "\n";
+      console_.out << fmt::format("{} {} {}: {} requests, with other seeds\n\n", task, to_string(level), name,
+                                  requests.size());
       return;
     }
     std::vector<Refused> refused;

@@ -82,7 +82,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   leave_out_misfits(library, settings.options, request, console);
   const JobList jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
-  if (arguments.flag("--sentences")) settings.sentences = made_sentences(*library, request.tasks);
+  if (arguments.flag("--sentences")) settings.sentences = made_sentences(*library, request.tasks, console);
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
   writing.engine = {STAMPEDE_VERSION, numerics_probe()};

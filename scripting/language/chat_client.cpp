@@ -167,6 +167,7 @@ ChatClient::Reply ChatClient::post(const std::string& body, const std::atomic<bo
 static std::string message_in(const std::string& body) {
   const json said = json::parse(body, nullptr, false);
   std::string text;
+  if (said.is_discarded()) text = body;
   if (said.is_object() && said.contains("error")) {
     const json& error = said["error"];
     if (error.is_string()) text = error.get<std::string>();
@@ -207,7 +208,7 @@ ChatAnswer ChatClient::read(const Reply& reply) {
     answer.problem = "no text";
     return answer;
   }
-  answer.text = choice["message"]["content"];
+  answer.text = without_key(choice["message"]["content"]);
   answer.cut = choice.contains("finish_reason") && choice["finish_reason"] == "length";
   return answer;
 }
@@ -216,6 +217,7 @@ ChatAnswer ChatClient::ask(const ChatRequest& request, const std::atomic<bool>* 
   const std::string body = body_of(request, settings_.model);
   double pause = settings_.wait_s;
   std::string last;
+  bool busy = false;
   for (int attempt = 0; attempt <= settings_.retries; ++attempt) {
     if (settings_.requests_per_minute > 0)
       wait(std::max(0.0, last_request_s_ + 60 / settings_.requests_per_minute - now_s()), stop);
@@ -234,8 +236,12 @@ ChatAnswer ChatClient::ask(const ChatRequest& request, const std::atomic<bool>* 
       last = "status " + std::to_string(reply.status) + (said.empty() ? "" : ": " + said);
       if (reply.status == 401 || reply.status == 403)
         throw Error(shown_url_, last, "the key is in STAMPEDE_LLM_KEY: is it there, and right?");
+      if (reply.status >= 300 && reply.status < 400)
+        throw Error(shown_url_, last + ": it sends elsewhere",
+                    "redirects are not followed: name that address by --url");
       const bool passing = reply.status == 408 || reply.status == 429 || reply.status >= 500;
       if (!passing) throw Error(shown_url_, last, "look at --url (it ends in /v1, mostly) and at --model");
+      busy = reply.status == 429;
       if (reply.received.retry_after_s) wait_s = *reply.received.retry_after_s;
       if (wait_s > settings_.longest_wait_s)
         throw Error(shown_url_, last + "; it asks to wait " + std::to_string(static_cast<int>(wait_s)) + " s",
@@ -247,7 +253,9 @@ ChatAnswer ChatClient::ask(const ChatRequest& request, const std::atomic<bool>* 
     pause *= 2;
   }
   throw Error(shown_url_, "no answer after " + std::to_string(settings_.retries + 1) + " requests: " + last,
-              "is the server running, and is it --timeout that ends it? What is done is kept");
+              (busy ? "it is too busy: ask less often with --rate, or more often again with --retries"
+                    : "is the server running, and is it --timeout that ends it?") +
+                  std::string(" What is done is kept"));
 }
 
 }  // namespace stampede

@@ -29,10 +29,22 @@ std::string slotted(const std::string& label, const std::vector<Parameter>& para
   return text;
 }
 
+Scene at_frame(const EpisodeRecord& episode, Scene scene, std::int64_t frame) {
+  if (frame < 0 || frame >= static_cast<std::int64_t>(episode.frames.size())) return scene;
+  const FrameRecord& record = episode.frames[static_cast<std::size_t>(frame)];
+  for (std::size_t i = 0; i < episode.posed.size() && i < record.object_pose.size(); ++i) {
+    const Object* object = scene.object(episode.posed[i]);
+    const int body = object == nullptr ? -1 : scene.body_index(object->body);
+    const Transform at = to_transform(record.object_pose[i]);
+    if (body >= 0 && at.matrix().allFinite()) scene.bodies[static_cast<std::size_t>(body)].world_from_body = at;
+  }
+  return scene;
+}
+
 class QuestionMaker {
  public:
   QuestionMaker(const EpisodeRecord& episode, const Domain& domain, const Scene& scene, std::int64_t frame)
-      : episode_(episode), domain_(domain), scene_(scene), frame_(frame) {
+      : episode_(episode), domain_(domain), start_(scene), scene_(at_frame(episode, scene, frame)), frame_(frame) {
     for (const FactRecord& fact : episode.facts)
       if (fact.first_frame <= frame && frame < fact.end_frame) facts_.insert(fact.fact);
     for (const FactRecord& fact : episode.facts) ever_.insert(fact.fact);
@@ -71,9 +83,31 @@ class QuestionMaker {
   const Predicate* told(const Fact& fact) const {
     const Predicate* predicate = domain_.predicate(fact.predicate);
     const bool spoken = predicate != nullptr && !predicate->label.empty() && predicate->kind != PredicateKind::fixed;
-    const bool all = std::all_of(fact.arguments.begin(), fact.arguments.end(),
-                                 [&](const auto& name) { return scene_.object(name) != nullptr; });
-    return spoken && all ? predicate : nullptr;
+    return spoken && seen_clearly(fact.arguments) ? predicate : nullptr;
+  }
+
+  // Regions are not seen; of things that share their words, those that do not stand apart cannot be named.
+  bool seen_clearly(const std::vector<std::string>& names) const {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      const Object* object = scene_.object(name);
+      return object != nullptr && object->kind != ObjectKind::region && clear_phrase(scene_, name);
+    });
+  }
+
+  // A label has the names of the start.
+  std::string relabelled(const SegmentRecord& segment) const {
+    std::string label = segment.label;
+    for (const std::string& name : segment.arguments) {
+      const std::string from = phrase(start_, name), to = phrase(scene_, name);
+      if (const std::size_t at = label.find(from); at != std::string::npos) label.replace(at, from.size(), to);
+    }
+    return label;
+  }
+
+  bool is_named(const SegmentRecord& segment) const {
+    return std::all_of(segment.arguments.begin(), segment.arguments.end(), [&](const std::string& name) {
+      return scene_.object(name) == nullptr || clear_phrase(scene_, name);
+    });
   }
 
   // What holds, and for each as near a thing as there is that does not: it held at another time, or of another thing.
@@ -151,11 +185,12 @@ class QuestionMaker {
     const SegmentRecord *next = nullptr, *last = nullptr;
     for (const SegmentRecord& segment : episode_.segments) {
       if (segment.kind != SegmentKind::skill || segment.label.empty()) continue;
+      if (!is_named(segment)) continue;
       if (segment.span.first_frame >= frame_ && next == nullptr) next = &segment;
       if (segment.span.end_frame <= frame_ && segment.outcome == Outcome::success) last = &segment;
     }
     if (next != nullptr) {
-      FrameQuestion& question = add("next_skill", "what does the robot do next?", next->label, "skill",
+      FrameQuestion& question = add("next_skill", "what does the robot do next?", relabelled(*next), "skill",
                                     "segment " + std::to_string(next->ordinal));
       question.things.insert(next->arguments.begin(), next->arguments.end());
     }
@@ -170,7 +205,7 @@ class QuestionMaker {
     if (changes.empty()) return;
     FrameQuestion& question = add("changed", "what did it change that the robot did this: {a}?", changes, "facts",
                                   "segment " + std::to_string(last->ordinal));
-    question.slots["a"] = last->label;
+    question.slots["a"] = relabelled(*last);
     question.things.insert(last->arguments.begin(), last->arguments.end());
   }
 
@@ -195,18 +230,24 @@ class QuestionMaker {
       const std::vector<std::string>& traits = scene_.object(name)->traits;
       return std::find(traits.begin(), traits.end(), "movable") != traits.end();
     };
+    // Not what all stands on, and not what its name says of anyway: `the left cup`.
+    const auto can_be_asked = [&](const std::string& name) {
+      static const std::set<std::string> kUnder = {"table", "floor", "pedestal"};
+      const std::optional<std::string> called = clear_phrase(scene_, name);
+      return called && !kUnder.contains(name) && called->find("left") == std::string::npos &&
+             called->find("right") == std::string::npos && called->find("middle") == std::string::npos;
+    };
     for (std::size_t i = 0; i < episode_.posed.size() && i < frame.object_pose.size(); ++i) {
       const Object* object = scene_.object(episode_.posed[i]);
-      if (object == nullptr || object->kind != ObjectKind::body) continue;
+      if (object == nullptr || object->kind != ObjectKind::body || !can_be_asked(object->name)) continue;
       const Vector3 at = camera_from_world * to_transform(frame.object_pose[i]).translation();
       if (at.z() > 0.05 && std::isfinite(at.x())) seen.emplace_back(object->name, at.x() / at.z());
     }
-    bool other_way = false;
+    bool other_way = Random(RandomKey("side").with(episode_.task).with(episode_.seed).with(frame_)).below(2) == 0;
     for (std::size_t i = 0; i < seen.size(); ++i)
       for (std::size_t k = i + 1; k < seen.size(); ++k) {
         if (std::abs(seen[i].second - seen[k].second) < kAside || !(moves(seen[i].first) || moves(seen[k].first)))
           continue;
-        if (seen[i].first == "table" || seen[k].first == "table") continue;  // it is under all of them
         const bool left = seen[i].second < seen[k].second;
         other_way = !other_way;  // yes and no in turn
         const bool first = left == other_way;
@@ -220,7 +261,8 @@ class QuestionMaker {
 
   const EpisodeRecord& episode_;
   const Domain& domain_;
-  const Scene& scene_;
+  const Scene& start_;
+  const Scene scene_;  // with the things where they are at the frame, which their names go by
   std::int64_t frame_;
   Facts facts_, ever_;
   std::vector<FrameQuestion> made_;

@@ -299,7 +299,14 @@ Meaning meaning_at_start(const std::shared_ptr<const Library>& library, const st
   read_roles(question.asked.domain, question.state.facts, question.assumed, question.plain.goal, meaning);
   meaning.goal = to_pddl(question.plain.goal);
   meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
-  meaning.facts = describe_world(question.state.facts, domain, *question.start.scene);
+  Facts seen = question.state.facts;
+  std::erase_if(seen, [&](const Fact& fact) {
+    return std::any_of(fact.arguments.begin(), fact.arguments.end(), [&](const std::string& name) {
+      const Object* object = question.start.scene->object(name);
+      return object != nullptr && object->kind == ObjectKind::region;
+    });
+  });
+  meaning.facts = describe_world(seen, domain, *question.start.scene);
   name_alike(others, meaning);
   return meaning;
 }
@@ -359,7 +366,11 @@ Meaning meaning_of_label(const std::string& name, const std::string& label, cons
   if (!skill.empty()) meaning.skills.insert(skill);
   for (std::size_t at = label.find('{'); at != std::string::npos; at = label.find('{', at + 1)) {
     const std::string slot = label.substr(at, label.find('}', at) - at + 1);
-    meaning.things.push_back({slot, slot, {slot}, {slot}, {}, false, true, true, false, false, true, true});
+    SpokenThing thing;
+    thing.name = thing.phrase = slot;
+    thing.heads = thing.words = {slot};
+    thing.wanted = thing.handled = thing.source = thing.destination = true;
+    meaning.things.push_back(std::move(thing));
   }
   learn_sentences(meaning);
   return meaning;

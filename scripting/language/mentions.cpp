@@ -211,7 +211,8 @@ class MentionReader {
   // `the button with the navy cap`: a part of what was named just before, or that itself
   bool belongs(const Mention& part, const Mention& whole) const {
     if (part.segment != whole.segment || whole.head + 1 >= reading_.words.size() ||
-        reading_.words[whole.head + 1].text != "with")
+        reading_.words[whole.head + 1].text != "with" ||
+        (!part.colours.empty() && !whole.colours.empty() && part.colours != whole.colours))
       return false;
     return std::any_of(part.things.begin(), part.things.end(), [&](const std::string& name) {
       return std::any_of(whole.things.begin(), whole.things.end(),

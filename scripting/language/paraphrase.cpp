@@ -93,10 +93,11 @@ ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& chec
     }
   }
   tally.passed = static_cast<std::int64_t>(kept.size());
+  for (StoredSentence& one : kept) file.sentences.push_back(std::move(one));
+  if (tally.refused.contains("no_answer")) return tally;  // asked again by the same command
   AskedFor asked{job.level, job.of, job.grain, model, prompt, job.count, {}};
   for (const auto& [reason, count] : tally.refused) asked.refused[reason] = static_cast<int>(count);
   file.asked.push_back(std::move(asked));
-  for (StoredSentence& one : kept) file.sentences.push_back(std::move(one));
   return tally;
 }
 

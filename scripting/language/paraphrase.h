@@ -30,9 +30,9 @@ struct Refused {
   std::string text, reason, detail;
 };
 
-// Of a job whose meaning `checker` knows. What passes is added to the file, and that it was asked for; a job that the
-// file has already asks nothing. `refused`: what did not pass, for people; may be null. Throws what ChatClient::ask
-// throws; the file is then as it was.
+// Of a job whose meaning `checker` knows. What passes is added to the file, and that it was asked for, unless an
+// answer could not be read; a job that the file has already asks nothing. `refused`: what did not pass, for people; may
+// be null. Throws what ChatClient::ask throws; the file is then as it was.
 ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& checker,
                            const std::vector<std::string>& distractors, ChatClient& client, SentenceFile& file,
                            const std::atomic<bool>* stop, std::vector<Refused>* refused);

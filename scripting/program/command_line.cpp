@@ -149,6 +149,7 @@ ExitCode complain(const std::string& kind, const std::string& message, ExitCode 
 
 ExitCode dispatch(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
   if (words.empty()) throw Usage{"which command?", "see stampede --help"};
+  if (words[0] == "help" && words.size() == 2) return dispatch(commands, {words[1], "--help"}, console);
   if (words[0] == "--help" || words[0] == "help" || words[0] == "-h") {
     console.out << program_help(commands);
     return kDone;
