@@ -1,32 +1,33 @@
 """A laboratory that is not there: an arm with a board in its hand, recorded as a real one is, and what was true of it.
 
-`record(folder, seed, …)` draws a robot that is not quite ours (other masses, joints that read beside the truth, torque
-sensors with friction, drift and noise), a camera that stands elsewhere than planned and bends straight lines, and
-clocks that disagree; lets the arm move; and writes what its drivers would have recorded, as ROS 2 does, in MCAP. The
-truth is given back, for comparison alone: nothing of it is in the bag.
+`record(folder, seed, …)` draws a robot that is not quite ours (other masses), a camera that stands elsewhere than
+planned and bends straight lines, and sensors and clocks as `python -m stampede.recordings synthesize` has them; lets the
+arm move; and writes what its drivers would have recorded, as ROS 2 does, in MCAP. The truth is given back, for
+comparison alone: nothing of it is in the bag.
 """
 
 from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 from laboratory_scripts import BASE, DRIVER_EVERY, FRAME_HZ, SIZE, SQUARE_M, SQUARES, write_library
 from ros_bag import RosBag
 
 import stampede
+from stampede.recordings import sensors
+from stampede.recordings.sensors import Recorder, Sensors
+from stampede.recordings.synthesize import as_jpeg
 from stampede.robots import Robot, robot_of, rotation
 
 Array = NDArray[Any]
 
-PICTURE_EVERY = 16  # frames: 15 Hz
-EPOCH_S = 1_700_000_000
+RECORDER = Recorder(joints_every=DRIVER_EVERY, pictures_every=16)  # pictures at 15 Hz
 _HOME = np.array([0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4])
 _SPREAD = np.array([0.45, 0.35, 0.45, 0.40, 0.60, 0.45, 0.80])  # rad, about home
 
@@ -39,12 +40,23 @@ class Truth:
     matrix: Array  # 3 x 3, OpenCV's pixel centres
     distortion: Array  # k1 k2 p1 p2 k3
     hand_from_board: Array
-    joint_offsets: Array  # rad: what joints are, less what they read
-    camera_offset_s: float  # what is added to the camera's stamps to have the robot's
-    drift_ppm: float
-    torque: dict[str, Array] = field(default_factory=dict)  # coulomb, viscous, offset, drift, white, by joint
-    drift_time_s: float = 60.0
-    dropped: int = 0  # pictures
+    sensors: Sensors
+
+    @property
+    def joint_offsets(self) -> Array:
+        return self.sensors.joint_offsets
+
+    @property
+    def torque(self) -> dict[str, Array]:
+        return self.sensors.torque
+
+    @property
+    def camera_offset_s(self) -> float:
+        return self.sensors.clocks["lab"].offset_s
+
+    @property
+    def drift_ppm(self) -> float:
+        return self.sensors.clocks["lab"].drift_ppm
 
 
 def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
@@ -70,24 +82,12 @@ def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
     hand_from_board[:3, 3] = (
         np.array([0.05, 0.0, 0.19]) + rng.uniform(-0.01, 0.01, 3) - hand_from_board[:3, :3] @ centre
     )
-    arm = 7
-    torque = {
-        "coulomb": rng.uniform(0.2, 1.0, arm) * [1, 1, 1, 1, 0.4, 0.4, 0.4],
-        "viscous": rng.uniform(0.1, 0.8, arm) * [1, 1, 1, 1, 0.4, 0.4, 0.4],
-        "offset": rng.uniform(-1.0, 1.0, arm) * [1, 1, 1, 1, 0.3, 0.3, 0.3],
-        "drift": rng.uniform(-0.8, 0.8, arm) * [1, 1, 1, 1, 0.3, 0.3, 0.3],
-        "white": rng.uniform(0.05, 0.15, arm) * [1, 1, 1, 1, 0.4, 0.4, 0.4],
-    }
     return Truth(
         world_from_camera=camera,
         matrix=matrix,
         distortion=bent,
         hand_from_board=hand_from_board,
-        joint_offsets=np.radians(rng.uniform(-joint_offset_deg, joint_offset_deg, arm)),
-        camera_offset_s=rng.uniform(-0.08, 0.08),
-        drift_ppm=rng.uniform(-50, 50),
-        torque=torque,
-        drift_time_s=rng.uniform(20, 40),
+        sensors=sensors.draw_sensors(rng, 7, ["lab"], joint_offset_deg),
     )
 
 
@@ -157,8 +157,8 @@ def record(folder: Path, seed: int, seconds: float = 60.0, form: str = "mcap", t
     episode = move(folder, truth, seed, seconds)
     rng = np.random.default_rng([seed, 4])
     with RosBag(folder / "bag", form) as bag:
-        _write_joints(bag, episode, truth, rng)
-        _write_pictures(bag, episode, truth, rng)
+        pictures = sensors.drawn_pictures(episode)
+        sensors.record(bag, episode, truth.sensors, RECORDER, rng, pictures, as_jpeg)
     return truth
 
 
@@ -185,51 +185,3 @@ def torque_errors(folder: Path, seed: int, noise: Path) -> Array:
         assert catalogue.exists(), done.stderr
         readings.append(next(iter(stampede.Catalogue(catalogue))).arrays("sensor")["sensor/joint_torque"])
     return readings[1] - readings[0]
-
-
-def measured_torques(torques: Array, velocities: Array, times: Array, truth: Truth, rng: np.random.Generator) -> Array:
-    """What the sensors make of them."""
-    t = truth.torque
-    warm = 1 - np.exp(-times / truth.drift_time_s)
-    friction = t["coulomb"] * np.tanh(velocities / 0.02) + t["viscous"] * velocities
-    return torques + friction + t["offset"] + warm[:, None] * t["drift"] + t["white"] * rng.normal(size=torques.shape)
-
-
-def _write_joints(bag: RosBag, episode: stampede.StoredEpisode, truth: Truth, rng: np.random.Generator) -> None:
-    arrays = episode.arrays("joint_positions", "joint_velocities", "joint_forces", "gripper_joint_positions")
-    times = np.arange(episode.frames) / FRAME_HZ
-    positions = arrays["joint_positions"] - truth.joint_offsets + rng.normal(0, 2e-5, arrays["joint_positions"].shape)
-    velocities = arrays["joint_velocities"] + rng.normal(0, 1e-3, positions.shape)
-    forces = measured_torques(arrays["joint_forces"], arrays["joint_velocities"], times, truth, rng)
-    fingers = arrays["gripper_joint_positions"]
-    names = [f"panda_joint{k}" for k in range(1, 8)] + ["panda_finger_joint1", "panda_finger_joint2"]
-    still = np.zeros(2)
-    for frame in range(1, episode.frames, DRIVER_EVERY):  # no motor has worked at frame 0
-        if rng.random() < 0.01:
-            continue
-        stamp_ns = round((EPOCH_S + times[frame]) * 1e9)
-        values = [np.concatenate([positions[frame], fingers[frame]])]
-        values += [np.concatenate([velocities[frame], still]), np.concatenate([forces[frame], still])]
-        bag.joint_state("/joint_states", stamp_ns, stamp_ns + int(rng.uniform(0.2e6, 1.5e6)), names, *values)
-
-
-def _write_pictures(bag: RosBag, episode: stampede.StoredEpisode, truth: Truth, rng: np.random.Generator) -> None:
-    frames = list(range(PICTURE_EVERY, episode.frames, PICTURE_EVERY))
-    start = 0
-    while start < len(frames):
-        some = frames[start : start + 64]
-        start += len(some)
-        for frame, picture in zip(some, episode.pictures("lab_rgb", some, draw=True, threads=2), strict=True):
-            if rng.random() < 0.03:
-                truth.dropped += 1
-                continue
-            true_s = frame / FRAME_HZ
-            # The robot's time is camera_offset_s + stamp, and a little more for each second since the start.
-            stamp_s = true_s - truth.camera_offset_s - truth.drift_ppm * 1e-6 * true_s + rng.normal(0, 5e-4)
-            stamp_ns = round((EPOCH_S + stamp_s) * 1e9)
-            noisy = np.clip(picture + rng.normal(0, 2, picture.shape), 0, 255).astype(np.uint8)
-            data = cv2.imencode(".jpg", noisy[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 92])[1].tobytes()
-            log_ns = round((EPOCH_S + true_s + rng.uniform(0.02, 0.05)) * 1e9)
-            bag.compressed(
-                "/camera/lab/image/compressed", stamp_ns, log_ns, "rgb8; jpeg compressed bgr8", data, "lab_optical"
-            )

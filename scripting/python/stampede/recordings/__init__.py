@@ -1,6 +1,7 @@
 """Recordings of real robots as recording folders: `python -m stampede.recordings FORMAT SOURCE --out FOLDER`.
 
-A format is a module here with `add_arguments` and `convert`; `--into demos.db` then imports what it wrote.
+A format is a module here with `add_arguments` and `convert`; `--into demos.db` then imports what it wrote. `synthesize`
+goes the other way: of a simulated episode it makes a recording that looks real.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ FORMATS = {
     "lerobot": ("lerobot", "LeRobotDataset v2.1 or v3.0: a folder an episode"),
     "robomimic": ("robomimic", "HDF5 of robomimic: a folder a demo"),
 }
+_SYNTHESIZE = "synthesize"
 
 
 class Format(Protocol):
@@ -36,9 +38,11 @@ class Format(Protocol):
 
 
 def convert(arguments: Sequence[str] | None = None, tell: Callable[[str], None] | None = None) -> list[Path]:
-    """Runs the command line; gives the folders that were written. Raises Error for bad input."""
+    """Runs the command line; gives the folders that were written, or the bag. Raises Error for bad input."""
     options = _parse(arguments)
     say = tell or (lambda line: print(line, file=sys.stderr))
+    if options.format == _SYNTHESIZE:
+        return [_synthesizer().synthesize(options, say)]
     given = given_options.given_by(options, say)
     folders = _module(options.format).convert(given, options)
     if options.into:
@@ -63,6 +67,10 @@ def _module(name: str) -> Any:
     return importlib.import_module(f"stampede.recordings.{FORMATS[name][0]}")
 
 
+def _synthesizer() -> Any:
+    return importlib.import_module(f"stampede.recordings.{_SYNTHESIZE}")
+
+
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m stampede.recordings",
@@ -74,4 +82,6 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
         one.add_argument("source", metavar="SOURCE")
         given_options.add_arguments(one)
         _module(name).add_arguments(one)
+    what = "a bag that looks like a real recording, of a simulated episode, and its truth"
+    _synthesizer().add_arguments(formats.add_parser(_SYNTHESIZE, help=what, description=what))
     return parser.parse_args(arguments)
