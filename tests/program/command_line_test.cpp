@@ -11,6 +11,7 @@ TEST_CASE("the reference holds the help of every command, word for word, and is 
   CHECK(reference == command_reference(all_commands()));
   for (const CommandRow& command : all_commands()) {
     const Said said = say({command.name, "--help"});
+    CHECK(say({"help", command.name}).out == said.out);
     CHECK(said.code == kDone);
     CHECK(said.err.empty());
     CHECK(reference.find("```\n" + said.out + "```") != std::string::npos);

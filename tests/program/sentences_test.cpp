@@ -128,6 +128,20 @@ TEST_CASE("subgoals have sentences: the author's and a model's, each beside its 
   CHECK(says(none.err, "no subgoals with a sentence"));
 }
 
+TEST_CASE("a file of sentences under --path goes before the one beside the task, and what it lacks is told") {
+  const Folder folder;
+  put(folder, "tasks/push_button.sentences.json",
+      R"({"version": 1, "task": "push_button", "asked": [], "sentences": [{"text": "tap the maroon button", "level": "task",
+ "of": "colour=maroon", "grain": "goal", "model": "small", "prompt": "0", "checks": []}]})");
+  const Said ran = say({"run", "push_button", "--variation", kVariation, "--sentences", "--root", kRoot, "--path",
+                        folder.text(), "--out", folder / "p.db"});
+  INFO(ran.out + ran.err);
+  REQUIRE(ran.code == kDone);
+  CHECK(says(ran.err, "no sentences for 17 of 18 variations of push_button"));
+  CHECK(says(say({"query", folder / "p.db", "SELECT text FROM language WHERE source = 'model'"}).out,
+             "tap the maroon button"));
+}
+
 TEST_CASE("Ctrl-C ends paraphrase, and what is done is kept") {
   const Mine mine;
   const auto library = Library::load({{kRoot}});

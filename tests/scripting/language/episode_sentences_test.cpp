@@ -118,6 +118,33 @@ TEST_CASE("what is said to be left of another is so in the picture") {
   CHECK(no > 0);
 }
 
+TEST_CASE("what does not stand apart at a frame is not asked about, and names are those of the frame") {
+  std::string four;
+  for (const std::string& variation : shipped::library()->task("stack_blocks")->variation_texts)
+    if (variation.ends_with("height=4")) four = variation;
+  REQUIRE_FALSE(four.empty());
+  PreparedEpisode prepared(shipped::library(), {"stack_blocks", four, 3}, {});
+  const EpisodeRecord record = prepared.run(nullptr);
+  REQUIRE(record.outcome == Outcome::success);
+  const Scene scene = scene_from_document(record.scene_document);
+  const Domain& domain = shipped::library()->domain_of("stack_blocks");
+  const auto last = static_cast<std::int64_t>(record.frames.size()) - 1;
+  std::set<std::string> built;  // in one tower at the end
+  for (const FactRecord& fact : record.facts)
+    if (fact.fact.predicate == "on" && fact.open_end && fact.fact.arguments[1] != "table")
+      built.insert(fact.fact.arguments.begin(), fact.fact.arguments.end());
+  CHECK(built.size() == 4);
+  bool before = false;
+  for (const FrameQuestion& one : questions_about(record, domain, scene, 0))
+    before |= std::any_of(built.begin(), built.end(), [&](const auto& name) { return one.things.contains(name); });
+  CHECK(before);
+  for (const FrameQuestion& one : questions_about(record, domain, scene, last)) {
+    if (one.type == "count") continue;
+    INFO(one.text(one.pattern));
+    CHECK(std::none_of(built.begin(), built.end(), [&](const auto& name) { return one.things.contains(name); }));
+  }
+}
+
 TEST_CASE("answers about frames are true, and yes as often as no") {
   const Scene scene = scene_from_document(episode().scene_document);
   const Domain& domain = shipped::library()->domain_of(kJob.task);

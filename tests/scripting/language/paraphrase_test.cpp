@@ -65,6 +65,52 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
   CHECK(server.requests() == asked);
 }
 
+TEST_CASE("what a server answers that speaks no chat is asked for again by the same command") {
+  const SentenceChecker checker(shipped::meaning("put_rubbish_in_bin"));
+  const ParaphraseJob job{LanguageLevel::task, "", Grain::goal, 2, 1, 0};
+  SentenceFile file{"put_rubbish_in_bin", {}, {}};
+  for (const char* body : {"<html>log in first</html>", "{\"ok\": true}"}) {
+    stub::Server server([&](int, const std::string&) { return stub::Reply{stub::http(200, body)}; });
+    ChatClient client(quick_settings(server.url()));
+    const ParaphraseTally tally = paraphrase(job, checker, {}, client, file, nullptr, nullptr);
+    CHECK(tally.refused.at("no_answer") == 2);
+    CHECK(file.asked.empty());
+  }
+}
+
+TEST_CASE("a key that an answer repeats is not shown") {
+  const SentenceChecker checker(shipped::meaning("put_rubbish_in_bin"));
+  stub::Server server([&](int, const std::string&) {
+    return stub::Reply{stub::chat("put sk-SECRET123 into the bin\nput the rubbish where Bearer sk-SECRET123 is")};
+  });
+  ChatSettings settings = quick_settings(server.url());
+  settings.key = "sk-SECRET123";
+  ChatClient client(settings);
+  SentenceFile file{"put_rubbish_in_bin", {}, {}};
+  std::vector<Refused> refused;
+  paraphrase({LanguageLevel::task, "", Grain::goal, 2, 2, 0}, checker, {}, client, file, nullptr, &refused);
+  REQUIRE(refused.size() == 2);
+  for (const Refused& one : refused) CHECK((one.text + one.detail).find("SECRET") == std::string::npos);
+}
+
+TEST_CASE("what is done otherwise than by the goal is turned down") {
+  const SentenceChecker stack(meaning_of(shipped::library(), "stack_blocks", "colour=red,height=3", 0,
+                                         sentences_of(shipped::library(), "stack_blocks")));
+  CHECK(stack.check("stack three red cubes").ok());
+  CHECK_FALSE(stack.check("put three red cubes side by side").ok());
+  CHECK_FALSE(stack.check("using any colour but red, stack three blocks").ok());
+  const SentenceChecker buttons(shipped::meaning("push_buttons"));
+  const Meaning& meaning = buttons.meaning();
+  std::vector<std::string> colours;
+  for (const SpokenThing& thing : meaning.things)
+    if (thing.heads.contains("button") && thing.name.find('.') == std::string::npos && !thing.colours.empty())
+      colours.push_back(*thing.colours.begin());
+  REQUIRE(colours.size() == 3);
+  CHECK_FALSE(
+      buttons.check("press both the " + colours[0] + " and the " + colours[1] + " button at the same time").ok());
+  CHECK_FALSE(buttons.check("press the " + colours[0] + " button with the " + colours[1] + " one").ok());
+}
+
 TEST_CASE("a model that does not know its own sentence again loses it") {
   const Meaning& meaning = shipped::meaning("put_rubbish_in_bin");
   const SentenceChecker checker(meaning);
