@@ -30,6 +30,7 @@ class Importer {
   Importer(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
            const ImportOptions& options)
       : recording_(read_recording(folder)), library_(library), options_(options) {
+    own_hz_ = recording_.frame_hz;
     if (options.frame_hz) recording_.frame_hz = *options.frame_hz;
     if (options.world) recording_.world = *options.world;
     hasher_.text("recording 1").text(recording_.text).number(recording_.frame_hz).text(recording_.world);
@@ -55,7 +56,7 @@ class Importer {
     record_.keyframes["stopped"] = stopped_keyframes(record_);
     if (!recording_.labels.empty()) {
       const std::filesystem::path file = recording_.path_of(recording_.labels, recording_.shown);
-      put_labels(read_labels(file, recording_.shown_path(recording_.labels), record_, {&recording_, times_.begin}),
+      put_labels(read_labels(file, recording_.shown_path(recording_.labels), record_, {&recording_, own_times_}),
                  record_);
     }
     return std::move(record_);
@@ -106,7 +107,8 @@ class Importer {
   void set_times() {
     const double begin = recording_.start_s.value_or(joints_.time.front());
     const double end = recording_.end_s.value_or(joints_.time.back());
-    const double count = std::floor((end - begin) * recording_.frame_hz + kSameMoment * recording_.frame_hz) + 1;
+    const auto frames_at = [&](int hz) { return std::floor((end - begin) * hz + kSameMoment * hz) + 1; };
+    const double count = frames_at(recording_.frame_hz);
     if (!(count >= 2))
       throw Error(recording_.shown, "it has no two frames: from " + seconds(begin) + " to " + seconds(end),
                   "record joint states for longer, or correct start_s and end_s");
@@ -115,6 +117,7 @@ class Importer {
                   "it would have more than 10 million frames: from " + seconds(begin) + " to " + seconds(end),
                   "are all stamps in seconds, and start_s and end_s on the recording's time line?");
     times_ = {begin, recording_.frame_hz, static_cast<std::size_t>(count)};
+    own_times_ = {begin, own_hz_, static_cast<std::size_t>(frames_at(own_hz_))};
     require_overlap(*stream_of(StreamKind::joints), joints_.time);
     if (tracks_.gripper != nullptr) require_overlap(*stream_of(StreamKind::gripper), gripper_.time);
     if (tracks_.command != nullptr) require_overlap(*stream_of(StreamKind::command), command_.time);
@@ -240,7 +243,8 @@ class Importer {
   RecordingScene scene_;
   Track joints_, gripper_, command_;
   RobotTracks tracks_;
-  FrameTimes times_;
+  FrameTimes times_, own_times_;  // own: at the rate that recording.json says
+  int own_hz_ = 0;
   EpisodeRecord record_;
   std::shared_ptr<ImageStore> images_ = std::make_shared<ImageStore>();
 };

@@ -23,11 +23,13 @@ void check_word(const std::string& word, const std::string& place) {
 
 class LabelReader {
  public:
-  LabelReader(const EpisodeRecord& episode, std::vector<LabelRow> rows)
+  LabelReader(const EpisodeRecord& episode, std::vector<LabelRow> rows, const LabelClock& clock)
       : episode_(episode),
         rows_(std::move(rows)),
         ticks_(episode.physics_hz / episode.frame_hz),
-        frames_(static_cast<std::int64_t>(episode.frames.size())) {}
+        frames_(static_cast<std::int64_t>(episode.frames.size())),
+        own_hz_(clock.recording == nullptr ? episode.frame_hz : clock.frames.hz),
+        own_frames_(clock.recording == nullptr ? frames_ : static_cast<std::int64_t>(clock.frames.count)) {}
   Labels read() {
     for (const LabelRow& row : rows_) {
       if (std::find(kinds().begin(), kinds().end(), row.kind) == kinds().end())
@@ -58,10 +60,18 @@ class LabelReader {
     return std::min<std::int64_t>(std::llround(time * episode_.physics_hz), episode_.steps);
   }
   void check_frame(std::int64_t frame, const LabelRow& row) const {
-    if (frame < 0 || frame > frames_)
+    if (frame < 0 || frame > own_frames_)
       throw Error(row.place,
-                  "there is no frame " + std::to_string(frame) + ": the episode has " + std::to_string(frames_));
+                  "there is no frame " + std::to_string(frame) + ": at " + std::to_string(own_hz_) +
+                      " frames a second there are " + std::to_string(own_frames_),
+                  "frames count from 0, and end_frame is " + std::to_string(own_frames_) +
+                      " at most; or give start_s and end_s");
   }
+  std::int64_t step_of_frame(std::int64_t frame) const {
+    const double step = static_cast<double>(frame) * episode_.physics_hz / own_hz_;
+    return std::min<std::int64_t>(std::llround(step), episode_.steps);
+  }
+  std::int64_t frame_from(std::int64_t step) const { return (step + ticks_ - 1) / ticks_; }
 
   // Of a row without a span: the whole episode, where that is allowed.
   Span span_of(const LabelRow& row, bool may_be_missing) const {
@@ -73,13 +83,16 @@ class LabelReader {
     Span span;
     if (given.start_s && given.end_s && !given.first_frame && !given.end_frame) {
       span.start_step = step_of(*given.start_s, row), span.end_step = step_of(*given.end_s, row);
-      span.first_frame = (span.start_step + ticks_ - 1) / ticks_;
-      span.end_frame = span.end_step == episode_.steps ? frames_ : (span.end_step + ticks_ - 1) / ticks_;
+      span.first_frame = frame_from(span.start_step);
+      span.end_frame = span.end_step == episode_.steps ? frames_ : frame_from(span.end_step);
     } else if (given.first_frame && given.end_frame && !given.start_s && !given.end_s) {
       check_frame(*given.first_frame, row), check_frame(*given.end_frame, row);
-      span.first_frame = *given.first_frame, span.end_frame = *given.end_frame;
-      span.start_step = std::min(span.first_frame * ticks_, episode_.steps);
-      span.end_step = std::min(span.end_frame * ticks_, episode_.steps);
+      span.start_step = step_of_frame(*given.first_frame), span.end_step = step_of_frame(*given.end_frame);
+      span.first_frame = *given.first_frame == own_frames_ ? frames_ : frame_from(span.start_step);
+      span.end_frame = *given.end_frame == own_frames_ ? frames_ : frame_from(span.end_step);
+      if (span.start_step >= span.end_step && *given.first_frame < *given.end_frame && own_hz_ != episode_.frame_hz)
+        throw Error(row.place, "it lies behind the last frame at " + std::to_string(episode_.frame_hz) + " a second",
+                    "import with the recording's own frame_hz, " + std::to_string(own_hz_));
     } else {
       throw Error(row.place, "its span is given in part, or twice",
                   "give start_s and end_s, or first_frame and end_frame");
@@ -209,6 +222,8 @@ class LabelReader {
   const EpisodeRecord& episode_;
   std::vector<LabelRow> rows_;
   std::int64_t ticks_, frames_;
+  int own_hz_;  // frames in the labels count at this rate
+  std::int64_t own_frames_;
   Labels labels_;
   std::vector<const LabelRow*> segment_rows_;  // by place in the file
   std::vector<int> ordinal_of_;                // likewise
@@ -218,7 +233,7 @@ class LabelReader {
 
 Labels read_labels(const std::filesystem::path& file, const std::string& shown, const EpisodeRecord& episode,
                    const LabelClock& clock) {
-  return LabelReader(episode, label_rows(file, shown, clock)).read();
+  return LabelReader(episode, label_rows(file, shown, clock), clock).read();
 }
 
 void put_labels(Labels labels, EpisodeRecord& episode) {

@@ -7,6 +7,7 @@
 
 #include "engine/episode/record.h"
 #include "scripting/recording/recording_file.h"
+#include "scripting/recording/resample.h"
 
 namespace stampede {
 
@@ -16,10 +17,11 @@ struct Labels {
   std::vector<LanguageRecord> language;
 };
 
-// Where `clock` may be used: in labels that lie in their recording, whose first frame is at `begin` on its time line.
+// Of labels that lie in their recording: `clock` may be used, and frames are those of the recording's own frame_hz,
+// whatever the rate at which it is imported. Without a recording they are the episode's.
 struct LabelClock {
   const RecordingFile* recording = nullptr;
-  double begin = 0;
+  FrameTimes frames;
 };
 
 // For an episode of these frames, steps and rates. Throws Error, with the line or the place in the JSON: unknown kinds

@@ -43,7 +43,7 @@ class JsonLabels {
     const auto time = [&](const char* field) -> std::optional<double> {
       if (!value[field].present()) return std::nullopt;
       const double number = value[field].as_number();
-      return its_clock_ == nullptr ? number : its_clock_->time(number) - clock_.begin;
+      return its_clock_ == nullptr ? number : its_clock_->time(number) - clock_.frames.begin;
     };
     const auto frame = [&](const char* field) -> std::optional<std::int64_t> {
       if (!value[field].present()) return std::nullopt;

@@ -60,6 +60,29 @@ TEST_CASE("a CSV says the same") {
   CHECK(labels.language[2].segment == 0);
 }
 
+TEST_CASE("frames of a recording's own labels are those of its own rate, whatever the rate of the import") {
+  const Lab lab;  // 20 Hz, 2 s
+  lab.write("labels.json", R"({"segments": [
+      {"kind": "skill", "name": "wave", "first_frame": 4, "end_frame": 20},
+      {"kind": "skill", "name": "rest", "first_frame": 20, "end_frame": 41}],
+    "facts": [{"fact": ["raised", "arm"], "first_frame": 10, "end_frame": 40}]})");
+  lab.change([](auto& json) { json["labels"] = "labels.json"; });
+  for (const int hz : {10, 20, 30, 40}) {
+    const EpisodeRecord e = lab.import({hz, {}, 1});
+    const auto frames = static_cast<std::int64_t>(e.frames.size());
+    INFO(hz);
+    REQUIRE(e.segments.size() == 2);
+    CHECK((e.segments[0].span.first_frame == hz / 5 && e.segments[0].span.end_frame == hz));
+    CHECK(e.segments[0].span.start_step == e.physics_hz / 5);
+    CHECK((e.segments[1].span.first_frame == hz && e.segments[1].span.end_frame == frames));
+    CHECK(e.facts.at(0).start_step == e.physics_hz / 2);
+    CHECK(e.facts[0].end_step == e.steps);
+  }
+  lab.replace("labels.json", "\"end_frame\": 41", "\"end_frame\": 42");
+  CHECK_THROWS_WITH(lab.import({40, {}, 1}), Contains("there is no frame 42: at 20 frames a second there are 41") &&
+                                                 Contains("end_frame is 41 at most"));
+}
+
 TEST_CASE("bad labels are refused with their line") {
   const std::string head = "kind,name,arguments,start_s,end_s\n";
   const auto refuse = [&](const std::string& rows, const std::string& complaint) {
