@@ -18,6 +18,7 @@ constexpr int kTicks = 1'000'000;  // a second, about: steps of a real episode
 constexpr std::size_t kMostFrames = 10'000'000;
 constexpr const char* kNoKey = "no key yet: its pictures are being read";
 constexpr double kSameMoment = 1e-6;  // s
+constexpr double kSlowest = 0.9;      // s between joint states: 1000 Hz in milliseconds are beyond
 
 std::string seconds(double value) {
   std::array<char, 32> text{};
@@ -104,7 +105,17 @@ class Importer {
     }
   }
 
+  // Milliseconds taken for seconds are slow, and nothing else tells them.
+  void require_seconds() const {
+    const double period = median_period(joints_.time);
+    if (period > kSlowest)
+      throw Error(recording_.shown_path(stream_of(StreamKind::joints)->file),
+                  "its joint states are " + seconds(period) + " apart: frames cannot be made of so few",
+                  "stamps are in seconds: divide those in milliseconds by 1000");
+  }
+
   void set_times() {
+    require_seconds();
     const double begin = recording_.start_s.value_or(joints_.time.front());
     const double end = recording_.end_s.value_or(joints_.time.back());
     const auto frames_at = [&](int hz) { return std::floor((end - begin) * hz + kSameMoment * hz) + 1; };

@@ -67,6 +67,18 @@ TEST_CASE("bad rows are named with their line") {
       },
       "joints.csv:202", "the file ends too early");
   refuse(
+      [](const Lab& lab) {  // 100 Hz in milliseconds
+        std::string text = lab.read("joints.csv"), slow = text.substr(0, text.find('\n') + 1);
+        std::size_t at = slow.size();
+        for (int row = 0; row <= 200; ++row) {
+          const std::size_t comma = text.find(',', at), end = text.find('\n', at) + 1;
+          slow += std::to_string(100'000 + 10 * row) + text.substr(comma, end - comma);
+          at = end;
+        }
+        lab.write("joints.csv", slow);
+      },
+      "joints.csv", "10.000 s apart");
+  refuse(
       [](const Lab& lab) {  // degrees
         lab.replace("joints.csv", "\n100.020000,0.", "\n100.020000,45.");
       },
