@@ -38,6 +38,7 @@ class Importer {
   }
   // All but the pictures themselves, and so without the key.
   EpisodeRecord import() {
+    settle_references();
     scene_ = scene_of(recording_, library_, hasher_);
     read_robot();
     set_times();
@@ -112,6 +113,25 @@ class Importer {
       throw Error(recording_.shown_path(stream_of(StreamKind::joints)->file),
                   "its joint states are " + seconds(period) + " apart: frames cannot be made of so few",
                   "stamps are in seconds: divide those in milliseconds by 1000");
+  }
+
+  // What a drift counts from where nobody says it: the first stamp of its clock, in whichever of its streams.
+  void settle_references() {
+    for (RecordingClock& clock : recording_.clocks) {
+      if (clock.reference_given || clock.drift_ppm == 0) continue;
+      std::optional<double> first;
+      for (RecordedStream stream : recording_.streams) {
+        if (stream.clock.name != clock.name) continue;
+        stream.clock = {};  // its stamps as they are
+        const double stamp = stream.pictures()
+                                 ? read_picture_stream(recording_, stream).time.front()
+                                 : read_track(recording_, stream, {}, [](const std::string&) {}).time.front();
+        first = std::min(first.value_or(stamp), stamp);
+      }
+      clock.reference_s = first.value_or(0);
+      for (RecordedStream& stream : recording_.streams)
+        if (stream.clock.name == clock.name) stream.clock = clock;
+    }
   }
 
   void set_times() {

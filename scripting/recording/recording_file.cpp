@@ -69,7 +69,7 @@ void read_clocks(const Value& clocks, RecordingFile& recording) {
   for (const auto& [name, fields] : clocks.fields) {
     if (!fields.fields.empty()) require_fields(fields, {"offset_s", "drift_ppm", "reference_s"});
     const RecordingClock clock{name, finite_or(fields, "offset_s", 0), finite_or(fields, "drift_ppm", 0),
-                               finite_or(fields, "reference_s", 0)};
+                               finite_or(fields, "reference_s", 0), fields["reference_s"].present()};
     if (!(std::abs(clock.drift_ppm) < 1e5))
       fields["drift_ppm"].expected("a drift in millionths, below 100000: a quartz has some dozens");
     recording.clocks.push_back(clock);

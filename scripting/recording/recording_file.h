@@ -16,6 +16,7 @@ namespace stampede {
 struct RecordingClock {
   std::string name;  // empty: the time line itself
   double offset_s = 0, drift_ppm = 0, reference_s = 0;
+  bool reference_given = false;  // else it is the first stamp of the clock, which is in its streams
   double time(double stamp) const { return stamp + offset_s + drift_ppm * 1e-6 * (stamp - reference_s); }
 };
 

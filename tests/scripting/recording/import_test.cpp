@@ -73,6 +73,30 @@ TEST_CASE("gaps are NULL, and offsets move streams against each other") {
   CHECK_NOTHROW(state_at(*stored.scene, e, 12));
 }
 
+TEST_CASE("a drift counts from the first stamp of its clock where no other is given") {
+  const Lab lab;
+  constexpr double kUnix = 1'695'000'000;
+  std::string gripper = "time_s,opening_m\n";
+  for (int row = 0; row <= 50; ++row)
+    gripper += std::to_string(kUnix + 0.5 + row * 0.02) + (row < 25 ? ",0.08\n" : ",0.02\n");
+  lab.write("gripper.csv", gripper);
+  lab.write("pull.csv", "time_s,pull_n\n1695000000,1\n1695000001,2\n");
+  lab.change([](auto& json) {
+    json["clocks"]["hand"] = {{"offset_s", 100 - kUnix}, {"drift_ppm", 10'000}};
+    json["streams"][1]["clock"] = "hand";
+    json["streams"].push_back(
+        {{"kind", "channel"}, {"name", "pull"}, {"unit", "n"}, {"file", "pull.csv"}, {"clock", "hand"}});
+  });
+  const EpisodeRecord e = lab.import();
+  CHECK(e.streams.at(1).reference_s == kUnix);  // the channel's, which began first
+  CHECK(e.streams.at(2).reference_s == kUnix);
+  CHECK(e.channels.at(0).steps == std::vector<std::int64_t>{0, 1'010'000});
+  CHECK(std::isnan(e.frames[10].hands[0].opening));
+  CHECK(e.frames[11].hands[0].opening == Approx(0.08));
+  lab.change([](auto& json) { json["clocks"]["hand"]["reference_s"] = kUnix + 100; });
+  CHECK(lab.import().channels.at(0).steps.size() == 1);  // a second earlier: the first reading is before frame 0
+}
+
 TEST_CASE("pictures are kept byte by byte, with the time at which they were taken") {
   const Lab lab;
   lab.add_pictures("front", 30, 100.01, 15);
