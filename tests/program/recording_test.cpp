@@ -46,6 +46,30 @@ TEST_CASE("a recording is imported once, the same with any number of workers, an
   CHECK(says(replay.out + replay.err, "recorded"));
 }
 
+TEST_CASE("an export leaves a folder alone in which there is something") {
+  const Folder folder;
+  const std::string demos = folder / "demos.db", lab = folder / "lab";
+  REQUIRE(say({"run", "reach_target", "--episodes", "2", "--out", demos, "--root", kRoot}).code == kDone);
+  put(folder, "lab/joints.csv", "what the robot recorded");
+  std::filesystem::create_directories(folder / "empty");
+  for (const std::vector<std::string>& which : {std::vector<std::string>{"--episode", "1"}, {}}) {
+    const auto exported = [&](const std::string& out) {
+      std::vector<std::string> words = {"export", "recording", demos, "--out", out, "--root", kRoot};
+      words.insert(words.end(), which.begin(), which.end());
+      return say(words);
+    };
+    const Said said = exported(lab);
+    CHECK(said.code == kBadInput);
+    CHECK(says(said.err, "not empty"));
+    CHECK(says(said.err, "name a new folder"));
+    CHECK(exported(folder / "lab/joints.csv").code == kBadInput);
+  }
+  CHECK(file_text(folder / "lab/joints.csv") == "what the robot recorded");
+  CHECK_FALSE(std::filesystem::exists(folder / "lab/recording.json"));
+  CHECK(say({"export", "recording", demos, "--out", folder / "empty", "--root", kRoot}).code == kDone);
+  CHECK(std::filesystem::exists(folder / "empty/episode_000002/recording.json"));
+}
+
 TEST_CASE("the model lies over the pictures of an episode that it made, to a third of a pixel") {
   const Folder folder;
   const std::string lab = recorded(folder), real = folder / "real.db";
