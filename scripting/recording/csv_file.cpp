@@ -13,6 +13,9 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::string shown)
     : shown_(std::move(shown)), text_(read_text_file(file)) {
   if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // how some programs begin UTF-8
   if (!read_row()) throw Error(shown_, "this file is empty", "its first line names the columns");
+  if (row_.size() == 1 && row_[0].find_first_of(";\t") != std::string_view::npos)
+    throw Error(place(), "its fields are not separated by commas",
+                "write commas between fields, and a point in decimal numbers");
   for (const std::string_view name : row_) header_.emplace_back(name);
   for (std::size_t i = 0; i < header_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

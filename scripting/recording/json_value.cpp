@@ -47,6 +47,14 @@ Value value_from_json(const std::string& text, const std::string& shown_file) {
   }
 }
 
+void expected(const Value& value, const std::string& what, const std::string& cure) {
+  try {
+    value.expected(what);
+  } catch (const Error& error) {
+    throw Error(value.place, error.message(), cure);
+  }
+}
+
 void require_fields(const Value& object, const std::vector<std::string>& known) {
   if (!object.is_table() || !object.items.empty()) object.expected("an object: { … }");
   for (const auto& [name, field] : object.fields)

@@ -12,7 +12,9 @@ namespace stampede {
 // JSON.
 Value value_from_json(const std::string& text, const std::string& shown_file);
 
-// Throws Error for a value that is no object, and for fields that are not known, with the nearest name.
+// All throw Error. `expected`: as Value's, with a cure. `require_fields`: for a value that is no object, and for fields
+// that are not known, with the nearest name.
+[[noreturn]] void expected(const Value& value, const std::string& what, const std::string& cure);
 void require_fields(const Value& object, const std::vector<std::string>& known);
 const Value& required(const Value& object, const std::string& field, const std::string& cure);  // throws Error
 

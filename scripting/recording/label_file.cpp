@@ -116,7 +116,8 @@ class LabelReader {
     if (row.outcome == "failure") {
       segment.outcome = Outcome::failure;
       segment.reason = reason_from(row.reason.empty() ? "failed_by_task" : row.reason).value_or(Reason::none);
-      if (segment.reason == Reason::none) throw Error(row.place, "there is no reason '" + row.reason + "'");
+      if (segment.reason == Reason::none)
+        throw Error(row.place, "there is no reason '" + row.reason + "'", did_you_mean(row.reason, failure_reasons()));
     }
     segment.label = row.text;
     segment.labelled_by = labeller(row);
@@ -125,23 +126,34 @@ class LabelReader {
     segment_rows_.push_back(&row);
   }
 
+  static bool meet(const Span& a, const Span& b) { return a.start_step < b.end_step && b.start_step < a.end_step; }
+
+  // Before what lies across another is complained of: parts of a segment lie across what it overlaps.
+  void refuse_overlaps() const {
+    const std::vector<SegmentRecord>& list = labels_.segments;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (list[j].kind == list[i].kind && meet(list[j].span, list[i].span))
+          throw Error(segment_rows_[static_cast<std::size_t>(list[i].ordinal)]->place,
+                      "it overlaps the " + std::string(to_string(list[j].kind)) + " " + list[j].skill,
+                      "one of a kind runs at a time");
+  }
+
   // By start, then depth; each part of the innermost that holds it.
   void order_segments() {
     std::vector<SegmentRecord>& list = labels_.segments;
     std::stable_sort(list.begin(), list.end(), [](const SegmentRecord& a, const SegmentRecord& b) {
       return std::tie(a.span.start_step, a.kind) < std::tie(b.span.start_step, b.kind);
     });
+    refuse_overlaps();
     ordinal_of_.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
       const LabelRow& row = *segment_rows_[static_cast<std::size_t>(list[i].ordinal)];
       ordinal_of_[static_cast<std::size_t>(list[i].ordinal)] = static_cast<int>(i);
       for (std::size_t j = 0; j < list.size(); ++j) {
         const Span &own = list[i].span, &other = list[j].span;
-        if (i == j || own.start_step >= other.end_step || other.start_step >= own.end_step) continue;
+        if (list[j].kind >= list[i].kind || !meet(own, other)) continue;
         const std::string whom = std::string(to_string(list[j].kind)) + " " + list[j].skill;
-        if (list[j].kind == list[i].kind && j < i)
-          throw Error(row.place, "it overlaps the " + whom, "one of a kind runs at a time");
-        if (list[j].kind >= list[i].kind) continue;
         if (own.start_step < other.start_step || own.end_step > other.end_step)
           throw Error(row.place, "it lies partly within the " + whom, "let it begin and end within it, or outside");
         if (list[i].parent < 0 || list[static_cast<std::size_t>(list[i].parent)].kind < list[j].kind)

@@ -41,7 +41,9 @@ Transform base_pose(const Value& base) {
     const std::vector<double> q = turn.as_numbers();
     if (q.size() != 4) turn.expected("four numbers: x, y, z, w");
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(std::abs(length - 1) < 1e-3)) turn.expected("a quaternion of length 1: x, y, z, w");
+    if (!(std::abs(length - 1) < 1e-3))
+      throw Error(turn.place, "a quaternion has length 1, and this one has not",
+                  "write x, y, z, w; [0, 0, 0, 1] turns nothing");
     for (std::size_t i = 0; i < 4; ++i) pose.quaternion[i] = q[i] / length;
   }
   return to_transform(pose);
@@ -71,7 +73,7 @@ void read_clocks(const Value& clocks, RecordingFile& recording) {
     const RecordingClock clock{name, finite_or(fields, "offset_s", 0), finite_or(fields, "drift_ppm", 0),
                                finite_or(fields, "reference_s", 0), fields["reference_s"].present()};
     if (!(std::abs(clock.drift_ppm) < 1e5))
-      fields["drift_ppm"].expected("a drift in millionths, below 100000: a quartz has some dozens");
+      expected(fields["drift_ppm"], "a drift in millionths, below 100000", "a quartz has some dozens: write 40");
     recording.clocks.push_back(clock);
   }
 }
@@ -83,7 +85,7 @@ void read_pictures(const Value& value, const RecordingFile& recording, RecordedS
   stream.name = plain_name(required(value, "camera", "name the camera of the pictures"));
   stream.file = required(value, "folder", "name the folder of the pictures").as_text();
   stream.times = value.text_or("times", "");
-  if (!fs::is_directory(recording.path_of(stream.file, value["folder"].place)))
+  if (!fs::is_directory(recording.path_of(stream.file, value["folder"].place, "folder")))
     value["folder"].expected("a folder of pictures");
   if (!stream.times.empty()) recording.path_of(stream.times, value["times"].place);
   if (stream.kind == StreamKind::rgb) return;
@@ -140,7 +142,8 @@ void read_streams(const Value& streams, RecordingFile& recording) {
 
 void read_outcome(const Value& root, RecordingFile& recording) {
   const Value& outcome = required(root, "outcome", "write \"success\" or \"failure\"");
-  if (outcome.as_text() != "success" && outcome.text != "failure") outcome.expected("\"success\" or \"failure\"");
+  if (outcome.as_text() != "success" && outcome.text != "failure")
+    throw Error(outcome.place, "there is no outcome '" + outcome.text + "'", "write \"success\" or \"failure\"");
   recording.detail = root.text_or("detail", "");
   if (outcome.text == "success") {
     if (root["reason"].present()) throw Error(root["reason"].place, "a success has no reason", "leave it out");
@@ -155,9 +158,7 @@ void read_outcome(const Value& root, RecordingFile& recording) {
     recording.reason = *known;
     return;
   }
-  std::vector<std::string> names;
-  for (const Reason one : all_reasons()) names.emplace_back(to_string(one));
-  throw Error(reason.place, "there is no reason '" + reason.text + "'", did_you_mean(reason.text, names));
+  throw Error(reason.place, "there is no reason '" + reason.text + "'", did_you_mean(reason.text, failure_reasons()));
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ std::string_view to_string(StreamKind kind) { return kKinds.at(static_cast<std::
 
 std::string RecordingFile::shown_path(const std::string& file) const { return (folder / file).string(); }
 
-fs::path RecordingFile::path_of(const std::string& file, const std::string& place) const {
+fs::path RecordingFile::path_of(const std::string& file, const std::string& place, const char* what) const {
   const fs::path path = folder / file;
   try {
     FileScope({folder}).check(path);
@@ -175,7 +176,8 @@ fs::path RecordingFile::path_of(const std::string& file, const std::string& plac
   }
   std::error_code ignored;
   if (!fs::exists(path, ignored))
-    throw Error(place, "there is no file '" + path.string() + "'", "copy it into the recording, or leave it out");
+    throw Error(place, "there is no " + std::string(what) + " '" + path.string() + "'",
+                "copy it into the recording, or leave it out");
   return path;
 }
 
@@ -185,7 +187,15 @@ const RecordingClock& RecordingFile::clock(const Value& name) const {
     if (one.name == name.as_text()) return one;
     names.push_back(one.name);
   }
-  throw Error(name.place, "there is no clock '" + name.as_text() + "'", did_you_mean(name.text, names));
+  throw Error(name.place, "there is no clock '" + name.as_text() + "'",
+              names.empty() ? "name it: \"clocks\": {\"" + name.text + "\": {}}" : did_you_mean(name.text, names));
+}
+
+std::vector<std::string> failure_reasons() {
+  std::vector<std::string> names;
+  for (const Reason one : all_reasons())
+    if (one != Reason::none) names.emplace_back(to_string(one));
+  return names;
 }
 
 RecordingFile read_recording(const fs::path& folder) {
@@ -203,14 +213,15 @@ RecordingFile read_recording(const fs::path& folder) {
                         "end_s", "robot", "clocks", "streams", "cameras", "labels", "source"});
   const Value& version = required(root, "stampede_recording", "write \"stampede_recording\": 1");
   if (version.as_number() != 1)
-    throw Error(version.place, "this program reads version 1 of recordings, not " + plain_text(version));
+    throw Error(version.place, "this program reads version 1 of recordings, not " + plain_text(version),
+                "write \"stampede_recording\": 1, or take a newer program");
   recording.task = plain_name(required(root, "task", "name what was done"));
   read_outcome(root, recording);
   recording.world = root.text_or("world", "");
   recording.source = root.text_or("source", "");
   const double hz = root.number_or("frame_hz", recording.frame_hz);
   if (!(hz >= 1 && hz <= kMostFrameHz && hz == std::floor(hz)))
-    root["frame_hz"].expected("a whole number of frames a second, 1 to 1000");
+    expected(root["frame_hz"], "a whole number of frames a second, 1 to 1000", "write \"frame_hz\": 30");
   recording.frame_hz = static_cast<int>(hz);
   if (root["start_s"].present()) recording.start_s = finite_or(root, "start_s", 0);
   if (root["end_s"].present()) recording.end_s = finite_or(root, "end_s", 0);

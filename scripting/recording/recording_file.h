@@ -55,12 +55,14 @@ struct RecordingFile {
   std::string cameras, labels;          // files in the folder; empty: none
 
   // A file in the folder. Throws Error, with `place`, where it lies outside or is not there.
-  std::filesystem::path path_of(const std::string& file, const std::string& place) const;
+  std::filesystem::path path_of(const std::string& file, const std::string& place, const char* what = "file") const;
   std::string shown_path(const std::string& file) const;
   const RecordingClock& clock(const Value& name) const;  // throws Error for one that is not there
 };
 
 inline constexpr int kMostFrameHz = 1000;
+
+std::vector<std::string> failure_reasons();  // their names
 
 RecordingFile read_recording(const std::filesystem::path& folder);  // throws Error
 

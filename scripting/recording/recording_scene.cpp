@@ -38,6 +38,12 @@ void add_stand_ins(const RecordingFile& recording, RecordingScene& scene) {
 }  // namespace
 
 RecordingScene scene_of(const RecordingFile& recording, const std::shared_ptr<const Library>& library, Hasher& hasher) {
+  if (recording.urdf.empty() && library->file(DefinitionKind::robot, recording.robot) == nullptr) {
+    std::vector<std::string> names;
+    for (const ScriptFile* file : library->files(DefinitionKind::robot)) names.push_back(file->name);
+    throw Error(recording.shown, "there is no robot '" + recording.robot + "'",
+                did_you_mean(recording.robot, names) + " Of a robot that is none of ours, give its `robot.urdf`");
+  }
   StageRequest request;
   request.world = recording.world;
   request.robot = recording.robot;

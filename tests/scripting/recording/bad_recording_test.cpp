@@ -9,6 +9,21 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+// Where it is wrong, and how it is mended.
+template <typename Edit>
+void cured(const Edit& edit, const std::string& complaint, const std::string& cure) {
+  const Lab lab;
+  lab.change(edit);
+  INFO(complaint);
+  try {
+    lab.import();
+    FAIL("nothing was refused");
+  } catch (const Error& error) {
+    CHECK_THAT(error.message(), Contains(complaint));
+    CHECK_THAT(error.hint(), Contains(cure));
+  }
+}
+
 template <typename Damage>
 void refuse(const Damage& damage, const std::string& place, const std::string& complaint) {
   const Lab lab;
@@ -46,6 +61,32 @@ TEST_CASE("what recording.json says wrongly is named with its place") {
   refuse([](const Lab& lab) { lab.write("recording.json", "{\n\"task\": ,\n}"); }, "recording.json:2", "no JSON");
 }
 
+TEST_CASE("what recording.json says wrongly is told with its cure") {
+  cured([](auto& j) { j["clocks"]["arm"]["drift_ppm"] = 1e6; }, "below 100000", "write 40");
+  cured([](auto& j) { j["streams"][0]["clock"] = "camera"; }, "no clock 'camera'", "known: arm");
+  cured(
+      [](auto& j) {
+        j.erase("clocks");
+        j["streams"][1].erase("clock");
+      },
+      "no clock 'arm'", "\"clocks\": {\"arm\": {}}");
+  cured([](auto& j) { j["stampede_recording"] = 2; }, "version 1", "\"stampede_recording\": 1");
+  cured([](auto& j) { j["outcome"] = "good"; }, "no outcome 'good'", "write \"success\" or \"failure\"");
+  cured([](auto& j) { j["frame_hz"] = 29.97; }, "29.97", "\"frame_hz\": 30");
+  cured([](auto& j) { j["outcome"] = "failure", j["reason"] = "tiredness"; }, "no reason 'tiredness'", "unreachable");
+  cured(
+      [](auto& j) {
+        j["robot"]["base"]["quaternion"] = {0, 0, 0, 0};
+      },
+      "length 1, and this one has not", "[0, 0, 0, 1]");
+  cured([](auto& j) { j["robot"]["name"] = "my_lab_robot"; }, "no robot 'my_lab_robot'", "`robot.urdf`");
+  cured(
+      [](auto& j) {
+        j["streams"].push_back({{"kind", "rgb"}, {"camera", "front"}, {"folder", "front_rgb"}});
+      },
+      "there is no folder", "copy it into the recording");
+}
+
 TEST_CASE("bad rows are named with their line") {
   const auto edited = [](const std::string& from, const std::string& to, const std::string& place,
                          const std::string& complaint) {
@@ -66,6 +107,13 @@ TEST_CASE("bad rows are named with their line") {
         lab.write("joints.csv", text.substr(0, text.size() - 30));
       },
       "joints.csv:202", "the file ends too early");
+  refuse(
+      [](const Lab& lab) {
+        std::string text = lab.read("joints.csv");
+        std::replace(text.begin(), text.end(), ',', ';');
+        lab.write("joints.csv", text);
+      },
+      "joints.csv:1", "not separated by commas");
   refuse(
       [](const Lab& lab) {  // 100 Hz in milliseconds
         std::string text = lab.read("joints.csv"), slow = text.substr(0, text.find('\n') + 1);

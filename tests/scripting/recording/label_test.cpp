@@ -98,6 +98,7 @@ TEST_CASE("bad labels are refused with their line") {
   refuse("skill,a,,,\n", "has no span");
   refuse("skill,a,,0,x\n", "no finite number");
   refuse("subgoal,g,,0,1\nskill,a,,0.5,1.5\n", "lies partly within the subgoal g");
+  refuse("skill,a,,0,1\nmotion,m,,0.8,1\nskill,b,,0.9,1.5\n", "labels.csv:4: it overlaps the skill a");
   refuse("fact,on,a b,0,1\nfact,on,a b,0.5,2\n", "holds twice at once");
   refuse("fact,on,a b c d e,0,1\n", "4 arguments at most");
   refuse("skill,a,,0\n", "this row has 4 fields");
