@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "db/catalogue_writer.h"
+#include "engine/base/nearest.h"
 #include "engine/base/temporary_folder.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
@@ -245,7 +246,13 @@ ExitCode do_import(const Arguments& arguments, Console& console) {
     return import_labels(arguments, console);
   }
   refuse(arguments, {"--episode"}, "labels");
+  if (words.size() > 1 && !fs::exists(words[0]))
+    throw UsageError("stampede import knows no kind '" + words[0] + "'",
+                     did_you_mean(words[0], {"recording", "labels"}));
   if (words.size() > 1) throw UsageError("one BDDL problem at a time", "name one file");
+  if (fs::is_directory(words[0]))
+    throw UsageError("'" + words[0] + "' is a folder, and a BDDL problem is a file",
+                     "of a recording, write: stampede import recording " + words[0]);
   return import_problem(arguments, console);
 }
 

@@ -22,6 +22,7 @@ struct Imported {
   std::int64_t frames = 0, pictures = 0;
   double duration_s = 0;
   std::vector<StreamRecord> streams;
+  std::vector<std::string> notes;
 };
 
 Imported import_one(const std::string& folder, Catalogue& catalogue, const std::shared_ptr<const Library>& library,
@@ -35,6 +36,7 @@ Imported import_one(const std::string& folder, Catalogue& catalogue, const std::
   one.pictures = record.images ? static_cast<std::int64_t>(record.images->count()) : 0;
   one.duration_s = record.duration_s();
   one.streams = record.streams;
+  one.notes = stored.notes;
   one.added = stored.added;
   one.episode = stored.id;
   return one;
@@ -43,6 +45,7 @@ Imported import_one(const std::string& folder, Catalogue& catalogue, const std::
 void print(const Imported& one, Console& console) {
   console.out << fmt::format("{}: episode {}{}, {:.1f} s, {} frames, {} pictures\n", one.folder, one.episode,
                              one.added ? "" : " (there already)", one.duration_s, one.frames, one.pictures);
+  for (const std::string& note : one.notes) console.err << "  " << note << "\n";
   for (const StreamRecord& stream : one.streams) {
     const std::string name = stream.name == stream.kind ? stream.kind : stream.kind + " " + stream.name;
     console.err << fmt::format("  {}: {} readings, {:.1f} Hz, longest gap {:.3f} s", name, stream.readings,
@@ -86,12 +89,22 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
     options.frame_hz = static_cast<int>(in_range(arguments, "--frame-hz", 1, kMostFrameHz));
   if (arguments.has("--world")) options.world = arguments.text("--world");
   const auto library = load_usable_library(arguments);
-  Catalogue catalogue = Catalogue::write(arguments.text("--out"), Journal::in_place);
+  const std::filesystem::path out = arguments.text("--out");
+  const bool is_new = !std::filesystem::exists(out);
+  Catalogue catalogue = Catalogue::write(out, Journal::in_place);
   std::vector<Imported> all;
-  for (const std::string& folder : folders) {
-    if (console.stopped()) break;
-    all.push_back(import_one(folder, catalogue, library, options));
-    if (!arguments.flag("--json")) print(all.back(), console);
+  try {
+    for (const std::string& folder : folders) {
+      if (console.stopped()) break;
+      all.push_back(import_one(folder, catalogue, library, options));
+      if (!arguments.flag("--json")) print(all.back(), console);
+    }
+  } catch (const Error&) {
+    const bool nothing = is_new && catalogue.episodes().empty();
+    catalogue.close();
+    std::error_code ignored;
+    if (nothing) std::filesystem::remove(out, ignored);
+    throw;
   }
   catalogue.close();
   if (arguments.flag("--json")) print_json(all, console);
@@ -111,6 +124,9 @@ ExitCode import_labels(const Arguments& arguments, Console& console) {
     throw UsageError("episode " + std::to_string(id) + " is simulated: its labels are the simulator's",
                      "name an episode whose source is real");
   const Labels labels = read_labels(words[1], words[1], episode);
+  if (labels.segments.empty() && labels.facts.empty() && labels.language.empty())
+    throw Error(words[1], "it holds no labels, and would leave those of the episode as they are",
+                "labels take the place of those of the same sort: segments, facts or language");
   put_labels(labels, episode);
   catalogue.set_labels(id, episode);
   catalogue.close();

@@ -62,6 +62,15 @@ std::vector<std::int64_t> frames_of(const FrameChoice& choice, const EpisodeReco
   return {frames.begin(), frames.end()};
 }
 
+// What was asked for and lies wholly behind the last frame; empty: nothing.
+std::string lacking(const FrameChoice& choice, const EpisodeRecord& episode) {
+  const auto count = static_cast<std::int64_t>(episode.frames.size());
+  std::string names;
+  for (const auto& [first, last] : choice.spans)
+    if (first >= count) names += (names.empty() ? "" : ", ") + std::to_string(first);
+  return names.empty() ? names : fmt::format("has no frame {}: its last is {}", names, count - 1);
+}
+
 // The catalogues that are read and written; they may be one.
 class Shelf {
  public:
@@ -129,6 +138,7 @@ class Rendering {
     request_.frames = [this](const EpisodeRecord& episode, WhichFrames otherwise) {
       return frames_of(frames_, episode, otherwise);
     };
+    request_.lacking = [this](const EpisodeRecord& episode) { return lacking(frames_, episode); };
     request_.stop = console.stop;
     if (place_ == "--video") film_.emplace(target_);
     workers_ = workers_of(arguments);
@@ -194,6 +204,10 @@ class Rendering {
       return;
     }
     if (place_ == "--into") drawn.skipped = shelf.add(drawn).skipped;
+    if (const std::string frames = request_.lacking(stored.episode); !frames.empty()) {
+      console_.err << fmt::format("episode {} {}\n", stored.id, frames);
+      if (request_.frames(stored.episode, WhichFrames::all).empty()) ++without_;
+    }
     for (Canvas& block : drawn.canvases) blocks_.push_back(std::move(block));
     if (!drawn.changed.empty()) ++changed_episodes_;
     changed_.insert(drawn.changed.begin(), drawn.changed.end());
@@ -222,7 +236,7 @@ class Rendering {
     text_.end().field("pictures", pictures_).field("skipped", skipped_).field("interrupted", interrupted);
     if (json_) console_.out << text_.end().text();
     if (interrupted) console_.err << fmt::format("interrupted: {} of {} episodes are drawn\n", done_, asked);
-    return interrupted || done_ == 0 ? kNo : kDone;
+    return interrupted || done_ == without_ ? kNo : kDone;
   }
 
   const Arguments& arguments_;
@@ -239,6 +253,7 @@ class Rendering {
   JsonText text_;
   std::set<std::string> changed_;
   std::int64_t done_ = 0, skipped_ = 0, pictures_ = 0, changed_episodes_ = 0;
+  std::int64_t without_ = 0;  // of those done: none of the frames that were asked for
 };
 
 ExitCode do_render(const Arguments& arguments, Console& console) { return Rendering(arguments, console).run(); }

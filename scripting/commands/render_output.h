@@ -21,6 +21,7 @@ struct RenderRequest {
   ObservationChoice given;                                         // on the command line
   std::function<std::vector<Camera>(const Scene& scene)> further;  // cameras of the command line
   std::function<std::vector<std::int64_t>(const EpisodeRecord& episode, WhichFrames stored)> frames;
+  std::function<std::string(const EpisodeRecord& episode)> lacking;  // which frames it does not have, in words, or ""
   const std::atomic<bool>* stop = nullptr;
 
   std::vector<std::string> named() const { return given.cameras.value_or(std::vector<std::string>{}); }

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <set>
 
+#include "engine/base/nearest.h"
 #include "engine/render/png.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
@@ -29,6 +31,18 @@ std::vector<std::int64_t> spread(const Catalogue& catalogue, std::int64_t id) {
   for (std::int64_t i = 0; i < kEvenly; ++i)
     some.push_back(with[static_cast<std::size_t>(i * (count - 1) / (kEvenly - 1))]);
   return some;
+}
+
+// Cameras that were asked for and of which there is no colour picture.
+void name_missing(const Catalogue& catalogue, std::int64_t id, const std::vector<std::string>& cameras,
+                  Console& console) {
+  std::set<std::string> with;
+  for (const ImageEntry& entry : catalogue.images(id))
+    if (entry.kind == "rgb") with.insert(entry.camera);
+  for (const std::string& camera : cameras)
+    if (!with.contains(camera))
+      console.err << fmt::format("episode {} has no colour pictures of camera {}; {}\n", id, camera,
+                                 with.empty() ? "it has none" : did_you_mean(camera, {with.begin(), with.end()}));
 }
 
 void save(const fs::path& folder, std::int64_t id, const OverlayPicture& picture) {
@@ -86,10 +100,13 @@ ExitCode render_overlays(const Arguments& arguments, const RenderRequest& reques
     const auto scene = with_cameras(stored, request.further(*stored.scene), request.named());
     const Overlays result = overlays_of(*renderer, catalogue, stored, scene, wanted,
                                         [&](const OverlayPicture& picture) { save(folder, id, picture); });
+    if (const std::string frames = request.lacking(stored.episode); !frames.empty())
+      console.err << fmt::format("episode {} {}\n", id, frames);
+    name_missing(catalogue, id, wanted.cameras, console);
     for (const std::string& camera : result.left_out)
       console.err << fmt::format("episode {}: camera {} was not calibrated: give --camera-file\n", id, camera);
     if (result.cameras.empty())
-      console.err << fmt::format("episode {} has no colour pictures that can be compared\n", id);
+      console.err << fmt::format("episode {}: no colour picture of these cameras and frames can be compared\n", id);
     else
       ++done;
     json.object().field("episode", id).key("cameras").array();

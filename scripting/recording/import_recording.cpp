@@ -63,6 +63,7 @@ class Importer {
     }
     return std::move(record_);
   }
+  std::vector<std::string> notes() const { return notes_; }
   // Once, when all pictures were read.
   std::string key() {
     for (const auto& part : later_) part(hasher_);
@@ -244,6 +245,7 @@ class Importer {
 
   void add_camera(const RecordedStream& stream) {
     const PictureStream pictures = read_picture_stream(recording_, stream);
+    if (!pictures.note.empty()) notes_.push_back(pictures.note);
     require_overlap(stream, pictures.time);
     const std::vector<std::int64_t> chosen = nearest(pictures.time, times_);
     const auto camera = std::find_if(record_.cameras.begin(), record_.cameras.end(),
@@ -277,6 +279,7 @@ class Importer {
   FrameTimes times_, own_times_;  // own: at the rate that recording.json says
   int own_hz_ = 0;
   EpisodeRecord record_;
+  std::vector<std::string> notes_;
   std::shared_ptr<ImageStore> images_ = std::make_shared<ImageStore>();
 };
 
@@ -294,7 +297,9 @@ EpisodeRecord record_of(const std::filesystem::path& folder, const std::shared_p
 StoredRecording store_recording(const std::filesystem::path& folder, const std::shared_ptr<const Library>& library,
                                 const ImportOptions& options, Catalogue& catalogue, const EngineInfo& engine) {
   Importer importer(folder, library, options);
-  StoredRecording stored{importer.import()};
+  StoredRecording stored;
+  stored.episode = importer.import();
+  stored.notes = importer.notes();
   EpisodeRecord& episode = stored.episode;
   const auto alike = [&](const EpisodeSummary& one) {
     return one.task == episode.task && one.frames == static_cast<std::int64_t>(episode.frames.size());

@@ -26,7 +26,8 @@ EpisodeRecord record_of(const std::filesystem::path& folder, const std::shared_p
 struct StoredRecording {
   EpisodeRecord episode;
   std::int64_t id = 0;
-  bool added = false;  // false: it was there already
+  bool added = false;              // false: it was there already
+  std::vector<std::string> notes;  // what is no fault and may be none the less meant otherwise, with file and line
 };
 
 // The same in a catalogue, all or nothing. Pictures are read once, while they are stored; twice where the catalogue has

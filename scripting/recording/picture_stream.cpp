@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "engine/base/hash.h"
@@ -144,6 +145,8 @@ void list_by_times(const RecordingFile& recording, const RecordedStream& stream,
   if (csv.header() != std::vector<std::string>{"time_s", "file"})
     throw Error(shown + ":1", "the times of pictures have the columns time_s,file, and no other");
   const fs::path folder = recording.folder / stream.file;
+  std::map<std::string, std::string> seen;  // the row that named a picture
+  int repeated = 0;
   while (csv.next()) {
     const double stamp = csv.number(0);
     if (std::isnan(stamp)) throw Error(csv.place(), "this row has no time", "give each picture its stamp");
@@ -155,10 +158,14 @@ void list_by_times(const RecordingFile& recording, const RecordedStream& stream,
     if (name.empty() || fs::path(name).filename() != name || !fs::is_regular_file(folder / name, ignored))
       throw Error(csv.place(), "there is no picture '" + name + "' in " + folder.string(),
                   "leave the row out: a frame without a picture is no fault");
+    const auto [before, first] = seen.emplace(name, csv.place());
+    if (!first && repeated++ == 0)
+      pictures.note = csv.place() + ": the picture '" + name + "' was named before, at " + before->second;
     pictures.time.push_back(time);
     pictures.files.push_back(folder / name);
     pictures.shown.push_back((folder / name).string());
   }
+  if (repeated > 1) pictures.note += "; so were " + std::to_string(repeated - 1) + " more";
 }
 
 // Pictures of one stream, read by several threads at once, each of another.

@@ -18,6 +18,7 @@ struct PictureStream {
   std::vector<std::filesystem::path> files;  // in the order of time
   std::vector<std::string> shown;
   std::vector<double> time;  // s, on the recording's time line, strictly rising
+  std::string note;          // of pictures that were named twice; empty: none
 };
 
 // Throws Error: stamps that do not rise, files that are not there, names that are no stamps, no pictures.

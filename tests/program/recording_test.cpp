@@ -85,6 +85,49 @@ TEST_CASE("the model lies over the pictures of an episode that it made, to a thi
   CHECK(camera["median_px"] < 0.34);
 }
 
+TEST_CASE("frames and cameras that an episode does not have are named") {
+  const Folder folder;
+  const std::string lab = recorded(folder), real = folder / "real.db", demos = folder / "demos.db";
+  REQUIRE(say({"import", "recording", lab, "--out", real, "--root", kRoot}).code == kDone);
+  const auto overlay = [&](const std::string& option, const std::string& value) {
+    return say({"render", real, "1", "--overlay", folder / "over", option, value});
+  };
+  const Said camera = overlay("--camera", "nose"), frame = overlay("--frames", "500");
+  CHECK(camera.code == kNo);
+  CHECK(says(camera.err, "no colour pictures of camera nose; known: front"));
+  CHECK(frame.code == kNo);
+  CHECK(says(frame.err, "episode 1 has no frame 500: its last is "));
+  const auto drawn = [&](const std::string& frames) {
+    return say({"render", demos, "1", "--out", folder / "drawn", "--size", "32x24", "--frames", frames});
+  };
+  const Said all = drawn("500,600-700"), one = drawn("2,500"), both = drawn("2-500");
+  CHECK(all.code == kNo);
+  CHECK(says(all.err, "has no frame 500, 600: its last is "));
+  CHECK(one.code == kDone);
+  CHECK(says(one.err, "has no frame 500"));
+  CHECK(both.code == kDone);
+  CHECK(both.err.empty());
+}
+
+TEST_CASE("an import that is asked for wrongly says how it is written, and leaves no catalogue behind") {
+  const Folder folder;
+  put(folder, "lab/recording.json", "{}");
+  const std::string lab = folder / "lab", real = folder / "real.db";
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& cure) {
+    std::vector<std::string> all = {"import"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--out", real, "--root", kRoot});
+    const Said said = say(all);
+    INFO(said.err);
+    CHECK(said.code != kDone);
+    CHECK(says(said.err, cure));
+    CHECK_FALSE(std::filesystem::exists(real));
+  };
+  refused({"recordings", lab}, "did you mean 'recording'?");
+  refused({lab}, "stampede import recording " + lab);
+  refused({"recording", lab}, "\"stampede_recording\": 1");
+}
+
 TEST_CASE("labels by people take the place of those that came with a recording") {
   const Folder folder;
   const std::string lab = recorded(folder), real = folder / "real.db", labels = folder / "labels.json";
@@ -97,6 +140,10 @@ TEST_CASE("labels by people take the place of those that came with a recording")
   REQUIRE(said.code == kDone);
   CHECK(asked(real, "SELECT skill, labelled_by, label FROM segments WHERE kind = 'skill'") ==
         "skill,labelled_by,label\ntouch,person,touch the ball\n");
+  put(folder, "empty.json", R"({"labelled_by": "person"})");
+  const Said none = say({"import", "labels", folder / "empty.json", real, "--episode", "1", "--root", kRoot});
+  CHECK(none.code == kBadInput);
+  CHECK(says(none.err, "it holds no labels"));
   const Said bad = say({"import", "labels", labels, real, "--episode", "9", "--root", kRoot});
   CHECK(bad.code == kBadInput);
   CHECK(says(bad.err, "9"));

@@ -160,6 +160,19 @@ TEST_CASE("a bad picture late in a recording leaves the catalogue as it was, and
   CHECK(catalogue.episodes().size() == 1);
 }
 
+TEST_CASE("pictures that are named twice are told") {
+  const Lab lab;
+  lab.add_pictures("front", 10, 100, 20);
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+  CHECK(store_recording(lab.folder(), our_library(), {}, catalogue, kEngine).notes.empty());
+  lab.replace("front.csv", ",4.png", ",3.png");
+  lab.replace("front.csv", ",5.png", ",3.png");
+  const auto notes = store_recording(lab.folder(), our_library(), {}, catalogue, kEngine).notes;
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes[0], Catch::Contains("front.csv:6: the picture '3.png' was named before, at ") &&
+                           Catch::Contains("front.csv:5; so were 1 more"));
+}
+
 TEST_CASE("depths become metres in our unit, and those out of range no reading") {
   const Lab lab;
   Picture millimetres;
