@@ -7,8 +7,9 @@
 namespace stampede {
 namespace {
 
-constexpr double kStep = 0.25;   // px along a normal
-constexpr double kHuber = 0.75;  // px
+constexpr double kStep = 0.25;    // px along a normal
+constexpr double kAsSteep = 0.5;  // of the steepest: as good an edge
+constexpr double kHuber = 0.75;   // px
 constexpr int kRounds = 20;
 
 // A picture of single values, smoothed by a Gaussian of about 1 px: (1 4 6 4 1) / 16 both ways.
@@ -74,7 +75,8 @@ class SmoothColours {
   std::vector<Smooth> channels_;
 };
 
-// The steepest place along the normal, between samples by a parabola.
+// Along the normal the steepest place nearest to the outline of those that are about as steep as any: rims within the
+// thing are often steeper than its outline. Between samples by a parabola.
 void search(const SmoothColours& picture, const AlignmentOptions& options, OutlinePoint& point) {
   const int reach = static_cast<int>(options.range_px / kStep);
   std::vector<double> steepness;
@@ -85,8 +87,15 @@ void search(const SmoothColours& picture, const AlignmentOptions& options, Outli
     };
     steepness.push_back(picture.difference(place(d + 0.5), place(d - 0.5)));
   }
-  const auto best = std::max_element(steepness.begin() + 1, steepness.end() - 1);
-  if (*best < options.least_slope || *best < *(best - 1) || *best < *(best + 1)) return;
+  const double steepest = *std::max_element(steepness.begin() + 1, steepness.end() - 1);
+  const double enough = std::max(options.least_slope, kAsSteep * steepest);
+  const auto outline = steepness.begin() + reach;
+  auto best = steepness.end();
+  for (auto at = steepness.begin() + 1; at != steepness.end() - 1; ++at) {
+    if (*at < enough || *at < *(at - 1) || *at < *(at + 1)) continue;
+    if (best == steepness.end() || std::abs(at - outline) < std::abs(best - outline)) best = at;
+  }
+  if (best == steepness.end()) return;
   const double curve = *(best - 1) - 2 * *best + *(best + 1);
   const double between = curve < 0 ? 0.5 * (*(best - 1) - *(best + 1)) / curve : 0;
   point.found = true;

@@ -14,7 +14,8 @@ struct AlignmentOptions {
   double least_slope = 8;  // levels of colour a pixel: what is flatter is no edge
 };
 
-// A point of the outline, where the picture's strongest edge lies along the normal, and how far: positive outside.
+// A point of the outline, and where along the normal the picture's edge lies that is nearest of those at least half as
+// steep as the steepest: positive outside.
 struct OutlinePoint {
   std::array<double, 2> at{};      // px, centres of pixels at halves
   std::array<double, 2> normal{};  // unit, out of the mask
