@@ -24,6 +24,11 @@ std::string number(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+// An episode that was exported and imported is exported as the same bytes: a pose goes through a quaternion, which
+// turns its last bits, and stamps of channels are stored to a microsecond. 1e-12 m, and 1e-6 s.
+double coarse(double value, double steps) { return std::round(value * steps) / steps + 0.0; }  // no -0
+constexpr double kPose = 1e12, kStamp = 1e6;
+
 class Exporter {
  public:
   Exporter(const Catalogue& catalogue, const StoredEpisode& stored, const fs::path& folder)
@@ -105,7 +110,7 @@ class Exporter {
       if (channel.components.size() != 6 || channel.components[0] != "force_x") continue;
       std::string text = "time_s,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,torque_z_nm\n";
       for (std::size_t i = 0; i < channel.steps.size(); ++i) {
-        text += number(static_cast<double>(channel.steps[i]) / episode_.physics_hz);
+        text += number(coarse(static_cast<double>(channel.steps[i]) / episode_.physics_hz, kStamp));
         for (std::size_t c = 0; c < 6; ++c) text += "," + number(channel.values[6 * i + c]);
         text += "\n";
       }
@@ -165,7 +170,8 @@ class Exporter {
       OrderedJson matrix = OrderedJson::array();
       for (int row = 0; row < 4; ++row) {
         OrderedJson line = OrderedJson::array();
-        for (int column = 0; column < 4; ++column) line.push_back(c.mount_from_camera.matrix()(row, column));
+        for (int column = 0; column < 4; ++column)
+          line.push_back(coarse(c.mount_from_camera.matrix()(row, column), kPose));
         matrix.push_back(std::move(line));
       }
       const std::string link = on_robot ? robot_.body.parts[static_cast<std::size_t>(c.mount_part)].name : "";
@@ -225,7 +231,9 @@ class Exporter {
   }
 
   void write_root() {
-    const Pose base = to_pose(robot_.body.world_from_body);
+    Pose base = to_pose(robot_.body.world_from_body);
+    for (double& value : base.position) value = coarse(value, kPose);
+    for (double& value : base.quaternion) value = coarse(value, kPose);
     OrderedJson root = {{"stampede_recording", 1},
                         {"task", episode_.task},
                         {"outcome", episode_.outcome == Outcome::success ? "success" : "failure"}};
@@ -237,7 +245,10 @@ class Exporter {
     root["streams"] = streams_;
     if (has_cameras_) root["cameras"] = "cameras.json";
     if (has_labels_) root["labels"] = "labels.json";
-    root["source"] = "exported from episode " + std::to_string(stored_.id) + ", key " + episode_.key;
+    const auto recorded = episode_.options.find("recording");
+    root["source"] = episode_.real && recorded != episode_.options.end()
+                         ? recorded->second
+                         : "exported from episode " + std::to_string(stored_.id) + ", key " + episode_.key;
     write("recording.json", root.dump(1) + "\n");
   }
 

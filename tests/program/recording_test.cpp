@@ -46,6 +46,26 @@ TEST_CASE("a recording is imported once, the same with any number of workers, an
   CHECK(says(replay.out + replay.err, "recorded"));
 }
 
+TEST_CASE("an imported episode is exported and imported as the same recording") {
+  const Folder folder;
+  const std::string demos = folder / "demos.db", real = folder / "real.db";
+  REQUIRE(say({"run", "pick_up_cup", "--images", "keyframes", "--size", "64x48", "--kinds", "rgb,depth", "--out", demos,
+               "--root", kRoot})
+              .code == kDone);
+  std::string last = demos;
+  for (const char* name : {"first", "second", "third"}) {
+    REQUIRE(say({"export", "recording", last, "--episode", "1", "--out", folder / name, "--root", kRoot}).code ==
+            kDone);
+    const Said said = say({"import", "recording", folder / name, "--out", real, "--root", kRoot});
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    last = real;
+  }
+  CHECK(asked(real, "SELECT count(*) AS n FROM episodes") == "n\n1\n");
+  for (const char* file : {"recording.json", "cameras.json", "wrench.csv", "joints.csv"})
+    CHECK(file_text(folder / "first/" + file) == file_text(folder / "second/" + file));
+}
+
 TEST_CASE("an export leaves a folder alone in which there is something") {
   const Folder folder;
   const std::string demos = folder / "demos.db", lab = folder / "lab";
