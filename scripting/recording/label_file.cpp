@@ -90,9 +90,10 @@ class LabelReader {
       span.start_step = step_of_frame(*given.first_frame), span.end_step = step_of_frame(*given.end_frame);
       span.first_frame = *given.first_frame == own_frames_ ? frames_ : frame_from(span.start_step);
       span.end_frame = *given.end_frame == own_frames_ ? frames_ : frame_from(span.end_step);
-      if (span.start_step >= span.end_step && *given.first_frame < *given.end_frame && own_hz_ != episode_.frame_hz)
-        throw Error(row.place, "it lies behind the last frame at " + std::to_string(episode_.frame_hz) + " a second",
-                    "import with the recording's own frame_hz, " + std::to_string(own_hz_));
+      if (span.start_step == episode_.steps && *given.first_frame < *given.end_frame)
+        throw Error(
+            row.place, "it begins at the last frame, where the episode ends",
+            "begin it a frame earlier" + std::string(own_hz_ == episode_.frame_hz ? "" : ", or leave --frame-hz out"));
     } else {
       throw Error(row.place, "its span is given in part, or twice",
                   "give start_s and end_s, or first_frame and end_frame");

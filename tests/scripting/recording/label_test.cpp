@@ -48,6 +48,17 @@ TEST_CASE("labels become segments in order, with parents, and sentences that nam
   CHECK(labels.language[1].grain == LanguageGrain::motions);
 }
 
+TEST_CASE("what begins at the last frame has no time left") {
+  const auto at = [](int first, int end) {
+    return labels_of(
+        "kind,name,first_frame,end_frame\nskill,wave," + std::to_string(first) + "," + std::to_string(end) + "\n",
+        "labels.csv");
+  };
+  CHECK(at(39, 41).segments.at(0).span.end_frame == 41);
+  CHECK_THROWS_WITH(at(40, 41), Contains("begins at the last frame") && Contains("a frame earlier"));
+  CHECK_THROWS_WITH(at(5, 5), Contains("ends before it has begun"));
+}
+
 TEST_CASE("a CSV says the same") {
   const Labels labels = labels_of(
       "kind,name,arguments,start_s,end_s,outcome,text\nskill,pick,cup table,0.1,1,success,\"take it, gently\"\n"
