@@ -160,7 +160,9 @@ class Exporter {
     return nullptr;
   }
 
+  // Stand-ins for cameras that nobody calibrated would come back as if somebody had.
   void write_cameras() {
+    if (episode_.options.contains("uncalibrated")) return;
     OrderedJson list = OrderedJson::array();
     for (const Camera& own : episode_.cameras) {
       const bool on_robot = own.mount_body == robot_.name;
@@ -186,8 +188,8 @@ class Exporter {
                       {"far", c.far_m},
                       {"pixel_centres", "half"}});
     }
-    if (!list.empty()) write("cameras.json", OrderedJson{{"cameras", std::move(list)}}.dump(1) + "\n");
-    has_cameras_ = !list.empty() || !episode_.cameras.empty();
+    has_cameras_ = !list.empty();
+    if (has_cameras_) write("cameras.json", OrderedJson{{"cameras", std::move(list)}}.dump(1) + "\n");
   }
 
   void write_labels() {

@@ -221,6 +221,19 @@ TEST_CASE("an episode that is exported as a recording comes back") {
   CHECK(a.cameras[0].mount_from_camera.isApprox(b.cameras[0].mount_from_camera, 1e-12));
 }
 
+TEST_CASE("cameras that nobody calibrated are exported as such") {
+  const Lab lab;
+  lab.add_pictures("front", 10, 100, 20);
+  lab.change([](auto& json) { json.erase("cameras"); });
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+  const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
+  export_recording(catalogue, read_stored(catalogue, id), lab.folder() / "again");
+  CHECK_FALSE(std::filesystem::exists(lab.folder() / "again/cameras.json"));
+  const EpisodeRecord again = record_of(lab.folder() / "again", our_library(), {});
+  CHECK(again.options.at("uncalibrated") == "front");
+  CHECK(again.images->count() == 10);
+}
+
 TEST_CASE("an arm without a recorded hand is stored, and its hand is not known") {
   const Lab lab;
   lab.change([](auto& json) { json["streams"].erase(1); });
