@@ -192,26 +192,27 @@ class Exporter {
     if (has_cameras_) write("cameras.json", OrderedJson{{"cameras", std::move(list)}}.dump(1) + "\n");
   }
 
+  // Nor does what begins at the last frame, where the episode ends.
+  bool takes_no_frame(std::int64_t first, std::int64_t end) const {
+    return first >= end || first + 1 >= static_cast<std::int64_t>(episode_.frames.size());
+  }
+
   void write_labels() {
     OrderedJson segments = OrderedJson::array(), facts = OrderedJson::array(), language = OrderedJson::array();
     for (const SegmentRecord& s : episode_.segments) {
-      if (s.span.start_step >= s.span.end_step) continue;
+      if (s.span.start_step >= s.span.end_step || takes_no_frame(s.span.first_frame, s.span.end_frame)) continue;
       segments.push_back({{"kind", to_string(s.kind)},
                           {"name", s.skill},
                           {"arguments", s.arguments},
                           {"first_frame", s.span.first_frame},
                           {"end_frame", s.span.end_frame},
                           {"outcome", s.outcome == Outcome::success ? "success" : "failure"}});
-      if (s.span.first_frame >= s.span.end_frame) {
-        segments.erase(segments.size() - 1);
-        continue;
-      }
       if (s.outcome == Outcome::failure) segments.back()["reason"] = to_string(s.reason);
       if (!s.label.empty()) segments.back()["label"] = s.label;
     }
     std::set<std::pair<std::string, std::int64_t>> ends;
     for (const FactRecord& f : episode_.facts) {
-      if (f.first_frame >= f.end_frame || f.fact.arguments.size() > 4) continue;
+      if (takes_no_frame(f.first_frame, f.end_frame) || f.fact.arguments.size() > 4) continue;
       OrderedJson words = OrderedJson::array({f.fact.predicate});
       for (const std::string& word : f.fact.arguments) words.push_back(word);
       facts.push_back({{"fact", std::move(words)}, {"first_frame", f.first_frame}, {"end_frame", f.end_frame}});

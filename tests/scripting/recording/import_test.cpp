@@ -221,6 +221,22 @@ TEST_CASE("an episode that is exported as a recording comes back") {
   CHECK(a.cameras[0].mount_from_camera.isApprox(b.cameras[0].mount_from_camera, 1e-12));
 }
 
+TEST_CASE("labels that take no frame are not exported: they could not come back") {
+  const Lab lab;
+  Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+  const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
+  EpisodeRecord e = catalogue.read_episode(id);
+  for (const Span& span : {Span{0, 1'950'000, 0, 39}, Span{1'960'000, 2'000'000, 40, 41}}) {
+    SegmentRecord& segment = e.segments.emplace_back();
+    segment.kind = SegmentKind::skill, segment.skill = "wave", segment.span = span;
+    segment.labelled_by = Labeller::person;
+    segment.ordinal = static_cast<int>(e.segments.size()) - 1;
+  }
+  catalogue.set_labels(id, e);
+  export_recording(catalogue, read_stored(catalogue, id), lab.folder() / "again");
+  CHECK(record_of(lab.folder() / "again", our_library(), {}).segments.size() == 1);
+}
+
 TEST_CASE("cameras that nobody calibrated are exported as such") {
   const Lab lab;
   lab.add_pictures("front", 10, 100, 20);
