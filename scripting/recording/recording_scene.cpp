@@ -42,7 +42,7 @@ RecordingScene scene_of(const RecordingFile& recording, const std::shared_ptr<co
     std::vector<std::string> names;
     for (const ScriptFile* file : library->files(DefinitionKind::robot)) names.push_back(file->name);
     throw Error(recording.shown, "there is no robot '" + recording.robot + "'",
-                did_you_mean(recording.robot, names) + " Of a robot that is none of ours, give its `robot.urdf`");
+                did_you_mean(recording.robot, names) + "; of a robot that is none of ours, give `robot.urdf`");
   }
   StageRequest request;
   request.world = recording.world;
