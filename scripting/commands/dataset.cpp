@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "scripting/commands/commands.h"
@@ -29,6 +30,25 @@ void list_problems(bool as_json, Console& console) {
   if (as_json) console.out << json.end().text();
 }
 
+// Without links, `.` and a slash at the end, there or not.
+std::filesystem::path canonical(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+  return path.has_filename() ? path : path.parent_path();
+}
+
+bool holds(const std::filesystem::path& outer, const std::filesystem::path& inner) {
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// Whoever has the given part would have the other with it.
+void refuse_nested(const std::string& out, const std::string& hidden) {
+  const std::filesystem::path given = canonical(out), kept = canonical(hidden);
+  const char* cure = "what is hidden must lie elsewhere: name two folders side by side";
+  if (given == kept) throw UsageError("--out and --hidden are the same folder", cure);
+  if (holds(given, kept)) throw UsageError("--hidden " + hidden + " lies in --out " + out, cure);
+  if (holds(kept, given)) throw UsageError("--out " + out + " lies in --hidden " + hidden, cure);
+}
+
 ExitCode do_dataset(const Arguments& arguments, Console& console) {
   if (arguments.flag("--list")) {
     list_problems(arguments.flag("--json"), console);
@@ -40,8 +60,7 @@ ExitCode do_dataset(const Arguments& arguments, Console& console) {
   if (!arguments.has("--out")) throw UsageError("stampede dataset needs --out DIR");
   const research::ResearchProblem& problem = research::find_problem(arguments.text("PROBLEM"));
   const std::string out = arguments.text("--out"), hidden = arguments.text("--hidden");
-  if (!hidden.empty() && std::filesystem::weakly_canonical(out) == std::filesystem::weakly_canonical(hidden))
-    throw UsageError("--out and --hidden are the same folder", "what is hidden must lie elsewhere");
+  if (!hidden.empty()) refuse_nested(out, hidden);
   const research::DatasetReport report =
       research::make_dataset(problem, {arguments.text("FILE"), out, hidden, arguments.text("--split")});
   if (arguments.flag("--json")) {
@@ -69,8 +88,14 @@ CommandRow dataset_command() {
       "episodes make the same bytes. The exit code is 3 when the catalogue has nothing to serve.",
       {{"PROBLEM", "which; see --list", false, false}, {"FILE", "the catalogue", false, false}},
       {{"--list", "", "the problems", Takes::flag, "", {}, false},
-       {"--out", "DIR", "where the given part goes; made when it is not there", Takes::path, "", {}, false},
-       {"--hidden", "DIR", "where the hidden part goes; nowhere when not given", Takes::path, "", {}, false},
+       {"--out",
+        "DIR",
+        "where the given part goes: a folder that is new, empty, or of a data set to be made anew",
+        Takes::path,
+        "",
+        {},
+        false},
+       {"--hidden", "DIR", "where the hidden part goes, likewise; nowhere when not given", Takes::path, "", {}, false},
        {"--split",
         "RULE",
         "what is kept for tests: seeds, AXIS=VALUE,…, object=CLASS,…, task=NAME,…, composition (pairs of consecutive "

@@ -160,6 +160,27 @@ void write_identity(PlainFileWriter& file, const ResearchProblem& problem, const
   file.row({id, problem.name, split});
 }
 
+// A folder may be new, empty, or hold a data set of this problem, which is made anew; anything else is left alone.
+void check_folder(const fs::path& folder, const char* file, const ResearchProblem& problem) {
+  std::error_code error;
+  const auto empty = [&] {
+    const std::string left_behind = std::string(file) + ".unfinished";  // by a program that was killed
+    for (const fs::directory_entry& one : fs::directory_iterator(folder, error))
+      if (one.path().filename() != left_behind) return false;
+    return true;
+  };
+  if (!fs::is_directory(folder, error) || empty()) return;
+  const std::string cure = "name a folder that is new or empty, or remove what is in this one";
+  if (!fs::exists(folder / file, error))
+    throw Error(folder.string(),
+                "this folder is not empty, and holds no such part of a data set (" + std::string(file) +
+                    "): nothing was written",
+                cure);
+  const std::string found = dataset_problem(PlainFile::open(folder / file));
+  if (found != problem.name)
+    throw Error(folder.string(), "in this folder lies a data set of " + found + ": nothing was written", cure);
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -182,6 +203,8 @@ std::string dataset_problem(const PlainFile& file) { return text_of(file, "probl
 
 DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest& request) {
   const SplitRule rule = split_rule(request.split);
+  check_folder(request.given, kGivenFile, problem);
+  if (!request.hidden.empty()) check_folder(request.hidden, kHiddenFile, problem);
   const Catalogue catalogue = Catalogue::open(request.catalogue);
   const std::vector<SplitEpisode> episodes = episodes_to_split(catalogue, problem.demos_only);
   if (episodes.empty())
@@ -212,18 +235,19 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
   }
   write_index(catalogue, problem, members, given);
   write_identity(given, problem, report.id, rule.text());
-  const DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
-  write_text_file(request.given / "answers.example.json", example_answers(problem, report.id, tests));
-  write_text_file(request.given / "README.md", given_sheet(problem, facts, report));
   if (hidden) {
     write_index(catalogue, problem, members, *hidden);
     write_identity(*hidden, problem, report.id, rule.text());
     hidden->table("held_out", {"kind", "first", "second"});
     for (const HeldOut& one : split.held_out) hidden->row({one.kind, one.first, one.second});
-    write_text_file(request.hidden / "README.md", hidden_sheet(problem, facts, report));
     hidden->finish();
   }
   given.finish();
+  // After the files, by which a folder is known to be ours.
+  const DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
+  write_text_file(request.given / "answers.example.json", example_answers(problem, report.id, tests));
+  write_text_file(request.given / "README.md", given_sheet(problem, facts, report));
+  if (hidden) write_text_file(request.hidden / "README.md", hidden_sheet(problem, facts, report));
   return report;
 }
 

@@ -25,7 +25,8 @@ struct DatasetReport {
 
 // Writes given.db, README.md and answers.example.json into `given`, hidden.db and README.md into `hidden`. Episodes are
 // numbered anew in an order that their keys give: the same episodes make the same bytes, whatever their numbers were.
-// Throws Error where the catalogue has nothing to serve, CatalogueError where files cannot be used.
+// Throws Error where the catalogue has nothing to serve and for folders in which something else lies (a data set of the
+// same problem is replaced), CatalogueError where files cannot be used.
 DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest& request);
 
 // For folders that it made.

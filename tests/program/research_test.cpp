@@ -308,10 +308,70 @@ TEST_CASE("the same episodes make the same bytes, in whatever order they are sto
     REQUIRE(say({"run", task, "--root", kRoot, "--out", other, "--episodes", "6"}).code == kDone);
   }
   for (const std::string problem : {"segments", "motions", "transition_models"}) {
-    REQUIRE(made().dataset(problem, other, "again").code == kDone);
-    for (const std::string part : {"given/given.db", "hidden/hidden.db", "given/README.md"})
-      CHECK(file_text(made().path("again/" + part)) == file_text(fs::path(made().given(problem)).parent_path() / part));
+    const std::string again = "again_" + problem;
+    REQUIRE(made().dataset(problem, other, again).code == kDone);
+    for (const std::string part : {"/given/given.db", "/hidden/hidden.db", "/given/README.md"})
+      CHECK(file_text(made().path(again + part)) ==
+            file_text(fs::path(made().given(problem)).parent_path().string() + part));
   }
+}
+
+TEST_CASE("a folder is written to if it is new, empty, or holds the same problem's data set") {
+  const Folder folder;
+  const auto dataset = [&](const std::string& problem, const std::string& out, const std::string& hidden) {
+    return say({"dataset", problem, made().path("demos.db"), "--out", out, "--hidden", hidden});
+  };
+  const auto refused = [&](const Said& said, ExitCode code, const std::string& why, const std::string& where) {
+    INFO(said.err);
+    CHECK(said.code == code);
+    CHECK(says(said.err, why));
+    CHECK(says(said.err, where));
+  };
+  const std::string given = folder / "given", hidden = folder / "hidden", mine = folder / "mine";
+  put(folder, "mine/README.md", "my own page");
+  const Said first = dataset("motions", mine, hidden);
+  refused(first, kBadInput, "is not empty", mine);
+  CHECK(says(first.err, "new or empty"));
+  refused(dataset("motions", given, mine), kBadInput, "is not empty", mine);
+  CHECK(file_text(mine + "/README.md") == "my own page");
+  CHECK_FALSE(fs::exists(given));
+  CHECK_FALSE(fs::exists(hidden));
+
+  fs::create_directories(given);
+  put(folder, "given/given.db.unfinished", "of a program that was killed");
+  REQUIRE(dataset("motions", given, hidden).code == kDone);
+  put(folder, "given/notes.txt", "what I saw");
+  const std::string bytes = file_text(given + "/given.db"), page = file_text(given + "/README.md");
+  refused(dataset("segments", given, folder / "other"), kBadInput, "a data set of motions", given);
+  refused(dataset("motions", hidden, folder / "other"), kBadInput, "is not empty", hidden);
+  CHECK(file_text(given + "/given.db") == bytes);
+  put(folder, "given/README.md", "changed");
+  REQUIRE(dataset("motions", given, hidden).code == kDone);
+  CHECK(file_text(given + "/given.db") == bytes);
+  CHECK(file_text(given + "/README.md") == page);
+  CHECK(file_text(given + "/notes.txt") == "what I saw");
+}
+
+TEST_CASE("neither part of a data set may lie in the other, whatever the folders are called") {
+  const Folder folder;
+  const std::string out = folder / "out";
+  fs::create_directories(out);
+  fs::create_directory_symlink(out, folder / "link");
+  const auto refused = [&](const std::string& given, const std::string& hidden, const std::string& why) {
+    const Said said = say({"dataset", "segments", made().path("demos.db"), "--out", given, "--hidden", hidden});
+    INFO(given << " " << hidden << "\n" << said.err);
+    CHECK(said.code == kUsage);
+    CHECK(says(said.err, why));
+    CHECK(says(said.err, "side by side"));
+  };
+  refused(out, out + "/", "the same folder");
+  refused(out, folder / "link", "the same folder");
+  refused("not_there_yet", fs::absolute("not_there_yet").string(), "the same folder");
+  refused(out, out + "/hidden", "--hidden " + out + "/hidden lies in --out");
+  refused(out, folder / "link/deep/hidden", "lies in --out");
+  refused(out + "/a/../given", out, "lies in --hidden " + out);
+  CHECK(fs::is_empty(out));
+  CHECK(say({"dataset", "segments", made().path("demos.db"), "--out", out, "--hidden", out + "_hidden"}).code == kDone);
 }
 
 TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
