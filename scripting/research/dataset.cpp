@@ -124,6 +124,51 @@ void ask(const Catalogue& catalogue, const std::string& table, const Member& one
   catalogue.query(source->select, receiver, {.parameters = parameters});
 }
 
+// Whether a table has a row, or one with a value in a column; asks for no more than that.
+class ValueFinder : public RowReceiver {
+ public:
+  explicit ValueFinder(const std::string& column) : column_(column) {}
+  bool found() const { return found_; }
+  void columns(const std::vector<std::string>& names) override {
+    place_ = static_cast<std::size_t>(std::find(names.begin(), names.end(), column_) - names.begin());
+  }
+  bool row(const std::vector<SqlValue>& values) override {
+    found_ = found_ || column_.empty() || !std::holds_alternative<std::monostate>(values.at(place_));
+    return !found_;
+  }
+
+ private:
+  const std::string& column_;
+  std::size_t place_ = 0;
+  bool found_ = false;
+};
+
+// A data set that nobody could learn from, or that nothing could be scored against, is none.
+void check_needs(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<Member>& members,
+                 const std::string& where) {
+  const auto has = [&](const Need& need, const std::vector<TableUse>& uses, bool test) {
+    ValueFinder finder(need.column);
+    for (const TableUse& use : uses)
+      for (const Member& one : members)
+        if (use.table() == need.table && takes(use.part, one.split) && (one.split == "test") == test && !finder.found())
+          ask(catalogue, use.select, one, finder);
+    return finder.found();
+  };
+  for (const Need& need : problem.needs)
+    for (const auto& [uses, test] : {std::pair{&problem.given, false}, {&problem.hidden, true}}) {
+      const auto use =
+          std::find_if(uses->begin(), uses->end(), [&](const auto& it) { return it.table() == need.table; });
+      if (use == uses->end() || has(need, *uses, test)) continue;
+      throw Error(where,
+                  std::string("there is nothing to ") + (test ? "score against" : "learn from") + ": no " +
+                      (test ? "test" : "training") + " episode has anything for table " + need.table +
+                      (need.column.empty() ? "" : ", column " + need.column) + ", which " + problem.name + " needs",
+                  "it is: " + describe_table(use->select) +
+                      " Simulated episodes have it (`stampede run`); recordings have neither goals and plans nor kinds "
+                      "of facts, and skills where they are labelled (`stampede import labels`)");
+    }
+}
+
 std::int64_t fill(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<TableUse>& uses,
                   const std::vector<Member>& members, PlainFileWriter* file, Hasher& hasher) {
   TableFiller filler(file, hasher);
@@ -215,6 +260,7 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
             ": `stampede query FILE failures_by_reason` says why there are none");
   const Split split = split_episodes(episodes, rule);
   const std::vector<Member> members = members_of(catalogue, problem, episodes, split);
+  check_needs(catalogue, problem, members, request.catalogue.string());
   make_folder(request.given);
   if (!request.hidden.empty()) make_folder(request.hidden);
 

@@ -20,6 +20,12 @@ struct TableUse {
 
 enum class AnswerType { integer, real, text };
 
+// Without which a problem cannot be learned or scored: a given table needs rows of training, a hidden one rows of
+// tests.
+struct Need {
+  std::string table, column = {};  // in which the rows have a value; empty: any row does
+};
+
 // A column of the answers. `optional`: it may be left out.
 struct AnswerColumn {
   std::string name;
@@ -39,6 +45,7 @@ struct ResearchProblem {
   Unit unit = Unit::episode;
   bool demos_only = true;  // failures are left out
   std::vector<TableUse> given = {}, hidden = {};
+  std::vector<Need> needs = {};
   std::vector<AnswerColumn> answer = {};        // a row of the answers; empty: they are texts alone
   std::vector<AnswerColumn> answer_texts = {};  // beside the rows, such as a PDDL domain
   bool every_unit = true;                       // each test unit must be answered

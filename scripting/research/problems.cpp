@@ -32,6 +32,7 @@ const Uses kTrainedConditions = {{"preconditions", Part::train}, {"effects", Par
 // What plans with learned operators are tried on.
 const Uses kPlanning = {{"problems"}, {"plans"}, {"tasks"}};
 const Uses kSources = {{"sources"}};
+const std::vector<Need> kPlanned = {{"problems", "domain"}, {"skills"}};  // of problems with kPlanning
 
 const AnswerColumn kEpisode = {"episode", AnswerType::integer, "number of the episode in given.db", "1"};
 const AnswerColumn kPiece = {"piece", AnswerType::integer, "number of the piece in given.db", "1"};
@@ -78,6 +79,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "which of a planning problem's objects, predicates and actions matter",
        .given = Uses{{"problems"}, {"plans", Part::train}},
        .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
+       .needs = kPlanned,
        .answer_texts = {kDomain},
        .every_unit = false,
        .scoring = kOperatorScore,
@@ -88,6 +90,7 @@ std::vector<ResearchProblem> make_problems() {
        .demos_only = false,
        .given = kObservations + Uses{{"skills"}},
        .hidden = kFacts + Uses{{"skills"}} + kConditions + kPlanning + kSources,
+       .needs = kPlanned,
        .answer = {kEpisode,
                   kFrame,
                   {"fact", AnswerType::text, "an atom of a predicate (or type) of the domain", "(grasped block1)"},
@@ -110,6 +113,7 @@ std::vector<ResearchProblem> make_problems() {
                      {"piece_hands_around", Part::all, "hands"},
                      {"objects"}},
        .hidden = Uses{{"piece_facts", Part::all, "facts"}} + kSources,
+       .needs = {{"facts"}},
        .answer = {kPiece,
                   {"moment", AnswerType::text, "before or after", "before"},
                   {"symbol", AnswerType::text, "one that holds, with its objects", "(s1 block1)"}},
@@ -123,6 +127,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "named predicates, from observations and language",
        .given = kObservations + Uses{{"descriptions"}, {"vocabulary"}},
        .hidden = kFacts + Uses{{"objects"}} + kSources,
+       .needs = {{"vocabulary"}, {"facts", "predicate_kind"}},
        .answer = {kEpisode, kFrame, {"fact", AnswerType::text, "one that holds there", "(on block1 table)"}},
        .every_unit = false,
        .scoring =
@@ -134,6 +139,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "which skill runs when, learned from labelled episodes",
        .given = kProprioception + Uses{{"skills", Part::train}},
        .hidden = Uses{{"skills"}, {"joints"}, {"hands"}} + kSources,
+       .needs = {{"joints"}, {"skills"}},
        .answer = {kEpisode, kFirst, kEnd, {"skill", AnswerType::text, "its name, as in table skills", "pick"}},
        .scoring = kSegmentScore,
        .scorer = "segments"},
@@ -142,6 +148,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "where skills begin and end, without labels",
        .given = kProprioception,
        .hidden = Uses{{"skills"}, {"joints"}, {"hands"}} + kSources,
+       .needs = {{"joints"}, {"skills"}},
        .answer =
            {kEpisode, kFirst, kEnd, {"skill", AnswerType::text, "any name: the same for the same skill", "a", true}},
        .scoring = std::string(kSegmentScore) + kAnyLabels,
@@ -152,6 +159,7 @@ std::vector<ResearchProblem> make_problems() {
        .demos_only = false,
        .given = kObservations + kFacts + Uses{{"skills"}} + kTrainedConditions,
        .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
+       .needs = kPlanned,
        .answer_texts = {kDomain},
        .every_unit = false,
        .scoring = kOperatorScore,
@@ -162,6 +170,7 @@ std::vector<ResearchProblem> make_problems() {
        .demos_only = false,
        .given = kObservations + kFacts + Uses{{"skills"}},
        .hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources,
+       .needs = kPlanned,
        .answer_texts = {kDomain},
        .every_unit = false,
        .scoring = kOperatorScore,
@@ -171,6 +180,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "skills and their operators, from observations alone",
        .given = kObservations + kFacts,
        .hidden = Uses{{"skills"}, {"joints"}, {"hands"}} + kConditions + kPlanning + kSources,
+       .needs = kPlanned,
        .answer = {kEpisode, kFirst, kEnd, {"skill", AnswerType::text, "name of an action of the domain", "a1", true}},
        .answer_texts = {kDomain},
        .scoring = std::string(kSegmentScore) + kAnyLabels + " " + kOperatorScore,
@@ -181,6 +191,7 @@ std::vector<ResearchProblem> make_problems() {
        .unit = Unit::piece,
        .given = Uses{{"piece_joints", Part::all, "joints"}, {"piece_hands", Part::all, "hands"}},
        .hidden = Uses{{"piece_skill", Part::all, "skills"}} + kSources,
+       .needs = {{"joints"}, {"skills"}},
        .answer = {kPiece, {"cluster", AnswerType::text, "any name: the same for the same skill", "a"}},
        .scoring = "Clusters against skills: purity, NMI, adjusted Rand index, and accuracy after matching one to one.",
        .scorer = "clusters"},
@@ -194,6 +205,7 @@ std::vector<ResearchProblem> make_problems() {
                                           {"plans", Part::train},
                                           {"instructions"}},
        .hidden = Uses{{"asked_actions", Part::test, "actions"}, {"tasks"}} + kSources,
+       .needs = {{"actions", "action_j1"}},
        .answer = action_columns(),
        .scoring = kActionScore,
        .scorer = "actions"},
@@ -202,6 +214,7 @@ std::vector<ResearchProblem> make_problems() {
        .title = "which controller acts when, and policies that choose",
        .given = kObservations + Uses{{"instructions"}, {"controls", Part::train}},
        .hidden = Uses{{"controls"}, {"tasks"}} + kSources,
+       .needs = {{"controls"}},
        .answer = {kEpisode,
                   kFirst,
                   kEnd,
@@ -216,6 +229,7 @@ std::vector<ResearchProblem> make_problems() {
        .demos_only = false,
        .given = kObservationsAsked + Uses{{"actions", Part::train}, {"rewards", Part::train}, {"tasks"}},
        .hidden = Uses{{"asked_actions", Part::test, "actions"}} + kSources,
+       .needs = {{"actions", "action_j1"}},
        .answer = action_columns(),
        .scoring = kActionScore,
        .scorer = "actions"},
@@ -225,6 +239,7 @@ std::vector<ResearchProblem> make_problems() {
        .demos_only = false,
        .given = kObservations + Uses{{"rewards", Part::train}, {"instructions"}},
        .hidden = Uses{{"progress"}, {"goal_share"}, {"tasks"}} + kSources,
+       .needs = {{"goal_share"}},
        .answer = {kEpisode,
                   kFrame,
                   number("value",
@@ -265,6 +280,7 @@ std::vector<ResearchProblem> make_problems() {
                       {"future_joints", Part::test, "joints"},
                       {"future_facts", Part::test, "facts"}} +
                  kSources,
+       .needs = {{"hands"}, {"actions", "action_j1"}},
        .answer = {kEpisode,
                   kFrame,
                   {"object", AnswerType::text, "a thing, or the hand", "block1", true},

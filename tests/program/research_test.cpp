@@ -35,6 +35,23 @@ class Made {
     const std::string to = folder_ / name;
     return say({"dataset", problem, catalogue, "--out", to + "/given", "--hidden", to + "/hidden", "--split", split});
   }
+  // Six of the demonstrations as recordings of a real robot: without touch, poses of things, goals and plans.
+  std::string recordings() const {
+    const std::string real = folder_ / "real.db";
+    if (fs::exists(real)) return real;
+    std::vector<std::string> words = {"import", "recording"};
+    for (const std::string episode : {"1", "2", "3", "4", "5", "6"}) {
+      words.push_back(folder_ / ("lab" + episode));
+      REQUIRE(say({"export", "recording", folder_ / "demos.db", "--episode", episode, "--out", words.back(), "--root",
+                   kRoot})
+                  .code == kDone);
+    }
+    words.insert(words.end(), {"--out", real, "--root", kRoot});
+    const Said said = say(words);
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    return real;
+  }
   // Folders of a problem's data set.
   std::string given(const std::string& problem) const { return ready(problem) + "/given"; }
   std::string hidden(const std::string& problem) const { return ready(problem) + "/hidden"; }
@@ -314,6 +331,23 @@ TEST_CASE("the same episodes make the same bytes, in whatever order they are sto
       CHECK(file_text(made().path(again + part)) ==
             file_text(fs::path(made().given(problem)).parent_path().string() + part));
   }
+}
+
+TEST_CASE("recordings serve the problems that they have something for, and no others") {
+  const std::string real = made().recordings();
+  std::string served;
+  for (const ResearchProblem& problem : all_problems()) {
+    const Said said = made().dataset(problem.name, real, "real_" + problem.name);
+    INFO(problem.name << "\n" << said.err);
+    if (said.code == kDone) served += problem.name + " ";
+    if (said.code == kDone) continue;
+    CHECK(said.code == kBadInput);
+    CHECK(says(said.err, real + ": there is nothing to "));
+    CHECK(says(said.err, "which " + problem.name + " needs"));
+    CHECK(says(said.err, "`stampede run`"));
+    CHECK_FALSE(fs::exists(made().path("real_" + problem.name)));
+  }
+  CHECK(served == "segments_supervised segments motions behaviour controllers transfer transition_models ");
 }
 
 TEST_CASE("a folder is written to if it is new, empty, or holds the same problem's data set") {
