@@ -2,6 +2,7 @@
 // doi:10.1145/3458723: why it was made, what is in it, how it came about, how it is used and scored.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct DatasheetFacts {
   std::vector<std::string> tasks;               // in it
   std::vector<std::string> versions, numerics;  // of what made the episodes
   std::int64_t successes = 0, failures = 0, tries_undone = 0;
+  std::int64_t recorded = 0;                      // of them of a real robot
+  std::map<std::string, std::int64_t> labels;     // segments and facts, by who said them: simulator, person or model
+  std::map<std::string, std::int64_t> sentences;  // by who wrote them: template, person or model
   bool pictures = false;
   std::vector<HeldOut> held_out;
 };

@@ -350,6 +350,49 @@ TEST_CASE("recordings serve the problems that they have something for, and no ot
   CHECK(served == "segments_supervised segments motions behaviour controllers transfer transition_models ");
 }
 
+TEST_CASE("pages say which episodes are simulated and which recorded, and who labelled them") {
+  const auto page = [](const std::string& catalogue, const std::string& name) {
+    const Said said = made().dataset("segments_supervised", catalogue, name);
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    return file_text(made().path(name + "/given/README.md"));
+  };
+  const std::string simulated = page(made().path("demos.db"), "page_simulated");
+  CHECK(says(simulated, " failed simulated episodes of a robot arm."));
+  for (const char* part : {"No person is in it", "Labels by the simulator as it ran, never by people", "by template",
+                           "Known weakness", "MIT, as Stampede.\n"})
+    CHECK(says(simulated, part));
+
+  const std::string real = made().recordings(), labels = made().path("labels.json"), mixed = made().path("mixed.db");
+  std::ofstream(labels) << R"({"labelled_by": "person", "segments": [{"kind": "skill", "name": "pick",
+      "arguments": ["block"], "start_s": 0.1, "end_s": 0.5, "label": "pick up the block"}]})";
+  const std::string recorded = page(real, "page_real");
+  CHECK(says(recorded, "Made of 6 successful and 0 failed episodes, all recorded of a real robot arm."));
+  CHECK(says(recorded, " by model. Sentences: "));
+  CHECK(says(recorded, "Who made the recordings answers for what they show."));
+  CHECK(says(recorded, "of the recordings, what their makers say"));
+  for (const char* part : {"No person", "simulator", "never by people", "Known weakness", "Physics"})
+    CHECK_FALSE(says(recorded, part));
+
+  fs::copy_file(made().path("demos.db"), mixed);
+  const Said imported =
+      say({"import", "recording", made().path("lab1"), made().path("lab2"), "--out", mixed, "--root", kRoot});
+  INFO(imported.err);
+  REQUIRE(imported.code == kDone);
+  const std::string last = say({"query", mixed, "SELECT max(episode) FROM episodes", "--format", "csv"}).out;
+  const Said labelled =
+      say({"import", "labels", labels, mixed, "--episode",
+           last.substr(last.find('\n') + 1, last.rfind('\n') - last.find('\n') - 1), "--root", kRoot});
+  INFO(labelled.err);
+  REQUIRE(labelled.code == kDone);
+  const std::string both = page(mixed, "page_mixed");
+  CHECK(says(both, " simulated, 2 recorded of a real one."));
+  CHECK(says(both, "by model, 1 by person, "));
+  CHECK(says(both, "by simulator. Sentences: "));
+  CHECK(says(both, "Known weakness"));
+  CHECK_FALSE(says(both, "never by people"));
+}
+
 TEST_CASE("a folder is written to if it is new, empty, or holds the same problem's data set") {
   const Folder folder;
   const auto dataset = [&](const std::string& problem, const std::string& out, const std::string& hidden) {
