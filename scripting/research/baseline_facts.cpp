@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/known_columns.h"
 
 namespace stampede::research {
 namespace {
@@ -29,8 +30,8 @@ struct Scene {
 };
 
 // `where`: which moment of which unit, for tables poses and hands.
-Scene scene_at(const PlainFile& given, const std::string& unit, std::int64_t number, const std::string& moment_column,
-               const SqlValue& moment) {
+Scene scene_at(const PlainFile& given, const KnownColumns& known, const std::string& unit, std::int64_t number,
+               const std::string& moment_column, const SqlValue& moment) {
   Scene scene;
   const Rows objects = given.query("SELECT * FROM objects WHERE " + unit + " = ?1", {number});
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -49,7 +50,7 @@ Scene scene_at(const PlainFile& given, const std::string& unit, std::int64_t num
   for (std::size_t i = 0; i < hands.size(); ++i)
     scene.hands.push_back({hands.text(i, "hand"),
                            {hands.real(i, "x"), hands.real(i, "y"), hands.real(i, "z")},
-                           std::min(hands.real(i, "touch_1"), hands.real(i, "touch_2"))});
+                           std::min(known.real(hands, i, "touch_1"), known.real(hands, i, "touch_2"))});
   return scene;
 }
 
@@ -108,6 +109,7 @@ std::set<std::string> atoms_of(const Scene& scene) {
 
 Answers geometry_facts(const ResearchProblem&, const PlainFile& given) {
   constexpr std::int64_t kAskedEvery = 20;
+  const KnownColumns known_of_hands(given, "hands");
   std::set<std::string> known;
   const Rows names = given.query("SELECT DISTINCT predicate FROM vocabulary");
   for (std::size_t i = 0; i < names.size(); ++i) known.insert(names.text(i, "predicate"));
@@ -116,18 +118,20 @@ Answers geometry_facts(const ResearchProblem&, const PlainFile& given) {
   for (std::size_t i = 0; i < episodes.size(); ++i)
     for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += kAskedEvery)
       for (const std::string& atom :
-           atoms_of(scene_at(given, "episode", episodes.integer(i, "episode"), "frame", frame)))
+           atoms_of(scene_at(given, known_of_hands, "episode", episodes.integer(i, "episode"), "frame", frame)))
         if (known.contains(atom.substr(1, atom.find(' ') - 1)))
           answers.rows.rows.push_back({episodes.integer(i, "episode"), frame, atom});
   return answers;
 }
 
 Answers geometry_symbols(const ResearchProblem&, const PlainFile& given) {
+  const KnownColumns known_of_hands(given, "hands");
   Answers answers;
   const Rows pieces = given.query("SELECT piece FROM pieces WHERE split = 'test' ORDER BY piece");
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const std::string moment : {"before", "after"})
-      for (const std::string& atom : atoms_of(scene_at(given, "piece", pieces.integer(i, "piece"), "moment", moment)))
+      for (const std::string& atom :
+           atoms_of(scene_at(given, known_of_hands, "piece", pieces.integer(i, "piece"), "moment", moment)))
         answers.rows.rows.push_back({pieces.integer(i, "piece"), moment, "(s_" + atom.substr(1)});
   return answers;
 }

@@ -9,6 +9,7 @@
 #include "engine/learning/operators.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/known_columns.h"
 #include "scripting/research/signals.h"
 
 namespace stampede::research {
@@ -96,7 +97,7 @@ View scene_of(const PlainFile& given, std::int64_t episode) {
 }
 
 // Of the frames between which skills lie.
-std::map<std::int64_t, View> views_of(const PlainFile& given, std::int64_t episode) {
+std::map<std::int64_t, View> views_of(const PlainFile& given, const KnownColumns& known, std::int64_t episode) {
   const std::string frames =
       " frame IN (SELECT first_frame FROM skills WHERE episode = ?1 UNION SELECT min(s.end_frame, e.frames - 1) FROM "
       "skills s JOIN episodes e USING (episode) WHERE episode = ?1) ";
@@ -108,7 +109,7 @@ std::map<std::int64_t, View> views_of(const PlainFile& given, std::int64_t episo
     View& view = views.emplace(hands.integer(i, "frame"), scene).first->second;
     view.hand = hands.text(i, "hand");
     view.tip = {hands.real(i, "x"), hands.real(i, "y"), hands.real(i, "z")};
-    view.force = std::min(hands.real(i, "touch_1"), hands.real(i, "touch_2"));
+    view.force = std::min(known.real(hands, i, "touch_1"), known.real(hands, i, "touch_2"));
   }
   const Rows poses = given.query("SELECT frame, object, x, y, z FROM poses WHERE episode = ?1 AND" + frames, {episode});
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -144,6 +145,7 @@ struct Lived {
 };
 
 std::vector<Lived> lived(const PlainFile& given, const std::string& splits) {
+  const KnownColumns known(given, "hands");
   std::vector<Lived> all;
   const Rows episodes =
       given.query("SELECT episode, frames FROM episodes WHERE split IN (" + splits + ") ORDER BY episode");
@@ -165,7 +167,7 @@ std::vector<Lived> lived(const PlainFile& given, const std::string& splits) {
                            nlohmann::json::parse(rows.text(i, "arguments")).get<std::vector<std::string>>(),
                            rows.text(i, "outcome") == "success"});
     }
-    for (const auto& [frame, view] : views_of(given, one.episode)) one.measures[frame] = measured(view);
+    for (const auto& [frame, view] : views_of(given, known, one.episode)) one.measures[frame] = measured(view);
   }
   return all;
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/known_columns.h"
 #include "scripting/research/signals.h"
 #include "scripting/research/symbols_of.h"
 
@@ -45,10 +46,11 @@ void read_joints(const PlainFile& given, double frame_hz, std::map<std::int64_t,
     std::map<std::int64_t, int> arm;  // how many so far
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto context = by_frame.find(rows.integer(i, "frame"));
-      if (context == by_frame.end()) continue;
+      if (context == by_frame.end() || rows.is_null(i, "position")) continue;
       const bool driven = table == std::string("joints") && rows.text(i, "joint").find("finger") == std::string::npos;
       const int command = driven ? ++arm[context->first] : 0;
-      context->second.joints[rows.text(i, "joint")] = {rows.real(i, "position"), rows.real(i, "velocity") / frame_hz,
+      const double velocity = rows.is_null(i, "velocity") ? 0 : rows.real(i, "velocity");  // of recorded fingers
+      context->second.joints[rows.text(i, "joint")] = {rows.real(i, "position"), velocity / frame_hz,
                                                        command <= 7 ? command : 0};
     }
   }
@@ -70,6 +72,7 @@ Eigen::Vector3d position_of(const Rows& rows, std::size_t i) {
 
 // Of every 40th frame what is there, and how it came from the frame before.
 std::vector<Context> contexts_of(const PlainFile& given, const std::string& splits) {
+  const KnownColumns known(given, "hands");
   std::vector<Context> all;
   const Rows episodes =
       given.query("SELECT episode, frames, frame_hz FROM episodes WHERE split IN (" + splits + ") ORDER BY episode");
@@ -81,9 +84,10 @@ std::vector<Context> contexts_of(const PlainFile& given, const std::string& spli
     for (std::size_t i = 0; i < hands.size(); ++i) {
       Context& one = by_frame[hands.integer(i, "frame")];
       one.episode = episode, one.frame = hands.integer(i, "frame"), one.frames = episodes.integer(e, "frames");
-      one.force = std::min(hands.real(i, "touch_1"), hands.real(i, "touch_2"));
-      one.opening = hands.real(i, "opening");
-      const Eigen::Vector3d speed(hands.real(i, "linear_x"), hands.real(i, "linear_y"), hands.real(i, "linear_z"));
+      const auto number = [&](const char* column) { return known.real(hands, i, column); };
+      one.force = std::min(number("touch_1"), number("touch_2"));
+      one.opening = number("opening");
+      const Eigen::Vector3d speed(number("linear_x"), number("linear_y"), number("linear_z"));
       one.bodies[hands.text(i, "hand")] = {position_of(hands, i), speed / episodes.real(e, "frame_hz"), true};
     }
     const Rows poses =
@@ -214,7 +218,9 @@ std::map<std::pair<std::int64_t, bool>, Eigen::MatrixXd> learn_joints(const Plai
             std::string("SELECT joint, position FROM ") + table + " WHERE episode = ?1 AND frame = ?2 ORDER BY joint",
             {context.episode, context.frame + horizon});
         for (std::size_t i = 0; i < later.size(); ++i) {
-          const Joint& joint = context.joints.at(later.text(i, "joint"));
+          const auto there = context.joints.find(later.text(i, "joint"));
+          if (there == context.joints.end() || later.is_null(i, "position")) continue;
+          const Joint& joint = there->second;
           features[joint.command > 0].emplace_back(joint_inputs(given, context, joint, horizon));
           targets[joint.command > 0].emplace_back(
               Eigen::MatrixXd::Constant(1, 1, later.real(i, "position") - joint.now));

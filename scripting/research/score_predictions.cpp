@@ -68,7 +68,8 @@ void score_positions(const ScoringJob& job, std::int64_t horizon, std::vector<Fi
       if (std::string(table) == "poses" && moved < kMoved) continue;
       errors.add(distance(job.answers.rows, row, "x", "y", "z"), moved);
     }
-    add_figures(errors, name, horizon, std::string(name) + "s " + std::to_string(horizon) + " frames on, m", figures);
+    if (errors.said.count > 0)  // of recordings, nobody knows where things were
+      add_figures(errors, name, horizon, std::string(name) + "s " + std::to_string(horizon) + " frames on, m", figures);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/random.h"
+#include "scripting/research/known_columns.h"
 
 namespace stampede::research {
 namespace {
@@ -13,7 +14,7 @@ const std::vector<std::string> kHandColumns = {
     "x",        "y",        "z",         "qx",        "qy",        "qz",      "qw",      "linear_x",
     "linear_y", "linear_z", "angular_x", "angular_y", "angular_z", "opening", "touch_1", "touch_2"};
 
-void read_joints(const PlainFile& given, const std::string& unit, Signals& signals) {
+void read_joints(const PlainFile& given, const KnownColumns& known, const std::string& unit, Signals& signals) {
   // Fingers slide; a robot's arm turns. The name is all that the table says of a joint.
   const Rows rows = given.query("SELECT frame, joint, position, velocity FROM joints WHERE " + unit +
                                     " = ?1 AND joint NOT LIKE '%finger%' ORDER BY frame, joint",
@@ -22,7 +23,7 @@ void read_joints(const PlainFile& given, const std::string& unit, Signals& signa
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::int64_t frame = rows.integer(i, "frame");
     if (signals.frames.empty() || signals.frames.back() != frame) signals.frames.push_back(frame);
-    position.push_back(rows.real(i, "position")), velocity.push_back(rows.real(i, "velocity"));
+    position.push_back(known.real(rows, i, "position")), velocity.push_back(known.real(rows, i, "velocity"));
   }
   const auto count = static_cast<Eigen::Index>(signals.frames.size());
   const Eigen::Index joints = count > 0 ? static_cast<Eigen::Index>(position.size()) / count : 0;
@@ -31,7 +32,7 @@ void read_joints(const PlainFile& given, const std::string& unit, Signals& signa
   signals.velocity = Eigen::Map<const RowMajor>(velocity.data(), count, joints);
 }
 
-void read_hand(const PlainFile& given, const std::string& unit, Signals& signals) {
+void read_hand(const PlainFile& given, const KnownColumns& known, const std::string& unit, Signals& signals) {
   const Rows rows = given.query("SELECT * FROM hands WHERE " + unit + " = ?1 ORDER BY hand, frame", {signals.unit});
   signals.hand.setZero(static_cast<Eigen::Index>(signals.frames.size()),
                        static_cast<Eigen::Index>(kHandColumns.size()));
@@ -39,7 +40,9 @@ void read_hand(const PlainFile& given, const std::string& unit, Signals& signals
       std::min<Eigen::Index>(static_cast<Eigen::Index>(rows.size()), signals.hand.rows());  // the first hand
   for (std::size_t column = 0; column < kHandColumns.size(); ++column)
     for (Eigen::Index i = 0; i < count; ++i)
-      signals.hand(i, static_cast<Eigen::Index>(column)) = rows.real(static_cast<std::size_t>(i), kHandColumns[column]);
+      signals.hand(i, static_cast<Eigen::Index>(column)) =
+          known.real(rows, static_cast<std::size_t>(i), kHandColumns[column]);
+  signals.touch = known.has("touch_1") && known.has("touch_2");
 }
 
 // The sum of squared distances to the centres, which it moves.
@@ -73,27 +76,29 @@ Eigen::MatrixXd first_centres(const Eigen::MatrixXd& rows, int clusters, Random&
 std::vector<Signals> signals_of(const PlainFile& given, const std::vector<std::string>& splits) {
   const std::string unit = given.has("pieces") ? "piece" : "episode";
   const Rows rows = given.query("SELECT " + unit + " AS number, split FROM " + unit + "s ORDER BY 1");
+  const KnownColumns of_joints(given, "joints"), of_hands(given, "hands");
   std::vector<Signals> all;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (std::find(splits.begin(), splits.end(), rows.text(i, "split")) == splits.end()) continue;
     Signals& one = all.emplace_back();
     one.unit = rows.integer(i, "number"), one.split = rows.text(i, "split");
-    read_joints(given, unit, one);
-    read_hand(given, unit, one);
+    read_joints(given, of_joints, unit, one);
+    read_hand(given, of_hands, unit, one);
   }
   return all;
 }
 
 Eigen::MatrixXd motion_features(const Signals& signals) {
   const Eigen::Index frames = signals.hand.rows(), joints = signals.velocity.cols();
-  Eigen::MatrixXd features(frames, joints + 8);
+  const Eigen::Index forces = signals.touch ? 2 : 0;
+  Eigen::MatrixXd features(frames, joints + 6 + forces);
   features.leftCols(joints) = signals.velocity;
   const Eigen::VectorXd opening = signals.opening();
   for (Eigen::Index i = 0; i < frames; ++i) {
     const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0), after = std::min<Eigen::Index>(i + 1, frames - 1);
-    features.row(i).tail(8) << signals.hand.row(i).segment(7, 3).norm(), signals.hand(i, 2), signals.hand(i, 9),
-        signals.hand.row(i).segment(10, 3).norm(), opening(i), opening(after) - opening(before), signals.hand(i, 14),
-        signals.hand(i, 15);
+    features.row(i).segment(joints, 6) << signals.hand.row(i).segment(7, 3).norm(), signals.hand(i, 2),
+        signals.hand(i, 9), signals.hand.row(i).segment(10, 3).norm(), opening(i), opening(after) - opening(before);
+    features.row(i).tail(forces) = signals.hand.row(i).tail(forces);
   }
   return features;
 }

@@ -16,13 +16,15 @@ struct Signals {
   std::vector<std::int64_t> frames;    // number of each row
   Eigen::MatrixXd position, velocity;  // a row a frame: hinges of the arm, sorted by name (rad, rad/s)
   Eigen::MatrixXd hand;                // x y z qx qy qz qw, linear velocity, angular velocity, opening, two forces
+  bool touch = true;                   // the forces were measured; if not, they are 0
   Eigen::VectorXd opening() const { return hand.col(13); }
 };
 
 // Of all units whose split is in `splits`, by number. Fingers are left out of the joints: the hand has its opening.
 std::vector<Signals> signals_of(const PlainFile& given, const std::vector<std::string>& splits);
 
-// Joint speeds, speed and height of the tip, opening and how it changes, forces: what segments are found by.
+// Joint speeds, speed and height of the tip, opening and how it changes, forces where they were measured: what segments
+// are found by.
 Eigen::MatrixXd motion_features(const Signals& signals);
 
 // Mean and deviation of columns, for features of one scale.

@@ -52,6 +52,16 @@ class Made {
     REQUIRE(said.code == kDone);
     return real;
   }
+  // The demonstrations with two recordings.
+  std::string mixed() const {
+    (void)recordings();
+    fs::copy_file(folder_ / "demos.db", folder_ / "mixed.db", fs::copy_options::skip_existing);
+    const Said said = say(
+        {"import", "recording", folder_ / "lab1", folder_ / "lab2", "--out", folder_ / "mixed.db", "--root", kRoot});
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    return folder_ / "mixed.db";
+  }
   // Folders of a problem's data set.
   std::string given(const std::string& problem) const { return ready(problem) + "/given"; }
   std::string hidden(const std::string& problem) const { return ready(problem) + "/hidden"; }
@@ -350,6 +360,31 @@ TEST_CASE("recordings serve the problems that they have something for, and no ot
   CHECK(served == "segments_supervised segments motions behaviour controllers transfer transition_models ");
 }
 
+TEST_CASE("baselines leave out what no recording has, and say where only some have it") {
+  for (const research::Baseline& baseline : research::all_baselines())
+    for (const std::string& problem : baseline.problems) {
+      const std::string name = "real_" + problem, file = made().path(baseline.name + "_" + name + ".json");
+      if (!fs::exists(made().path(name + "/given")) && made().dataset(problem, made().recordings(), name).code != kDone)
+        continue;  // of those there is a test of its own
+      const PlainFile given = PlainFile::open(made().path(name + "/given/given.db"));
+      CHECK(given.query("SELECT count(touch_1) AS n FROM hands").integer(0, "n") == 0);
+      const Said said = say({"baseline", baseline.name, made().path(name + "/given"), "--out", file});
+      INFO(baseline.name << " " << problem << "\n" << said.err);
+      REQUIRE(said.code == kDone);
+      const Said scored = say({"score", problem, file, "--hidden", made().path(name + "/hidden")});
+      INFO(scored.err);
+      CHECK(scored.code == kDone);
+      CHECK_FALSE(says(scored.out, "thing_error"));  // nobody knows where things were
+    }
+  REQUIRE(made().dataset("segments", made().mixed(), "mixed").code == kDone);
+  const Said mixed = say({"baseline", "change_points", made().path("mixed/given"), "--out", made().path("mixed.json")});
+  INFO(mixed.err);
+  CHECK(mixed.code == kBadInput);
+  CHECK(
+      says(mixed.err, made().path("mixed/given") + "/given.db, table hands: the column touch_1 is NULL in some rows"));
+  CHECK(says(mixed.err, "all measured alike"));
+}
+
 TEST_CASE("pages say which episodes are simulated and which recorded, and who labelled them") {
   const auto page = [](const std::string& catalogue, const std::string& name) {
     const Said said = made().dataset("segments_supervised", catalogue, name);
@@ -363,7 +398,7 @@ TEST_CASE("pages say which episodes are simulated and which recorded, and who la
                            "Known weakness", "MIT, as Stampede.\n"})
     CHECK(says(simulated, part));
 
-  const std::string real = made().recordings(), labels = made().path("labels.json"), mixed = made().path("mixed.db");
+  const std::string real = made().recordings(), labels = made().path("labels.json");
   std::ofstream(labels) << R"({"labelled_by": "person", "segments": [{"kind": "skill", "name": "pick",
       "arguments": ["block"], "start_s": 0.1, "end_s": 0.5, "label": "pick up the block"}]})";
   const std::string recorded = page(real, "page_real");
@@ -374,11 +409,7 @@ TEST_CASE("pages say which episodes are simulated and which recorded, and who la
   for (const char* part : {"No person", "simulator", "never by people", "Known weakness", "Physics"})
     CHECK_FALSE(says(recorded, part));
 
-  fs::copy_file(made().path("demos.db"), mixed);
-  const Said imported =
-      say({"import", "recording", made().path("lab1"), made().path("lab2"), "--out", mixed, "--root", kRoot});
-  INFO(imported.err);
-  REQUIRE(imported.code == kDone);
+  const std::string mixed = made().mixed();
   const std::string last = say({"query", mixed, "SELECT max(episode) FROM episodes", "--format", "csv"}).out;
   const Said labelled =
       say({"import", "labels", labels, mixed, "--episode",
