@@ -105,6 +105,12 @@ std::set<std::string> atoms_of(const Scene& scene) {
   return atoms;
 }
 
+// Where there are none, a row says so.
+void add_atoms(Answers& answers, std::int64_t unit, const SqlValue& moment, const std::vector<std::string>& atoms) {
+  for (const std::string& atom : atoms) answers.rows.rows.push_back({unit, moment, atom});
+  if (atoms.empty()) answers.rows.rows.push_back({unit, moment, std::monostate{}});
+}
+
 }  // namespace
 
 Answers geometry_facts(const ResearchProblem&, const PlainFile& given) {
@@ -113,14 +119,17 @@ Answers geometry_facts(const ResearchProblem&, const PlainFile& given) {
   std::set<std::string> known;
   const Rows names = given.query("SELECT DISTINCT predicate FROM vocabulary");
   for (std::size_t i = 0; i < names.size(); ++i) known.insert(names.text(i, "predicate"));
+  const auto is_known = [&](const std::string& atom) { return known.contains(atom.substr(1, atom.find(' ') - 1)); };
   Answers answers;
   const Rows episodes = given.query("SELECT episode, frames FROM episodes WHERE split = 'test' ORDER BY episode");
   for (std::size_t i = 0; i < episodes.size(); ++i)
-    for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += kAskedEvery)
-      for (const std::string& atom :
-           atoms_of(scene_at(given, known_of_hands, "episode", episodes.integer(i, "episode"), "frame", frame)))
-        if (known.contains(atom.substr(1, atom.find(' ') - 1)))
-          answers.rows.rows.push_back({episodes.integer(i, "episode"), frame, atom});
+    for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += kAskedEvery) {
+      const std::int64_t episode = episodes.integer(i, "episode");
+      std::vector<std::string> some;
+      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, "episode", episode, "frame", frame)))
+        if (is_known(atom)) some.push_back(atom);
+      add_atoms(answers, episode, frame, some);
+    }
   return answers;
 }
 
@@ -129,10 +138,13 @@ Answers geometry_symbols(const ResearchProblem&, const PlainFile& given) {
   Answers answers;
   const Rows pieces = given.query("SELECT piece FROM pieces WHERE split = 'test' ORDER BY piece");
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (const std::string moment : {"before", "after"})
-      for (const std::string& atom :
-           atoms_of(scene_at(given, known_of_hands, "piece", pieces.integer(i, "piece"), "moment", moment)))
-        answers.rows.rows.push_back({pieces.integer(i, "piece"), moment, "(s_" + atom.substr(1)});
+    for (const std::string moment : {"before", "after"}) {
+      const std::int64_t piece = pieces.integer(i, "piece");
+      std::vector<std::string> symbols;
+      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, "piece", piece, "moment", moment)))
+        symbols.push_back("(s_" + atom.substr(1));
+      add_atoms(answers, piece, moment, symbols);
+    }
   return answers;
 }
 

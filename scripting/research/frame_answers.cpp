@@ -31,6 +31,15 @@ std::size_t row_about(const ScoringJob& job, const Places& places, const Place& 
               "the given part's page says which frames are asked about");
 }
 
+void refuse_missing(const ScoringJob& job, const std::vector<std::string>& missing, std::size_t asked,
+                    const std::string& what, const std::string& cure) {
+  if (missing.empty()) return;
+  throw Error(job.answers.where,
+              "there is no answer for " + std::to_string(missing.size()) + " of " + std::to_string(asked) + " " + what +
+                  ", the first: " + missing.front(),
+              cure);
+}
+
 void refuse_beyond_the_end(const ScoringJob& job) {
   std::map<std::int64_t, std::int64_t> frames;
   const Rows episodes = job.hidden.query("SELECT episode, frames FROM episodes");

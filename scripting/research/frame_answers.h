@@ -20,6 +20,11 @@ using Places = std::map<Place, std::size_t>;                        // rows of t
 Places places_of(const ScoringJob& job, const std::string& column = "");
 std::size_t row_about(const ScoringJob& job, const Places& places, const Place& place);  // throws Error: there is none
 
+// What was asked about and not answered: places as people read them. Throws Error with how many there are and the
+// first.
+void refuse_missing(const ScoringJob& job, const std::vector<std::string>& missing, std::size_t asked,
+                    const std::string& what, const std::string& cure);
+
 // Answers about frames of test episodes that do not exist are mistakes, not extras.
 void refuse_beyond_the_end(const ScoringJob& job);
 

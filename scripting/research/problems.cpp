@@ -97,10 +97,14 @@ std::vector<ResearchProblem> make_problems() {
                   {"holds", AnswerType::integer, "1 or 0; left out: 1", "1", true}},
        .answer_texts = {kDomain},
        .every_unit = false,
-       .scoring = std::string("Learned predicates are mapped to true ones by agreement (MCC) at the frames answered, "
-                              "arguments in any order, denied or not, one to one (Kuhn 1955), two at once where one "
-                              "does not do; types by their objects. Then, in true words: ") +
-                  kOperatorScore,
+       .scoring =
+           std::string(
+               "Learned predicates are mapped to true ones by agreement (MCC) at the frames answered, "
+               "arguments in any order, denied or not, one to one (Kuhn 1955), two at once where one "
+               "does not do; types by their objects. Of each test episode the frames before and after skills must "
+               "be answered, and others may be: what is said of one of them must be said of all. Then, in "
+               "true words: ") +
+           kOperatorScore,
        .scorer = "abstractions"},
       {.name = "symbols",
        .serves = "portable representations (symbols and operators)",
@@ -116,11 +120,14 @@ std::vector<ResearchProblem> make_problems() {
        .needs = {{"facts"}},
        .answer = {kPiece,
                   {"moment", AnswerType::text, "before or after", "before"},
-                  {"symbol", AnswerType::text, "one that holds, with its objects", "(s1 block1)"}},
+                  {"symbol", AnswerType::text, "one that holds, with its objects; left out: none does", "(s1 block1)",
+                   true}},
        .every_unit = false,
        .scoring =
            "Each true predicate is matched with one of the learned symbols of as many arguments, such that the mean "
-           "F1 over predicates is greatest (Kuhn 1955); F1 counts ground symbols of all test moments.",
+           "F1 over predicates is greatest (Kuhn 1955); F1 counts ground symbols of all test moments. Each of them "
+           "must "
+           "be answered; a symbol that is not said does not hold.",
        .scorer = "symbols"},
       {.name = "concepts",
        .serves = "concepts (with pre-trained models)",
@@ -128,11 +135,15 @@ std::vector<ResearchProblem> make_problems() {
        .given = kObservations + Uses{{"descriptions"}, {"vocabulary"}},
        .hidden = kFacts + Uses{{"objects"}} + kSources,
        .needs = {{"vocabulary"}, {"facts", "predicate_kind"}},
-       .answer = {kEpisode, kFrame, {"fact", AnswerType::text, "one that holds there", "(on block1 table)"}},
+       .answer = {kEpisode,
+                  kFrame,
+                  {"fact", AnswerType::text, "one that holds there; left out: none does", "(on block1 table)", true}},
        .every_unit = false,
        .scoring =
            "Agreement with the facts at every 20th frame: precision, recall, F1 and MCC (over all ground atoms of the "
-           "vocabulary), and the mean F1 over predicates.",
+           "vocabulary), and the mean F1 over predicates. Each of these frames must be answered; a fact that is not "
+           "said "
+           "does not hold.",
        .scorer = "facts"},
       {.name = "segments_supervised",
        .serves = "skill segments, supervised",

@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/learning/abstraction.h"
 #include "engine/symbolic/pddl.h"
+#include "scripting/research/frame_answers.h"
 #include "scripting/research/operator_figures.h"
 #include "scripting/research/scorers.h"
 
@@ -24,6 +25,43 @@ void check_atom(const Fact& fact, const Domain& learned, const std::string& wher
   if (predicate->parameters.size() != fact.arguments.size())
     throw Error(where, "`" + fact.predicate + "` takes " + std::to_string(predicate->parameters.size()) +
                            " arguments, not " + std::to_string(fact.arguments.size()));
+}
+
+// Where skills begin and end each test episode must be judged, and an atom of it at all of these frames or at none;
+// otherwise whoever leaves out what he is unsure of would agree the more. Predicates of which no row says 0 are
+// complete as they are.
+void check_complete(const ScoringJob& job, const FramesJudged& frames) {
+  std::set<std::string> denied;
+  for (const auto& [at, frame] : frames)
+    for (const Fact& fact : frame.no) denied.insert(fact.predicate);
+  std::vector<std::string> unseen, unsaid;
+  std::size_t asked = 0, atoms = 0;
+  for (const std::int64_t episode : job.test_units) {
+    const Rows rows = job.hidden.query(
+        "SELECT first_frame AS frame FROM skills WHERE episode = ?1 UNION SELECT min(s.end_frame, e.frames - 1) FROM "
+        "skills s JOIN episodes e USING (episode) WHERE episode = ?1 ORDER BY 1",
+        {episode});
+    std::map<Fact, std::set<std::int64_t>> said;  // where
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto found = frames.find({episode, rows.integer(i, "frame")});
+      ++asked;
+      if (found == frames.end()) {
+        unseen.push_back(name_of(episode, rows.integer(i, "frame")));
+        continue;
+      }
+      for (const auto* facts : {&found->second.yes, &found->second.no})
+        for (const Fact& fact : *facts)
+          if (denied.contains(fact.predicate)) said[fact].insert(rows.integer(i, "frame"));
+    }
+    for (const auto& [fact, where] : said)
+      for (std::size_t i = 0; i < rows.size(); ++i, ++atoms)
+        if (!where.contains(rows.integer(i, "frame")))
+          unsaid.push_back(name_of(episode, rows.integer(i, "frame"), to_text(fact)));
+  }
+  refuse_missing(job, unseen, asked, "frames that are asked about",
+                 "answer each frame where a skill of the test split begins, and the one after its last");
+  refuse_missing(job, unsaid, atoms, "atoms at these frames",
+                 "an atom that is judged where a skill begins or ends is judged at all such frames of its episode");
 }
 
 // Every row names a frame of the data set and things that are there.
@@ -49,11 +87,13 @@ FramesJudged judged_frames(const ScoringJob& job, const Domain& learned, const H
     if (fresh) at->second = {{}, {}, learning::facts_at(history->second, frame), history->second.objects};
     if ((holds == 1 ? at->second.no : at->second.yes).contains(fact))
       throw Error(where, to_text(fact) + " is said to hold and not to hold");
-    (holds == 1 ? at->second.yes : at->second.no).insert(std::move(fact));
+    if (const auto [said, first] = (holds == 1 ? at->second.yes : at->second.no).insert(std::move(fact)); !first)
+      throw Error(where, to_text(*said) + " is answered twice", "say each once");
   }
   if (frames.empty())
     throw Error(job.answers.where, "it says of no test episode what holds",
-                "give the answers of the classifiers at some frames of each, such as those where skills begin");
+                "give the answers of the classifiers at the frames where skills begin and end");
+  check_complete(job, frames);
   return frames;
 }
 

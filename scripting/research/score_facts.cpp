@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
+#include "scripting/research/frame_answers.h"
 #include "scripting/research/matching.h"
 #include "scripting/research/scorers.h"
 
@@ -16,8 +17,10 @@ namespace {
 
 constexpr std::int64_t kAskedEvery = 20;  // frames, as in db/datasets/asked_*.sql
 
-using Moment = std::pair<std::int64_t, std::string>;  // of an episode or piece
+using Moment = std::pair<std::int64_t, std::string>;  // of an episode (`frame 20`) or piece (`before`)
 using Ground = std::map<Moment, std::set<std::string>>;
+
+std::string frame_name(std::int64_t frame) { return "frame " + std::to_string(frame); }
 
 // `(on block1 table)`: its words, or nothing where it is none.
 std::vector<std::string> words_of(const std::string& atom) {
@@ -76,7 +79,7 @@ Ground true_facts(const ScoringJob& job, std::map<std::string, std::size_t>& pre
   for (const std::int64_t episode : job.test_units) {
     const std::int64_t frames =
         job.hidden.query("SELECT frames FROM episodes WHERE episode = ?1", {episode}).integer(0, "frames");
-    for (std::int64_t frame = 0; frame < frames; frame += kAskedEvery) truth[{episode, std::to_string(frame)}];
+    for (std::int64_t frame = 0; frame < frames; frame += kAskedEvery) truth[{episode, frame_name(frame)}];
     const Rows rows = job.hidden.query(
         "SELECT fact, first_frame, end_frame FROM facts WHERE episode = ?1 AND predicate_kind IN ('basic', 'derived')",
         {episode});
@@ -84,36 +87,64 @@ Ground true_facts(const ScoringJob& job, std::map<std::string, std::size_t>& pre
       const std::int64_t end = std::min(rows.integer(i, "end_frame"), frames);
       const std::int64_t first = (rows.integer(i, "first_frame") + kAskedEvery - 1) / kAskedEvery * kAskedEvery;
       for (std::int64_t frame = first; frame < end; frame += kAskedEvery)
-        truth.at({episode, std::to_string(frame)}).insert(rows.text(i, "fact"));
+        truth.at({episode, frame_name(frame)}).insert(rows.text(i, "fact"));
     }
   }
   return truth;
 }
 
-Ground answered_facts(const ScoringJob& job, const Ground& truth,
-                      const std::map<std::string, std::size_t>& predicates) {
+// Each moment that is asked about is answered, be it by a row without an atom: nothing holds there. So half a file is
+// no answer, and what is not said is taken not to hold.
+void refuse_silence(const ScoringJob& job, const std::set<Moment>& asked, const std::set<Moment>& answered,
+                    const std::string& unit, const std::string& column) {
+  std::vector<std::string> missing;
+  for (const Moment& moment : asked)
+    if (!answered.contains(moment))
+      missing.push_back(moment.second + " of " + unit + " " + std::to_string(moment.first));
+  refuse_missing(job, missing, asked.size(), "moments that are asked about",
+                 "answer each; where nothing holds, with a row without '" + column + "'");
+}
+
+[[noreturn]] void refuse_twice(const std::string& where, const std::string& said, const Moment& moment,
+                               const std::string& unit) {
+  throw Error(where, said + " is answered twice: " + moment.second + " of " + unit + " " + std::to_string(moment.first),
+              "say each once");
+}
+
+void check_predicate(const std::vector<std::string>& words, const std::map<std::string, std::size_t>& predicates,
+                     const std::string& where) {
   std::vector<std::string> names;
   for (const auto& [name, arguments] : predicates) names.push_back(name);
+  const auto predicate = predicates.find(words.front());
+  if (predicate == predicates.end())
+    throw Error(where, "there is no predicate '" + words.front() + "'", did_you_mean(words.front(), names));
+  if (predicate->second + 1 != words.size())
+    throw Error(where, words.front() + " takes " + std::to_string(predicate->second) + " arguments, not " +
+                           std::to_string(words.size() - 1));
+}
+
+Ground answered_facts(const ScoringJob& job, const Ground& truth,
+                      const std::map<std::string, std::size_t>& predicates) {
   const std::set<std::int64_t> tests(job.test_units.begin(), job.test_units.end());
   Ground answers;
   for (std::size_t i = 0; i < job.answers.rows.size(); ++i) {
     const std::int64_t episode = job.answers.rows.integer(i, "episode"), frame = job.answers.rows.integer(i, "frame");
-    const std::string atom = job.answers.rows.text(i, "fact"),
-                      where = job.answers.where + ", answer " + std::to_string(i + 1);
-    const std::vector<std::string> words = words_or_refuse(job, atom, i);
-    const auto predicate = predicates.find(words.front());
-    if (predicate == predicates.end())
-      throw Error(where, "there is no predicate '" + words.front() + "'", did_you_mean(words.front(), names));
-    if (predicate->second + 1 != words.size())
-      throw Error(where, words.front() + " takes " + std::to_string(predicate->second) + " arguments, not " +
-                             std::to_string(words.size() - 1));
+    const std::string where = job.answers.where + ", answer " + std::to_string(i + 1);
+    const bool none = job.answers.rows.is_null(i, "fact");
+    const std::string atom = none ? "" : job.answers.rows.text(i, "fact");
+    if (!none) check_predicate(words_or_refuse(job, atom, i), predicates, where);
     if (!tests.contains(episode)) continue;
-    if (!truth.contains({episode, std::to_string(frame)}))
-      throw Error(where,
-                  "frame " + std::to_string(frame) + " of episode " + std::to_string(episode) + " is not asked about",
+    const Moment moment = {episode, frame_name(frame)};
+    if (!truth.contains(moment))
+      throw Error(where, moment.second + " of episode " + std::to_string(episode) + " is not asked about",
                   "asked about is every 20th frame that the episode has: 0, 20, 40 …");
-    answers[{episode, std::to_string(frame)}].insert(atom);
+    std::set<std::string>& there = answers[moment];
+    if (!none && !there.insert(atom).second) refuse_twice(where, atom, moment, "episode");
   }
+  std::set<Moment> asked, answered;
+  for (const auto& [moment, atoms] : truth) asked.insert(moment);
+  for (const auto& [moment, atoms] : answers) answered.insert(moment);
+  refuse_silence(job, asked, answered, "episode", "fact");
   return answers;
 }
 
@@ -168,30 +199,41 @@ std::vector<Figure> score_symbols(const ScoringJob& job) {
                       const std::vector<std::string>& words) {
     std::string place = std::to_string(piece) + " " + moment;
     for (std::size_t i = 1; i < words.size(); ++i) place += " " + words[i];
-    extent[{words.front(), words.size() - 1}].insert(place);
+    return extent[{words.front(), words.size() - 1}].insert(place).second;
   };
   Extent truth, answers;
   const Rows facts = job.hidden.query("SELECT piece, moment, fact FROM facts ORDER BY piece");
   for (std::size_t i = 0; i < facts.size(); ++i)
     if (tests.contains(facts.integer(i, "piece")))
       add(truth, facts.integer(i, "piece"), facts.text(i, "moment"), words_of(facts.text(i, "fact")));
+  std::set<Moment> asked, answered;
+  for (const std::int64_t piece : tests) asked.insert({{piece, "before"}, {piece, "after"}});
   const Rows& rows = job.answers.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string& moment = rows.text(i, "moment");
     if (moment != "before" && moment != "after")
       throw Error(job.answers.where + ", answer " + std::to_string(i + 1), "'" + moment + "' is no moment",
                   "it is before or after");
+    const Moment at = {rows.integer(i, "piece"), moment};
+    const std::string where = job.answers.where + ", answer " + std::to_string(i + 1);
+    if (rows.is_null(i, "symbol")) {
+      answered.insert(at);
+      continue;
+    }
     const std::vector<std::string> words = words_or_refuse(job, rows.text(i, "symbol"), i);
-    if (tests.contains(rows.integer(i, "piece"))) add(answers, rows.integer(i, "piece"), moment, words);
+    if (!tests.contains(at.first)) continue;
+    answered.insert(at);
+    if (!add(answers, at.first, moment, words)) refuse_twice(where, rows.text(i, "symbol"), at, "piece");
   }
+  refuse_silence(job, asked, answered, "piece", "symbol");
   Eigen::MatrixXd f1 =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(truth.size()), static_cast<Eigen::Index>(answers.size()));
   Eigen::Index row = 0;
   for (const auto& [predicate, there] : truth) {
     Eigen::Index column = 0;
-    for (const auto& [symbol, answered] : answers) {
+    for (const auto& [symbol, said] : answers) {
       Agreement agreement;
-      if (symbol.second == predicate.second) count(agreement, there, answered);
+      if (symbol.second == predicate.second) count(agreement, there, said);
       if (symbol.second == predicate.second) f1(row, column) = agreement.f1();
       ++column;
     }

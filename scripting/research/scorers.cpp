@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "engine/base/error.h"
@@ -48,9 +49,13 @@ void check_units(const Answers& answers, const ResearchProblem& problem, const P
     answered.insert(number);
   }
   if (!problem.every_unit) return;
-  const auto missing = std::find_if(tests.begin(), tests.end(), [&](std::int64_t n) { return !answered.contains(n); });
-  if (missing != tests.end())
-    throw Error(answers.where, "there is no answer for " + unit + " " + std::to_string(*missing) + " of the test split",
+  std::vector<std::int64_t> missing;
+  std::copy_if(tests.begin(), tests.end(), std::back_inserter(missing),
+               [&](std::int64_t number) { return !answered.contains(number); });
+  if (!missing.empty())
+    throw Error(answers.where,
+                "there is no answer for " + std::to_string(missing.size()) + " of the " + std::to_string(tests.size()) +
+                    " " + unit + "s of the test split, the first: " + std::to_string(missing.front()),
                 "answer each of `SELECT " + unit + " FROM " + unit + "s WHERE split = 'test'`");
 }
 

@@ -272,6 +272,53 @@ TEST_CASE("data sets for research problems") {
     for (const char* part : {"gripper opening", "rad/s", ">pick<", "stroke-dasharray"}) CHECK(says(svg, part));
     CHECK(nlohmann::json::parse(file_text(out))["problem"] == "segments");
   }
+  SECTION("half of the answers is no answer: what is missing or said twice is refused, with how much it is") {
+    for (const auto& [problem, baseline, half] : {std::tuple{"concepts", "geometry", "moments that are asked about"},
+                                                  {"symbols", "geometry_symbols", "moments that are asked about"},
+                                                  {"motions", "k_means", "pieces of the test split"},
+                                                  {"behaviour", "stay", "frame "},
+                                                  {"inventions", "thresholds", "frames that are asked about"}}) {
+      INFO(problem);
+      const std::string file = made().path(std::string("whole_") + problem + ".json"), cut = made().path("cut.json");
+      REQUIRE(say({"baseline", baseline, made().given(problem), "--out", file}).code == kDone);
+      const auto scored = [&](nlohmann::json answers) {
+        std::ofstream(cut) << answers.dump();
+        return say({"score", problem, cut, "--hidden", made().hidden(problem)});
+      };
+      const auto whole = nlohmann::json::parse(file_text(file));
+      CHECK(scored(whole).code == kDone);
+      auto some = whole;
+      some["answers"].erase(some["answers"].begin() + static_cast<long>(whole["answers"].size() / 2),
+                            some["answers"].end());
+      const Said first_half = scored(some);
+      INFO(first_half.err);
+      CHECK(first_half.code == kBadInput);
+      CHECK(says(first_half.err, "there is no answer for "));
+      CHECK(says(first_half.err, half));
+      some["answers"] = nlohmann::json::array();
+      CHECK(scored(some).code == kBadInput);
+      some = whole;
+      some["answers"].push_back(whole["answers"].front());
+      const Said twice = scored(some);
+      INFO(twice.err);
+      CHECK(twice.code == kBadInput);
+      CHECK(says(twice.err, "answered twice"));
+    }
+  }
+  SECTION("where nothing holds, a row says so, and what is not said does not hold") {
+    const PlainFile hidden = hidden_file("concepts");
+    const Rows episodes = hidden.query("SELECT episode, frames FROM episodes WHERE split = 'test'");
+    std::string text = "# dataset: " + id_of("concepts") + "\nepisode,frame,fact\n";
+    for (std::size_t i = 0; i < episodes.size(); ++i)
+      for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += 20)
+        text += std::to_string(episodes.integer(i, "episode")) + "," + std::to_string(frame) + ",\n";
+    const Said said =
+        say({"score", "concepts", answers_file("nothing", text), "--hidden", made().hidden("concepts"), "--json"});
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    for (const auto& figure : nlohmann::json::parse(said.out)["figures"])
+      if (figure["name"] == "recall" || figure["name"] == "f1") CHECK(figure["value"] == 0);
+  }
   SECTION("data sets that cannot be made say why") {
     const std::string demos = made().path("demos.db");
     const auto refused = [&](const std::vector<std::string>& words, ExitCode code, const std::string& why) {
@@ -307,7 +354,7 @@ TEST_CASE("data sets for research problems") {
     const auto head = [](const std::string& problem) { return "# dataset: " + id_of(problem) + "\n"; };
     refused("segments", "# dataset: 0123\nepisode,first_frame,end_frame\n", "answers for another data set");
     refused("segments", "episode,first_frame,end_frame\n", "does not say which data set");
-    refused("segments", head("segments") + "episode,first_frame,end_frame\n", "there is no answer for episode");
+    refused("segments", head("segments") + "episode,first_frame,end_frame\n", "of the test split, the first: ");
     refused("motions", head("motions") + "piece,cluster\n9999,a\n", "no piece 9999");
     refused("rewards", head("rewards") + "episode,frame,value\n" + rows_of("rewards", "100000,0.5"), "is not there");
     refused("rewards", head("rewards") + "episode,frame,value\n" + rows_of("rewards", "0,0.5"),

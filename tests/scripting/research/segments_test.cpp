@@ -86,7 +86,8 @@ TEST_CASE("segments that cannot be are refused") {
   CHECK_THROWS_WITH(hidden.score("1,3,3,pick\n"), Contains("empty"));
   CHECK_THROWS_WITH(hidden.score("1,0,8,pick\n1,7,9,put\n"), Contains("overlap at frame 7"));
   CHECK_THROWS_WITH(hidden.score("1,0,8,pck\n"), Contains("the label 'pck'") && Contains("did you mean 'pick'"));
-  CHECK_THROWS_WITH(hidden.score("2,0,8,pick\n"), Contains("no answer for episode 1"));
+  CHECK_THROWS_WITH(hidden.score("2,0,8,pick\n"),
+                    Contains("no answer for 1 of the 1 episodes of the test split, the first: 1"));
   CHECK_THROWS_WITH(hidden.score("1,0,8,pick\n3,0,8,pick\n"), Contains("no episode 3"));
   CHECK_THROWS_WITH(hidden.score("1,0,8,pick\n", "def"), Contains("another data set: def, not abc"));
   ScoreOptions options;
