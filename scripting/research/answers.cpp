@@ -77,6 +77,16 @@ std::vector<SqlValue> row_from(const Json& json, const ResearchProblem& problem,
   return row;
 }
 
+std::string place_of(const std::string& text, std::size_t at, const std::string& where) {
+  return where + ":" +
+         std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+std::size_t last_word(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  return last == std::string::npos ? 0 : last;
+}
+
 // What a parser says too little of, or takes a stack frame each for: `NaN` and `Infinity`, as Python writes them, and
 // brackets within brackets.
 void refuse_no_answers(const std::string& text, const std::string& where) {
@@ -85,9 +95,7 @@ void refuse_no_answers(const std::string& text, const std::string& where) {
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    const auto place = [&] {
-      return where + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(i), '\n'));
-    };
+    const auto place = [&] { return place_of(text, i, where); };
     if (c == '\\' && quoted)
       ++i;
     else if (c == '"')
@@ -108,8 +116,15 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   Json json;
   try {
     json = Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw Error(answers.where, std::string("this is no JSON: ") + error.what(), "compare it with answers.example.json");
+  } catch (const Json::parse_error& error) {
+    const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+    const bool cut = text.find_first_not_of(" \t\r\n", at) == std::string::npos;
+    throw Error(
+        place_of(text, std::min(at, last_word(text)), answers.where),
+        cut ? "this JSON ends too early" : "this is no JSON from here on: " + shown(text.substr(at, 20)),
+        cut ? "write the file anew: it was cut, or a bracket is missing" : "compare it with answers.example.json");
+  } catch (const Json::exception&) {  // a number that none can be
+    throw Error(answers.where, "a number is not finite", "compare it with answers.example.json");
   }
   if (!json.is_object())
     throw Error(answers.where, "answers are one JSON object", "compare it with answers.example.json");
@@ -224,7 +239,8 @@ Answers read_answers(const std::filesystem::path& file, const ResearchProblem& p
   Answers answers;
   answers.where = file.string();
   for (const AnswerColumn& column : problem.answer) answers.rows.columns.push_back(column.name);
-  const std::string text = read_text_file(file);
+  std::string text = read_text_file(file);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, as spreadsheets write it
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos)
     throw Error(answers.where, "this file is empty", "compare it with answers.example.json");

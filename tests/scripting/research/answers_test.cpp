@@ -35,6 +35,13 @@ TEST_CASE("JSON and CSV say the same") {
   CHECK(json.rows.integer(0, "end_frame") == 10);
 }
 
+TEST_CASE("a byte order mark is no part of the answers") {
+  const std::string csv = "# dataset: abc\nepisode,first_frame,end_frame,skill\n3,0,10,pick\n";
+  CHECK(read("\xEF\xBB\xBF" + csv).rows.rows == read(csv).rows.rows);
+  CHECK(read("\xEF\xBB\xBF" + csv).dataset == "abc");
+  CHECK(read("\xEF\xBB\xBF{\"dataset\": \"abc\", \"answers\": []}").dataset == "abc");
+}
+
 TEST_CASE("what is written is read again, optional columns and texts included") {
   Answers answers = read(R"({"dataset": "d", "problem": "segments_and_conditions", "domain": "define", "answers":
       [{"episode": 1, "first_frame": 0, "end_frame": 5}, {"episode": 1, "first_frame": 5, "end_frame": 9, "skill": "a"}]})",
@@ -57,7 +64,11 @@ TEST_CASE("every problem's example can be read") {
 
 TEST_CASE("answers that are wrong are refused with their place") {
   refused("", "empty");
-  refused("{\"answers\": [", "no JSON");
+  refused("{\"answers\": [", ":1: this JSON ends too early");
+  refused("{\"dataset\": \"abc\",\n \"answers\": [{\"episode\": 1,\n\n", ":2: this JSON ends too early");
+  refused("{\"dataset\": \"ab", ":1: this JSON ends too early");
+  refused("{\"dataset\": \"abc\",\n \"answers\": [}]}", ":2: this is no JSON from here on: }]}");
+  refused("{\"dataset\": \"abc\"} more", ":1: this is no JSON from here on: more");
   refused("[1, 2]", "one JSON object");
   refused("{\"dataset\": 3}", "'dataset' is a text");
   refused("{\"answers\": {}}", "list of objects");
@@ -88,6 +99,7 @@ TEST_CASE("answers that mean harm are refused in a line or two") {
     } catch (const Error& error) {
       const std::string said = error.what();
       CHECK_THAT(said, Catch::Contains(why));
+      CHECK_THAT(said, !Catch::Contains("json.exception"));
       CHECK(said.size() < 1000);
     }
   };
