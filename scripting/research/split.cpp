@@ -160,9 +160,28 @@ void check_axis(const std::vector<SplitEpisode>& episodes, const std::string& ax
               known.empty() ? "its tasks have no variations" : "its axes are " + known);
 }
 
+// No pair of values can be held out of axes that no task varies together.
+void check_both_axes(const std::vector<SplitEpisode>& episodes, const SplitRule& rule) {
+  std::map<std::string, std::string> axes_of_task;
+  for (const SplitEpisode& episode : episodes) {
+    if (episode.axes.contains(rule.axis) && episode.axes.contains(rule.other_axis)) return;
+    std::string& axes = axes_of_task[episode.task];
+    if (axes.empty())
+      for (const auto& [axis, value] : episode.axes) axes += (axes.empty() ? "" : ", ") + axis;
+  }
+  std::string known;
+  for (const auto& [task, axes] : axes_of_task)
+    known += (known.empty() ? "" : "; ") + task + " has " + (axes.empty() ? "none" : axes);
+  throw Error(kWhere, "no task of this catalogue has both axes '" + rule.axis + "' and '" + rule.other_axis + "'",
+              "name two axes of one task: " + known);
+}
+
 void check_rule(const std::vector<SplitEpisode>& episodes, const SplitRule& rule) {
   if (rule.kind == SplitRule::Kind::axis || rule.kind == SplitRule::Kind::axis_pairs) check_axis(episodes, rule.axis);
-  if (rule.kind == SplitRule::Kind::axis_pairs) check_axis(episodes, rule.other_axis);
+  if (rule.kind == SplitRule::Kind::axis_pairs) {
+    check_axis(episodes, rule.other_axis);
+    check_both_axes(episodes, rule);
+  }
   const std::vector<std::string> known = values_of(episodes, rule);
   for (const std::string& value : rule.values)
     if (std::find(known.begin(), known.end(), value) == known.end())
@@ -214,6 +233,10 @@ SplitRule split_rule(std::string_view text) {
   rule.values = split(text.substr(at + 1), ',');
   std::sort(rule.values.begin(), rule.values.end());
   rule.values.erase(std::unique(rule.values.begin(), rule.values.end()), rule.values.end());
+  for (const std::string& value : rule.values)
+    if (value.find('=') != std::string::npos)
+      throw Error(kWhere, "'" + value + "' is no value of " + name + ": one split holds out values of one axis",
+                  "hold out pairs of values with composition=AXIS+AXIS");
   if (rule.values.front().empty()) throw Error(kWhere, "'" + std::string(text) + "' names an empty value", kCure);
   return rule;
 }
@@ -250,7 +273,9 @@ Split split_episodes(const std::vector<SplitEpisode>& episodes, const SplitRule&
   Split result;
   std::set<Pair> held;
   if (rule.kind == SplitRule::Kind::skill_pairs || rule.kind == SplitRule::Kind::axis_pairs)
-    held = pairs_to_hold_out(episodes, rule);
+    if (held = pairs_to_hold_out(episodes, rule); held.empty())
+      throw Error(kWhere, "no pair can be held out by " + rule.text() + " such that each of its parts is still trained",
+                  "make episodes of more tasks or variations, or split by seeds");
   for (const std::string& value : rule.values)
     result.held_out.push_back({rule.text().substr(0, rule.text().find('=')), value, ""});
   for (const Pair& pair : held)
@@ -269,10 +294,11 @@ Split split_episodes(const std::vector<SplitEpisode>& episodes, const SplitRule&
     return std::count_if(result.of.begin(), result.of.end(), [&](const auto& one) { return one.second == name; });
   };
   if (count("train") == 0)
-    throw Error(
-        kWhere,
-        "nothing is left to train on: " + rule.text() + " holds out all episodes but " + std::to_string(rest.size()),
-        "hold out less, or make more episodes");
+    throw Error(kWhere,
+                "nothing is left to train on: " + rule.text() + " holds out " +
+                    (rest.empty() ? "all " : std::to_string(episodes.size() - rest.size()) + " of ") +
+                    std::to_string(episodes.size()) + " episodes",
+                "hold out less, or make more episodes");
   if (count("test") == 0)
     throw Error(kWhere,
                 "nothing is left to test on: " + std::to_string(episodes.size()) + " episodes, split by " + rule.text(),

@@ -98,7 +98,19 @@ TEST_CASE("splits that make no sense say what would") {
                     Catch::Contains("axis 'shape'") && Catch::Contains("colour, height"));
   CHECK_THROWS_WITH(split_by(episodes, "colour=rad"), Catch::Contains("did you mean 'red'"));
   CHECK_THROWS_WITH(split_by(episodes, "task=stock"), Catch::Contains("did you mean 'stack'"));
-  CHECK_THROWS_WITH(split_by(episodes, "colour=blue,green,red"), Catch::Contains("nothing is left to train on"));
+  CHECK_THROWS_WITH(split_by(episodes, "colour=blue,green,red"),
+                    Catch::Contains("colour=blue,green,red holds out all 30 episodes"));
+  CHECK_THROWS_WITH(split_by(episodes, "colour=blue,colour=cyan"),
+                    Catch::Contains("'colour=cyan' is no value of colour") && Catch::Contains("composition=AXIS+AXIS"));
+  auto apart = episodes;
+  for (SplitEpisode& one : apart) one.axes.erase(one.task == "stack" ? "colour" : "height");
+  CHECK_THROWS_WITH(split_by(apart, "composition=colour+height"),
+                    Catch::Contains("no task of this catalogue has both axes 'colour' and 'height'") &&
+                        Catch::Contains("stack has height; tidy has colour"));
+  auto alike = episodes;
+  for (SplitEpisode& one : alike) one.skills = {"pick", "put"};
+  CHECK_THROWS_WITH(split_by(alike, "composition"),
+                    Catch::Contains("each of its parts is still trained") && Catch::Contains("more tasks"));
   CHECK_THROWS_WITH(split_by(made_up(2), "seeds"), Catch::Contains("nothing is left to test on"));
 }
 
