@@ -25,11 +25,32 @@ std::string score_json(const research::Scored& scored, const std::string& answer
   return json.end().end().text();
 }
 
+std::string problems_that(bool (*can)(const research::ResearchProblem&)) {
+  std::string names;
+  for (const research::ResearchProblem& problem : research::all_problems())
+    if (can(problem)) names += (names.empty() ? "" : ", ") + problem.name;
+  return names;
+}
+
+// An option that would do nothing is a mistake.
+void refuse_idle(const Arguments& arguments, const research::ResearchProblem& problem, std::int64_t physics) {
+  if (arguments.has("--figure") && !research::draws_timelines(problem))
+    throw UsageError("there is no figure of " + problem.name,
+                     "--figure is for " + problems_that(research::draws_timelines));
+  if (arguments.has("--episode") && !arguments.has("--figure"))
+    throw UsageError("--episode without --figure", "it says which episode is drawn");
+  if (physics > 0 && !research::makes_plans(problem))
+    throw UsageError("there are no plans of " + problem.name + " to run in physics",
+                     "--physics is for " + problems_that(research::makes_plans));
+}
+
 ExitCode do_score(const Arguments& arguments, Console& console) {
   const research::ResearchProblem& problem = research::find_problem(arguments.text("PROBLEM"));
   const std::string answers = arguments.text("ANSWERS"), hidden = arguments.text("--hidden");
   if (hidden.empty())
     throw UsageError("stampede score needs --hidden DIR", "the folder that `stampede dataset --hidden` made");
+  const std::int64_t physics = in_range(arguments, "--physics", 0, kMostEpisodes);
+  refuse_idle(arguments, problem, physics);
   const std::string found =
       research::dataset_problem(PlainFile::open(std::filesystem::path(hidden) / research::kHiddenFile));
   if (found != problem.name)
@@ -38,7 +59,7 @@ ExitCode do_score(const Arguments& arguments, Console& console) {
   research::ScoreOptions options;
   options.roots = roots_of(arguments);
   options.workers = workers_of(arguments);
-  options.physics = in_range(arguments, "--physics", 0, kMostEpisodes);
+  options.physics = physics;
   options.figure = arguments.text("--figure");
   if (arguments.has("--episode")) options.figure_episode = in_range(arguments, "--episode", 1, kMostEpisodes);
   const research::Scored scored = research::score(answers, hidden, options);
@@ -68,7 +89,13 @@ CommandRow score_command() {
        {"ANSWERS", "the file with answers", true, false}},
       {{"--hidden", "DIR", "the hidden part", Takes::path, "", {}, false},
        {"--out", "FILE", "write the figures there too, as JSON", Takes::path, "", {}, false},
-       {"--figure", "FILE", "segments: draw an episode's timeline there, as SVG", Takes::path, "", {}, false},
+       {"--figure",
+        "FILE",
+        "draw an episode's timeline there, as SVG; for segments, segments_supervised, segments_and_conditions",
+        Takes::path,
+        "",
+        {},
+        false},
        {"--episode",
         "N",
         "of the figure: an episode of the test split, instead of its first",
@@ -76,7 +103,13 @@ CommandRow score_command() {
         "",
         {},
         false},
-       {"--physics", "N", "operators: run at most N plans that they make in physics", Takes::integer, "0", {}, false},
+       {"--physics",
+        "N",
+        "where the answer has a domain (conditions, inventions, abstractions …): run at most N of its plans in physics",
+        Takes::integer,
+        "0",
+        {},
+        false},
        {"--workers", "W", "threads, instead of one a core", Takes::integer, "", {}, false}},
       {"stampede score segments answers.json --hidden hidden",
        "stampede score segments answers.json --hidden hidden --figure timeline.svg"},

@@ -47,6 +47,10 @@ struct Scorer {
 
 const std::vector<Scorer>& all_scorers();  // a new one is a function and a line in scorers.cpp
 
+// What score() can do for a problem beside figures.
+bool draws_timelines(const ResearchProblem& problem);
+bool makes_plans(const ResearchProblem& problem);
+
 // Reads and checks both, then scores. Throws Error for answers for another data set, missing units, unknown columns.
 struct Scored {
   std::string dataset, problem;

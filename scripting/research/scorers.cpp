@@ -87,6 +87,14 @@ const std::vector<Scorer>& all_scorers() {
   return scorers;
 }
 
+bool draws_timelines(const ResearchProblem& problem) {
+  const bool joints = std::any_of(problem.hidden.begin(), problem.hidden.end(),
+                                  [](const TableUse& use) { return use.table() == "joints"; });
+  return joints && problem.scorer.starts_with("segments");
+}
+
+bool makes_plans(const ResearchProblem& problem) { return !problem.answer_texts.empty(); }  // a domain
+
 Scored score(const std::filesystem::path& answers_file, const std::filesystem::path& hidden_folder,
              const ScoreOptions& options) {
   const PlainFile hidden = PlainFile::open(hidden_folder / kHiddenFile);

@@ -370,6 +370,21 @@ TEST_CASE("data sets for research problems") {
     CHECK(says(mixed.err, "a data set of segments, not of motions"));
     CHECK(say({"score", "segments", made().path("wrong"), "--hidden", made().given("segments")}).code == kCatalogue);
     CHECK(say({"score", "segments", made().path("wrong")}).code == kUsage);
+    const auto idle = [&](const std::string& problem, const std::vector<std::string>& option, const std::string& why) {
+      std::vector<std::string> words = {"score", problem, made().path("wrong"), "--hidden", made().hidden(problem)};
+      words.insert(words.end(), option.begin(), option.end());
+      const Said said = say(words);
+      INFO(said.err);
+      CHECK(said.code == kUsage);
+      CHECK(says(said.err, why));
+    };
+    idle("motions", {"--figure", made().path("f.svg")},
+         "--figure is for segments_supervised, segments, segments_and_conditions");
+    idle("controllers", {"--figure", made().path("f.svg")}, "there is no figure of controllers");
+    idle("rewards", {"--physics", "2"},
+         "--physics is for abstractions, inventions, conditions_supervised, conditions, segments_and_conditions");
+    idle("segments", {"--episode", "2"}, "--episode without --figure");
+    CHECK_FALSE(fs::exists(made().path("f.svg")));
   }
 }
 
