@@ -72,6 +72,20 @@ class Timeline {
         "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#d00\" stroke-dasharray=\"4 3\"/>\n",
         x(static_cast<double>(frame)), kGripperTop, kBandTop + kBand);
   }
+  // A sample of a curve and its name, a column each, from the right end of a panel's title inwards.
+  void legend(double top, const std::vector<std::pair<std::string, const char*>>& curves) {
+    std::size_t longest = 0;
+    for (const auto& [name, colour] : curves) longest = std::max(longest, name.size());
+    const double column = 28 + 6.5 * static_cast<double>(longest);
+    double left = kLeft + kWidth - column * static_cast<double>(curves.size());
+    for (const auto& [name, colour] : curves) {
+      svg_ += fmt::format(
+          "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" stroke-width=\"3\"/>\n", left,
+          left + 14, top - 10, colour);
+      text(left + 18, top - 6, name);
+      left += column;
+    }
+  }
   void seconds() {
     const double whole = frames_ / hz_, step = whole > 40 ? 10 : whole > 16 ? 2 : 1;
     for (double second = 0; second <= whole; second += step)
@@ -115,9 +129,12 @@ void draw_signals(Timeline& timeline, const PlainFile& hidden, std::int64_t epis
   double fastest = 0.1;
   for (const auto& [joint, values] : speeds) fastest = greatest_of(values, fastest);
   timeline.panel(kSpeedTop, "speeds of the arm's joints", fastest, "rad/s");
-  std::size_t colour = 0;
-  for (const auto& [joint, values] : speeds)
-    timeline.curve(kSpeedTop, values, fastest, kLineColours[colour++ % std::size(kLineColours)]);
+  std::vector<std::pair<std::string, const char*>> curves;
+  for (const auto& [joint, values] : speeds) {
+    curves.emplace_back(joint.substr(joint.find('.') + 1), kLineColours[curves.size() % std::size(kLineColours)]);
+    timeline.curve(kSpeedTop, values, fastest, curves.back().second);
+  }
+  timeline.legend(kSpeedTop, curves);
 }
 
 }  // namespace

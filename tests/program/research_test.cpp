@@ -270,6 +270,7 @@ TEST_CASE("data sets for research problems") {
     CHECK(svg.starts_with("<svg"));
     CHECK(svg.ends_with("</svg>\n"));
     for (const char* part : {"gripper opening", "rad/s", ">pick<", "stroke-dasharray"}) CHECK(says(svg, part));
+    for (const char* joint : {">joint1<", ">joint7<"}) CHECK(says(svg, joint));  // a legend of the lines
     CHECK(nlohmann::json::parse(file_text(out))["problem"] == "segments");
   }
   SECTION("half of the answers is no answer: what is missing or said twice is refused, with how much it is") {
