@@ -85,7 +85,9 @@ CommandRow dataset_command() {
       "Make a data set for a research problem of a catalogue",
       "What a learner is given and what it is scored against, in two folders: plain SQLite files, each with a page "
       "that says what is in it. Episodes get new numbers; nothing in the given part says what is hidden. The same "
-      "episodes make the same bytes. The exit code is 3 when the catalogue has nothing to serve.",
+      "episodes make the same bytes. The exit code is 3 when the catalogue has nothing to serve. Axes are those of the "
+      "tasks' variations (view `axes`); those of the last example come from `stampede run push_buttons --episodes 30 "
+      "--out buttons.db`.",
       {{"PROBLEM", "which; see --list", false, false}, {"FILE", "the catalogue", false, false}},
       {{"--list", "", "the problems", Takes::flag, "", {}, false},
        {"--out",
@@ -105,7 +107,7 @@ CommandRow dataset_command() {
         {},
         false}},
       {"stampede dataset --list", "stampede dataset segments demos.db --out given --hidden hidden",
-       "stampede dataset behaviour demos.db --out behaviour --hidden behaviour_hidden --split count=2"},
+       "stampede dataset behaviour buttons.db --out behaviour --hidden behaviour_hidden --split count=2"},
       do_dataset};
 }
 

@@ -69,7 +69,7 @@ class Workplace {
           kDone);
     put("labels.json", "{\"language\": [{\"text\": \"push the buttons\"}]}");
     fs::create_directory("my_tasks");
-    for (const char* part : {"part1.db", "part2.db", "old.db", "now.db"}) fs::copy_file("demos.db", part);
+    for (const char* part : {"part1.db", "part2.db", "old.db", "now.db", "buttons.db"}) fs::copy_file("demos.db", part);
   }
   ~Workplace() { fs::current_path(before_); }
   Workplace(const Workplace&) = delete;
