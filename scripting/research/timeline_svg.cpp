@@ -80,8 +80,8 @@ class Timeline {
     double left = kLeft + kWidth - column * static_cast<double>(curves.size());
     for (const auto& [name, colour] : curves) {
       svg_ += fmt::format(
-          "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" stroke-width=\"3\"/>\n", left,
-          left + 14, top - 10, colour);
+          "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" stroke-width=\"3\"/>\n",
+          left, left + 14, top - 10, colour);
       text(left + 18, top - 6, name);
       left += column;
     }

@@ -121,7 +121,7 @@ TEST_CASE("the outline's offset grows with the camera's error, and agrees with t
     agrees(rotation_rpy(0, degrees * std::numbers::pi / 180, 0), std::to_string(degrees) + " deg", last);
 }
 
-TEST_CASE("an error of a millimetre shows in the shift; beyond the search most edges are missing") {
+TEST_CASE("an error of a millimetre shows in the shift, and beyond the search most edges are missing") {
   Bench bench;
   const Measured none = bench.measure(Transform::Identity());
   const auto told = [](const Measured& m) {

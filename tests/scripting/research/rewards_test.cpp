@@ -146,7 +146,7 @@ TEST_CASE("EPIC by hand: shaping and scale make no difference, and what is left 
   CHECK_FALSE(pearson_distance({}, {}));
 }
 
-TEST_CASE("values of frames count as rewards of arriving; rewards of transitions may be shaped") {
+TEST_CASE("values of frames count as rewards of arriving, and rewards of transitions may be shaped") {
   const HiddenRewards hidden;
   const auto truth = hidden.score(value_rows([](std::int64_t frame) { return 5 * HiddenRewards::share(frame) - 1; }));
   CHECK(truth.at("epic") == Approx(0).margin(1e-7));
