@@ -163,7 +163,7 @@ TEST_CASE("no test has a semicolon in its name") {
     for (std::string line; std::getline(in, line);) {
       if (!line.starts_with("TEST_CASE(\"")) continue;
       INFO(file.string() << ": " << line);
-      CHECK(line.find(';') == std::string::npos);
+      CHECK(line.substr(0, line.find('"', 11)).find(';') == std::string::npos);
     }
   }
 }
