@@ -43,16 +43,15 @@ bool OneSentence::swings() const { return meaning_.skills.contains("open") || me
 
 bool OneSentence::rises() const {
   return lifts() && std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [](const Mention& mention) {
-           return (mention.preposition != "over" && mention.preposition != "above") || mention.sense == "table";
+           return !says_above(mention) || mention.sense == "table";
          });
 }
 
 // Where motions are told: `move it over the bin and let go`
 bool OneSentence::moves_above() const {
   return grain_ != Grain::goal &&
-         std::all_of(reading_.mentions.begin(), reading_.mentions.end(), [&](const Mention& mention) {
-           return (mention.preposition != "over" && mention.preposition != "above") || is_above(mention);
-         });
+         std::all_of(reading_.mentions.begin(), reading_.mentions.end(),
+                     [&](const Mention& mention) { return !says_above(mention) || is_above(mention); });
 }
 
 bool OneSentence::is_above(const Mention& mention) const {
@@ -163,14 +162,13 @@ Maybe OneSentence::counted(const Mention& mention) const {
   if (mention.count) {
     if (*mention.count == 1 && mention.plural && !mention.partitive)
       return no(Rejection::wrong_count, "one of several " + mention.sense);
-    if (mention.total && *mention.total != all_and_handled(mention.sense).first)
-      return no(Rejection::wrong_count, "of " + std::to_string(*mention.total) + " " + mention.sense);
     const auto [all_of_them, handled_of_them] = all_and_handled(mention.sense);
+    if (mention.total && *mention.total != all_of_them)
+      return no(Rejection::wrong_count, "of " + std::to_string(*mention.total) + " " + mention.sense);
     if (mention.partitive && own == claims_.counts.end() && handled_of_them > 0 && *mention.count < all_of_them &&
         may_be(mention, meaning_, &SpokenThing::handled))
       return no(Rejection::missing_thing, "which " + mention.sense + " of several");
-    if (mention.partitive && mention.preposition == "of" && !mention.total &&
-        *mention.count == all_and_handled(mention.sense).first)
+    if (mention.partitive && mention.preposition == "of" && !mention.total && *mention.count == all_of_them)
       return {};  // `of the two jars, …`
     if (*mention.count == 1 && mention.things.empty() && kBuilt.contains(mention.sense)) return {};
     const bool all = reading_.words[mention.first].text == "all" || reading_.words[mention.first].text == "both";

@@ -7,7 +7,7 @@ bool OneSentence::has_role(const Mention& mention) const {
   const std::string role = mention.role.substr(0, mention.role.find(' '));
   const bool accessory = may_be(mention, meaning_, &SpokenThing::accessory);
   if (mention.role == "subject belong" && carries()) return may_be(mention, meaning_, &SpokenThing::moved);
-  const bool above = mention.preposition == "above" || mention.preposition == "over";
+  const bool above = says_above(mention);
   if (above && mention.sense == "table" && lifts()) return true;
   if (above && grain_ != Grain::goal && is_above(mention)) return true;
   if (role == "to" && arrives(mention)) return may_be(mention, meaning_, &SpokenThing::handled);

@@ -167,8 +167,7 @@ std::set<std::string> directions_in(const Reading& reading, const std::function<
         directions.insert("out");
       if (word.text == "on" && switches) directions.insert("switch_on");
       const bool aside = std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
-        const bool built = mention.things.empty() && (mention.sense == "pyramid" || mention.sense == "tower" ||
-                                                      mention.sense == "stack" || mention.sense == "pile");
+        const bool built = mention.things.empty() && kBuilt.contains(mention.sense);
         return (mention.aside || built) && mention.first == i + 1;  // `bring the cube in the drawer to …`
       });
       if (word.text == "back" && leads_back(reading, i, segment))
@@ -250,9 +249,8 @@ Claims claims_of(const Meaning& meaning) {
   Claims claims;
   for (const std::string& sentence : meaning.own) claims.own.push_back(read_sentence(sentence, meaning));
   for (const Reading& reading : claims.own) {
-    for (const Word& word : reading.words) {
+    for (const Word& word : reading.words)
       if (tells(word)) claims.senses.insert(word.sense);
-    }
     for (const Segment& segment : reading.segments) {
       claims.segments.insert(content_of(reading, segment.begin, segment.end));
       if (segment.verb) claims.verbs.insert(reading.words[*segment.verb].sense);

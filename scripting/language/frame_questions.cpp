@@ -6,16 +6,12 @@
 
 #include "engine/base/random.h"
 #include "engine/episode/language.h"
+#include "scripting/language/lexicon.h"
 
 namespace stampede {
 namespace {
 
 constexpr double kAside = 0.05;  // of the distance: by so much one is left of the other, to be asked about
-
-std::string plain(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 // `the {obj} is on the {below}`: is it true that the {a} is on the {b}?
 std::string slotted(const std::string& label, const std::vector<Parameter>& parameters) {
@@ -155,7 +151,7 @@ class QuestionMaker {
     std::map<std::string, std::vector<const Object*>> by_class;
     for (const Object& object : scene_.objects)
       if (object.kind == ObjectKind::body && !object.class_name.empty())
-        by_class[plain(object.class_name)].push_back(&object);
+        by_class[spaced_name(object.class_name)].push_back(&object);
     for (const auto& [name, objects] : by_class) {
       std::map<std::string, int> colours;
       for (const Object* object : objects)
@@ -163,14 +159,15 @@ class QuestionMaker {
           ++colours[colour->second];
       if (colours.empty()) continue;
       if (objects.size() == 1) {
-        FrameQuestion& question = add("colour", "what colour is the {a}?", plain(colours.begin()->first), "colour",
-                                      "(colour " + objects.front()->name + " " + colours.begin()->first + ")");
+        FrameQuestion& question =
+            add("colour", "what colour is the {a}?", spaced_name(colours.begin()->first), "colour",
+                "(colour " + objects.front()->name + " " + colours.begin()->first + ")");
         question.slots["a"] = name;
         question.things.insert(objects.front()->name);
       }
       for (const auto& [colour, count] : colours) {
         FrameQuestion& question = add("count", "how many {a} are there?", std::to_string(count), "number", "");
-        question.slots["a"] = plain(colour) + " " + name + "s";
+        question.slots["a"] = spaced_name(colour) + " " + name + "s";
         for (const Object* object : objects) {
           const auto own = object->attributes.find("colour");
           if (own == object->attributes.end() || own->second != colour) continue;

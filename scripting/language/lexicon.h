@@ -71,6 +71,7 @@ struct PlainWord {
   char before = ' ';
 };
 std::vector<PlainWord> plain_words(std::string_view sentence);
+std::string spaced_name(std::string name);                   // blanks for _
 std::vector<std::string> words_in(const std::string& text);  // between blanks
 
 }  // namespace stampede

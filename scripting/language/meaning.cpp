@@ -88,11 +88,6 @@ void read_things(const Domain& domain, const Scene& scene, Meaning& meaning) {
     if (object.kind != ObjectKind::hand) meaning.things.push_back(reader.read(scene, object));
 }
 
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 // What a thing is called in every start: `cube`, where each start has another colour; `top drawer of the chest`.
 std::string common_phrase(const Scene& scene, const SpokenThing& thing, const std::vector<SpokenThing>& things) {
   const Object* object = scene.object(thing.name);
@@ -101,14 +96,14 @@ std::string common_phrase(const Scene& scene, const SpokenThing& thing, const st
   if (dot != std::string::npos) {
     for (const SpokenThing& whole : things)
       if (whole.name == thing.name.substr(0, dot))
-        return spaced(thing.name.substr(dot + 1)) + " of the " + common_phrase(scene, whole, things);
+        return spaced_name(thing.name.substr(dot + 1)) + " of the " + common_phrase(scene, whole, things);
     return thing.phrase;
   }
   const int body = scene.body_index(object->body);
   const bool stays = body >= 0 && !scene.bodies[static_cast<std::size_t>(body)].free;
   if (object->kind == ObjectKind::region || (stays && phrase(scene, thing.name) == thing.phrase)) return thing.phrase;
-  const std::string name = spaced(object->class_name.empty() ? object->name : object->class_name);
-  return thing.colours.empty() ? name : spaced(*thing.colours.begin()) + " " + name;
+  const std::string name = spaced_name(object->class_name.empty() ? object->name : object->class_name);
+  return thing.colours.empty() ? name : spaced_name(*thing.colours.begin()) + " " + name;
 }
 
 // As in every start, in what is told of this one too.

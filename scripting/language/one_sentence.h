@@ -9,10 +9,10 @@ namespace stampede {
 
 using Maybe = std::optional<Verdict>;
 
-// What is there only once it is done.
-inline const std::set<std::string> kBuilt = {"tower", "stack", "pile", "pyramid"};
-
 inline Verdict no(Rejection reason, std::string detail) { return {reason, std::move(detail)}; }
+inline bool says_above(const Mention& mention) {
+  return mention.preposition == "above" || mention.preposition == "over";
+}
 inline std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 class OneSentence {

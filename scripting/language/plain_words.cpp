@@ -96,6 +96,11 @@ std::vector<PlainWord> without_giving(std::vector<PlainWord> words) {
 
 }  // namespace
 
+std::string spaced_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::vector<std::string> words_in(const std::string& text) {
   std::istringstream in(text);
   std::vector<std::string> words;

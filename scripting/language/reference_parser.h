@@ -13,6 +13,9 @@
 
 namespace stampede {
 
+// Senses of nouns: what is there only once it is done.
+inline const std::set<std::string> kBuilt = {"tower", "stack", "pile", "pyramid"};
+
 // A noun phrase: `the three red blocks`, `the other cups`, `the blue one`.
 struct Mention {
   std::size_t first = 0, head = 0;  // words, from the first of the phrase to its noun

@@ -89,8 +89,7 @@ void read_light_verbs(std::vector<Word>& words) {
     if (words[i].sense == "build" && words[i].text.starts_with("mak")) {  // `make the lamp shine`
       bool built = false;
       for (std::size_t k = i + 1; k < words.size() && words[k].before == ' '; ++k)
-        built |= words[k].sense == "tower" || words[k].sense == "stack" || words[k].sense == "pile" ||
-                 words[k].sense == "pyramid";
+        built |= kBuilt.contains(words[k].sense);
       const bool goes = std::any_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(),
                                     [](const Word& word) { return word.text == "go"; });  // `make it go dark`
       if (!built && !goes) words[i].kind = WordKind::function;
