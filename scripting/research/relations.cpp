@@ -69,7 +69,8 @@ void mark_asked(std::map<std::string, SceneThing>& things, const Sentences& sent
   }
 }
 
-std::map<std::string, SceneThing> things_of(const PlainFile& given, std::int64_t episode, Eigen::Index frames) {
+std::map<std::string, SceneThing> things_of(const PlainFile& given, std::int64_t episode, const Sentences& sentences,
+                                            Eigen::Index frames) {
   std::map<std::string, SceneThing> things;
   const Rows rows = given.query("SELECT * FROM objects WHERE episode = ?1 ORDER BY object", {episode});
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -83,7 +84,7 @@ std::map<std::string, SceneThing> things_of(const PlainFile& given, std::int64_t
     thing.container = traits.find("\"container\"") != std::string::npos;
     thing.size << rows.real(i, "size_x"), rows.real(i, "size_y"), rows.real(i, "size_z");
   }
-  mark_asked(things, sentences_of(given, episode));
+  mark_asked(things, sentences);
   const Rows poses =
       given.query("SELECT frame, object, x, y, z FROM poses WHERE episode = ?1 ORDER BY frame", {episode});
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -113,7 +114,8 @@ Eigen::MatrixXd relations(const PlainFile& given, const Signals& signals) {
   enum { moved, rise, near, held, inside, on_asked, on_other, joints, most_joints, each };
   const Eigen::Index frames = signals.hand.rows();
   Eigen::MatrixXd features = Eigen::MatrixXd::Zero(frames, 2 * each + 5);
-  const std::map<std::string, SceneThing> things = things_of(given, signals.unit, frames);
+  const Sentences sentences = sentences_of(given, signals.unit);
+  const std::map<std::string, SceneThing> things = things_of(given, signals.unit, sentences, frames);
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     auto row = features.row(frame);
     const auto hand = signals.hand.row(frame);
@@ -152,8 +154,7 @@ Eigen::MatrixXd relations(const PlainFile& given, const Signals& signals) {
     auto of = features.row(frame).segment(thing != things.end() && thing->second.asked ? 0 : each, each);
     of(joints) += way, of(most_joints) += most;
   }
-  if (const double number = sentences_of(given, signals.unit).number; number > 1)
-    features.col(2 * each) = (number - 1 - features.col(on_asked).array()).max(0);
+  if (sentences.number > 1) features.col(2 * each) = (sentences.number - 1 - features.col(on_asked).array()).max(0);
   return features;
 }
 

@@ -46,8 +46,7 @@ void add_figures(const Errors& errors, const std::string& name, std::int64_t hor
                        "the same by that of saying that nothing moves", false});
 }
 
-void score_positions(const ScoringJob& job, std::int64_t horizon, std::vector<Figure>& figures) {
-  const Places places = places_of(job, "object");
+void score_positions(const ScoringJob& job, const Places& places, std::int64_t horizon, std::vector<Figure>& figures) {
   for (const auto& [table, name] : {std::pair{"hands", "hand"}, {"poses", "thing"}}) {
     Errors errors;
     const Rows rows =
@@ -74,8 +73,7 @@ void score_positions(const ScoringJob& job, std::int64_t horizon, std::vector<Fi
 }
 
 // Of the arm all hinges; of things the joints that moved, hinges and sliders apart.
-void score_joints(const ScoringJob& job, std::int64_t horizon, std::vector<Figure>& figures) {
-  const Places places = places_of(job, "joint");
+void score_joints(const ScoringJob& job, const Places& places, std::int64_t horizon, std::vector<Figure>& figures) {
   if (places.empty() || !job.hidden.has("joints")) return;
   Errors arm, hinges, sliders;
   const Rows rows = job.hidden.query(
@@ -111,14 +109,8 @@ std::set<std::string> without(const std::set<std::string>& facts, const std::set
 }
 
 // Changes since the context: facts that began to hold, and facts that no longer do.
-void score_changes(const ScoringJob& job, std::int64_t horizon, std::vector<Figure>& figures) {
-  const Places places = places_of(job, "fact");
-  if (places.empty() || !job.hidden.has("facts")) return;
-  FactsOf truth, said;
-  const Rows rows = job.hidden.query("SELECT episode, frame, fact FROM facts");
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    truth[{rows.integer(i, "episode"), rows.integer(i, "frame")}].insert(rows.text(i, "fact"));
-  for (const auto& [place, row] : places) said[{std::get<0>(place), std::get<1>(place)}].insert(std::get<2>(place));
+void score_changes(const ScoringJob& job, FactsOf& truth, FactsOf& said, std::int64_t horizon,
+                   std::vector<Figure>& figures) {
   double there = 0, answered = 0, both = 0;
   for (const std::int64_t episode : job.test_units) {
     const std::int64_t frames =
@@ -141,14 +133,27 @@ void score_changes(const ScoringJob& job, std::int64_t horizon, std::vector<Figu
   figures.push_back({"changes_recall" + after, both / there, "recall of the same"});
 }
 
+void score_changes(const ScoringJob& job, std::vector<Figure>& figures) {
+  const Places places = places_of(job, "fact");
+  if (places.empty() || !job.hidden.has("facts")) return;
+  FactsOf truth, said;
+  const Rows rows = job.hidden.query("SELECT episode, frame, fact FROM facts");
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    truth[{rows.integer(i, "episode"), rows.integer(i, "frame")}].insert(rows.text(i, "fact"));
+  for (const auto& [place, row] : places) said[{std::get<0>(place), std::get<1>(place)}].insert(std::get<2>(place));
+  for (const std::int64_t horizon : kPredicted) score_changes(job, truth, said, horizon, figures);
+}
+
 }  // namespace
 
 std::vector<Figure> score_predictions(const ScoringJob& job) {
   refuse_beyond_the_end(job);
   check_rows(job);
   std::vector<Figure> figures;
-  for (const auto score : {score_positions, score_joints, score_changes})
-    for (const std::int64_t horizon : kPredicted) score(job, horizon, figures);
+  const Places things = places_of(job, "object"), joints = places_of(job, "joint");
+  for (const std::int64_t horizon : kPredicted) score_positions(job, things, horizon, figures);
+  for (const std::int64_t horizon : kPredicted) score_joints(job, joints, horizon, figures);
+  score_changes(job, figures);
   return figures;
 }
 
