@@ -1,12 +1,10 @@
 #include "scripting/research/physics.h"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <utility>
+#include <variant>
 
 #include "engine/base/error.h"
+#include "engine/base/ordered_work.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::research {
@@ -47,23 +45,11 @@ std::vector<PhysicalRun> run_in_physics(const std::vector<HeldOutEpisode>& episo
                                         const TrueWordsPlanner& planner) {
   const std::shared_ptr<const Library> library = Library::load_usable(roots);
   for (const HeldOutEpisode& one : episodes) task_info(*library, one.task);
-  std::vector<PhysicalRun> runs(episodes.size());
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr first;
-  std::mutex mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < episodes.size(); i = next++) try {
-        runs[i] = run_held_out(library, episodes[i], planner);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!first) first = std::current_exception();
-      }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < std::min(workers, static_cast<int>(episodes.size())); ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (first) std::rethrow_exception(first);
+  std::vector<PhysicalRun> runs;
+  in_order(
+      episodes.size(), workers, nullptr, [] { return std::monostate{}; },
+      [&](std::monostate, std::size_t i) { return run_held_out(library, episodes[i], planner); },
+      [&](std::size_t, PhysicalRun run) { runs.push_back(std::move(run)); });
   return runs;
 }
 
