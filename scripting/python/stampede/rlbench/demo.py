@@ -1,11 +1,14 @@
 """A demonstration: a list of observations."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from stampede._core import Error
 from stampede.rlbench.backend.observation import Observation
+
+_MT19937_WORDS = 624
 
 
 class Demo:
@@ -45,7 +48,27 @@ class Demo:
         return iter(self._observations)
 
     def restore_state(self) -> None:
-        """Sets numpy's global generator to where it was before this demo. Raises Error where that was not kept."""
+        """
+        Sets numpy's global generator to where it was before this demo. Raises Error where that was not kept, or is none:
+        numpy itself does not look.
+        """
         if self.random_seed is None:
             raise Error("the demo does not say where numpy's generator was\n    `reset_to_demo` needs its seed alone")
+        if not _is_generator_state(self.random_seed):
+            raise Error("`random_seed` is no state of numpy's generator\n    `reset_to_demo` needs its seed alone")
         np.random.set_state(self.random_seed)
+
+
+def _is_generator_state(state: Any) -> bool:
+    """Whether it is one of a Mersenne Twister, as `np.random.get_state()` gives it."""
+    if not isinstance(state, tuple) or len(state) != 5 or state[0] != "MT19937":
+        return False
+    _, key, place, has_spare, spare = state
+    return (
+        isinstance(key, np.ndarray)
+        and (key.shape, key.dtype) == ((_MT19937_WORDS,), np.uint32)
+        and isinstance(place, int)
+        and 0 <= place <= _MT19937_WORDS
+        and has_spare in (0, 1)
+        and isinstance(spare, float)
+    )
