@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { channel = { "next", "previous" } },
   objects = {
-    tv = { "television", place = places.beside_the_table(0.16, 0.3, 0.75) },
+    tv = { "television", place = places.beside_the_table(0.16, deg(45), 0.75, 0, nil, 0.52) },
     remote = { "remote_control" },
   },
   init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"),

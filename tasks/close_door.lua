@@ -3,7 +3,7 @@ local places = require "worlds.lib.places"
 
 return task {
   world = "tabletop",
-  objects = { doorway = { "doorway", place = places.beside_the_table(0.06, 0.28, 0.75, 0, 0.15),
+  objects = { doorway = { "doorway", place = places.beside_the_table(0.06, deg(45), 0.75, 0, 0.15, 0.44),
     joints = { door = between(deg(26), deg(60)) } } },
   init = { is_not.closed("doorway.door") },
   goal = { is.closed("doorway.door"), is.hand_empty() },

@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    fridge = { "fridge", place = places.round_the_table(0.13, 0.28, 0.75),
+    fridge = { "fridge", place = places.round_the_table(0.13, deg(45), 0.75, 0, 0.32),
       joints = { door = between(math.rad(32), math.rad(50)) } },
   },
   init = { is_not.closed("fridge.door"), is.closed("fridge.freezer_door") },

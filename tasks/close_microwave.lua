@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    microwave = { "microwave", place = places.round_the_table(0.13, 0.28, 0.75),
+    microwave = { "microwave", place = places.round_the_table(0.13, deg(22), 0.75, 0, 0.36),
       joints = { door = between(math.rad(30), math.rad(50)) } },
   },
   init = { is_not.closed("microwave.door") },

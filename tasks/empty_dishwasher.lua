@@ -3,7 +3,7 @@ local places = require "worlds.lib.places"
 
 return task {
   world = "tabletop",
-  objects = { dishwasher = { "dishwasher", place = places.round_the_table(0.15, 0.28, 0.75) }, plate = { "plate" } },
+  objects = { dishwasher = { "dishwasher", place = places.round_the_table(0.15, deg(45), 0.75, 0, 0.34) }, plate = { "plate" } },
   init = { is.closed("dishwasher.door"), is.closed("dishwasher.rack"), is.in_slot("plate", "dishwasher.rack.slot") },
   goal = { is.on("plate", "table"), is.hand_empty() },
   instructions = {

@@ -6,7 +6,7 @@ return task {
   world = "tabletop",
   variations = { hidden_in = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", place = places.round_the_table(0.12, 0.28, 0.75) },
+    chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26) },
     item = { "tin", colour = one_of(colours.names) },
   },
   init = function(v)

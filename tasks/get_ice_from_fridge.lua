@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    fridge = { "ice_fridge", place = places.beside_the_table(0.15, 0.3, 0.75) },
+    fridge = { "ice_fridge", place = places.beside_the_table(0.15, deg(45), 0.75, 0, nil, 0.40) },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = { is.on("cup", "table"), is_not.pressed("fridge.lever") },

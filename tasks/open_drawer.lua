@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
-  objects = { chest = { "chest", place = places.round_the_table(0.12, 0.28, 0.75) } },
+  objects = { chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26) } },
   init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") },
   goal = function(v)
     local goal = { is.open("chest." .. v.level .. "_drawer"), is.hand_empty() }

@@ -3,7 +3,7 @@ local places = require "worlds.lib.places"
 
 return task {
   world = "tabletop",
-  objects = { microwave = { "microwave", place = places.round_the_table(0.13, 0.28, 0.75, -0.14) } },
+  objects = { microwave = { "microwave", place = places.round_the_table(0.13, deg(22), 0.75, -0.14, 0.36) } },
   init = { is.closed("microwave.door") },
   goal = { is.open("microwave.door"), is.hand_empty() },
   instructions = {

@@ -3,7 +3,7 @@ local places = require "worlds.lib.places"
 
 return task {
   world = "tabletop",
-  objects = { oven = { "oven", place = places.round_the_table(0.14, 0.28, 0.75) } },
+  objects = { oven = { "oven", place = places.round_the_table(0.14, deg(45), 0.75, 0, 0.38) } },
   init = { is.closed("oven.door") },
   goal = { is.open("oven.door"), is.hand_empty() },
   instructions = {

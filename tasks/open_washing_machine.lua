@@ -3,7 +3,7 @@ local places = require "worlds.lib.places"
 
 return task {
   world = "tabletop",
-  objects = { machine = { "washing_machine", place = places.round_the_table(0.14, 0.28, 0.75, -0.16) } },
+  objects = { machine = { "washing_machine", place = places.round_the_table(0.14, deg(45), 0.75, -0.16, 0.36) } },
   init = { is.closed("machine.door") },
   goal = { is.open("machine.door"), is.hand_empty() },
   instructions = {

@@ -20,11 +20,11 @@ return task {
   world = "tabletop",
   variations = sequences(),
   objects = function(v)
-    local anywhere = { between(0.08, 0.32), between(-0.30, 0.30), 0.75 }
+    local anywhere, turn = { between(0.08, 0.32), between(-0.30, 0.30), 0.75 }, between(-math.pi, math.pi)
     return {
-      button1 = { "push_button", colour = v.first, at = anywhere },
-      button2 = { "push_button", colour = v.second, at = anywhere },
-      button3 = { "push_button", colour = v.third, at = anywhere },
+      button1 = { "push_button", colour = v.first, at = anywhere, yaw = turn },
+      button2 = { "push_button", colour = v.second, at = anywhere, yaw = turn },
+      button3 = { "push_button", colour = v.third, at = anywhere, yaw = turn },
     }
   end,
   init = { is.spaced("button1", "button2"), is.spaced("button1", "button3"), is.spaced("button2", "button3"),

@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    fridge = { "fridge", place = places.left_or_behind(0.13, 0.28, 0.75, -0.16) },
+    fridge = { "fridge", place = places.left_or_behind(0.13, deg(16), 0.75, -0.16) },
     bottle = { "water_bottle" },
   },
   init = { is.closed("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },

@@ -10,7 +10,7 @@ return task {
   world = "tabletop",
   variations = { item = groceries },
   objects = function()
-    local things = { cupboard = { "cupboard", place = places.beside_the_table(0.195, 0.27, 0.95) } }
+    local things = { cupboard = { "cupboard", place = places.beside_the_table(0.195, deg(45), 0.95, 0, nil, 0.44) } }
     for _, name in ipairs(groceries) do things[name] = { name } end
     return things
   end,

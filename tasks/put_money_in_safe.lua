@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", place = places.beside_the_table(0.17, 0.35, 0.75) },
+    safe = { "safe", place = places.beside_the_table(0.17, deg(45), 0.75, 0, nil, 0.38) },
     money = { "money" },
   },
   init = { is.on("money", "table") },

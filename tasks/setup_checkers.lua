@@ -21,7 +21,7 @@ return task {
   variations = each(range(1, #lost), function(case) return { count = lost[case].count, case = case } end),
   objects = function(v)
     local objects = { board = { "checkers_board", at = { between(0.16, 0.21), between(-0.07, 0.07), 0.75 + boards.high },
-      yaw = between(-0.12, 0.12) } }
+      yaw = between(-math.pi, math.pi) } }
     for colour in pairs(squares) do
       for i = 1, 12 do objects[colour .. i] = { colour .. "_checker" } end
     end

@@ -17,7 +17,7 @@ return task {
   variations = { count = { 1, 2, 3 }, case = range(1, 6) },
   objects = function()
     local objects = { board = { "chess_board", at = { between(0.16, 0.21), between(-0.07, 0.07), 0.75 + boards.high },
-      yaw = between(-0.12, 0.12) } }
+      yaw = between(-math.pi, math.pi) } }
     for _, man in ipairs(men) do objects[man.name] = { "chess_" .. man.kind, colour = man.colour } end
     return objects
   end,

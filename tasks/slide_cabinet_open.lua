@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   variations = { side = { "left", "right" } },
-  objects = { cabinet = { "sliding_cabinet", place = places.behind_the_table(0.13, 0.28, 0.75, 0.12) } },
+  objects = { cabinet = { "sliding_cabinet", place = places.round_the_table(0.13, deg(16), 0.75) } },
   init = { is.closed("cabinet.left_door"), is.closed("cabinet.right_door") },
   goal = function(v)
     return { is.open("cabinet." .. v.side .. "_door"), is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),

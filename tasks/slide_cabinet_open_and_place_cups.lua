@@ -5,12 +5,13 @@ return task {
   world = "tabletop",
   variations = { side = { "left", "right" } },
   objects = {
-    cabinet = { "sliding_cabinet", place = places.behind_the_table(0.13, 0.28, 0.75, 0.12) },
+    cabinet = { "sliding_cabinet", place = places.round_the_table(0.13, deg(16), 0.75) },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.on("cup", "table") },
   goal = function(v)
-    return { is.inside("cup", "cabinet." .. v.side .. "_shelf"), is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),
+    return { is.inside("cup", "cabinet." .. v.side .. "_shelf"), is.open("cabinet." .. v.side .. "_door"),
+      is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),
       is.hand_empty() }
   end,
   instructions = {

@@ -9,6 +9,12 @@ return task {
   init = { is.on("base", "table"), is.on("cup*", "table") },
   goal = { is.on("base", "table"), is.hand_empty(), any_of {
     all_of { is.on("cup1", "base"), is.on("cup2", "cup1") }, all_of { is.on("cup2", "base"), is.on("cup1", "cup2") } } },
+  also = function(w) -- in each other, not on the rim
+    local low, high = w:bottom("cup1"), w:bottom("cup2")
+    if low > high then low, high = high, low end
+    local foot, deep = w:bottom("base"), 0.046 -- m: from foot to foot, and 5 mm
+    return low - foot < deep and high - low < deep
+  end,
   instructions = {
     "put the other cups into the {colour} one",
     "nest all three cups, the {colour} one outermost",

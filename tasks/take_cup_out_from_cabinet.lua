@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { side = { "left", "right" } },
   objects = {
-    cabinet = { "sliding_cabinet", place = places.behind_the_table(0.13, 0.28, 0.75, 0.12) },
+    cabinet = { "sliding_cabinet", place = places.round_the_table(0.13, deg(16), 0.75) },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = function(v)

@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", place = places.round_the_table(0.12, 0.28, 0.75) },
+    chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26) },
     item = { "cube", colour = one_of(colours.names) },
   },
   init = function(v)

@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    tv = { "television", place = places.beside_the_table(0.16, 0.3, 0.75) },
+    tv = { "television", place = places.beside_the_table(0.16, deg(45), 0.75, 0, nil, 0.52) },
     remote = { "remote_control" },
   },
   init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"), is_not.pressed("remote.power_button") },

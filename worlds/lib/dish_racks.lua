@@ -20,7 +20,7 @@ return function(slots)
       shapes[#shapes + 1] = box { 0.008, 0.12, 0.008, at = { x + side * 0.0125, 0, 0.089 }, colour = colour, collides = false }
     end
     regions[name] = { -- from 5 mm under the lowest place of a plate to the ends of the posts
-      at = { x, 0, 0.049 }, size = { 0.03, 0.04, 0.088 }, traits = { "slot" }, numbers = { gap = 0.0065 },
+      at = { x, 0, 0.049 }, size = { 0.03, 0.04, 0.088 }, traits = { "slot" }, numbers = { gap = 0.0065, deep = 0.010, askew = deg(12) },
       attributes = { colour = colour_name },
     }
   end

@@ -27,7 +27,7 @@ function lids.lid(fields)
   local lid = {
     type = "lid", traits = { "openable" }, mass = fields.mass, colour = fields.colour, friction = 0.7,
     hinge = { axis = { 0, 1, 0 }, at = fields.at, range = { 0, math.rad(fields.most or 110) }, friction = fields.friction or 0.25, damping = 0.1 },
-    numbers = { open_at = math.rad(fields.open), closed_at = math.rad(3), pull = math.rad(fields.open + 8), pivot = 2.2, gripped = 1 },
+    numbers = { open_at = math.rad(fields.open), closed_at = math.rad(1), pull = math.rad(fields.open + 8), pivot = 2.2, gripped = 1 },
     shapes = fields.shapes,
     grasps = lids.grasps(-fields.front - 0.025, y, fields.grip.z, 0.030),
   }
@@ -46,7 +46,7 @@ function lids.flap(fields)
   local flap = {
     type = "door", traits = { "openable" }, mass = fields.mass or 1.0, colour = fields.colour, friction = 0.7,
     hinge = { axis = { 0, -1, 0 }, at = fields.at, range = { 0, math.rad(90) }, friction = 0.6, damping = 0.3 },
-    numbers = { open_at = math.rad(80), closed_at = math.rad(3), pull = math.rad(88), pivot = 2.2, gripped = 1 },
+    numbers = { open_at = math.rad(80), closed_at = math.rad(1), pull = math.rad(88), pivot = 2.2, gripped = 1 },
     shapes = {
       box { thick, width, height, at = { -thick / 2, 0, height / 2 } },
       cylinder { 0.009, 0.030, at = { bar_x, 0, bar_z }, rpy = { math.pi / 2, 0, 0 }, colour = grip },

@@ -13,7 +13,7 @@ return function(z, length)
     regions = { -- where the bend of a hanger's hook is for as long as the rod is in it
       rod = {
         at = { length / 2 + 0.01, 0, z }, rpy = { 0, math.pi / 2, 0 }, size = { 0.024, 0.024, length - 0.02 },
-        traits = { "hook" }, numbers = { lift = 0.012 },
+        traits = { "hook" }, numbers = { lift = 0.012, deep = length - 0.032, askew = deg(30) },
       },
     },
   }

@@ -63,6 +63,23 @@ function seats.all_swinging(w, obj, place, wanted)
   return poses
 end
 
+-- How deep a seat or loop is in its slot or on its hook beyond what counts as seated, m; negative: it is not. The region
+-- contains what has not left it yet; seated is more: at most `deep` above the region's lower face, `play` beside its
+-- middle, and `askew` (rad) out of its direction (`either_way`: or against it); an angle counts as what it puts a point 10 cm
+-- off out by.
+function seats.seated(w, obj, place, region, deep, askew, either_way)
+  local distance = w:region_distance(region, place)
+  if distance > 0 then return -distance end
+  local there = w:pose(region):inverse() * w:pose(place)
+  local x, y, z = there:position()
+  local _, _, up = there:along(0, 0, 1):position()
+  local straight = math.max(-1, math.min(up - z, 1))
+  if either_way then straight = math.abs(straight) end
+  local _, _, length = w:size(region)
+  return math.min(-distance, w:number(region, "deep", deep) - z - length / 2,
+    w:number(region, "play", 1) - math.sqrt(x ^ 2 + y ^ 2), 0.1 * (w:number(region, "askew", askew) - math.acos(straight)))
+end
+
 -- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.
 function seats.way_out(w, region, place, clear)
   local _, _, length = w:size(region)

@@ -13,7 +13,7 @@ return object {
   regions = { -- where the bar of a frame lies; beyond the tip it is off
     hook = {
       at = { 0.0505, 0, 0.1465 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.04, 0.04, 0.05 },
-      traits = { "hook" }, numbers = { lift = 0.018 },
+      traits = { "hook" }, numbers = { lift = 0.018, deep = 0.028, askew = deg(15) },
     },
   },
 }

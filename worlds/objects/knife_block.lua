@@ -35,6 +35,6 @@ return object {
   },
   regions = {
     slot = { at = from_slot(0, 0, (depth - 0.007) / 2), rpy = { 0, math.pi / 2 - slant, 0 },
-      size = { 0.03, 0.03, depth + 0.007 }, traits = { "slot" }, numbers = { gap = 0.014 } },
+      size = { 0.03, 0.03, depth + 0.007 }, traits = { "slot" }, numbers = { gap = 0.014, deep = 0.018, askew = deg(5) } },
   },
 }

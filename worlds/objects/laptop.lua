@@ -33,7 +33,7 @@ return object {
         box { length - 0.014, width - 0.014, 0.0006, at = { -length / 2 - 0.002, 0, 0 }, colour = { 0.13, 0.20, 0.32 }, collides = false },
         cylinder { 0.012, 0.0006, at = { -length / 2, 0, thick }, colour = { 0.9, 0.9, 0.92 }, collides = false },
       },
-      numbers = { open_at = math.rad(85), closed_at = math.rad(4), pull = math.rad(100), pivot = 1.2 },
+      numbers = { open_at = math.rad(85), closed_at = math.rad(2.4), pull = math.rad(100), pivot = 1.2 },
       grasps = touches,
     },
   },

@@ -21,7 +21,7 @@ for i = 1, #names do
   shapes[#shapes + 1] = sphere { spoke, at = at(long, 0) }
   shapes[#shapes + 1] = sphere { spoke + 0.003, at = at(middle - 0.026, 0) } -- no mug slides further in
   regions[names[i]] = { -- where the middle of a mug's handle is for as long as it hangs there
-    at = at(middle, 0.0065), rpy = turn, size = { 0.04, 0.04, 0.096 }, traits = { "hook" }, numbers = { lift = 0.0065 },
+    at = at(middle, 0.0065), rpy = turn, size = { 0.04, 0.04, 0.096 }, traits = { "hook" }, numbers = { lift = 0.0065, play = 0.014, askew = deg(35) },
   }
 end
 

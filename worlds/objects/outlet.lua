@@ -23,7 +23,7 @@ return object {
   regions = { -- from the bottom of the holes to 2 cm in front of the plate
     socket = {
       at = { x - 0.010, 0, z }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.03, 0.05, depth + 0.020 },
-      traits = { "slot" }, numbers = { gap = 0.0045, search = 0.003 },
+      traits = { "slot" }, numbers = { gap = 0.0045, deep = 0.0065, askew = deg(6), search = 0.003 },
     },
   },
 }

@@ -42,6 +42,6 @@ return object {
   },
   regions = { -- 2 mm under the floor to 3 mm above it: a phone across the walls is not in it
     seat = { at = on_floor(0, 0, 0.0005), rpy = { 0, -slant, 0 }, size = { 0.016, 0.016, 0.005 }, traits = { "slot" },
-      numbers = { gap = 0.003 } },
+      numbers = { gap = 0.003, deep = 0.0045, askew = deg(3) } },
   },
 }

@@ -19,7 +19,7 @@ end
 return object {
   type = "puzzle", traits = { "movable" }, mass = 1.2, friction = 0.6, colour = wood, shapes = shapes,
   regions = { -- from 5 mm under the floor of the hole to 3 mm above it: a piece that lies askew is not in it
-    hole = { at = { 0, 0, floor - 0.001 }, size = { 0.008, 0.008, 0.008 }, traits = { "slot" }, numbers = { gap = 0.006 } },
+    hole = { at = { 0, 0, floor - 0.001 }, size = { 0.008, 0.008, 0.008 }, traits = { "slot" }, numbers = { gap = 0.006, deep = 0.0075, askew = deg(3) } },
   },
   numbers = { room = 0.14 },
 }

@@ -11,7 +11,7 @@ local function button(x, colour, sign)
   return {
     type = "button", traits = { "pressable" }, colour = colour, mass = 0.004,
     slider = { axis = { 0, 0, -1 }, at = { x, 0, height / 2 }, range = { 0, 0.004 }, spring = 1.5, damping = 0.5, friction = 0.1 },
-    shapes = shapes, numbers = { on_at = 0.003, travel = 0.0055 },
+    shapes = shapes, numbers = { on_at = 0.0031, travel = 0.0055 },
   }
 end
 

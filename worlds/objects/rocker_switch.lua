@@ -14,7 +14,7 @@ return object {
         box { 0.010, 0.020, 0.001, at = { 0.022, 0, 0.0043 }, colour = { 0.80, 0.12, 0.10 }, collides = false },
       },
       regions = { spot = { at = { 0.023, 0, 0.004 }, size = { 0.012, 0.02, 0.001 } } },
-      numbers = { on_at = 1.7 * tilt, travel = 0.014 },
+      numbers = { on_at = 1.92 * tilt, travel = 0.014 },
     },
   },
 }

@@ -23,7 +23,7 @@ for i, name in ipairs(solids.names) do
   for _, shape in ipairs(cutouts.board(hole, x, y, half, half, under, top, pale)) do shapes[#shapes + 1] = shape end
   local lowest, out = floor - 0.005, top - 0.010 -- it falls from where the hand lets go
   regions[name .. "_hole"] = { at = { x, y, (lowest + out) / 2 }, size = { 0.058, 0.058, out - lowest }, traits = { "slot" },
-    numbers = { gap = top - 0.016 - lowest } }
+    numbers = { gap = top - 0.016 - lowest, deep = under - solids.height - lowest, askew = deg(20) } }
 end
 
 return object {

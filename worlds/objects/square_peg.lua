@@ -6,7 +6,7 @@ return object {
     box { 0.044, 0.044, 0.074, at = { 0, 0, 0.053 } },
   },
   regions = { -- where the middle of the hole is for as long as the peg is in it
-    peg = { at = { 0, 0, 0.0535 }, size = { 0.02, 0.02, 0.075 }, traits = { "hook" }, numbers = { lift = 0.002, down = 0.0255 } },
+    peg = { at = { 0, 0, 0.0535 }, size = { 0.02, 0.02, 0.075 }, traits = { "hook" }, numbers = { lift = 0.002, down = 0.0255, deep = 0.013, askew = deg(4) } },
   },
   numbers = { room = 0.16 },
 }

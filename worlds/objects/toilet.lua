@@ -15,7 +15,7 @@ return object {
   },
   parts = {
     seat = lids.lid {
-      at = { 0.125, 0, height + 0.002 }, front = length, mass = 0.35, open = 80, most = 100, colour = seat,
+      at = { 0.125, 0, height + 0.002 }, front = length, mass = 0.35, open = 81, most = 100, colour = seat,
       shapes = {
         box { ring, width, 0.016, at = { ring / 2 - length, 0, 0.008 } },
         box { ring, width, 0.016, at = { -ring / 2, 0, 0.008 } },

@@ -13,7 +13,7 @@ return object {
   regions = { -- where the middle of the hole lies for as long as the rod is in it
     rod = {
       at = { 0.068, 0, z - 0.0133 }, rpy = { 0, math.pi / 2, 0 }, size = { 0.04, 0.04, 0.23 },
-      traits = { "hook" }, numbers = { lift = 0.0133 },
+      traits = { "hook" }, numbers = { lift = 0.0133, deep = 0.140, play = 0.006, askew = deg(10) },
     },
   },
 }

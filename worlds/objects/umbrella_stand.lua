@@ -6,6 +6,6 @@ return object {
     lathe { { 0.038, 0.008 }, { 0.038, 0.15 }, wall = 0.005 },
   },
   regions = { -- from 5 mm under its floor to 2 cm above it
-    tube = { at = { 0, 0, 0.0875 }, size = { 0.07, 0.07, 0.165 }, traits = { "slot" }, numbers = { gap = 0.006 } },
+    tube = { at = { 0, 0, 0.0875 }, size = { 0.07, 0.07, 0.165 }, traits = { "slot" }, numbers = { gap = 0.006, deep = 0.011, askew = deg(16) } },
   },
 }

@@ -29,7 +29,7 @@ return object {
   regions = { -- from 5 mm behind its back to 2 cm before its front; the bottle lies on its floor
     compartment = {
       at = place(0.002, 0, (depth - 0.005 - 0.02) / 2), rpy = { 0, slant - math.pi / 2, 0 },
-      size = { 0.06, 0.06, depth + 0.005 - 0.02 }, traits = { "slot" }, numbers = { gap = 0.009 },
+      size = { 0.06, 0.06, depth + 0.005 - 0.02 }, traits = { "slot" }, numbers = { gap = 0.009, deep = 0.014, askew = deg(8) },
     },
   },
 }

@@ -1,15 +1,16 @@
--- The object hangs on the hook or rod: its loop or hole is around it, and it is held up by it until it leaves it.
+-- The object hangs on the hook or rod: its loop or hole is around it as far down as it goes, and it is held up by it. How
+-- far and how straight say the hook's numbers `deep`, `play` and `askew`.
 local seats = require "worlds.lib.seats"
 
 return predicate {
   params = { "obj: movable", "hook: hook" },
   label = "the {obj} hangs on the {hook}",
   settle = 0.1, -- s
-  margin_unit = "m", -- how far the hook reaches into the loop
+  margin_unit = "m",
   holds = function(w, obj, hook)
-    local distance = w:region_distance(hook, seats.loop(w, obj))
-    local hangs = distance <= 0 and w:supports(seats.owner(hook), obj)
-    return hangs, hangs and -distance or -math.max(distance, 0)
+    local on = seats.seated(w, obj, seats.loop(w, obj), hook, 1, 0.35, true)
+    local hangs = on >= 0 and w:supports(seats.owner(hook), obj)
+    return hangs, hangs and on or math.min(on, 0)
   end,
   sample = function(w, obj, hook) -- in the middle of the hook, or as far down it as its number `down` says
     local there = w:pose(hook):along(0, 0, -w:number(hook, "down", 0))

@@ -1,4 +1,5 @@
--- The object is in the slot, socket, port or tube: the end that goes in has not left it.
+-- The object is seated in the slot, socket, port or tube: all the way in, and straight. How deep and how straight say the
+-- slot's numbers `deep` (else 4 mm above where `gap` puts it), `askew` and `play`.
 local seats = require "worlds.lib.seats"
 
 return predicate {
@@ -7,8 +8,9 @@ return predicate {
   settle = 0.1, -- s
   margin_unit = "m",
   holds = function(w, obj, slot)
-    local distance = w:region_distance(slot, seats.seat(w, obj))
-    return distance <= 0, -distance
+    local seated = seats.seated(w, obj, seats.seat(w, obj), slot, w:number(slot, "gap", 0.001) + 0.004, 0.2,
+      w:number(obj, "ends", 1) == 2)
+    return seated >= 0, seated
   end,
   sample = function(w, obj, slot) -- all the way in, but for the slot's `gap`
     local _, _, depth = w:size(slot)

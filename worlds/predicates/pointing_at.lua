@@ -1,5 +1,5 @@
--- The object lies with its +x end towards the thing: within 20 degrees, seen from above, and its top is up.
-local most = math.rad(20)
+-- The object lies with its +x end towards the thing: within 5 degrees, seen from above, and its top is up.
+local most = math.rad(5)
 
 local function turn_to(w, obj, aim, at)
   local x, y = at:position()
