@@ -8,6 +8,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "engine/base/utf8.h"
+
 namespace stampede {
 namespace {
 
@@ -35,26 +37,6 @@ std::string rounded(double value) {
   std::array<char, 40> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
   return buffer.data();
-}
-
-// The length of a UTF-8 sequence that begins here, 0 when it is not well formed (RFC 3629).
-std::size_t sequence_at(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-  const auto follows = [&](std::size_t k) { return (byte(k) & 0xC0U) == 0x80U; };
-  const unsigned first = byte(i);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(i + 1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    if (first == 0xE0 && byte(i + 1) < 0xA0) return 0;
-    if (first == 0xED && byte(i + 1) > 0x9F) return 0;
-    return follows(i + 1) && follows(i + 2) ? 3 : 0;
-  }
-  if (first >= 0xF0 && first <= 0xF4) {
-    if (first == 0xF0 && byte(i + 1) < 0x90) return 0;
-    if (first == 0xF4 && byte(i + 1) > 0x8F) return 0;
-    return follows(i + 1) && follows(i + 2) && follows(i + 3) ? 4 : 0;
-  }
-  return 0;
 }
 
 std::size_t width_of(std::string_view text) {
@@ -233,7 +215,7 @@ std::string all_of(const QueryResult& result, TextFormat format) {
 std::string json_text(std::string_view text) {
   std::string json = "\"";
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = sequence_at(text, i);
+    const std::size_t length = utf8_length(text, i);
     const char c = text[i];
     if (length == 0) {
       json += "\\ufffd";

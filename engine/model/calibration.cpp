@@ -1,12 +1,11 @@
 // Calibration files: the cameras of a laboratory, for simulated pictures that match its own.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/read_json.h"
 #include "engine/model/camera.h"
 
 namespace stampede {
@@ -53,7 +52,7 @@ class Value {
     return values;
   }
   double number() const {
-    if (!json_.is_number() || !std::isfinite(json_.get<double>())) fail("a number is expected", "write it as 1.5");
+    if (!json_.is_number()) fail("a number is expected", "write it as 1.5");
     return json_.get<double>();
   }
   std::string text() const {
@@ -169,22 +168,10 @@ Camera camera_of(const Value& value, const Scene& scene) {
   return camera;
 }
 
-Json parse(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::ifstream in(file);
-  if (!std::filesystem::is_regular_file(file, ignored) || !in)
-    throw Error(file.string(), "there is no calibration file that can be read", "check its name and permissions");
-  try {
-    return Json::parse(in);
-  } catch (const Json::exception& error) {
-    throw Error(file.string(), std::string("not JSON: ") + error.what(), "write { \"cameras\": [ … ] }");
-  }
-}
-
 }  // namespace
 
 std::vector<Camera> load_calibration(const std::filesystem::path& file, const Scene& scene) {
-  const Json json = parse(file);
+  const Json json = json_from_file(file, "write { \"cameras\": [ … ] }");
   const Value root(json, file.string(), "");
   root.only({"cameras"});
   std::vector<Camera> cameras;

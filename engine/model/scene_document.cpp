@@ -1,11 +1,11 @@
 // The canonical document of a scene. One list of fields serves writing and reading, so they cannot drift apart.
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/base/base64.h"
 #include "engine/base/error.h"
+#include "engine/base/read_json.h"
 #include "engine/model/scene.h"
 
 namespace stampede {
@@ -256,8 +256,7 @@ class Reader {
     if (!json.is_number_integer()) fail(path, "a whole number is expected");
     const auto wide = json.get<std::int64_t>();
     value = static_cast<int>(wide);
-    const bool wrapped = wide < 0 && json.is_number_unsigned();  // 2^63 and above
-    if (value != wide || wrapped) fail(path, "the number is too large");
+    if (value != wide) fail(path, "the number is too large");
   }
   static void read(const Json& json, double& value, const std::string& path) {
     if (!json.is_number()) fail(path, "a number is expected");
@@ -404,12 +403,9 @@ std::string scene_to_document(const Scene& scene) {
 }
 
 Scene scene_from_document(std::string_view document) {
-  Json json;
-  try {
-    json = Json::parse(document);
-  } catch (const Json::exception& error) {
-    fail("", error.what());
-  }
+  JsonLimits limits;
+  limits.depth = 16;  // a scene needs eight
+  const Json json = json_from_text(document, "scene document", "the document is damaged: generate it again", limits);
   Scene scene;
   Reader reader(json, "");
   int format = 0;

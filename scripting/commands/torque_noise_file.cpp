@@ -1,11 +1,9 @@
 #include "scripting/commands/torque_noise_file.h"
 
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/read_json.h"
 
 namespace stampede::program {
 namespace {
@@ -19,7 +17,7 @@ enum class Range { any, not_negative, positive };
 
 double number_in(const Json& object, const std::string& place, const char* name, Range range) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_number() || !std::isfinite(found->get<double>()))
+  if (found == object.end() || !found->is_number())
     throw Error(place, std::string("'") + name + "' is no number", kRefit);
   const auto value = found->get<double>();
   if ((range == Range::positive && value <= 0) || (range == Range::not_negative && value < 0))
@@ -32,6 +30,8 @@ double number_in(const Json& object, const std::string& place, const char* name,
 JointTorqueNoise joint_from(const Json& object, const std::string& place) {
   if (!object.is_object() || !object.contains("joint") || !object["joint"].is_string())
     throw Error(place, "an object with the name of a 'joint' is expected", kRefit);
+  require_known_fields(
+      object, {"joint", "coulomb_nm", "smooth_rad_s", "viscous_nm_s_rad", "offset_nm", "drift_nm", "white_nm"}, place);
   JointTorqueNoise noise;
   noise.joint = object["joint"].get<std::string>();
   if (noise.joint.empty() || noise.joint.find_first_of(" ,") != std::string::npos)
@@ -45,25 +45,14 @@ JointTorqueNoise joint_from(const Json& object, const std::string& place) {
   return noise;
 }
 
-Json parse(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::ifstream in(file);
-  if (!std::filesystem::is_regular_file(file, ignored) || !in)
-    throw Error(file.string(), "there is no torque noise that can be read", "check its name and permissions");
-  try {
-    return Json::parse(in);
-  } catch (const Json::exception& error) {
-    throw Error(file.string(), std::string("not JSON: ") + error.what(), kRefit);
-  }
-}
-
 }  // namespace
 
 TorqueNoise load_torque_noise(const std::filesystem::path& file) {
-  const Json json = parse(file);
+  const Json json = json_from_file(file, kRefit);
   const std::string place = file.string();
   if (!json.is_object() || !json.contains(kVersion) || json[kVersion] != 1)
     throw Error(place, std::string("it is no torque noise: '") + kVersion + "' is not 1", kRefit);
+  require_known_fields(json, {kVersion, "drift_time_s", "recorded_s", "joints"}, place);
   TorqueNoise noise;
   noise.drift_time_s = number_in(json, place, "drift_time_s", Range::positive);
   noise.recorded_s = number_in(json, place, "recorded_s", Range::not_negative);

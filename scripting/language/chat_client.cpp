@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/read_json.h"
 
 namespace stampede {
 namespace {
@@ -83,8 +83,9 @@ std::string body_of(const ChatRequest& request, const std::string& model) {
   for (const ChatMessage& message : request.messages)
     body["messages"].push_back({{"role", message.role}, {"content", message.text}});
   if (!request.json_schema.empty())
-    body["response_format"] = {{"type", "json_schema"},
-                               {"json_schema", {{"name", "answer"}, {"schema", json::parse(request.json_schema)}}}};
+    body["response_format"] = {
+        {"type", "json_schema"},
+        {"json_schema", {{"name", "answer"}, {"schema", json_from_text(request.json_schema, "", "")}}}};
   return body.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -165,9 +166,9 @@ ChatClient::Reply ChatClient::post(const std::string& body, const std::atomic<bo
 
 // What the server says, where it says it in the usual form; no more than a line, and not the key.
 static std::string message_in(const std::string& body) {
-  const json said = json::parse(body, nullptr, false);
+  const json said = json_if_any(body).value_or(json());
   std::string text;
-  if (said.is_discarded()) text = body;
+  if (said.is_null()) text = body;
   if (said.is_object() && said.contains("error")) {
     const json& error = said["error"];
     if (error.is_string()) text = error.get<std::string>();
@@ -184,7 +185,7 @@ ChatAnswer ChatClient::read(const Reply& reply) {
     answer.problem = "too long";
     return answer;
   }
-  const json said = json::parse(reply.received.body, nullptr, false);
+  const json said = json_if_any(reply.received.body).value_or(json());
   if (!said.is_object()) {
     answer.problem = "no JSON";
     return answer;

@@ -1,11 +1,11 @@
 #include "scripting/language/prompts.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
+#include "engine/base/read_json.h"
 
 namespace stampede {
 namespace {
@@ -110,7 +110,7 @@ std::vector<std::string> sentences_in(const std::string& answer) {
   std::vector<std::string> found;
   const std::size_t open = answer.find('['), close = answer.rfind(']');
   if (open != std::string::npos && close != std::string::npos && open < close) {
-    const json list = json::parse(answer.substr(open, close - open + 1), nullptr, false);
+    const json list = json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
     if (list.is_array() && !list.empty() &&
         std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
       for (const json& one : list) found.push_back(trimmed(one.get<std::string>()));
@@ -163,7 +163,7 @@ std::optional<std::string> wrong_answer(const BackQuestion& question, const std:
   const std::size_t open = answer.find('{'), close = answer.rfind('}');
   const json said = open == std::string::npos || close == std::string::npos || close < open
                         ? json()
-                        : json::parse(answer.substr(open, close - open + 1), nullptr, false);
+                        : json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
   if (!said.is_object() || !said.contains("goal") || !said["goal"].is_number_integer()) return "it names no goal";
   if (said["goal"] != question.goal) return "it takes another goal for this one";
   if (question.wanted.empty()) return std::nullopt;

@@ -1,10 +1,11 @@
 #include "scripting/language/sentence_file.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 
+#include "engine/base/read_file.h"
+#include "engine/base/read_json.h"
 #include "scripting/language/similarity.h"
 #include "scripting/session/episode_job.h"
 #include "scripting/session/text_file.h"
@@ -19,13 +20,8 @@ class Reader {
   Reader(std::string text, std::string shown) : text_(std::move(text)), shown_(std::move(shown)) {}
 
   SentenceFile read() {
-    json document;
-    try {
-      document = json::parse(text_);
-    } catch (const json::parse_error& error) {
-      throw Error(shown_ + ":" + std::to_string(line_at(error.byte)), "that is no JSON",
-                  "make the file anew with `stampede paraphrase`, or put it right there");
-    }
+    const json document =
+        json_from_text(text_, shown_, "make the file anew with `stampede paraphrase`, or put it right there");
     if (!document.is_object()) fail(1, "it holds no object", "a file of sentences is one JSON object");
     const json version = document.value("version", json());
     if (version != kSentenceFileVersion)
@@ -33,6 +29,7 @@ class Reader {
            "its version is " + (version.is_null() ? "not said" : version.dump()) + ", not " +
                std::to_string(kSentenceFileVersion),
            "make it anew with `stampede paraphrase`");
+    only(document, {"version", "task", "asked", "sentences"});
     SentenceFile file;
     file.task = text_of(document, "task");
     for (const json& one : list_of(document, "asked")) file.asked.push_back(asked_from(one));
@@ -46,9 +43,8 @@ class Reader {
     throw Error(shown_ + ":" + std::to_string(line), what, hint);
   }
 
-  int line_at(std::size_t byte) const {
-    return 1 + static_cast<int>(std::count(
-                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text_.size())), '\n'));
+  void only(const json& object, const std::vector<std::string>& known) const {
+    require_known_fields(object, known, shown_ + ":" + std::to_string(line_));
   }
 
   std::string text_of(const json& object, const char* name) const {
@@ -58,9 +54,19 @@ class Reader {
     return found->get<std::string>();
   }
 
-  static json list_of(const json& object, const char* name) {
+  const json& list_of(const json& object, const char* name) const {
+    static const json kNone = json::array();
     const auto found = object.find(name);
-    return found == object.end() || !found->is_array() ? json::array() : *found;
+    if (found == object.end()) return kNone;
+    if (!found->is_array()) fail(line_, std::string("'") + name + "' is no list", "write it as [ … ]");
+    return *found;
+  }
+
+  int count_of(const json& value, const std::string& name) const {
+    constexpr std::int64_t kMost = 1'000'000;
+    if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > kMost)
+      fail(line_, "'" + name + "' is no count", "write a whole number, 0 to 1000000");
+    return value.get<int>();
   }
 
   LanguageLevel level_of(const json& one) const {
@@ -80,34 +86,41 @@ class Reader {
   AskedFor asked_from(const json& one) const {
     AskedFor asked;
     asked.level = level_of(one);
+    only(one, {"level", "of", "grain", "model", "prompt", "count", "refused"});
     asked.of = text_of(one, "of");
     asked.grain = grain_of(one);
     asked.model = text_of(one, "model");
     asked.prompt = text_of(one, "prompt");
-    asked.count = one.contains("count") && one["count"].is_number_integer() ? one["count"].get<int>() : 0;
-    if (one.contains("refused") && one["refused"].is_object())
-      for (const auto& [reason, count] : one["refused"].items())
-        if (count.is_number_integer()) asked.refused[reason] = count;
+    if (one.contains("count")) asked.count = count_of(one["count"], "count");
+    if (!one.contains("refused")) return asked;
+    if (!one["refused"].is_object()) fail(line_, "'refused' is no object", "write it as { \"reason\": 1 }");
+    for (const auto& [reason, count] : one["refused"].items()) asked.refused[reason] = count_of(count, reason);
     return asked;
   }
 
   // A sentence's line is where its text stands.
   StoredSentence sentence_from(const json& one, std::size_t& from) {
     const json text = one.is_object() ? one.value("text", json()) : json();
-    if (text.is_string()) {
+    if (text.is_string() && from != std::string::npos) {  // in a file that is written otherwise it is not looked for
       const std::size_t at = text_.find("\"text\": " + text.dump(), from);
-      if (at != std::string::npos) from = at + 1, line_ = line_at(at);
+      if (at != std::string::npos)
+        line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(from),
+                                             text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+      from = at;
     }
     StoredSentence sentence;
     sentence.line = line_;
     sentence.text = text_of(one, "text");
     sentence.level = level_of(one);
+    only(one, {"text", "level", "of", "grain", "model", "prompt", "checks"});
     sentence.of = text_of(one, "of");
     sentence.grain = grain_of(one);
     sentence.model = text_of(one, "model");
     sentence.prompt = text_of(one, "prompt");
-    for (const json& check : list_of(one, "checks"))
-      if (check.is_string()) sentence.checks.push_back(check);
+    for (const json& check : list_of(one, "checks")) {
+      if (!check.is_string()) fail(line_, "'checks' is no list of texts", "write it as [\"words\"]");
+      sentence.checks.push_back(check);
+    }
     return sentence;
   }
 
@@ -150,7 +163,7 @@ std::filesystem::path sentence_path(const std::filesystem::path& task_file) {
 }
 
 SentenceFile read_sentence_file(const std::filesystem::path& path, const std::string& shown) {
-  return Reader(read_text_file(path), shown).read();
+  return Reader(read_file(path), shown).read();
 }
 
 void write_sentence_file(const SentenceFile& file, const std::filesystem::path& path) {

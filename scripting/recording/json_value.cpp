@@ -1,9 +1,9 @@
 #include "scripting/recording/json_value.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/nearest.h"
+#include "engine/base/read_json.h"
 #include "scripting/library/naming.h"
 
 namespace stampede {
@@ -35,16 +35,9 @@ Value converted(const Json& json, const std::string& file, const std::string& pa
 }  // namespace
 
 Value value_from_json(const std::string& text, const std::string& shown_file) {
-  try {
-    return converted(Json::parse(text), shown_file, "");
-  } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw Error(shown_file + ":" + std::to_string(line), "this is no JSON",
-                "a comma, quote or bracket is missing here");
-  } catch (const Json::exception& error) {
-    throw Error(shown_file, "this is no JSON: " + std::string(error.what()), "write it as UTF-8");
-  }
+  JsonLimits limits;
+  limits.values = 2'000'000;  // a value of the tree takes half a kilobyte
+  return converted(json_from_text(text, shown_file, "", limits), shown_file, "");
 }
 
 void expected(const Value& value, const std::string& what, const std::string& cure) {

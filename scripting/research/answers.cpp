@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
-#include "scripting/session/text_file.h"
+#include "engine/base/read_file.h"
+#include "engine/base/read_json.h"
+#include "engine/base/utf8.h"
 
 namespace stampede::research {
 namespace {
@@ -35,10 +35,10 @@ std::string shown(const std::string& text) { return text.size() > 60 ? text.subs
 }
 
 // As text; of lists and objects only that they are ones.
-std::string shown(const Json& json) {
+std::string shown(const nlohmann::json& json) {
   if (json.is_array()) return "a list";
   if (json.is_object()) return "an object";
-  return shown(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return shown(json.dump());
 }
 
 [[noreturn]] void refuse_value(const std::string& where, const AnswerColumn& column, const std::string& found) {
@@ -48,22 +48,19 @@ std::string shown(const Json& json) {
   throw Error(where, "'" + column.name + "' is " + wanted + ", not " + found, "it is: " + column.about);
 }
 
-SqlValue value_from(const Json& json, const AnswerColumn& column, const std::string& where) {
+SqlValue value_from(const nlohmann::json& json, const AnswerColumn& column, const std::string& where) {
   if (json.is_null() && column.optional) return std::monostate{};
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  const bool fits = !json.is_number_unsigned() || json.get<std::uint64_t>() <= kMost;
-  if (column.type == AnswerType::integer && json.is_number_integer() && fits) return json.get<std::int64_t>();
+  if (column.type == AnswerType::integer && json.is_number_integer()) return json.get<std::int64_t>();
   if (column.type == AnswerType::integer && json.is_number_float()) {
     const double number = json.get<double>();
     if (std::abs(number) < 1e15 && number == std::floor(number)) return static_cast<std::int64_t>(number);
   }
-  if (column.type == AnswerType::real && json.is_number() && std::isfinite(json.get<double>()))
-    return json.get<double>();
+  if (column.type == AnswerType::real && json.is_number()) return json.get<double>();
   if (column.type == AnswerType::text && json.is_string()) return json.get<std::string>();
   refuse_value(where, column, shown(json));
 }
 
-std::vector<SqlValue> row_from(const Json& json, const ResearchProblem& problem, const std::string& where) {
+std::vector<SqlValue> row_from(const nlohmann::json& json, const ResearchProblem& problem, const std::string& where) {
   if (!json.is_object()) throw Error(where, "an answer is an object", column_names(problem));
   for (const auto& [name, value] : json.items())
     if (!find_column(problem, name)) refuse_column(where, name, problem);
@@ -77,61 +74,16 @@ std::vector<SqlValue> row_from(const Json& json, const ResearchProblem& problem,
   return row;
 }
 
-std::string place_of(const std::string& text, std::size_t at, const std::string& where) {
-  return where + ":" +
-         std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
-
-std::size_t last_word(const std::string& text) {
-  const std::size_t last = text.find_last_not_of(" \t\r\n");
-  return last == std::string::npos ? 0 : last;
-}
-
-// What a parser says too little of, or takes a stack frame each for: `NaN` and `Infinity`, as Python writes them, and
-// brackets within brackets.
-void refuse_no_answers(const std::string& text, const std::string& where) {
-  constexpr int kDeepest = 16;  // answers need three
-  bool quoted = false;
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    const auto place = [&] { return place_of(text, i, where); };
-    if (c == '\\' && quoted)
-      ++i;
-    else if (c == '"')
-      quoted = !quoted;
-    else if (quoted)
-      continue;
-    else if (text.compare(i, 3, "NaN") == 0 || text.compare(i, 8, "Infinity") == 0)
-      throw Error(place(), "a number is not finite", "leave out what was not predicted, or predict it");
-    else if ((c == '[' || c == '{') && ++depth > kDeepest)
-      throw Error(place(), "brackets are " + std::to_string(depth) + " deep", "compare it with answers.example.json");
-    else if (c == ']' || c == '}')
-      --depth;
-  }
-}
+constexpr const char* kCompare = "compare it with answers.example.json";
 
 void read_json(const std::string& text, const ResearchProblem& problem, Answers& answers) {
-  refuse_no_answers(text, answers.where);
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-    const bool cut = text.find_first_not_of(" \t\r\n", at) == std::string::npos;
-    throw Error(
-        place_of(text, std::min(at, last_word(text)), answers.where),
-        cut ? "this JSON ends too early" : "this is no JSON from here on: " + shown(text.substr(at, 20)),
-        cut ? "write the file anew: it was cut, or a bracket is missing" : "compare it with answers.example.json");
-  } catch (const Json::exception&) {  // a number that none can be
-    throw Error(answers.where, "a number is not finite", "compare it with answers.example.json");
-  }
-  if (!json.is_object())
-    throw Error(answers.where, "answers are one JSON object", "compare it with answers.example.json");
+  JsonLimits limits;
+  limits.depth = 16;  // answers need three
+  const nlohmann::json json = json_from_text(text, answers.where, kCompare, limits);
+  if (!json.is_object()) throw Error(answers.where, "answers are one JSON object", kCompare);
   for (const auto& [name, value] : json.items()) {
     if (name == "answers") continue;
-    if (!value.is_string())
-      throw Error(answers.where, "'" + shown(name) + "' is a text", "compare it with answers.example.json");
+    if (!value.is_string()) throw Error(answers.where, "'" + shown(name) + "' is a text", kCompare);
     if (name == "dataset")
       answers.dataset = value.get<std::string>();
     else if (name == "problem")
@@ -143,7 +95,7 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   if (rows == json.end()) return;
   if (!rows->is_array()) throw Error(answers.where, "'answers' is a list of objects", column_names(problem));
   std::size_t number = 0;
-  for (const Json& row : *rows)
+  for (const nlohmann::json& row : *rows)
     answers.rows.rows.push_back(row_from(row, problem, answers.where + ", answer " + std::to_string(++number)));
 }
 
@@ -239,11 +191,11 @@ Answers read_answers(const std::filesystem::path& file, const ResearchProblem& p
   Answers answers;
   answers.where = file.string();
   for (const AnswerColumn& column : problem.answer) answers.rows.columns.push_back(column.name);
-  std::string text = read_text_file(file);
+  std::string text = read_file(file);
+  require_text(text, answers.where);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, as spreadsheets write it
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos)
-    throw Error(answers.where, "this file is empty", "compare it with answers.example.json");
+  if (first == std::string::npos) throw Error(answers.where, "this file is empty", kCompare);
   if (text[first] == '{' || text[first] == '[')
     read_json(text, problem, answers);
   else

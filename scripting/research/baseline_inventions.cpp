@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/read_json.h"
 #include "engine/learning/operators.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/research/baseline_functions.h"
@@ -88,7 +88,8 @@ View scene_of(const PlainFile& given, std::int64_t episode) {
     const std::string& name = rows.text(i, "object");
     Box& box = view.boxes[name];
     box.type = rows.text(i, "type"), box.region = rows.text(i, "kind") == "region";
-    for (const auto& trait : nlohmann::json::parse(rows.text(i, "traits"))) box.traits.insert({trait, {name}});
+    for (const std::string& trait : texts_from_json(rows.text(i, "traits"), given.path().string()))
+      box.traits.insert({trait, {name}});
     box.movable = box.traits.contains({"movable", {name}});
     box.container = box.traits.contains({"container", {name}});
     box.size = {rows.real(i, "size_x"), rows.real(i, "size_y"), rows.real(i, "size_z")};
@@ -161,11 +162,10 @@ std::vector<Lived> lived(const PlainFile& given, const std::string& splits) {
     const Rows rows = given.query("SELECT * FROM skills WHERE episode = ?1 ORDER BY ordinal", {one.episode});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::string& name = rows.text(i, "case_name");
-      one.calls.push_back({rows.integer(i, "first_frame"),
-                           std::min(rows.integer(i, "end_frame"), episodes.integer(e, "frames") - 1),
-                           rows.text(i, "skill") + (name.empty() ? "" : "_" + name),
-                           nlohmann::json::parse(rows.text(i, "arguments")).get<std::vector<std::string>>(),
-                           rows.text(i, "outcome") == "success"});
+      one.calls.push_back(
+          {rows.integer(i, "first_frame"), std::min(rows.integer(i, "end_frame"), episodes.integer(e, "frames") - 1),
+           rows.text(i, "skill") + (name.empty() ? "" : "_" + name),
+           texts_from_json(rows.text(i, "arguments"), given.path().string()), rows.text(i, "outcome") == "success"});
     }
     for (const auto& [frame, view] : views_of(given, known, one.episode)) one.measures[frame] = measured(view);
   }

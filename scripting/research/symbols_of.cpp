@@ -1,9 +1,9 @@
 #include "scripting/research/symbols_of.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/read_json.h"
 #include "engine/base/text.h"
 #include "engine/symbolic/pddl.h"
 
@@ -19,13 +19,9 @@ learning::Objects typed_objects(const PlainFile& file, std::int64_t episode) {
   return std::make_shared<const std::vector<TypedObject>>(std::move(objects));
 }
 
-std::vector<std::string> names_in(const std::string& json) {
-  return nlohmann::json::parse(json).get<std::vector<std::string>>();
-}
-
 Facts facts_in(const std::string& json, const std::string& where) {
   Facts facts;
-  for (const std::string& one : names_in(json)) facts.insert(fact_of(one, where));
+  for (const std::string& one : texts_from_json(json, where)) facts.insert(fact_of(one, where));
   return facts;
 }
 
@@ -128,7 +124,7 @@ learning::Experience labelled_experience(const PlainFile& given) {
       learning::Transition one;
       one.skill = rows.text(i, "skill");
       if (const std::string& name = rows.text(i, "case_name"); !name.empty()) one.skill += "_" + name;
-      one.arguments = names_in(rows.text(i, "arguments"));
+      one.arguments = texts_from_json(rows.text(i, "arguments"), episode_place(given, episode));
       one.before = learning::facts_at(history, rows.integer(i, "first_frame"));
       one.after = learning::facts_at(history, std::min(rows.integer(i, "end_frame"), history.frames - 1));
       one.success = rows.text(i, "outcome") == "success";

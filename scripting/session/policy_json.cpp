@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/read_json.h"
 #include "engine/symbolic/symbols.h"
+#include "scripting/session/policy_program.h"
 
 namespace stampede {
 namespace {
@@ -150,7 +151,7 @@ class Answer {
  private:
   std::string shown() const {
     constexpr std::size_t kMost = 60;
-    const std::string text = json_.dump(-1, ' ', false, Parsed::error_handler_t::replace);
+    const std::string text = json_.dump();
     return text.size() <= kMost ? text : std::string(json_.type_name());
   }
   const Parsed& json_;
@@ -169,16 +170,6 @@ const std::map<std::string, void (*)(const Answer&, AgentAction&)>& action_keys(
       {"arguments", [](const Answer& value, AgentAction& action) { action.arguments = value.texts(); }},
       {"parameters", [](const Answer& value, AgentAction& action) { action.parameters = value.parameters(); }}};
   return keys;
-}
-
-Parsed parsed_line(const std::string& line) {
-  try {
-    return Parsed::parse(line);
-  } catch (const Parsed::exception& error) {
-    const std::string what = error.what();  // `[json.exception.parse_error.101] parse error at …`
-    const std::size_t end = what.find("] ");
-    throw Error("", "it is no JSON: " + (end == std::string::npos ? what : what.substr(end + 2)), "");
-  }
 }
 
 }  // namespace
@@ -236,7 +227,10 @@ std::string step_line(const StepResult& result, const PictureStore& pictures) {
 }
 
 std::optional<AgentAction> action_from_line(const std::string& line) {
-  const Parsed answer = parsed_line(line);
+  JsonLimits limits;
+  limits.depth = 8;  // answers need four
+  limits.values = kLongestPolicyLine / 2;
+  const Parsed answer = json_from_text(line, "", "", limits);
   if (!answer.is_object()) throw Error("", std::string("it is no object but of type ") + answer.type_name(), "");
   if (const auto end = answer.find("end"); end != answer.end()) {
     const Answer value(*end, "end");

@@ -1,21 +1,13 @@
 #include "scripting/session/text_file.h"
 
 #include <fstream>
-#include <iterator>
 
 #include "engine/base/error.h"
+#include "engine/base/read_file.h"
 
 namespace stampede {
 
-std::string read_text_file(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code))
-    throw Error(path.string(), std::filesystem::exists(path, code) ? "it is no file" : "there is no such file");
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error(path.string(), "it cannot be read");
-  return text;
-}
+std::string read_text_file(const std::filesystem::path& path) { return read_file(path); }
 
 bool holds_text(const std::filesystem::path& path, const std::string& text) {
   std::error_code code;

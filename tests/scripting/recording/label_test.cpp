@@ -120,5 +120,6 @@ TEST_CASE("bad labels are refused with their line") {
   CHECK_THROWS_WITH(labels_of(R"({"labelled_by": "simulator", "facts": [{"fact": ["on"]}]})"),
                     Contains("person or model"));
   CHECK_THROWS_WITH(labels_of(R"({"clock": "arm"})"), Contains("in seconds from frame 0"));
-  CHECK_THROWS_WITH(labels_of("{"), Contains("no JSON"));
+  CHECK_THROWS_WITH(labels_of("{"), Contains("labels.json:1: this JSON ends too early"));
+  CHECK_THROWS_WITH(labels_of("{\n, }"), Contains("labels.json:2: this is no JSON"));
 }

@@ -120,7 +120,7 @@ TEST_CASE("answers that mean harm are refused in a line or two") {
   refused_shortly("episode,frame,value\n1,0," + large, "finite number", "rewards");
   refused_shortly("episode,frame,value,frame\n1,0,1,2\n", "'frame' is there twice", "rewards");
   refused_shortly("episode,frame,value\n99999999999999999999,0,1\n", "whole number", "rewards");
-  refused_shortly(std::string("\0\0\0\0", 4), "no column", "rewards");
+  refused_shortly(std::string("\0\0\0\0", 4), ":1: the byte 0x00 here is no UTF-8 text", "rewards");
 }
 
 TEST_CASE("ten megabytes of answers are read") {
