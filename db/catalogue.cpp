@@ -91,7 +91,6 @@ void Catalogue::set_labels(std::int64_t id, const EpisodeRecord& labelled) {
   }
 }
 
-// Not by query(): what limits that to reading has SQLite compile all kept statements anew, an episode's fifty.
 std::vector<std::string> Catalogue::keys_after(std::int64_t& last_id) const {
   sql::Statement statement(impl_->database, "SELECT id, key FROM episode WHERE id > ?1 ORDER BY id");
   std::vector<std::string> keys;

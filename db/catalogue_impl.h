@@ -21,6 +21,7 @@ struct Catalogue::Impl {
   ~Impl();
   sql::Database database;
   bool writable = false;
+  bool uncounted = false;                 // pixels of masks: of a release that did not, read as it is
   std::unique_ptr<EpisodeWriter> writer;  // made at the first add(); its statements must go before the database
 };
 

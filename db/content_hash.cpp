@@ -8,10 +8,11 @@ namespace stampede {
 namespace {
 
 // `timing` holds times of the host, `reason` what words there are, `mask_pixels` what follows from the pictures.
-std::vector<Table> data_tables(const sql::Database& database) {
-  std::vector<Table> tables;
-  for (const std::string& name : current_tables())
-    if (name != "timing" && name != "reason" && name != "mask_pixels") tables.push_back(describe(database, name));
+std::vector<Table> data_tables() {
+  std::vector<Table> tables = current_tables();
+  std::erase_if(tables, [](const Table& table) {
+    return table.name == "timing" || table.name == "reason" || table.name == "mask_pixels";
+  });
   return tables;
 }
 
@@ -39,10 +40,10 @@ void hash_rows(Hasher& hasher, const Table& table, sql::Statement& rows) {
 // One statement a table, asked once an episode.
 class EpisodeHasher {
  public:
-  explicit EpisodeHasher(const sql::Database& database) : tables_(data_tables(database)) {
+  explicit EpisodeHasher(const sql::Database& database) : tables_(data_tables()) {
     std::erase_if(tables_, [](const Table& table) { return !table.of_episode; });
     for (const Table& table : tables_)
-      statements_.emplace_back(database, "SELECT " + joined(table.columns) + " FROM \"" + table.name + "\" WHERE " +
+      statements_.emplace_back(database, "SELECT " + joined(table.columns) + " FROM " + table.name + " WHERE " +
                                              (table.name == "episode" ? "id" : "episode") + " = ?1 ORDER BY " +
                                              joined(table.order));
   }
@@ -62,10 +63,10 @@ class EpisodeHasher {
 std::string Catalogue::content_hash() const {
   const sql::Database& database = impl_->database;
   Hasher hasher;
-  for (const Table& table : data_tables(database)) {
+  for (const Table& table : data_tables()) {
     if (table.of_episode) continue;
-    sql::Statement rows(
-        database, "SELECT " + joined(table.columns) + " FROM \"" + table.name + "\" ORDER BY " + joined(table.order));
+    sql::Statement rows(database,
+                        "SELECT " + joined(table.columns) + " FROM " + table.name + " ORDER BY " + joined(table.order));
     hash_rows(hasher, table, rows.start());
   }
   EpisodeHasher episodes(database);

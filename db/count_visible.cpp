@@ -10,11 +10,13 @@ std::vector<std::pair<int, std::int64_t>> visible_pixels(std::span<const std::ui
   return visible_pixels(picture);
 }
 
-void count_stored_masks(const sql::Database& database) {
-  sql::Statement masks(database, "SELECT episode, frame, camera, data FROM image WHERE kind = 'instance'");
+void count_stored_masks(const sql::Database& database, std::optional<std::int64_t> of_episode) {
+  sql::Statement masks(database,
+                       "SELECT episode, frame, camera, data FROM image WHERE kind = 'instance' AND (?1 IS NULL OR "
+                       "episode = ?1)");
   sql::Statement visible(
       database, "INSERT INTO mask_pixels (episode, frame, camera, instance, pixels) VALUES (?1, ?2, ?3, ?4, ?5)");
-  for (masks.start(); masks.step();) {
+  for (masks.start(of_episode); masks.step();) {
     std::int64_t episode = 0, frame = 0, camera = 0;
     std::string png;
     masks.read(episode, frame, camera, png);

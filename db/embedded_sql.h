@@ -11,10 +11,11 @@ struct SqlFile {
   std::string text;
 };
 
-const std::vector<SqlFile>& embedded_schema();   // the tables, in order of application
-const std::vector<SqlFile>& embedded_indexes();  // made when they are missing
-const std::vector<SqlFile>&
-embedded_migrations();                           // `005_to_006`, in order; the first line names the tables it changes
+const std::vector<SqlFile>& embedded_schema();    // the tables, in order of application
+const std::vector<SqlFile>& embedded_indexes();   // made when they are missing
+const std::vector<SqlFile>& embedded_releases();  // `005`: what the oldest release declared that we read
+// `005_to_006`, in order; the first line names the tables it changes
+const std::vector<SqlFile>& embedded_migrations();
 const std::vector<SqlFile>& embedded_derived();  // what is worked out when an episode is stored
 const std::vector<SqlFile>& embedded_views();    // by name; each makes the view of its name
 const std::vector<SqlFile>& embedded_queries();  // by name; the first line is a comment that describes it

@@ -8,9 +8,8 @@
 
 #include "db/catalogue.h"
 #include "db/catalogue_impl.h"
-#include "db/migrations.h"
+#include "db/count_visible.h"
 #include "db/schema.h"
-#include "engine/base/temporary_folder.h"
 
 namespace stampede {
 namespace {
@@ -19,32 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kInATransaction = 32;
 
-// A catalogue that episodes come from: of this release, or a migrated copy of it.
-class Source {
- public:
-  explicit Source(const fs::path& path) : path_(path), readable_(path) {
-    std::optional<Catalogue> found = Catalogue::open(path);  // says what is wrong with it
-    const auto schema = static_cast<int>(
-        sql::Database(path.string(), SQLITE_OPEN_READONLY, path.string()).number("PRAGMA user_version"));
-    if (schema == schema_version()) {
-      catalogue_ = std::move(found);
-      return;
-    }
-    found.reset();
-    folder_ = std::make_unique<TemporaryFolder>();
-    readable_ = folder_->path() / "copy.db";
-    copy_database(path, readable_);
-    Catalogue::write(readable_).close();
-    catalogue_ = Catalogue::open(readable_);
-  }
-  const fs::path& path() const { return path_; }
-  const fs::path& readable() const { return readable_; }
-  const Catalogue& catalogue() const { return *catalogue_; }
-
- private:
-  fs::path path_, readable_;
-  std::unique_ptr<TemporaryFolder> folder_;
-  std::optional<Catalogue> catalogue_;
+struct Source {
+  explicit Source(const fs::path& file) : path(file), catalogue(Catalogue::open(file)) {}
+  fs::path path;
+  Catalogue catalogue;
 };
 
 std::string named(const EpisodeSummary& episode) {
@@ -92,71 +69,102 @@ class KnownKeys {
   std::map<std::string, Owner> owners_;
 };
 
-// Statements that copy the rows of one episode, bound (their number there, their number here).
-std::vector<sql::Statement> row_copiers(const sql::Database& database) {
-  std::vector<sql::Statement> copiers;
-  std::vector<std::string> tables = current_tables();
-  std::stable_partition(tables.begin(), tables.end(), [](const std::string& name) { return name == "episode"; });
-  for (const std::string& name : tables) {
-    const Table table = describe(database, name);
-    if (!table.of_episode) continue;
-    const std::string number = name == "episode" ? "id" : "episode", columns = joined(table.columns);
-    std::string text = "INSERT INTO main." + name;
-    text.append(" (").append(number).append(", ").append(columns).append(") SELECT ?2, ").append(columns);
-    text.append(" FROM other.").append(name).append(" WHERE ").append(number).append(" = ?1");
-    copiers.emplace_back(database, text);
+// Copies rows of a table between two files, value by value: neither sees the other.
+class TableCopier {
+ public:
+  TableCopier(const sql::Database& from, const sql::Database& to, const Table& table) {
+    const std::string columns = joined(table.columns);
+    std::string read = "SELECT " + columns + " FROM " + table.name, write = "INSERT INTO main." + table.name + " (";
+    if (table.of_episode) {
+      const std::string number = table.name == "episode" ? "id" : "episode";
+      read.append(" WHERE ").append(number).append(" = ?1");
+      write.append(number).append(", ");
+    }
+    write.append(columns).append(") VALUES (").append(table.of_episode ? "?1" : "?");
+    for (std::size_t i = table.of_episode ? 0 : 1; i < table.columns.size(); ++i) write += ", ?";
+    rows_ = sql::Statement(from, read, true);
+    write_ = sql::Statement(to, write.append(table.of_episode ? ")" : ") ON CONFLICT DO NOTHING"), true);
+    columns_ = static_cast<int>(table.columns.size());
   }
+  void copy_episode(std::int64_t there, std::int64_t here) {
+    for (rows_.start(there); rows_.step();) put(write_.start(here), 1);
+  }
+  void copy_shared() {
+    for (rows_.start(); rows_.step();) put(write_.start(), 0);
+  }
+
+ private:
+  void put(sql::Statement& row, int first) {
+    for (int i = 0; i < columns_; ++i)
+      sqlite3_bind_value(row.handle(), first + i + 1, sqlite3_column_value(rows_.handle(), i));
+    while (row.step()) {
+    }
+  }
+
+  sql::Statement rows_, write_;
+  int columns_ = 0;
+};
+
+std::vector<TableCopier> episode_copiers(const sql::Database& from, const sql::Database& to) {
+  std::vector<Table> tables = current_tables();
+  std::erase_if(tables, [](const Table& table) { return !table.of_episode; });
+  std::stable_partition(tables.begin(), tables.end(), [](const Table& table) { return table.name == "episode"; });
+  std::vector<TableCopier> copiers;
+  for (const Table& table : tables) copiers.emplace_back(from, to, table);
   return copiers;
 }
 
+void check_variations(const sql::Database& from, const sql::Database& to) {
+  sql::Statement theirs(from, "SELECT task, variation, axis, value FROM variation_axis");
+  sql::Statement ours(
+      to, "SELECT 1 FROM main.variation_axis WHERE task = ?1 AND variation = ?2 AND axis = ?3 AND value <> ?4");
+  for (theirs.start(); theirs.step();) {
+    std::string task, variation, axis, value;
+    theirs.read(task, variation, axis, value);
+    if (ours.start(task, variation, axis, value).step())
+      throw CatalogueError(
+          to.path(),
+          "the two catalogues disagree about the variation " + sql::shown(task + " " + variation + ", axis " + axis),
+          "they were made from different tasks of one name: keep them apart");
+  }
+}
+
 // What episodes share, by hash or name: scripts, scenes, texts. Splits are the same everywhere.
-void copy_shared(const sql::Database& database) {
-  sql::Statement differing(database,
-                           "SELECT o.task || ' ' || o.variation || ', axis ' || o.axis FROM other.variation_axis o "
-                           "JOIN main.variation_axis m USING (task, variation, axis) WHERE m.value <> o.value");
-  if (differing.start().step()) {
-    std::string which;
-    differing.read(which);
-    throw CatalogueError(database.path(), "the two catalogues disagree about the variation " + which,
-                         "they were made from different tasks of one name: keep them apart");
-  }
-  for (const std::string& name : current_tables()) {
-    const Table table = describe(database, name);
-    if (table.of_episode || name == "split") continue;
-    const std::string columns = joined(table.columns);
-    std::string text = "INSERT INTO main." + name;
-    text.append(" (").append(columns).append(") SELECT ").append(columns).append(" FROM other.").append(name);
-    database.run(text.append(" WHERE true ON CONFLICT DO NOTHING"));
-  }
+void copy_shared(const sql::Database& from, const sql::Database& to) {
+  check_variations(from, to);
+  for (const Table& table : current_tables())
+    if (!table.of_episode && table.name != "split") TableCopier(from, to, table).copy_shared();
 }
 
 }  // namespace
 
 void Catalogue::copy_episodes(const fs::path& file, const std::vector<std::int64_t>& ids,
                               const std::function<bool(std::int64_t)>& copied) {
-  const sql::Database& database = impl_->database;
+  const Catalogue other = Catalogue::open(file);
+  const sql::Database &database = impl_->database, &from = other.impl_->database;
   if (!impl_->writable) database.fail(SQLITE_READONLY);
-  sql::Statement(database, "ATTACH ?1 AS other").run(fs::absolute(file).string());
+  std::vector<TableCopier> copiers = episode_copiers(from, database);
   try {
-    std::vector<sql::Statement> copiers = row_copiers(database);
+    from.run("BEGIN");  // all of it as it is now
     for (std::size_t done = 0; done < ids.size();) {
       database.run("BEGIN IMMEDIATE; PRAGMA defer_foreign_keys = ON;");
-      if (done == 0) copy_shared(database);
+      if (done == 0) copy_shared(from, database);
       std::int64_t id = database.number("SELECT coalesce(max(id), 0) FROM main.episode");
       const std::size_t end = std::min(done + kInATransaction, ids.size());
       for (; done < end; ++done) {
         ++id;
-        for (sql::Statement& copier : copiers) copier.run(ids[done], id);
+        for (TableCopier& copier : copiers) copier.copy_episode(ids[done], id);
+        if (other.impl_->uncounted) count_stored_masks(database, id);
       }
       database.run("COMMIT");
       if (!copied(static_cast<std::int64_t>(done))) break;
     }
+    from.run("COMMIT");
   } catch (...) {
     roll_back(database);
-    sqlite3_exec(database.handle(), "DETACH other", nullptr, nullptr, nullptr);
+    roll_back(from);
     throw;
   }
-  database.run("DETACH other");
 }
 
 MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const std::atomic<bool>* stop) {
@@ -172,19 +180,19 @@ MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const
   std::optional<Source> before;
   if (fs::exists(into, ignored) && fs::file_size(into, ignored) > 0) {
     before.emplace(into);
-    keys.own(before->catalogue(), into);
+    keys.own(before->catalogue, into);
   }
   MergeResult result;
   std::vector<std::vector<std::int64_t>> fresh;
   for (const Source& source : sources) {
     MergedFile& file = result.files.emplace_back();
-    file.path = source.path().string();
-    fresh.push_back(keys.add(source.catalogue(), source.path(), file.existing));
+    file.path = source.path.string();
+    fresh.push_back(keys.add(source.catalogue, source.path, file.existing));
   }
   before.reset();
   Catalogue catalogue = Catalogue::write(into);
   for (std::size_t i = 0; i < sources.size() && !result.interrupted; ++i)
-    catalogue.copy_episodes(sources[i].readable(), fresh[i], [&](std::int64_t copied) {
+    catalogue.copy_episodes(sources[i].path, fresh[i], [&](std::int64_t copied) {
       result.files[i].added = copied;
       result.interrupted = stop != nullptr && stop->load();
       return !result.interrupted;

@@ -19,7 +19,7 @@ struct MergeResult {
 };
 
 // Adds the episodes of `from` to `into`, which is made when it is not there. Catalogues of earlier releases are
-// migrated in a temporary copy. Repeatable: the content hash is that of one run which made all episodes. Throws:
+// read as they are. Repeatable: the content hash is that of one run which made all episodes. Throws:
 // CatalogueError, before anything is written, when two files have other content under the same key; it names both. What
 // Catalogue::open() throws.
 MergeResult merge(const std::filesystem::path& into, const std::vector<std::filesystem::path>& from,

@@ -4,6 +4,7 @@
 
 #include "db/catalogue.h"
 #include "db/count_visible.h"
+#include "db/declared.h"
 #include "db/embedded_sql.h"
 #include "db/schema.h"
 
@@ -22,11 +23,6 @@ std::vector<std::string> changed_tables(const SqlFile& migration) {
   return tables;
 }
 
-bool has_table(const sql::Database& database, const std::string& schema, const std::string& table) {
-  sql::Statement found(database, "SELECT 1 FROM " + schema + ".sqlite_master WHERE type = 'table' AND name = ?1");
-  return found.start(table).step();
-}
-
 // A migration has up to three parts: what is done to tables that are copied to be read; views that show large tables of
 // `old` in their new shape; what makes tables of them.
 struct Parts {
@@ -42,55 +38,62 @@ Parts parts_of(const std::string& text, const std::string& old) {
   return parts;
 }
 
-// From the attached file into the temporary database, once.
-void copy_table(const sql::Database& database, const std::string& table) {
-  if (has_table(database, "main", table) || !has_table(database, "file", table)) return;
-  database.run(database.text("SELECT sql FROM file.sqlite_master WHERE type = 'table' AND name = '" + table + "'"));
+// From the attached file into the temporary database, once: declared by us, never as the file says.
+void copy_table(const sql::Database& database, const std::string& table, int schema) {
+  const auto& tables = declared_by(schema).tables;
+  const auto declared = tables.find(table);
+  sql::Statement there(database, "SELECT 1 FROM main.sqlite_master WHERE type = 'table' AND name = ?1");
+  if (declared == tables.end() || there.start(table).step()) return;
+  database.run(declared->second);
   database.run("INSERT INTO main." + table + " SELECT * FROM file." + table);
 }
 
 }  // namespace
 
-const std::vector<Release>& earlier_releases() {
-  static const std::vector<Release> releases = {{5, "b42eca7836102aadf68a7328d44acb2f"},
-                                                {6, "46e3d1c4dfe2701f86da6280a2a0bfaf"},
-                                                {7, "309c69e3b94417272c25c283956be2db"}};
+const std::vector<int>& earlier_releases() {
+  static const std::vector<int> releases = [] {
+    std::vector<int> list;
+    for (const SqlFile& migration : embedded_migrations()) list.push_back(first_number(migration));
+    return list;
+  }();
   return releases;
 }
 
-void migrate(const sql::Database& database, int schema) {
+void migrate(const sql::Database& database, int from, int to) {
   for (const SqlFile& migration : embedded_migrations()) {
-    const int from = first_number(migration);
-    if (from < schema) continue;
+    const int begin = first_number(migration);
+    if (begin < from || begin >= to) continue;
     const Parts parts = parts_of(migration.text, "main");
     database.run(parts.copied + parts.in_place + parts.written);
-    if (from != 5) continue;
+    if (begin != 5) continue;
     count_stored_masks(database);
-    for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
+    database.run(indexes_script());
     database.run(derived_sql("effects_held"));
     database.run("INSERT INTO undeclared_change (episode, segment, fact, negated) " + derived_sql("undeclared_change"));
   }
-  database.run("PRAGMA user_version = " + std::to_string(schema_version()));
+  database.run("PRAGMA user_version = " + std::to_string(to));
 }
 
 sql::Database migrated_to_read(const std::string& uri, int flags, const std::string& shown_path, int schema) {
   // An empty name is a database of its own on disk, without a file that others see; it goes when it is closed.
   sql::Database database("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | (flags & SQLITE_OPEN_URI), shown_path);
-  sql::Statement(database, "ATTACH ?1 AS file").run(uri);
+  database.attach(uri, "file");
+  check_declarations(database, "file", schema);
   // Before there are temporary views: setting it drops them. Tables that did not change are not here to be referred to.
   database.run("PRAGMA foreign_keys = OFF; PRAGMA temp_store = MEMORY; BEGIN");
   for (const SqlFile& migration : embedded_migrations()) {
     if (first_number(migration) < schema) continue;
-    for (const std::string& table : changed_tables(migration)) copy_table(database, table);
+    for (const std::string& table : changed_tables(migration)) copy_table(database, table, schema);
     const Parts parts = parts_of(migration.text, "file");
     database.run(parts.copied + parts.in_place);
   }
   if (schema == 5) {  // which had none
-    for (const SqlFile& indexes : embedded_indexes()) database.run(indexes.text);
+    database.run(indexes_script());
     database.run(derived_sql("effects_held"));
     database.run("CREATE TEMP VIEW undeclared_change AS " + derived_sql("undeclared_change"));
   }
   database.run("COMMIT");
+  database.only_read();
   return database;
 }
 

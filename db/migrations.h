@@ -9,15 +9,11 @@
 
 namespace stampede {
 
-// A schema that users have files of, and its tables_hash(). The current one joins when the next is begun.
-struct Release {
-  int schema = 0;
-  std::string tables;
-};
-const std::vector<Release>& earlier_releases();
+// Schemas that users have files of, the oldest first: those that a migration begins from.
+const std::vector<int>& earlier_releases();
 
-// Runs the numbered migrations from `schema` up, inside the caller's transaction.
-void migrate(const sql::Database& database, int schema);
+// Runs the numbered migrations between two schemas, inside the caller's transaction.
+void migrate(const sql::Database& database, int from, int to);
 
 // A database that shows the file at `uri` as one of this release without changing it: the tables that migrations
 // change are copied into a temporary database and migrated there, the others are read where they are. What is counted

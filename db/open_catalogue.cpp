@@ -8,6 +8,7 @@
 
 #include "db/catalogue.h"
 #include "db/catalogue_impl.h"
+#include "db/declared.h"
 #include "db/episode_writer.h"
 #include "db/migrations.h"
 #include "db/schema.h"
@@ -26,29 +27,6 @@ struct Content {
   bool older() const { return schema != 0 && schema != schema_version(); }
 };
 
-// What made the episodes, for complaints; empty when the file does not say.
-std::string engine_of(const sql::Database& database) {
-  try {
-    return database.text("SELECT group_concat(DISTINCT engine_version) FROM engine_run");
-  } catch (const Error&) {
-    return "";
-  }
-}
-
-void check_tables(const sql::Database& database, int schema) {
-  std::string expected = schema == schema_version() ? current_tables_hash() : "";
-  for (const Release& release : earlier_releases())
-    if (release.schema == schema) expected = release.tables;
-  const std::string found = tables_hash(database);
-  if (found == expected) return;
-  const std::string engine = engine_of(database);
-  throw CatalogueError(database.path(),
-                       "its tables are those of no release: it says schema " + std::to_string(schema) +
-                           ", and they are " + found.substr(0, 8) + ", not " + expected.substr(0, 8),
-                       "read it with the build that made it" + (engine.empty() ? "" : " (" + engine + ")") +
-                           ", which lay between two releases, or " + kAgain);
-}
-
 // Looks before anything is changed. Throws CatalogueError for every file that is not ours to use. Call it within a
 // transaction: another run may be making the tables.
 Content inspect(const sql::Database& database) {
@@ -64,13 +42,13 @@ Content inspect(const sql::Database& database) {
   if (version > schema_version())
     throw CatalogueError(database.path(), "this catalogue was made by a newer version: " + versions,
                          std::string("use that version of stampede, or ") + kAgain);
-  const int oldest = earlier_releases().front().schema;
+  const int oldest = earlier_releases().front();
   if (version < oldest)
     throw CatalogueError(database.path(),
                          "this catalogue was made by an older version: " + versions + " and those from " +
                              std::to_string(oldest) + " up",
                          kAgain);
-  check_tables(database, static_cast<int>(version));
+  check_declarations(database, "main", static_cast<int>(version));
   return {static_cast<int>(version)};
 }
 
@@ -194,11 +172,11 @@ void make_ready(const sql::Database& database, const fs::path& path) {
     const bool stale = content.empty() || content.older() || !has_current_views(database);
     if (content.empty()) database.run(schema_script());
     if (content.older()) {
-      database.run(drop_views_script(database));
-      migrate(database, content.schema);
+      database.run(drop_views_script());
+      migrate(database, content.schema, schema_version());
     }
     add_reasons(database);
-    if (stale) database.run(views_script(database));
+    if (stale) database.run(views_script());
     database.run("COMMIT");
   } catch (...) {
     roll_back(database);
@@ -219,6 +197,7 @@ Catalogue Catalogue::open(const fs::path& path) {
     throw CatalogueError(path.string(), "this file is empty: no run has written to it",
                          "run some tasks first: `stampede run TASK --out " + path.string() + "`");
   if (content.older()) {
+    impl->uncounted = content.schema == 5;
     file.database.close();
     file.database = migrated_to_read(file.uri, kReading, path.string(), content.schema);
   }
@@ -239,6 +218,7 @@ Catalogue Catalogue::write(const fs::path& path, Journal journal) {
   make_ready(database, path);
   if (journal == Journal::in_place) use_undo_file(database);
   database.run("PRAGMA foreign_keys = ON");
+  database.run(temporary_views_script());
   impl->writable = true;
   return Catalogue(std::move(impl));
 }

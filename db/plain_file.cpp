@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "db/declared.h"
 #include "db/embedded_sql.h"
 #include "db/read_only.h"
 #include "db/sqlite.h"
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+using sql::quoted_name;
 
 void bind_value(sql::Database& database, sqlite3_stmt* statement, int place, const SqlValue& value) {
   int code = SQLITE_OK;
@@ -49,7 +50,7 @@ PlainFileWriter::PlainFileWriter(const fs::path& path) : impl_(std::make_unique<
   fs::remove(impl_->unfinished, ignored);  // of a run that was killed
   impl_->database = sql::Database(fs::absolute(impl_->unfinished).string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
                                   path.string());
-  impl_->database.run("PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");
+  impl_->database.run("PRAGMA page_size = 4096; PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; BEGIN");
 }
 
 PlainFileWriter::PlainFileWriter(PlainFileWriter&&) noexcept = default;
@@ -65,14 +66,15 @@ PlainFileWriter::~PlainFileWriter() {
 void PlainFileWriter::table(const std::string& name, const std::vector<std::string>& columns) {
   std::string list, places;
   for (const std::string& column : columns) {
-    list += (list.empty() ? "" : ", ") + quoted(column);
+    list += (list.empty() ? "" : ", ") + quoted_name(column);
     places += places.empty() ? "?" : ", ?";
     if (column == "episode" || column == "piece")
-      impl_->indexes.push_back("CREATE INDEX " + quoted(name + "_" + column) + " ON " + quoted(name) + " (" + column +
-                               ")");
+      impl_->indexes.push_back("CREATE INDEX " + quoted_name(name + "_" + column) + " ON " + quoted_name(name) + " (" +
+                               quoted_name(column) + ")");
   }
-  impl_->database.run("CREATE TABLE " + quoted(name) + " (" + list + ")");
-  impl_->insert = sql::Statement(impl_->database, "INSERT INTO " + quoted(name) + " VALUES (" + places + ")", true);
+  impl_->database.run("CREATE TABLE " + quoted_name(name) + " (" + list + ")");
+  impl_->insert =
+      sql::Statement(impl_->database, "INSERT INTO " + quoted_name(name) + " VALUES (" + places + ")", true);
 }
 
 void PlainFileWriter::row(const std::vector<SqlValue>& values) {
@@ -110,12 +112,12 @@ PlainFile PlainFile::open(const fs::path& path) {
   auto impl = std::make_unique<Impl>();
   impl->path = path;
   impl->database = sql::Database(path.string(), SQLITE_OPEN_READONLY, path.string());
-  impl->database.number("SELECT count(*) FROM sqlite_master");  // is it a database?
+  check_plain_tables(impl->database);
   return PlainFile(std::move(impl));
 }
 
 Rows PlainFile::query(std::string_view select, const std::vector<SqlValue>& parameters) const {
-  return read_only_query(impl_->database.handle(), select, parameters);
+  return read_only_query(impl_->database, select, parameters);
 }
 
 std::vector<std::string> PlainFile::tables() const {

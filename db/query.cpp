@@ -14,45 +14,6 @@
 namespace stampede {
 namespace {
 
-// Only what reads; functions of SQLite that touch files are not compiled in, but loading some is refused all the same,
-// as is what prints addresses.
-int allow_reading(void*, int action, const char* first, const char* second, const char*, const char*) {
-  const auto is_one_of = [](const char* name, std::initializer_list<std::string_view> names) {
-    return name && std::find(names.begin(), names.end(), std::string_view(name)) != names.end();
-  };
-  switch (action) {
-    case SQLITE_SELECT:
-    case SQLITE_READ:
-    case SQLITE_RECURSIVE:
-      return SQLITE_OK;
-    case SQLITE_FUNCTION:
-      return is_one_of(second, {"load_extension", "writefile", "readfile", "edit", "fts3_tokenizer"}) ? SQLITE_DENY
-                                                                                                      : SQLITE_OK;
-    case SQLITE_PRAGMA: {
-      const bool harmless = is_one_of(first, {"table_info", "table_xinfo", "table_list", "index_list", "index_info",
-                                              "foreign_key_list", "application_id", "user_version"});
-      // application_id and user_version with a value would set them.
-      const bool sets = second && is_one_of(first, {"application_id", "user_version"});
-      return harmless && !sets ? SQLITE_OK : SQLITE_DENY;
-    }
-    case SQLITE_UPDATE:  // asked when pragma_table_info() is set up; SQLite itself never lets a statement do it
-      return is_one_of(first, {"sqlite_master", "sqlite_temp_master"}) ? SQLITE_OK : SQLITE_DENY;
-    default:
-      return SQLITE_DENY;
-  }
-}
-
-class ReadOnly {
- public:
-  explicit ReadOnly(sqlite3* handle) : handle_(handle) { sqlite3_set_authorizer(handle_, allow_reading, nullptr); }
-  ~ReadOnly() { sqlite3_set_authorizer(handle_, nullptr, nullptr); }
-  ReadOnly(const ReadOnly&) = delete;
-  ReadOnly& operator=(const ReadOnly&) = delete;
-
- private:
-  sqlite3* handle_;
-};
-
 struct Finalizer {
   void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
 };
@@ -219,8 +180,10 @@ const NamedQuery* find_named_query(std::string_view name) {
   return nullptr;
 }
 
-void read_only_query(sqlite3* handle, const std::string& text, RowReceiver& receiver, const QueryOptions& options) {
-  const ReadOnly guard(handle);
+void read_only_query(const sql::Database& database, const std::string& text, RowReceiver& receiver,
+                     const QueryOptions& options) {
+  const sql::AsQuestion guard(database);
+  sqlite3* const handle = database.handle();
   const Prepared statement = prepare(handle, text);
   bind(handle, statement.get(), options.parameters);
   const int columns = sqlite3_column_count(statement.get());
@@ -236,14 +199,14 @@ void read_only_query(sqlite3* handle, const std::string& text, RowReceiver& rece
   if (code != SQLITE_DONE) refuse(code, sqlite3_errmsg(handle));
 }
 
-Rows read_only_query(sqlite3* handle, std::string_view text, const std::vector<SqlValue>& parameters) {
+Rows read_only_query(const sql::Database& database, std::string_view text, const std::vector<SqlValue>& parameters) {
   RowKeeper keeper;
-  read_only_query(handle, std::string(text), keeper, {parameters, 0});
+  read_only_query(database, std::string(text), keeper, {parameters, 0});
   return std::move(keeper.result);
 }
 
 void Catalogue::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
-  read_only_query(impl_->database.handle(), text_of(question), receiver, options);
+  read_only_query(impl_->database, text_of(question), receiver, options);
 }
 
 QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {

@@ -1,31 +1,15 @@
 #include "db/schema.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "db/catalogue.h"
+#include "db/declared.h"
 #include "db/embedded_sql.h"
 #include "engine/base/hash.h"
 #include "engine/base/reason.h"
 
 namespace stampede {
 namespace {
-
-// Declarations that mean the same are the same: an added column, or a table that a migration made, has other spaces.
-std::string without_looks(const std::string& sql) {
-  std::string bare;
-  bool quoted = false;
-  for (std::size_t i = 0; i < sql.size(); ++i) {
-    const char c = sql[i];
-    if (c == '\'') quoted = !quoted;
-    if (!quoted && sql.compare(i, 2, "--") == 0) {
-      i = std::min(sql.find('\n', i), sql.size() - 1);
-      continue;
-    }
-    if (quoted || (c != '"' && !std::isspace(static_cast<unsigned char>(c)))) bare += c;
-  }
-  return bare;
-}
 
 std::string of_all(const std::vector<SqlFile>& files) {
   std::string script;
@@ -35,7 +19,7 @@ std::string of_all(const std::vector<SqlFile>& files) {
 
 sql::Database empty_catalogue() {
   sql::Database memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, ":memory:");
-  memory.run(schema_script() + of_all(embedded_indexes()) + of_all(embedded_views()));
+  memory.run(schema_script() + indexes_script() + of_all(embedded_views()));
   return memory;
 }
 
@@ -53,9 +37,11 @@ std::vector<std::string> derived(const sql::Database& database) {
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + ('"' + word + '"');
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + sql::quoted_name(word);
   return text;
 }
+
+namespace {
 
 Table describe(const sql::Database& database, const std::string& name) {
   Table table{name, {}, {}, false};
@@ -78,35 +64,25 @@ Table describe(const sql::Database& database, const std::string& name) {
   return table;
 }
 
-std::string tables_hash(const sql::Database& database) {
-  sql::Statement rows(database,
-                      "SELECT name, sql FROM main.sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite!_%' "
-                      "ESCAPE '!' AND substr(name, 1, 4) <> ?1 ORDER BY name");
-  Hasher hasher;
-  for (rows.start(kOwnPrefix); rows.step();) {
-    std::string name, sql;
-    rows.read(name, sql);
-    hasher.text(name).text(without_looks(sql));
-  }
-  return hasher.digest();
-}
+}  // namespace
 
 const std::string& current_tables_hash() {
-  static const std::string hash = tables_hash(empty_catalogue());
+  static const std::string hash = [] {
+    Hasher hasher;
+    for (const auto& [name, sql] : declared_by(schema_version()).tables) hasher.text(name).text(tokens_of(sql));
+    return hasher.digest();
+  }();
   return hash;
 }
 
-const std::vector<std::string>& current_tables() {
-  static const std::vector<std::string> names = [] {
+const std::vector<Table>& current_tables() {
+  static const std::vector<Table> tables = [] {
     const sql::Database memory = empty_catalogue();
-    std::vector<std::string> list;
-    sql::Statement rows(memory,
-                        "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite!_%' ESCAPE '!' "
-                        "ORDER BY name");
-    for (rows.start(); rows.step();) rows.read(list.emplace_back());
+    std::vector<Table> list;
+    for (const auto& [name, sql] : declared_by(schema_version()).tables) list.push_back(describe(memory, name));
     return list;
   }();
-  return names;
+  return tables;
 }
 
 const std::string& derived_sql(const std::string& name) {
@@ -124,20 +100,16 @@ bool has_current_views(const sql::Database& database) {
   return derived(database) == current;
 }
 
-std::string drop_views_script(const sql::Database& database) {
+std::string indexes_script() { return of_all(embedded_indexes()); }
+
+std::string drop_views_script() {
   std::string script;
-  sql::Statement views(database, "SELECT name FROM main.sqlite_master WHERE type = 'view' ORDER BY name");
-  for (views.start(); views.step();) {
-    std::string name;
-    views.read(name);
-    script += "DROP VIEW \"" + name + "\";\n";
-  }
+  for (const SqlFile& view : embedded_views())
+    script += "DROP VIEW IF EXISTS main." + sql::quoted_name(view.name) + ";\n";
   return script;
 }
 
-std::string views_script(const sql::Database& database) {
-  return drop_views_script(database) + of_all(embedded_indexes()) + of_all(embedded_views());
-}
+std::string views_script() { return drop_views_script() + indexes_script() + of_all(embedded_views()); }
 
 std::string temporary_views_script() {
   std::string script = "PRAGMA temp_store = MEMORY;\nBEGIN;\n";

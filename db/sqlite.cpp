@@ -1,5 +1,6 @@
 #include "db/sqlite.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stampede::sql {
@@ -55,6 +56,9 @@ Database::Database(const std::string& path, int flags, const std::string& shown_
   handle_.reset(handle);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(handle, 1);
+  const bool writes = (flags & SQLITE_OPEN_READWRITE) != 0;
+  permissions_ = std::make_unique<Permissions>(Permissions{writes ? Purpose::write : Purpose::read});
+  restrict_to(handle, permissions_.get());
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
 }
 
@@ -79,10 +83,44 @@ std::string Database::text(const std::string& statement) const {
 
 void Database::fail(int code) const {
   const std::string message = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
-  throw CatalogueError(path_, complaint_of(code, message), cure_of(code));
+  throw CatalogueError(path_, complaint_of(code, shown(message)), cure_of(code));
 }
 
 void Database::close() { handle_.reset(); }
+
+void Database::attach(const std::string& uri, const std::string& name) const {
+  permissions_->may_attach = true;
+  try {
+    Statement(*this, "ATTACH ?1 AS " + quoted_name(name)).run(uri);
+  } catch (...) {
+    permissions_->may_attach = false;
+    throw;
+  }
+  permissions_->may_attach = false;
+}
+
+void Database::only_read() const { permissions_->purpose = Purpose::read; }
+
+std::string quoted_name(std::string_view name) {
+  std::string text = "\"";
+  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
+  return text + '"';
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t kMost = 200;
+  std::size_t end = std::min(text.size(), kMost);
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  std::string visible;
+  for (std::size_t i = 0; i < end; ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const unsigned next = i + 1 < end ? static_cast<unsigned char>(text[i + 1]) : 0;
+    const bool two = byte == 0xc2 && next >= 0x80 && next < 0xa0;  // the other control characters, in UTF-8
+    visible += byte < 0x20 || byte == 0x7f || two ? ' ' : text[i];
+    if (two) ++i;
+  }
+  return end < text.size() ? visible + " …" : visible;
+}
 
 Statement::Statement(const Database& database, const std::string& text, bool keep) : database_(&database) {
   sqlite3_stmt* handle = nullptr;

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "db/permissions.h"
 #include "engine/base/error.h"
 #include "engine/geometry/transform.h"
 
@@ -34,7 +35,7 @@ struct Wide {
 class Database {
  public:
   Database() = default;
-  // Opens, no question asked of the file yet. Throws CatalogueError.
+  // Opens, no question asked of the file yet; its purpose is to write where the flags let it. Throws CatalogueError.
   Database(const std::string& path, int flags, const std::string& shown_path);
   sqlite3* handle() const { return handle_.get(); }
   const std::string& path() const { return path_; }
@@ -46,13 +47,39 @@ class Database {
   [[noreturn]] void fail(int code) const;  // throws CatalogueError with the cure for this code
   void close();                            // throws nothing
 
+  void attach(const std::string& uri, const std::string& name) const;  // of ours: no name comes from a file
+  void only_read() const;                                              // from now on
+
  private:
+  friend class AsQuestion;
   struct Closer {
     void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
   };
+  std::unique_ptr<Permissions> permissions_;  // outlive the handle
   std::unique_ptr<sqlite3, Closer> handle_;
   std::string path_;
 };
+
+// While it lives, the connection takes a user's statements: they read and do nothing else.
+class AsQuestion {
+ public:
+  explicit AsQuestion(const Database& database) : permissions_(*database.permissions_), before_(permissions_.purpose) {
+    permissions_.purpose = Purpose::question;
+  }
+  ~AsQuestion() { permissions_.purpose = before_; }
+  AsQuestion(const AsQuestion&) = delete;
+  AsQuestion& operator=(const AsQuestion&) = delete;
+
+ private:
+  Permissions& permissions_;
+  Purpose before_;
+};
+
+// A name as SQL takes it, whatever is in it.
+std::string quoted_name(std::string_view name);
+
+// A text of a file as a message shows it: short, on one line, without what a terminal would obey.
+std::string shown(std::string_view text);
 
 // A prepared statement. Texts and blobs handed to start() or run() must live until the statement is reset.
 class Statement {

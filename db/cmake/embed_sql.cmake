@@ -1,6 +1,6 @@
 # Writes OUTPUT, a C++ source that holds the text of every .sql file of the folders below under FOLDER.
 set(text "// Made by db/cmake/embed_sql.cmake from the .sql files of db.\n#include \"db/embedded_sql.h\"\n\nnamespace stampede {\n")
-foreach(list schema indexes migrations derived views queries datasets)
+foreach(list schema indexes releases migrations derived views queries datasets)
   file(GLOB files ${FOLDER}/${list}/*.sql)
   list(SORT files)
   string(APPEND text "\nconst std::vector<SqlFile>& embedded_${list}() {\n  static const std::vector<SqlFile> files = {\n")

@@ -46,8 +46,8 @@ void multiply(const std::filesystem::path& out, std::int64_t episodes) {
   std::filesystem::copy_file(out, few, std::filesystem::copy_options::overwrite_existing);
   {
     const sql::Database database(out.string(), SQLITE_OPEN_READWRITE, out.string());
-    sql::Statement(database, "ATTACH ?1 AS few").run(few.string());
-    database.run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA cache_size = -500000; BEGIN");
+    database.attach(few.string(), "few");
+    database.run("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; PRAGMA cache_size = -500000; BEGIN");
     const std::int64_t stored = database.number("SELECT count(*) FROM episode");
     database.run("CREATE TEMP TABLE copy AS WITH RECURSIVE n (id) AS (SELECT " + std::to_string(stored + 1) +
                  " UNION ALL SELECT id + 1 FROM n WHERE id < " + std::to_string(episodes) + ") SELECT id, (id - 1) % " +
@@ -56,9 +56,9 @@ void multiply(const std::filesystem::path& out, std::int64_t episodes) {
     sql::Statement indexes(database, "SELECT name FROM sqlite_master WHERE type = 'index' AND sql IS NOT NULL");
     for (indexes.start(); indexes.step();) indexes.read(drops.emplace_back());
     for (const std::string& name : drops) database.run("DROP INDEX " + name);
-    for (const std::string& name : current_tables()) {
-      const Table table = describe(database, name);
+    for (const Table& table : current_tables()) {
       if (!table.of_episode) continue;
+      const std::string& name = table.name;
       const std::string number = name == "episode" ? "id" : "episode";
       std::string taken;
       for (const std::string& column : table.columns)

@@ -1,5 +1,7 @@
 #include "sample_episode.h"
 
+#include <libdeflate.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "db/sqlite.h"
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/model/camera.h"
@@ -266,8 +267,32 @@ std::string bytes_of(const std::filesystem::path& file) {
 }
 
 void change(const std::filesystem::path& catalogue, const std::string& sql) {
-  const sql::Database database(catalogue.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, catalogue.string());
-  database.run(sql);
+  sqlite3* handle = nullptr;
+  int code = sqlite3_open(catalogue.c_str(), &handle);
+  if (code == SQLITE_OK) code = sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr);
+  const std::string message = sqlite3_errmsg(handle);
+  sqlite3_close(handle);
+  if (code != SQLITE_OK) throw std::runtime_error(catalogue.string() + ": " + message);
+}
+
+std::vector<std::filesystem::path> stored_releases() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tests/db/data"))
+    if (entry.path().extension() == ".gz") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void unpack(const std::filesystem::path& packed, const std::filesystem::path& to) {
+  const std::string gzip = bytes_of(packed);
+  std::string plain(64'000'000, '\0');
+  std::size_t size = 0;
+  libdeflate_decompressor* reader = libdeflate_alloc_decompressor();
+  const libdeflate_result result =
+      libdeflate_gzip_decompress(reader, gzip.data(), gzip.size(), plain.data(), plain.size(), &size);
+  libdeflate_free_decompressor(reader);
+  if (result != LIBDEFLATE_SUCCESS) throw std::runtime_error(packed.string() + ": it cannot be unpacked");
+  std::ofstream(to, std::ios::binary).write(plain.data(), static_cast<std::streamsize>(size));
 }
 
 }  // namespace stampede::test

@@ -40,4 +40,8 @@ class Folder {
 std::string bytes_of(const std::filesystem::path& file);                      // it must be there
 void change(const std::filesystem::path& catalogue, const std::string& sql);  // as any program could, past Catalogue
 
+// The catalogues in tests/db/data: `schema5.db.gz` was made by release 5, and so on.
+std::vector<std::filesystem::path> stored_releases();
+void unpack(const std::filesystem::path& packed, const std::filesystem::path& to);
+
 }  // namespace stampede::test

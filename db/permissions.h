@@ -1,0 +1,22 @@
+// What a connection may do, whatever a file or a question says: one place for all of them. Inside this room only.
+#pragma once
+
+#include <sqlite3.h>
+
+namespace stampede::sql {
+
+// question: a user's, which reads and does nothing else. read: ours, which may also make temporary views. write: ours,
+// which makes and fills tables. None reads views that are stored in a file, makes triggers or virtual tables, loads
+// code or changes the schema by hand.
+enum class Purpose { question, read, write };
+
+struct Permissions {
+  Purpose purpose = Purpose::question;
+  bool may_attach = false;  // while a file is attached that we name ourselves
+};
+
+// Takes from the connection what files could abuse: triggers, stored views, functions in declarations that reach out,
+// hand-written schemas. `permissions` must outlive the connection, and may change at any time.
+void restrict_to(sqlite3* handle, Permissions* permissions);
+
+}  // namespace stampede::sql
