@@ -18,10 +18,10 @@ from PIL import Image
 
 import stampede
 from stampede.recordings import convert
-from stampede.recordings.cdr import CdrReader
 from stampede.recordings.folder import stamp_text
+from stampede.recordings.messages import decoder
 from stampede.recordings.pictures import packed
-from stampede.recordings.roles import camera_name, joint_for
+from stampede.recordings.roles import camera_name, prefixes_of
 from stampede.robots import robot_of
 
 pytest.importorskip("rosbags")
@@ -167,9 +167,13 @@ def test_maps_and_clocks(tmp_path: Path) -> None:
 def test_names() -> None:
     assert camera_name("/camera/front/image") == "front" and camera_name("/front/color/image_raw/compressed") == "front"
     assert camera_name("/camera/color/image_raw") == "camera" and camera_name("/2nd/image") == "camera_2nd"
-    assert joint_for("joint1", NAMES) == "panda_joint1" and joint_for("joint1", ["a.joint1", "b.joint1"]) is None
+    two = ["joint1", "joint2"]
+    assert prefixes_of(["joint1", "joint7"], NAMES) == ["panda_"]
+    assert prefixes_of(two, ["rail_joint1", "joint1", "joint2"]) == [""]
+    assert prefixes_of(two, ["a.joint1", "a.joint2", "b/joint2", "b/joint1"]) == ["a.", "b/"]
+    assert prefixes_of(two, ["a_joint1", "b_joint2", "myjoint1", "myjoint2"]) == []
     assert stamp_text(1_700_000_000_000_000_001) == "1700000000.000000001" and stamp_text(-5) == "-0.000000005"
-    assert joint_for("joint1", ["iiwa_joint_1"]) is None
+    assert prefixes_of(["joint1"], ["iiwa_joint_1"]) == []
 
 
 # Bad input: an Error with place and cure, and no folder.
@@ -315,10 +319,11 @@ def test_messages_in_other_encodings(tmp_path: Path) -> None:
 
 
 def test_damaged_messages_and_pictures(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="announced"):
-        CdrReader(b"\0\1\0\0" + struct.pack("<I", 1000)).text()
-    with pytest.raises(ValueError, match="does not begin"):
-        CdrReader(b"\7\7\0\0")
+    read = decoder("/joints", "sensor_msgs/msg/JointState", "cdr")
+    head = b"\0\1\0\0"
+    for data in (b"", b"\7\7\0\0", head + b"\0" * 8 + struct.pack("<I", 1000), head + b"\xff" * 40):
+        with pytest.raises(stampede.Error, match="topic /joints, message logged at 0.000000 s: it ends early or is damaged"):
+            read(data, 0)
     with RosBag(tmp_path / "bag") as bag:
         bag.joint_state("/joint_states", START, START, NAMES, HOME)
         bag.compressed("/front/image", START, START, "jpeg", jpeg()[:-40], "front")
@@ -334,9 +339,11 @@ def test_a_folder_that_is_there_stays(tmp_path: Path) -> None:
 
 
 def test_what_big_endian_machines_write() -> None:
-    data = b"\0\0\0\0" + struct.pack(">I", 5) + b"abcd\0" + b"\0" * 7 + struct.pack(">d", 1.5)
-    cdr = CdrReader(data)
-    assert cdr.text() == "abcd" and cdr.floats(1).tolist() == [1.5]
+    # stamp, frame, no names, one position
+    data = b"\0\0\0\0" + struct.pack(">iII", 7, 5, 2) + b"a\0\0\0" + struct.pack(">IId", 0, 1, 1.5)
+    data += struct.pack(">II", 0, 0)
+    one = decoder("/joints", "sensor_msgs/msg/JointState", "cdr")(data, 0)
+    assert one.stamp_ns == 7 * 10**9 + 5 and one.position.tolist() == [1.5]  # type: ignore[attr-defined]
 
 
 def test_packed_pictures_are_what_they_were() -> None:

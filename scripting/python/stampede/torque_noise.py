@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from stampede._core import Error
 from stampede.calibrate.apply import write_whole
 from stampede.calibrate.recorded import Recording
-from stampede.faults import fault
+from stampede.faults import fault, reading
 from stampede.robots import Robot
 
 Array = NDArray[Any]
@@ -267,7 +267,9 @@ def drawn(noise: TorqueNoise, motion: Motion, seed: int = 0) -> Array:
 def main(arguments: Sequence[str] | None = None) -> tuple[str, Json]:
     """Runs the command line; gives what it found, in words and as JSON. Raises Error for bad input."""
     options = _parse(arguments)
-    found = fit(Recording(Path(options.recording), corrected=True), not options.no_load, not options.no_masses)
+    with reading(options.recording):
+        recording = Recording(Path(options.recording), corrected=True)
+    found = fit(recording, not options.no_load, not options.no_masses)
     alike = comparison(found.residuals, drawn(found.noise, found.motion), found.noise.joints)
     document = found.noise.document() | {"fitted_to": Path(options.recording).name}
     write_whole(Path(options.out), document)

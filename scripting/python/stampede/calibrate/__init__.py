@@ -24,7 +24,7 @@ from stampede.calibrate.recorded import Recording
 from stampede.calibrate.problem import Camera, FixedBoard, Seen, locate, start
 from stampede.calibrate.words import lens_words, pose_words
 from stampede.export.steps import matrices
-from stampede.faults import fault, unknown
+from stampede.faults import fault, reading, unknown
 from stampede.robots import Robot
 
 Json = dict[str, Any]
@@ -38,7 +38,8 @@ _ENDINGS = (".png", ".jpg", ".jpeg")
 def calibrate(arguments: Sequence[str] | None = None) -> tuple[str, Json]:
     """Runs the command line; gives what it found, in words and as JSON. Raises Error for bad input."""
     options = parse(arguments)
-    words, report = (_intrinsics if options.what == "intrinsics" else _extrinsics)(options)
+    with reading(str(options.source)):
+        words, report = (_intrinsics if options.what == "intrinsics" else _extrinsics)(options)
     return (json.dumps(report, indent=1) if options.json else words), report
 
 

@@ -14,15 +14,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
-from stampede.faults import fault
+from stampede.faults import fault, reading
 from stampede.recordings import given as given_options
 from stampede.recordings.given import Given
 
 FORMATS = {
     "mcap": ("bag", "MCAP with ROS 2's messages, or with Foxglove's as JSON"),
     "rosbag2": ("bag", "a bag of ROS 2: its folder, or a .mcap or .db3 file"),
+    "rosbag1": ("bag", "a bag of ROS 1: a .bag file"),
     "lerobot": ("lerobot", "LeRobotDataset v2.1 or v3.0: a folder an episode"),
-    "robomimic": ("robomimic", "HDF5 of robomimic: a folder a demo"),
+    "robomimic": ("robomimic", "HDF5 of robomimic, LIBERO and DROID: a folder a demo"),
 }
 _SYNTHESIZE = "synthesize"
 
@@ -44,7 +45,8 @@ def convert(arguments: Sequence[str] | None = None, tell: Callable[[str], None] 
     if options.format == _SYNTHESIZE:
         return [_synthesizer().synthesize(options, say)]
     given = given_options.given_by(options, say)
-    folders = _module(options.format).convert(given, options)
+    with reading(str(options.source)):
+        folders = _module(options.format).convert(given, options)
     if options.into:
         import_folders(folders, Path(options.into), say)
     return folders

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -35,7 +35,7 @@ from stampede.recordings.messages import (
     decoder,
 )
 from stampede.recordings.pictures import Packers, file_of
-from stampede.recordings.roles import Roles, joint_for, parse_map, roles_of
+from stampede.recordings.roles import Roles, parse_map, roles_of
 
 Array = NDArray[Any]
 Json = dict[str, Any]
@@ -54,6 +54,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "depth.CAMERA, lens.CAMERA, wrench.NAME; `=none` leaves a kind out (default: by type and name)",
     )
     parser.add_argument(
+        "--prefix",
+        metavar="TEXT",
+        help="what stands before the names of the robot's joints, of several arms on one topic (default: found)",
+    )
+    parser.add_argument(
         "--clock", choices=("header", "log"), default="header", help="whose times (default: %(default)s)"
     )
     parser.add_argument("--skip-bad", action="store_true", help="leave out readings that are NaN or go back in time")
@@ -65,7 +70,7 @@ def convert(given: Given, options: argparse.Namespace) -> list[Path]:
     """Writes the folder. Raises Error for a bag that cannot serve; then there is no folder."""
     source = Path(options.source)
     bag = open_bag(source, options.truncated)
-    roles = roles_of(bag, str(source), given.robot.arm, parse_map(options.map))
+    roles = roles_of(bag, str(source), given.robot, parse_map(options.map), options.prefix)
     cores = len(os.sched_getaffinity(0))
     with FolderWriter(given.out, options.skip_bad) as folder, ThreadPoolExecutor(cores) as pool:
         _Conversion(bag, roles, given, options, folder, Packers(pool)).run()
@@ -124,11 +129,11 @@ class _Conversion:
             takers = []
             clock = self._clock(topic, "robot", first)
             if topic == self._roles.joints:
-                takers.append(self._joints(place, clock, first))
+                takers.append(self._joints(place, clock))
             if topic in (self._roles.gripper, self._roles.joints) and (
                 topic == self._roles.gripper or not self._roles.gripper
             ):
-                takers.append(self._gripper(place, clock, first))
+                takers.append(self._gripper(place, clock))
             return lambda message, time: _give(takers, message, time)
         if isinstance(first, PictureReading):
             return self._picture(place, topic, first)
@@ -141,47 +146,39 @@ class _Conversion:
             return lambda message, time: self._frames.add(message, time)  # type: ignore[arg-type]
         return lambda message, time: self._keep_segment(message)  # type: ignore[arg-type]
 
-    def _joints(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
+    def _joints(self, place: str, clock: str) -> Callable[[Any, int], None]:
         arm = self._given.robot.arm
         parts = [("position", "position_rad")]
-        parts += [
-            (part, column)
-            for part, column in (("velocity", "velocity_rad_s"), ("effort", "effort_nm"))
-            if np.isfinite(getattr(first, part)).any()
-        ]
+        columns = (("velocity", "velocity_rad_s"), ("effort", "effort_nm"))
+        parts += [(part, column) for part, column in columns if part in self._roles.measured]
         stream = self._folder.series("joints", [f"{j}_{column}" for _, column in parts for j in arm], clock, place)
-        places: dict[tuple[str, ...], list[int]] = {}
+        state = _Merged(self._roles.arm, [part for part, _ in parts])
 
         def take(message: JointReading, time: int) -> None:
-            if message.names not in places:
-                found = [joint_for(joint, message.names) for joint in arm]
-                if None in found:
-                    return  # of other joints: several drivers may share a topic
-                places[message.names] = [message.names.index(str(name)) for name in found]
-            at = places[message.names]
-            if not stream.takes(time):
+            values = state.with_(message)
+            if values is None or not stream.takes(time):
                 return
-            position = _at(message.position, at)
+            position = values[0]
             if not np.isfinite(position).all():
                 bad = arm[int(np.flatnonzero(~np.isfinite(position))[0])]
                 stream.skip(f"the position of {bad} is not a number")
                 return
-            rows = [position, *(_at(getattr(message, part), at) for part, _ in parts[1:])]
-            stream.row(time, np.concatenate(rows).tolist())
+            stream.row(time, values.ravel().tolist())
 
         return take
 
-    def _gripper(self, place: str, clock: str, first: JointReading) -> Callable[[Any, int], None]:
-        fingers = [name for name in first.names if "finger" in name]
+    def _gripper(self, place: str, clock: str) -> Callable[[Any, int], None]:
+        fingers = self._roles.fingers
         if not fingers:
             return lambda message, time: None
         stream = self._folder.series("gripper", ["opening_m"], clock, place)
+        state = _Merged(fingers, ["position"])
 
         def take(message: JointReading, time: int) -> None:
-            at = [message.names.index(name) for name in fingers if name in message.names]
-            if len(at) != len(fingers) or not stream.takes(time):
+            values = state.with_(message)
+            if values is None or not stream.takes(time):
                 return
-            opening = float(_at(message.position, at).sum()) * (2 if len(fingers) == 1 else 1)
+            opening = float(values.sum()) * (2 if len(fingers) == 1 else 1)
             if not np.isfinite(opening):
                 stream.skip("the opening of the fingers is not a number")
                 return
@@ -317,11 +314,30 @@ def _line(stream: Stream) -> str:
     return line
 
 
-def _at(values: Array, places: list[int]) -> Array:
-    """NaN where there is none."""
-    if len(values) > max(places, default=0):
-        return values[places]
-    return np.full(len(places), np.nan)
+class _Merged:
+    """The state of some joints, of messages that each may have some of them: drivers may share a topic."""
+
+    def __init__(self, joints: Sequence[str], parts: Sequence[str]) -> None:
+        self._rows = {joint: row for row, joint in enumerate(joints)}
+        self._parts = parts
+        self._values = np.full((len(parts), len(joints)), np.nan)
+        self._missing = set(joints)  # since the last whole state
+        self._places: dict[tuple[str, ...], tuple[list[int], list[int]]] = {}  # in messages with these names, and here
+
+    def with_(self, message: JointReading) -> Array | None:
+        """Parts x joints, where each has been told of since the last time; NaN is what was not measured."""
+        if message.names not in self._places:
+            at = [k for k, name in enumerate(message.names) if name in self._rows]
+            self._places[message.names] = at, [self._rows[message.names[k]] for k in at]
+        at, rows = self._places[message.names]
+        for part, values in zip(self._parts, self._values, strict=True):
+            told = getattr(message, part)
+            values[rows] = told[at] if len(told) > max(at, default=0) else np.nan
+        self._missing.difference_update(message.names[k] for k in at)
+        if not at or self._missing:
+            return None
+        self._missing = set(self._rows)
+        return self._values.copy()
 
 
 def _range(text: str) -> tuple[float, float]:

@@ -1,24 +1,33 @@
-"""Bags: MCAP files, and folders or files of rosbag2, in MCAP or SQLite, as topics and their messages in log order."""
+"""Bags as topics and their messages in log order: rosbag2 and ROS 1 by way of rosbags, other MCAP files by way of mcap.
+
+rosbags reads folders and files of rosbag2 (MCAP and SQLite, split, compressed by message or file) and of ROS 1. It
+takes messages of ROS alone, and files that have their end; Foxglove's messages as JSON, and what is whole of a file
+that was cut off, are read by mcap.
+"""
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from stampede.faults import fault
+from stampede._core import Error
+from stampede.faults import fault, reading
 
 _MAGIC = b"\x89MCAP0\r\n"
 _SQLITE = b"SQLite format 3\x00"
+_ROS_1 = b"#ROSBAG"
+_METADATA = "metadata.yaml"
+_INSTALL = '\n    pip install "stampede[recordings]"'
+_CUT = "the recorder was stopped hard, or a copy was cut off"
 
 
 @dataclass(frozen=True)
 class Topic:
     name: str
     schema: str  # name of the messages' type
-    encoding: str  # cdr, json …
+    encoding: str  # cdr, ros1, json …
 
 
 class Bag(Protocol):
@@ -44,23 +53,27 @@ def open_bag(path: Path, truncated: bool = False) -> Bag:
     except OSError as error:
         raise fault(str(path), f"it cannot be read: {error.strerror}", "check its name and permissions") from error
     if head.startswith(_MAGIC):
-        return McapBag(path, truncated)
+        bag = McapBag(path, truncated)
+        of_ros = path.suffix == ".mcap" and all(topic.encoding == "cdr" for topic in bag.topics())
+        return RosBag(path) if of_ros and not truncated else bag
     if head.startswith(_SQLITE):
-        return SqliteBag(path)
-    if head.startswith(b"#ROSBAG"):
-        raise fault(str(path), "it is a bag of ROS 1", "convert it: `rosbags-convert` of the package rosbags")
-    raise fault(str(path), "it is neither MCAP nor a bag of rosbag2", "name a .mcap or .db3 file, or a bag's folder")
+        if path.suffix != ".db3":
+            raise fault(str(path), "rosbags knows files of SQLite by the ending .db3", "name it so")
+        return RosBag(path)
+    if head.startswith(_ROS_1):
+        return RosBag(path, ros_1=True)
+    raise fault(
+        str(path), "it is neither MCAP nor a bag of ROS 1 or 2", "name a .mcap, .db3 or .bag file, or a bag's folder"
+    )
 
 
 def _of_folder(folder: Path, truncated: bool) -> Bag:
-    files = sorted([*folder.glob("*.mcap"), *folder.glob("*.db3")])
+    if (folder / _METADATA).is_file() and not truncated:
+        return RosBag(folder)
+    files = sorted(one for ending in ("*.mcap", "*.db3", "*.bag") for one in folder.glob(ending))
     if not files:
-        packed = [one.name for one in folder.glob("*.zstd")]
-        raise fault(
-            str(folder),
-            f"{packed[0]} is compressed as a whole" if packed else "there is no .mcap or .db3 file in it",
-            "unpack it: `zstd -d`" if packed else "name the folder of a bag, where metadata.yaml is",
-        )
+        cure = f"name the folder in which {_METADATA} is"
+        raise fault(str(folder), "there is no .mcap, .db3 or .bag file in it", cure)
     bags = [open_bag(file, truncated) for file in files]
     return bags[0] if len(bags) == 1 else _Parts(bags)
 
@@ -82,66 +95,87 @@ class _Parts:
         return self._bags[0].about()
 
 
+class RosBag:
+    """A bag of ROS, by way of the package rosbags."""
+
+    def __init__(self, path: Path, ros_1: bool = False) -> None:
+        try:
+            from rosbags import rosbag1, rosbag2
+        except ImportError as error:
+            raise ImportError(f"rosbags is missing{_INSTALL}") from error
+        self._path, self._encoding = path, "ros1" if ros_1 else "cdr"
+        self._open: Any = rosbag1.Reader if ros_1 else rosbag2.Reader
+        with self._reading(), self._open(path) as reader:
+            self._topics = {Topic(one.topic, one.msgtype, self._encoding) for one in reader.connections}
+        if not self._topics:
+            raise fault(str(path), "it holds no topic", "record with `ros2 bag record TOPIC…`")
+
+    def _reading(self) -> Any:
+        cure = f"{_CUT}: --truncated takes what is whole of MCAP, `ros2 bag reindex` and `rosbag reindex` mend others"
+        return reading(str(self._path), cure)
+
+    def topics(self) -> list[Topic]:
+        return sorted(self._topics, key=lambda topic: topic.name)
+
+    def messages(self, names: set[str]) -> Iterator[tuple[str, int, bytes]]:
+        with self._reading(), self._open(self._path) as reader:
+            wanted = [one for one in reader.connections if one.topic in names]
+            for connection, log_ns, data in reader.messages(connections=wanted) if wanted else ():
+                yield connection.topic, log_ns, bytes(data)
+
+    def about(self) -> dict[str, str]:
+        return {}
+
+
 class McapBag:
     """An MCAP file, by way of the package mcap."""
 
     def __init__(self, path: Path, truncated: bool = False) -> None:
-        self._path, self._truncated = path, truncated
+        self._path = path
         try:
-            from mcap import exceptions, reader
+            from mcap import reader
         except ImportError as error:
-            raise ImportError('mcap is missing\n    pip install "stampede[recordings]"') from error
-        self._reader, self._errors = reader, exceptions.McapError
+            raise ImportError(f"mcap is missing{_INSTALL}") from error
+        self._reader = reader
         self._summary = None if truncated else self._read_summary()
 
-    def _read_summary(self) -> Any:
-        with self._path.open("rb") as stream:
-            try:
-                summary = self._reader.make_reader(stream).get_summary()
-            except (self._errors, OSError, ValueError) as error:
-                raise self._cut(error) from error
-        if summary is None or not summary.channels:
-            raise self._cut("it has no summary")
-        return summary
-
-    def _cut(self, error: object) -> Exception:
-        return fault(
-            str(self._path),
-            f"it ends early or is damaged ({error or 'end of file'}): the recorder was stopped hard, or a copy "
-            f"was cut off",
-            "--truncated takes what is whole; `mcap recover` makes it a whole file",
+    def _reading(self) -> Any:
+        return reading(
+            str(self._path), f"{_CUT}: --truncated takes what is whole, `mcap recover` makes it a whole file"
         )
 
+    def _read_summary(self) -> Any:
+        with self._reading(), self._path.open("rb") as stream:
+            summary = self._reader.make_reader(stream).get_summary()
+            if summary is None or not summary.channels:
+                raise ValueError("it has no summary")
+            return summary
+
     def topics(self) -> list[Topic]:
-        if self._summary is not None:
-            schemas, channels = self._summary.schemas, self._summary.channels.values()
-            found = {
-                Topic(one.topic, schemas[one.schema_id].name if one.schema_id else "", one.message_encoding)
-                for one in channels
-            }
-        else:
-            found = {
-                Topic(channel.topic, schema.name if schema else "", channel.message_encoding)
-                for schema, channel, _ in self._whole_messages(None)
-            }
-        return sorted(found, key=lambda topic: topic.name)
+        if self._summary is None:
+            with self._reading():
+                messages = self._whole_messages(None)
+                found = {Topic(one.topic, kind.name if kind else "", one.message_encoding) for kind, one, _ in messages}
+            return sorted(found, key=lambda topic: topic.name)
+        with self._reading():
+            kinds, channels = self._summary.schemas, self._summary.channels.values()
+            names = {one.schema_id: kinds[one.schema_id].name if one.schema_id else "" for one in channels}
+            found = {Topic(one.topic, names[one.schema_id], one.message_encoding) for one in channels}
+            return sorted(found, key=lambda topic: topic.name)
 
     def messages(self, names: set[str]) -> Iterator[tuple[str, int, bytes]]:
         if self._summary is None:
             for _, channel, message in self._whole_messages(names):
                 yield channel.topic, message.log_time, message.data
             return
-        with self._path.open("rb") as stream:
-            try:
-                for _, channel, message in self._reader.make_reader(stream).iter_messages(topics=list(names)):
-                    yield channel.topic, message.log_time, message.data
-            except (self._errors, OSError) as error:
-                raise self._cut(error) from error
+        with self._reading(), self._path.open("rb") as stream:
+            for _, channel, message in self._reader.make_reader(stream).iter_messages(topics=list(names)):
+                yield channel.topic, message.log_time, message.data
 
     def about(self) -> dict[str, str]:
         if self._summary is None:
             return {}
-        with self._path.open("rb") as stream:
+        with self._reading(), self._path.open("rb") as stream:
             for one in self._reader.make_reader(stream).iter_metadata():
                 if one.name == "episode":
                     return dict(one.metadata)
@@ -151,50 +185,13 @@ class McapBag:
         """Up to where the file ends, in the file's order."""
         wanted = None if names is None else list(names)
         with self._path.open("rb") as stream:
-            reader = self._reader.NonSeekingReader(stream)
-            try:
-                yield from reader.iter_messages(topics=wanted, log_time_order=False)
-            except Exception as error:  # the decompressors of cut chunks raise errors of their own
-                if isinstance(error, GeneratorExit):
-                    raise
-
-
-class SqliteBag:
-    """A .db3 file of rosbag2."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        rows = self._ask("SELECT id, name, type, serialization_format FROM topics ORDER BY name")
-        self._topics = {number: Topic(name, schema, encoding) for number, name, schema, encoding in rows}
-        if not self._topics:
-            raise fault(str(path), "it holds no topic", "record with `ros2 bag record TOPIC…`")
-
-    def _ask(self, question: str, *values: Any) -> Iterator[tuple[Any, ...]]:
-        try:
-            connection = sqlite3.connect(f"file:{self._path}?mode=ro", uri=True)
-            try:
-                yield from connection.execute(question, values)
-            finally:
-                connection.close()
-        except sqlite3.Error as error:
-            raise fault(
-                str(self._path),
-                f"it is no bag, ends early or is damaged ({error})",
-                "`ros2 bag reindex` its folder, or `sqlite3 FILE .recover`",
-            ) from error
-
-    def topics(self) -> list[Topic]:
-        return sorted(self._topics.values(), key=lambda topic: topic.name)
-
-    def messages(self, names: set[str]) -> Iterator[tuple[str, int, bytes]]:
-        wanted = [number for number, topic in self._topics.items() if topic.name in names]
-        marks = ",".join("?" * len(wanted))
-        rows = self._ask(
-            f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id",
-            *wanted,
-        )
-        for number, log_ns, data in rows:
-            yield self._topics[number].name, log_ns, data
-
-    def about(self) -> dict[str, str]:
-        return {}
+            messages = self._reader.NonSeekingReader(stream).iter_messages(topics=wanted, log_time_order=False)
+            while True:
+                try:
+                    with self._reading():
+                        one = next(messages, None)
+                except Error:  # the end
+                    return
+                if one is None:
+                    return
+                yield one

@@ -173,7 +173,7 @@ def _rows(dataset: _Dataset, table: Any, given: Given, options: argparse.Namespa
     arm = given.robot.arm
     unit = np.pi / 180 if options.degrees else 1.0
     state = _matrix(table, _STATE)
-    at, gripper = steps.columns_of(dataset.names(_STATE), state.shape[1], arm, f"{place}, {_STATE}")
+    at, gripper = steps.columns_of(dataset.names(_STATE), state.shape[1], arm, f"{place}, {_STATE}", options.prefix)
     times = np.ravel(_matrix(table, "timestamp"))
     even = np.round(times * dataset.fps) / dataset.fps  # float32 seconds, of an even clock
     times = np.where(np.abs(times - even) < 1e-3, even, times)
@@ -184,7 +184,7 @@ def _rows(dataset: _Dataset, table: Any, given: Given, options: argparse.Namespa
             values = _matrix(table, found)
             if values.shape[1] >= len(arm):
                 there, _ = steps.columns_of(
-                    dataset.names(found)[: values.shape[1]], values.shape[1], arm, f"{place}, {found}"
+                    dataset.names(found)[: values.shape[1]], values.shape[1], arm, f"{place}, {found}", options.prefix
                 )
                 setattr(rows, name, values[:, there] * factor)
     if gripper is not None:
@@ -192,7 +192,7 @@ def _rows(dataset: _Dataset, table: Any, given: Given, options: argparse.Namespa
     names = dataset.names("action") if "action" in dataset.features else []
     if names and set(dataset.names(_STATE)) <= set(names):
         action = _matrix(table, "action")
-        there, _ = steps.columns_of(names, action.shape[1], arm, f"{place}, action")
+        there, _ = steps.columns_of(names, action.shape[1], arm, f"{place}, action", options.prefix)
         rows.command = action[:, there] * unit
     rows.labels = _labels(dataset, table)
     return rows

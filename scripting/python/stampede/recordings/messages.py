@@ -1,20 +1,18 @@
-"""Messages of a bag as plain values, whoever wrote them: ROS 2's in CDR, or Foxglove's schemas as JSON."""
+"""Messages of a bag as plain values, whoever wrote them: ROS's, by way of rosbags, or Foxglove's schemas as JSON."""
 
 from __future__ import annotations
 
 import base64
 import json
-import struct
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stampede._core import Error
-from stampede.faults import fault
-from stampede.recordings.cdr import READERS, CdrReader
+from stampede.faults import fault, reading
 
 Array = NDArray[Any]
 
@@ -94,58 +92,102 @@ KINDS = {
 def type_name(schema: str) -> str:
     """`sensor_msgs/JointState` -> `sensor_msgs/msg/JointState`."""
     parts = schema.split("/")
-    return f"{parts[0]}/msg/{parts[1]}" if len(parts) == 2 else schema
+    name = f"{parts[0]}/msg/{parts[1]}" if len(parts) == 2 else schema
+    return "tf2_msgs/msg/TFMessage" if name == "tf/msg/tfMessage" else name  # as old bags of ROS 1 call it
 
 
 def decoder(topic: str, schema: str, encoding: str) -> Callable[[bytes, int], Message]:
     """What turns the bytes of a topic's messages, and their log times, into readings. Raises Error for an encoding
     that is not read; the decoder raises one, with the topic, for a message that is damaged."""
     name = type_name(schema)
-    if encoding == "cdr" and name in READERS:
-        read = READERS[name]
-        return _guarded(topic, lambda data, log_ns: _of_ros(name, read(CdrReader(data)), log_ns))
+    if encoding in _OF_ROS and name in _READINGS:
+        store, made = _typestore(encoding), _READINGS[name]
+        read = store.deserialize_cdr if encoding == "cdr" else store.deserialize_ros1
+        return _guarded(topic, lambda data, log_ns: made(read(data, name), log_ns))
     if encoding == "json" and name in KINDS:
         return _guarded(topic, lambda data, log_ns: _of_json(name, json.loads(data), log_ns))
     raise fault(
         f"topic {topic}",
         f"messages of type {schema} in the encoding '{encoding}' are not read",
-        "record them as ROS 2 does (cdr), or Foxglove's schemas as JSON; `--map` names other topics",
+        "record them as ROS does (cdr, ros1), or Foxglove's schemas as JSON; `--map` names other topics",
     )
 
 
 def _guarded(topic: str, decode: Callable[[bytes, int], Message]) -> Callable[[bytes, int], Message]:
     def read(data: bytes, log_ns: int) -> Message:
-        try:
+        place = f"topic {topic}, message logged at {log_ns / 1e9:.6f} s"
+        with reading(place, "record again, or leave the topic out with --map"):
             return decode(data, log_ns)
-        except Error:
-            raise
-        except (struct.error, ValueError, KeyError, TypeError, IndexError) as error:
-            raise fault(
-                f"topic {topic}, message logged at {log_ns / 1e9:.6f} s",
-                f"it is damaged: {error}",
-                "record again, or leave the topic out with --map",
-            ) from error
 
     return read
 
 
-def _of_ros(name: str, m: dict[str, Any], log_ns: int) -> Message:
-    stamp = m.get("stamp_ns", 0)
-    if name.endswith("JointState"):
-        return JointReading(stamp, log_ns, m["name"], m["position"], m["velocity"], m["effort"])
-    if name.endswith("WrenchStamped"):
-        return WrenchReading(stamp, log_ns, m["wrench"], m["frame_id"])
-    if name.endswith("CompressedImage"):
-        return PictureReading(stamp, log_ns, m["format"], m["data"], frame_id=m["frame_id"])
-    if name.endswith("Image"):
-        size = (m["width"], m["height"], m["step"], m["big"])
-        return PictureReading(stamp, log_ns, m["encoding"], m["data"], *size, frame_id=m["frame_id"])
-    if name.endswith("CameraInfo"):
-        matrix = np.reshape(m["k"], (3, 3))
-        return LensReading(stamp, log_ns, m["width"], m["height"], m["model"], m["d"], matrix, m["frame_id"])
-    hung = [(one["frame_id"], one["child"], one["pose"]) for one in m["transforms"]]
-    first = m["transforms"][0]["stamp_ns"] if m["transforms"] else 0
+# The messages that are read are the same in all versions of ROS 2, and of ROS 1.
+_OF_ROS = {"cdr": "ROS2_HUMBLE", "ros1": "ROS1_NOETIC"}
+
+
+@cache
+def _typestore(encoding: str) -> Any:
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores[_OF_ROS[encoding]])
+
+
+def _stamp_of(header: Any) -> int:
+    return int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
+
+
+def _joint_state(m: Any, log_ns: int) -> Message:
+    return JointReading(_stamp_of(m.header), log_ns, tuple(m.name), m.position, m.velocity, m.effort)
+
+
+def _wrench(m: Any, log_ns: int) -> Message:
+    values = np.array([getattr(part, axis) for part in (m.wrench.force, m.wrench.torque) for axis in "xyz"])
+    return WrenchReading(_stamp_of(m.header), log_ns, values, m.header.frame_id)
+
+
+def _image(m: Any, log_ns: int) -> Message:
+    size = (m.width, m.height, m.step, bool(m.is_bigendian))
+    stamp, data = _stamp_of(m.header), bytes(m.data)
+    return PictureReading(stamp, log_ns, m.encoding, data, *size, frame_id=m.header.frame_id)
+
+
+def _compressed(m: Any, log_ns: int) -> Message:
+    return PictureReading(_stamp_of(m.header), log_ns, m.format, bytes(m.data), frame_id=m.header.frame_id)
+
+
+def _camera_info(m: Any, log_ns: int) -> Message:
+    matrix, bent = (m.k, m.d) if hasattr(m, "k") else (m.K, m.D)  # ROS 1 has capitals
+    return LensReading(
+        _stamp_of(m.header),
+        log_ns,
+        m.width,
+        m.height,
+        m.distortion_model,
+        np.asarray(bent, dtype=float),
+        np.reshape(matrix, (3, 3)),
+        m.header.frame_id,
+    )
+
+
+def _transforms(m: Any, log_ns: int) -> Message:
+    hung = []
+    for one in m.transforms:
+        place, turn = one.transform.translation, one.transform.rotation
+        pose = np.array([place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w])
+        hung.append((one.header.frame_id, one.child_frame_id, pose))
+    first = _stamp_of(m.transforms[0].header) if m.transforms else 0
     return TransformReading(first, log_ns, hung)
+
+
+_READINGS: dict[str, Callable[[Any, int], Message]] = {
+    "sensor_msgs/msg/JointState": _joint_state,
+    "geometry_msgs/msg/WrenchStamped": _wrench,
+    "sensor_msgs/msg/Image": _image,
+    "sensor_msgs/msg/CompressedImage": _compressed,
+    "sensor_msgs/msg/CameraInfo": _camera_info,
+    "tf2_msgs/msg/TFMessage": _transforms,
+}
 
 
 def _stamp(m: dict[str, Any]) -> int:

@@ -1,14 +1,16 @@
-"""robomimic's HDF5 to recording folders, one a demo.
+"""HDF5 of robomimic, LIBERO and DROID to recording folders, one a demo.
 
 A row is at its number divided by the rate that `env_args` says (control_freq), our exporter's `ep_meta` (frame_hz), or
-`--rate`. Pictures are `obs/NAME_image`, depth `obs/NAME_depth` in m.
+`--rate`. Pictures are `obs/NAME_image` (LIBERO: `obs/NAME_rgb`, which are upside down where the file says so), depth
+`obs/NAME_depth` in m. A trajectory.h5 of DROID is one demo, by its own clock; its pictures are in other files.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +29,15 @@ from stampede.recordings.rows import Rows
 Array = NDArray[Any]
 Json = dict[str, Any]
 
-_POSITIONS = ("robot0_joint_pos", "joint_positions", "joint_pos")
-_VELOCITIES = ("robot0_joint_vel", "joint_velocities", "joint_vel")
-_EFFORTS = ("robot0_joint_torques", "joint_forces", "joint_effort")
-_GRIPPERS = ("robot0_gripper_qpos", "gripper_qpos")
+# Behind `robot0_`, `robot1_` … or nothing: robosuite's names, ours, LIBERO's.
+_POSITIONS = ("joint_pos", "joint_positions", "joint_states")
+_VELOCITIES = ("joint_vel", "joint_velocities")
+_EFFORTS = ("joint_torques", "joint_forces", "joint_effort")
+_GRIPPERS = ("gripper_qpos", "gripper_states")
+_OPENGL = "opengl"  # of LIBERO's `macros_image_convention`: the lowest row comes first
+_DROID_STATE = "observation/robot_state"
+_DROID_HZ = 15.0
+_DROID_OPENING_M = 0.085  # of its hand, a Robotiq 2F-85; `gripper_position` is 0 there, and 1 where it is shut
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,8 +53,11 @@ def convert(given: Given, options: argparse.Namespace) -> list[Path]:
     folders = []
     try:
         with h5py.File(options.source, "r") as file:
+            if _DROID_STATE in file:
+                return [_write_droid(file, given, options)]
             if "data" not in file or not len(file["data"]):
-                raise fault(options.source, "it has no group `data` with demos", "name a file of robomimic's form")
+                cure = "name a file of robomimic, LIBERO or DROID"
+                raise fault(options.source, "it has no group `data` with demos", cure)
             names = sorted(file["data"], key=lambda name: int(name.rpartition("_")[2]) if name[-1].isdigit() else 0)
             numbers = steps.numbers_of(options.episodes, len(names), options.source)
             for number in numbers:
@@ -68,6 +78,7 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
     if "obs" not in demo:
         raise fault(place, "it has no observations", "make them with robomimic's dataset_states_to_obs.py")
     meta = json.loads(demo.attrs.get("ep_meta", "{}"))
+    meta = {"lang": _libero_sentence(data), **meta}
     rate = _rate(data, meta, options, place)
     rows = _rows(demo["obs"], rate, given, options, place)
     rows.labels = _labels(meta, rate)
@@ -77,10 +88,10 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
     steps.write_numbers(folder, rows, given.robot.arm)
     for key in demo["obs"]:
         camera = camera_name(key.rpartition("_")[0])
-        if key.endswith("_image"):
-            steps.write_pictures(
-                folder, "rgb", camera, _colours(demo["obs"][key], rows, f"{place}, {key}"), f"{place}, {key}"
-            )
+        if key.endswith(("_image", "_rgb")):
+            upside_down = key.endswith("_rgb") and data.attrs.get("macros_image_convention") == _OPENGL
+            pictures = _colours(demo["obs"][key], rows, f"{place}, {key}", upside_down)
+            steps.write_pictures(folder, "rgb", camera, pictures, f"{place}, {key}")
         elif key.endswith("_depth"):
             files = _depths(demo["obs"][key], rows)
             steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=6.5)
@@ -100,17 +111,16 @@ def _rows(obs: Any, rate: float, given: Given, options: argparse.Namespace, plac
     arm = given.robot.arm
     unit = np.pi / 180 if options.degrees else 1.0
 
+    prefix = _robot(obs, options.prefix, place)
+
     def found(keys: tuple[str, ...]) -> Array | None:
-        key = next((one for one in keys if one in obs), None)
+        key = next((prefix + one for one in keys if prefix + one in obs), None)
         return None if key is None else np.asarray(obs[key], dtype=float)
 
     position = found(_POSITIONS)
     if position is None:
         raise fault(f"{place}/obs", f"none of {', '.join(_POSITIONS)} is there", f"it has {', '.join(obs)}")
-    if position.shape[1] != len(arm):
-        raise fault(
-            place, f"it has {position.shape[1]} joints, the arm {len(arm)}: another robot", "--robot names another one"
-        )
+    _check_joints(position, arm, place)
     rows = Rows([round(k * 1e9 / rate) for k in range(len(position))], position * unit, place=place)
     velocity, effort, gripper = found(_VELOCITIES), found(_EFFORTS), found(_GRIPPERS)
     rows.velocity = None if velocity is None else velocity * unit
@@ -118,6 +128,63 @@ def _rows(obs: Any, rate: float, given: Given, options: argparse.Namespace, plac
     if gripper is not None:  # robosuite's fingers open to both sides of 0
         rows.opening = np.abs(gripper).sum(axis=1)
     return rows
+
+
+def _robot(obs: Any, wanted: str | None, place: str) -> str:
+    """What stands before the keys of the robot: `robot0_`, or nothing."""
+    prefixes = {key.removesuffix(end) for key in obs for end in _POSITIONS if key.endswith(end)}
+    prefixes = sorted(one for one in prefixes if re.fullmatch(r"(robot\d+_)?", one) and wanted in (None, one))
+    if len(prefixes) > 1:
+        several = ", ".join(f"'{one}'" for one in prefixes)
+        raise fault(place, f"it has several arms, with the prefixes {several}", f"--prefix {prefixes[-1]}")
+    return prefixes[0] if prefixes else wanted or ""
+
+
+def _check_joints(position: Array, arm: Sequence[str], place: str) -> None:
+    if position.ndim != 2 or position.shape[1] != len(arm):
+        count = position.shape[1] if position.ndim == 2 else 1
+        raise fault(place, f"it has {count} joints, the arm {len(arm)}: another robot", "--robot names another one")
+
+
+def _libero_sentence(data: Any) -> str | None:
+    """What LIBERO's `problem_info` says, in whose files all demos are of one task."""
+    said = json.loads(data.attrs.get("problem_info", "{}")).get("language_instruction")
+    return "".join(said) if said else None
+
+
+def _write_droid(file: Any, given: Given, options: argparse.Namespace) -> Path:
+    """One trajectory.h5 of DROID's raw recordings."""
+    state, place = file[_DROID_STATE], options.source
+    position = np.asarray(state["joint_positions"], dtype=float)
+    _check_joints(position, given.robot.arm, place)
+    rows = Rows(_droid_stamps(file, len(position), options.rate), position, place=place)
+    for name, key in (("velocity", "joint_velocities"), ("effort", "motor_torques_measured")):
+        if key in state:
+            setattr(rows, name, np.asarray(state[key], dtype=float))
+    if "gripper_position" in state:
+        rows.opening = (1.0 - np.ravel(np.asarray(state["gripper_position"], dtype=float))) * _DROID_OPENING_M
+    if "action/joint_position" in file:
+        command = np.asarray(file["action/joint_position"], dtype=float)
+        rows.command = command if command.shape == position.shape else None
+    task = str(file.attrs.get("current_task", ""))
+    if task:
+        rows.labels = {"labelled_by": "person", "segments": [], "language": [{"level": "task", "text": task}]}
+    with FolderWriter(given.out, options.skip_bad) as folder:
+        steps.write_numbers(folder, rows, given.robot.arm)
+        success = bool(file.attrs.get("success", "success" in Path(place).parts))
+        about = {"task": steps.name_of(task) if task else "", "success": str(success), "frame_hz": _DROID_HZ}
+        steps.finish(folder, given, rows, about, place)
+    given.tell(f"1 demo of {place}, without pictures: DROID keeps them beside it, as films")
+    return given.out
+
+
+def _droid_stamps(file: Any, count: int, rate: float) -> list[int]:
+    """Those of the robot, ns; where it has none, or `--rate` is given, even ones."""
+    clock = "observation/timestamp/robot_state/robot_timestamp_"
+    if rate or clock + "seconds" not in file:
+        return [round(k * 1e9 / (rate or _DROID_HZ)) for k in range(count)]
+    seconds, nanos = (np.asarray(file[clock + part], dtype=np.int64) for part in ("seconds", "nanos"))
+    return (seconds * 10**9 + nanos).tolist()
 
 
 def _labels(meta: Json, rate: float) -> Json:
@@ -139,7 +206,7 @@ def _labels(meta: Json, rate: float) -> Json:
     return {"labelled_by": "model" if segments else "person", "segments": segments, "language": language}
 
 
-def _colours(pictures: Any, rows: Rows, place: str) -> Iterator[tuple[int, bytes, str]]:
+def _colours(pictures: Any, rows: Rows, place: str, upside_down: bool) -> Iterator[tuple[int, bytes, str]]:
     if (
         pictures.dtype != np.uint8
         or pictures.ndim != 4
@@ -152,7 +219,7 @@ def _colours(pictures: Any, rows: Rows, place: str) -> Iterator[tuple[int, bytes
             "store n x h x w x 3 uint8",
         )
     for stamp, picture in zip(rows.stamps_ns, pictures, strict=True):
-        yield stamp, packed(picture), "png"
+        yield stamp, packed(picture[::-1] if upside_down else picture), "png"
 
 
 def _depths(pictures: Any, rows: Rows) -> Iterator[tuple[int, bytes, str]]:

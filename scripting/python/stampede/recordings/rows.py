@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from stampede.faults import fault
 from stampede.recordings.folder import FolderWriter
 from stampede.recordings.given import Given
-from stampede.recordings.roles import joint_for
+from stampede.recordings.roles import the_prefix
 
 Array = NDArray[Any]
 Json = dict[str, Any]
@@ -26,6 +26,11 @@ CLOCK = "dataset"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--episodes", default="", metavar="LIST", help="numbers, `0,3,5-9` (default: all)")
     parser.add_argument("--degrees", action="store_true", help="angles are in degrees")
+    parser.add_argument(
+        "--prefix",
+        metavar="TEXT",
+        help="what stands before the names of the robot's joints, where there are several arms (default: found)",
+    )
     parser.add_argument("--skip-bad", action="store_true", help="leave out rows with positions that are not numbers")
 
 
@@ -57,14 +62,20 @@ def numbers_of(text: str, count: int, place: str) -> list[int]:
     return wanted if text else list(range(count))
 
 
-def columns_of(names: Sequence[str], width: int, arm: Sequence[str], place: str) -> tuple[list[int], int | None]:
+def columns_of(
+    names: Sequence[str], width: int, arm: Sequence[str], place: str, wanted: str | None = None
+) -> tuple[list[int], int | None]:
     """Places of the arm's joints and of the gripper among the components of a state. Where they have no names of
-    joints, the first are the arm's, and one behind them is the gripper's."""
+    joints, the first are the arm's, and one behind them is the gripper's. wanted: the prefix of the joints' names."""
     plain = [re.sub(r"[._](pos|position|q)$", "", name) for name in names]
-    found = [joint_for(joint, plain) for joint in arm]
-    if all(found):
-        gripper = next((k for k, name in enumerate(plain) if re.search(r"gripper|opening", name)), None)
-        return [plain.index(str(name)) for name in found], gripper
+    prefix = the_prefix(arm, plain, wanted, place)
+    if prefix is not None:
+        grippers = [k for k, name in enumerate(plain) if re.search(r"gripper|opening", name)]
+        grippers = [k for k in grippers if plain[k].startswith(prefix)] if len(grippers) > 1 else grippers
+        if len(grippers) > 1:
+            both = ", ".join(plain[k] for k in grippers)
+            raise fault(place, f"several of its values are of a hand: {both}", "--prefix says which arm it is")
+        return [plain.index(prefix + joint) for joint in arm], grippers[0] if grippers else None
     unnamed = not names or all(re.fullmatch(r"(motor|joint|state|dim)?_?\d+|gripper", name) for name in plain)
     if unnamed and width in (len(arm), len(arm) + 1):
         return list(range(len(arm))), len(arm) if width > len(arm) else None

@@ -11,6 +11,7 @@ import numpy as np
 
 from stampede import _core
 from stampede._core import Error
+from stampede.faults import reading
 from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.folders import demo_folders, load_demo
 from stampede.rlbench.backend.recorded import columns, demo_observations
@@ -57,6 +58,16 @@ def get_stored_demos(
     )
 
 
+def _demo_of(folder: Path, config: ObservationConfig, image_paths: bool) -> Demo:
+    try:
+        with reading(str(folder), "write the dataset again"):
+            return load_demo(folder, config, image_paths)
+    except DemoError:
+        raise
+    except Error as error:
+        raise DemoError(str(error)) from error
+
+
 def check_dataset_root(dataset_root: str | os.PathLike[str]) -> Path:
     """The path of a folder or catalogue that is there."""
     if not dataset_root:
@@ -82,7 +93,7 @@ def stored_demos(
     if root.is_dir():
         folders = demo_folders(root, task, variation)
         chosen = _choice(len(folders), amount, random_selection, from_episode_number, f"{task}, variation {variation}")
-        return [load_demo(folders[place], config, image_paths) for place in chosen]
+        return [_demo_of(folders[place], config, image_paths) for place in chosen]
     if image_paths:
         raise DemoError(f"{root}: a catalogue has no files of pictures\n    image_paths=False, or export it to folders")
     if not 0 <= variation < len(variations):
