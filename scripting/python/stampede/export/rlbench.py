@@ -1,8 +1,9 @@
 """
 RLBench's folders: TASK/variation0/episodes/episode0/, with a folder of PNG files a camera and kind and the pickled
-demo.
+demo; or PerAct's, which has all variations together in TASK/all_variations/episodes/.
 
-`stampede.rlbench.utils.get_stored_demos` reads them, and so does RLBench itself with `--classes rlbench`.
+`stampede.rlbench.utils.get_stored_demos` reads them, and so do RLBench, PerAct and RVT themselves with
+`--classes rlbench`.
 """
 
 from __future__ import annotations
@@ -26,16 +27,18 @@ from stampede.rlbench.backend.const import (
     EPISODE_FOLDER,
     EPISODES_FOLDER,
     LOW_DIM_PICKLE,
+    DEPTH_SCALE,
     VARIATION_DESCRIPTIONS,
+    VARIATION_NUMBER,
+    VARIATIONS_ALL_FOLDER,
     VARIATIONS_FOLDER,
 )
-from stampede.rlbench.backend.folders import pillow
 from stampede.rlbench.backend.observation import Observation
 from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pickles import demo_bytes
 from stampede.rlbench.backend.pictures import CameraView, camera_misc, depth_to_unit
-from stampede.rlbench.backend.recorded import columns, demo_misc, kept_frames, numbers_at
-from stampede.rlbench.backend.utils import float_array_to_rgb_image, mask_to_rgb_handles
+from stampede.rlbench.backend.recorded import columns, demo_misc, ignoring_frames, kept_frames, numbers_at
+from stampede.rlbench.backend.utils import float_array_to_rgb, mask_to_rgb_handles, pillow
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CAMERAS, ObservationConfig
 
@@ -61,8 +64,9 @@ class Writer:
         counts: dict[tuple[str, int], int] = {}
         for episode in episodes:
             variation = self._variation_index(episode)
-            number = counts.get((episode.task, variation), 0)
-            counts[episode.task, variation] = number + 1
+            place = episode.task, -1 if options.all_variations else variation
+            number = counts.get(place, 0)
+            counts[place] = number + 1
             self._places[episode.id] = variation, number
 
     @staticmethod
@@ -72,6 +76,11 @@ class Writer:
             choices=("stampede", "rlbench"),
             default="stampede",
             help="whose classes are in the pickles: stampede.rlbench's, or RLBench's own (default: %(default)s)",
+        )
+        parser.add_argument(
+            "--all-variations",
+            action="store_true",
+            help="PerAct's layout: all variations of a task together, in TASK/all_variations/episodes",
         )
         parser.add_argument(
             "--gripper-frames",
@@ -95,7 +104,10 @@ class Writer:
         shutil.rmtree(partial, ignore_errors=True)
         partial.mkdir(parents=True)
         self._write_into(partial, episode)
-        self._write_descriptions(episode)
+        _pickle_plain(partial / VARIATION_NUMBER, self._places[episode.id][0])
+        _pickle_plain(partial / VARIATION_DESCRIPTIONS, episode.instructions("task"))
+        if not self._options.all_variations:
+            self._write_descriptions(episode)
         partial.rename(final)
 
     def finish(self) -> None:
@@ -131,14 +143,17 @@ class Writer:
         return self._variation_folder(episode) / EPISODES_FOLDER / (EPISODE_FOLDER % number)
 
     def _variation_folder(self, episode: StoredEpisode) -> Path:
-        return self._folder / episode.task / (VARIATIONS_FOLDER % self._places[episode.id][0])
+        variation, _ = self._places[episode.id]
+        return self._folder / episode.task / (
+            VARIATIONS_ALL_FOLDER if self._options.all_variations else VARIATIONS_FOLDER % variation
+        )
 
     def _write_descriptions(self, episode: StoredEpisode) -> None:
         file = self._variation_folder(episode) / VARIATION_DESCRIPTIONS
         if file.exists():
             return
         partial = file.with_name(f".{file.name}.partial")
-        partial.write_bytes(pickle.dumps(episode.instructions("task"), protocol=2))
+        _pickle_plain(partial, episode.instructions("task"))
         partial.rename(file)
 
     def _write_into(self, folder: Path, episode: StoredEpisode) -> None:
@@ -171,12 +186,13 @@ class Writer:
         config.set_all_high_dim(False)
         config.set_all_low_dim(True)
         observations = []
+        ignoring = ignoring_frames(arrays)
         for frame, misc in zip(frames, demo_misc(arrays, frames, variation), strict=True):
             for camera, matrix in intrinsics.items():
                 near, far = float(arrays[f"{camera}_camera_near"]), float(arrays[f"{camera}_camera_far"])
                 extrinsics = arrays[f"{camera}_camera_extrinsics"][frame]
                 misc |= camera_misc(camera, CameraView(extrinsics, matrix, near, far))
-            observations.append(observation_of(config, numbers_at(arrays, frame), {}, misc))
+            observations.append(observation_of(config, numbers_at(arrays, frame), {}, misc, frame in ignoring))
         return observations
 
     def _write_pictures(
@@ -186,7 +202,7 @@ class Writer:
         near, far = float(arrays[f"{camera}_camera_near"]), float(arrays[f"{camera}_camera_far"])
         encode = {
             "rgb": lambda picture: picture,
-            "depth": lambda picture: float_array_to_rgb_image(depth_to_unit(picture, near, far)),
+            "depth": lambda picture: float_array_to_rgb(depth_to_unit(picture, near, far), DEPTH_SCALE),
             "mask": mask_to_rgb_handles,
         }
         size = (0, 0)
@@ -212,6 +228,10 @@ class Writer:
                 f"not every picture '{column}' is stored",
                 "RLBench's folders have rgb, depth and mask of each camera: add --draw, or choose with --cameras",
             ) from error
+
+
+def _pickle_plain(file: Path, value: object) -> None:
+    file.write_bytes(pickle.dumps(value, protocol=2))
 
 
 def _save(file: Path, colours: np.ndarray) -> None:

@@ -19,7 +19,7 @@ class Demo:
     num_reset_attempts: starts that were drawn until one led to success.
     variation: the variation's canonical text; seed: what all draws of the episode derive from; randomise: whether looks
     and dynamics were drawn too. From these three `reset_to_demo` makes the start again, bit for bit; seed is None in a
-    demo that another simulator made.
+    demo that another simulator made. variation_number: the variation's place in the task's order, PerAct's field.
     """
 
     def __init__(
@@ -37,6 +37,7 @@ class Demo:
         self.variation = variation
         self.seed = seed
         self.randomise = randomise
+        self.variation_number = 0
 
     def __len__(self) -> int:
         return len(self._observations)

@@ -25,6 +25,8 @@ from stampede.rlbench.sim2real.domain_randomization import (
 from stampede.rlbench.task_environment import TaskEnvironment
 from stampede.rlbench.utils import check_dataset_root, stored_demos
 
+SUPPORTED_ROBOTS = ("panda",)
+
 
 class Environment:
     """
@@ -55,8 +57,9 @@ class Environment:
         *,
         paths: list[str | os.PathLike[str]] | None = None,
     ) -> None:
-        if robot_setup != "panda":
-            raise Error(f"there is no robot '{robot_setup}' here\n    robot_setup='panda'")
+        if robot_setup not in SUPPORTED_ROBOTS:
+            there = ", ".join(SUPPORTED_ROBOTS)
+            raise Error(f"there is no robot '{robot_setup}' here\n    robot_setup is one of {there}")
         if randomize_every is not None and getattr(randomize_every, "name", "") != "EPISODE":
             raise Error(f"looks cannot be drawn at {randomize_every}\n    randomize_every=RandomizeEvery.EPISODE")
         if frequency != 1 and randomize_every is not None:

@@ -88,6 +88,7 @@ class ObservationConfig:
         wrist_camera_matrix: bool = False,
         record_gripper_closing: bool = False,
         task_low_dim_state: bool = False,
+        record_ignore_collisions: bool = True,
     ) -> None:
         self.left_shoulder_camera = left_shoulder_camera if left_shoulder_camera is not None else CameraConfig()
         self.right_shoulder_camera = right_shoulder_camera if right_shoulder_camera is not None else CameraConfig()
@@ -108,6 +109,7 @@ class ObservationConfig:
         self.wrist_camera_matrix = wrist_camera_matrix
         self.record_gripper_closing = record_gripper_closing
         self.task_low_dim_state = task_low_dim_state
+        self.record_ignore_collisions = record_ignore_collisions
 
     def set_all(self, value: bool) -> None:
         """Switches every field on or off."""

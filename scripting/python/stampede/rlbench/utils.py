@@ -39,7 +39,7 @@ def get_stored_demos(
     """
     Demos of one variation of a task, from a folder in RLBench's layout or from a catalogue.
 
-    amount: -1 is all. image_paths: pictures are paths of files, and there are no point clouds. random_selection: drawn
+    variation_number: -1 is all of them: a folder has such demos in `all_variations`. amount: -1 is all. image_paths: pictures are paths of files, and there are no point clouds. random_selection: drawn
     without repetition from numpy's global generator; else in order, from `from_episode_number` on.
     Raises DemoError where they are not there, or broken.
     """
@@ -58,10 +58,10 @@ def get_stored_demos(
     )
 
 
-def _demo_of(folder: Path, config: ObservationConfig, image_paths: bool) -> Demo:
+def _demo_of(folder: Path, variation: int, config: ObservationConfig, image_paths: bool) -> Demo:
     try:
         with reading(str(folder), "write the dataset again"):
-            return load_demo(folder, config, image_paths)
+            return load_demo(folder, variation, config, image_paths)
     except DemoError:
         raise
     except Error as error:
@@ -93,16 +93,19 @@ def stored_demos(
     if root.is_dir():
         folders = demo_folders(root, task, variation)
         chosen = _choice(len(folders), amount, random_selection, from_episode_number, f"{task}, variation {variation}")
-        return [_demo_of(folders[place], config, image_paths) for place in chosen]
+        return [_demo_of(folders[place], variation, config, image_paths) for place in chosen]
     if image_paths:
         raise DemoError(f"{root}: a catalogue has no files of pictures\n    image_paths=False, or export it to folders")
-    if not 0 <= variation < len(variations):
-        raise Error(f"{task} has no variation {variation}\n    they go from 0 to {len(variations) - 1}")
+    if not -1 <= variation < len(variations):
+        raise Error(f"{task} has no variation {variation}\n    they go from 0 to {len(variations) - 1}, and -1 is all")
+    wanted = variations if variation == -1 else [variations[variation]]
     reader = _core.CatalogueReader(root)
-    question = "SELECT episode FROM demos WHERE task = ?1 AND variation = ?2 ORDER BY episode"
-    _, rows = reader.query(question, (task, variations[variation]))
-    chosen = _choice(len(rows), amount, random_selection, from_episode_number, f"{task} '{variations[variation]}'")
-    return [_catalogue_demo(reader, rows[place][0], variation, config) for place in chosen]
+    question = "SELECT episode, variation FROM demos WHERE task = ?1 ORDER BY episode"
+    _, rows = reader.query(question, (task,))
+    rows = [(episode, variations.index(text)) for episode, text in rows if text in wanted]
+    of_what = f"{task}, all variations" if variation == -1 else f"{task} '{wanted[0]}'"
+    chosen = _choice(len(rows), amount, random_selection, from_episode_number, of_what)
+    return [_catalogue_demo(reader, *rows[place], config) for place in chosen]
 
 
 def _choice(there: int, amount: int, random_selection: bool, first: int, of_what: str) -> list[int]:
@@ -123,4 +126,6 @@ def _catalogue_demo(reader: _core.CatalogueReader, episode: int, variation: int,
     arrays = reader.arrays(episode, columns(config.cameras_on))
     _, ((randomise,),) = reader.query("SELECT options ->> 'randomise' FROM episodes WHERE episode = ?1", (episode,))
     observations = demo_observations(config, arrays, partial(reader.picture, episode), variation)
-    return Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise is not None)
+    demo = Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise is not None)
+    demo.variation_number = variation
+    return demo

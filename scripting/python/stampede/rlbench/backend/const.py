@@ -6,7 +6,9 @@ DEPTH_SCALE = 2**24 - 1
 IMAGE_FORMAT = "%d.png"
 LOW_DIM_PICKLE = "low_dim_obs.pkl"
 VARIATION_DESCRIPTIONS = "variation_descriptions.pkl"
+VARIATION_NUMBER = "variation_number.pkl"  # of PerAct's layout, in each episode's folder
 VARIATIONS_FOLDER = "variation%d"
+VARIATIONS_ALL_FOLDER = "all_variations"
 EPISODES_FOLDER = "episodes"
 EPISODE_FOLDER = "episode%d"
 

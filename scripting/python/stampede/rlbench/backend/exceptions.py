@@ -15,5 +15,5 @@ class WaypointError(Error):
     """RLBench's, for `except`; tasks have no waypoints here."""
 
 
-class DemoError(Error):
-    """No demo could be made, or a stored one cannot be used."""
+class DemoError(Error, RuntimeError):
+    """No demo could be made, or a stored one cannot be used. RLBench raises a RuntimeError for some of these."""

@@ -5,31 +5,30 @@ from typing import Any
 
 import numpy as np
 
-from stampede.rlbench.backend.const import EPISODES_FOLDER, LOW_DIM_PICKLE, VARIATIONS_FOLDER
+from stampede.rlbench.backend.const import (
+    DEPTH_SCALE,
+    EPISODES_FOLDER,
+    LOW_DIM_PICKLE,
+    VARIATION_NUMBER,
+    VARIATIONS_ALL_FOLDER,
+    VARIATIONS_FOLDER,
+)
 from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.pickles import read_pickle
-from stampede.rlbench.backend.pictures import encoded_fields
-from stampede.rlbench.backend.utils import image_to_float_array, rgb_handles_to_mask
+from stampede.rlbench.backend.pictures import encoded_fields, resized_intrinsics
+from stampede.rlbench.backend.utils import image_to_float_array, pillow, rgb_handles_to_mask
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
 
-def pillow() -> Any:
-    """Pillow's module Image."""
-    try:
-        from PIL import Image
-    except ImportError as error:
-        raise ImportError('Pillow is missing\n    pip install "stampede[rlbench]"') from error
-    return Image
-
-
 def demo_folders(root: Path, task: str, variation: int) -> list[Path]:
-    """Folders of the episodes of one variation, by number."""
+    """Folders of the episodes of one variation, by number; variation -1: of the layout that has all together."""
     if not (root / task).is_dir():
         there = ", ".join(sorted(one.name for one in root.iterdir() if one.is_dir()))
         raise DemoError(f"{root}: there is no task '{task}'\n    there are {there or 'none'}")
-    episodes = root / task / (VARIATIONS_FOLDER % variation) / EPISODES_FOLDER
+    folder = VARIATIONS_ALL_FOLDER if variation == -1 else VARIATIONS_FOLDER % variation
+    episodes = root / task / folder / EPISODES_FOLDER
     if not episodes.is_dir():
         there = ", ".join(sorted(one.name for one in (root / task).iterdir() if one.is_dir()))
         raise DemoError(f"{episodes}: there is no such folder\n    there are {there or 'none'}")
@@ -37,16 +36,18 @@ def demo_folders(root: Path, task: str, variation: int) -> list[Path]:
     return sorted(numbered, key=lambda one: int(one.name.removeprefix("episode")))
 
 
-def load_demo(folder: Path, config: ObservationConfig, image_paths: bool) -> Demo:
+def load_demo(folder: Path, variation: int, config: ObservationConfig, image_paths: bool) -> Demo:
     """
-    A demo with the fields that `config` has switched on. image_paths: those of pictures are paths as text, and point
-    clouds are left out. Pictures of another size are resized, and intrinsics with them.
+    A demo with the fields that `config` has switched on. variation: -1 is the one that the folder names. image_paths:
+    those of pictures are paths as text, and point clouds are left out. Pictures of another size are resized, and
+    intrinsics with them.
 
     Raises DemoError where there are not as many pictures as observations.
     """
     demo = read_pickle(folder / LOW_DIM_PICKLE)
     if not isinstance(demo, Demo):
         raise DemoError(f"{folder / LOW_DIM_PICKLE}: it holds no demo\n    write the dataset again")
+    demo.variation_number = _variation_number(folder) if variation == -1 else variation
     for name, camera in config.cameras.items():
         for kind, wanted in (("rgb", camera.rgb), ("depth", camera.needs_depth), ("mask", camera.mask)):
             pictures = folder / f"{name}_{kind}"
@@ -64,6 +65,13 @@ def load_demo(folder: Path, config: ObservationConfig, image_paths: bool) -> Dem
             elif camera.is_on:
                 _take_pictures(seen, folder, number, name, camera)
     return demo
+
+
+def _variation_number(folder: Path) -> int:
+    number = read_pickle(folder / VARIATION_NUMBER)
+    if not isinstance(number, int) or isinstance(number, bool) or number < 0:
+        raise DemoError(f"{folder / VARIATION_NUMBER}: it holds no variation's number\n    write the dataset again")
+    return number
 
 
 def _take_numbers(seen: Observation, config: ObservationConfig) -> None:
@@ -98,10 +106,9 @@ def _take_pictures(seen: Observation, folder: Path, number: int, name: str, came
 
     # Only colours may be mixed: the bytes of depth and mask are digits.
     rgb = read("rgb", image.Resampling.BILINEAR) if camera.rgb else None
-    depth = image_to_float_array(read("depth", image.Resampling.NEAREST)) if camera.needs_depth else None
+    depth = image_to_float_array(read("depth", image.Resampling.NEAREST), DEPTH_SCALE) if camera.needs_depth else None
     mask = rgb_handles_to_mask(read("mask", image.Resampling.NEAREST)) if camera.mask else None
     key = f"{name}_camera_intrinsics"
-    scale = np.array([width / own_size[0], height / own_size[1], 1.0])
-    seen.misc[key] = np.asarray(seen.misc[key], dtype=np.float64) * scale[:, None]
+    seen.misc[key] = resized_intrinsics(seen.misc[key], width / own_size[0], height / own_size[1])
     for field, value in encoded_fields(name, camera, rgb, depth, mask, seen.misc).items():
         setattr(seen, field, value)

@@ -14,16 +14,20 @@ def observation_of(
     numbers: Mapping[str, np.ndarray],
     views: Mapping[str, CameraView],
     misc: Mapping[str, object],
+    ignore_collisions: bool = False,
 ) -> Observation:
     """
     The fields that `config` has switched on, with its noise.
 
     numbers: `NUMBERS` of one frame, as engine/episode/README.md says. views: of the cameras that are on.
+    ignore_collisions: whether the motion of the frame was not planned around obstacles.
     """
     fields: dict[str, object] = {}
     for name in NUMBERS:
         if getattr(config, name):
             fields[name] = _field(config, name, numbers[name])
+    if config.record_ignore_collisions:
+        fields["ignore_collisions"] = np.array(float(ignore_collisions))
     about_cameras: dict[str, object] = {}
     for camera, view in views.items():
         fields.update(picture_fields(camera, config.cameras[camera], view))

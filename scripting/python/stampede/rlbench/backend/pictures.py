@@ -13,6 +13,8 @@ CAMERA_COLUMNS = ("extrinsics", "intrinsics", "near", "far")
 # RLBench's cameras have x to the left and y up in the picture, and negative focal lengths; the engine's x to the right
 # and y down, and positive ones. Both look along z, and both give the same pixels.
 _HALF_TURN = np.diag([-1.0, -1.0, 1.0, 1.0])
+# The middle of the first pixel is at 0 in RLBench's intrinsics (PyRep projects whole indices), at 0.5 in the engine's.
+_HALF_PIXEL = 0.5
 
 
 @dataclass
@@ -34,10 +36,11 @@ class CameraView:
 
 
 def camera_misc(camera: str, view: CameraView) -> dict[str, object]:
-    """The camera's entries of `Observation.misc`, in RLBench's frame of the camera."""
+    """The camera's entries of `Observation.misc`: RLBench's frame of the camera, middles of pixels at whole numbers."""
     intrinsics = np.array(view.intrinsics, dtype=np.float64)
     intrinsics[0, 0] *= -1.0
     intrinsics[1, 1] *= -1.0
+    intrinsics[:2, 2] -= _HALF_PIXEL
     return {
         f"{camera}_camera_extrinsics": np.asarray(view.extrinsics, dtype=np.float64) @ _HALF_TURN,
         f"{camera}_camera_intrinsics": intrinsics,
@@ -56,14 +59,23 @@ def point_cloud(metres: np.ndarray, intrinsics: np.ndarray, extrinsics: np.ndarr
     """
     Points that the middles of the pixels see: (H, W, 3) float64, m, world.
 
-    metres: (H, W) along the camera's z. intrinsics, extrinsics: of one convention, RLBench's or the engine's.
+    metres: (H, W) along the camera's z. intrinsics, extrinsics: RLBench's, as `camera_misc` gives them.
     """
     height, width = metres.shape
-    v, u = np.mgrid[0:height, 0:width] + 0.5
+    v, u = np.mgrid[0:height, 0:width]
     z = metres.astype(np.float64)
     x = (u - intrinsics[0, 2]) / intrinsics[0, 0] * z
     y = (v - intrinsics[1, 2]) / intrinsics[1, 1] * z
     return np.stack([x, y, z], axis=-1) @ extrinsics[:3, :3].T + extrinsics[:3, 3]
+
+
+def resized_intrinsics(intrinsics: np.ndarray, x: float, y: float) -> np.ndarray:
+    """RLBench's intrinsics of a picture x times as wide and y times as high."""
+    resized = np.array(intrinsics, dtype=np.float64)
+    resized[:2, 2] += _HALF_PIXEL
+    resized *= np.array([x, y, 1.0])[:, None]
+    resized[:2, 2] -= _HALF_PIXEL
+    return resized
 
 
 def picture_fields(camera: str, config: CameraConfig, view: CameraView) -> dict[str, np.ndarray]:

@@ -11,6 +11,8 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
+# Motions that are planned, or in which the arm stands still.
+_AROUND_OBSTACLES = ("move_to", "move_through", "open_hand", "close_hand", "hold", "wait")
 _SHUT_M = 1e-3  # a hand that was told to open less wide than that was told to close
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
@@ -31,6 +33,15 @@ def kept_frames(arrays: EpisodeArrays, gripper_frames: bool) -> list[int]:
             if segment.kind == "motion" and segment.name in ("open_hand", "close_hand"):
                 dropped.update(range(segment.first_frame + 1, segment.end_frame))
     return [frame for frame in range(arrays.frames) if frame not in dropped]
+
+
+def ignoring_frames(arrays: EpisodeArrays) -> set[int]:
+    """Frames whose motion was not planned around obstacles: `Observation.ignore_collisions`."""
+    ignoring: set[int] = set()
+    for segment in arrays.segments:
+        if segment.kind == "motion" and segment.name not in _AROUND_OBSTACLES:
+            ignoring.update(range(segment.first_frame, segment.end_frame))
+    return ignoring
 
 
 def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) -> Iterator[dict[str, object]]:
@@ -65,9 +76,10 @@ def demo_observations(
     """The observations of a demo in their order, each with its pictures drawn as `config` has them."""
     cameras = config.cameras_on
     frames = kept_frames(arrays, config.record_gripper_closing)
+    ignoring = ignoring_frames(arrays)
     for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index), strict=True):
         views = {name: _drawn_view(arrays, draw, frame, name, camera) for name, camera in cameras.items()}
-        yield observation_of(config, numbers_at(arrays, frame), views, misc)
+        yield observation_of(config, numbers_at(arrays, frame), views, misc, frame in ignoring)
 
 
 def _drawn_view(arrays: EpisodeArrays, draw: Draw, frame: int, name: str, config: CameraConfig) -> CameraView:

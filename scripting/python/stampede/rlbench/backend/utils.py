@@ -7,22 +7,47 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stampede.rlbench.backend.const import DEPTH_SCALE
-
 if TYPE_CHECKING:
     from stampede.rlbench.backend.task import Task
 
 
-def float_array_to_rgb_image(float_array: np.ndarray, scale_factor: int = DEPTH_SCALE) -> np.ndarray:
-    """(H, W) of 0 … 1 to (H, W, 3) uint8: times `scale_factor`, rounded, high byte first (R), low byte last (B)."""
-    whole = np.rint(np.clip(float_array, 0.0, 1.0).astype(np.float64) * scale_factor).astype(np.uint32)
+_MOST_WHOLE = 2**24 - 1
+_SCALE = 256000.0  # of metres to steps of 1/256 mm; datasets are written with DEPTH_SCALE
+
+
+def pillow() -> Any:
+    """Pillow's module Image."""
+    try:
+        from PIL import Image
+    except ImportError as error:
+        raise ImportError('Pillow is missing\n    pip install "stampede[rlbench]"') from error
+    return Image
+
+
+def float_array_to_rgb(values: np.ndarray, scale_factor: float) -> np.ndarray:
+    """(H, W) to (H, W, 3) uint8: times `scale_factor`, rounded, high byte first (R), low byte last (B)."""
+    whole = np.floor(np.asarray(values, dtype=np.float64) * scale_factor + 0.5)
+    whole = np.clip(whole, 0, _MOST_WHOLE).astype(np.uint32)
     return np.stack([whole >> 16 & 255, whole >> 8 & 255, whole & 255], axis=-1).astype(np.uint8)
 
 
-def image_to_float_array(image: Any, scale_factor: float = DEPTH_SCALE) -> np.ndarray:
-    """A picture that `float_array_to_rgb_image` made, or a Pillow image of it, to (H, W) float32 of 0 … 1."""
+def float_array_to_rgb_image(float_array: np.ndarray, scale_factor: float = _SCALE, drop_blue: bool = False) -> Any:
+    """
+    (H, W) to a Pillow image: times `scale_factor`, rounded, high byte first (R), low byte last (B).
+
+    drop_blue: without the low byte. Values beyond 2**24 - 1 steps, and below 0, are clipped.
+    """
+    colours = float_array_to_rgb(float_array, scale_factor)
+    if drop_blue:
+        colours[..., 2] = 0
+    return pillow().fromarray(colours)
+
+
+def image_to_float_array(image: Any, scale_factor: float | None = None) -> np.ndarray:
+    """A picture that `float_array_to_rgb_image` made to (H, W) float64. scale_factor: 256000, unless given."""
     colours = np.asarray(image).astype(np.float64)
-    return ((colours[..., 0] * 65536 + colours[..., 1] * 256 + colours[..., 2]) / scale_factor).astype(np.float32)
+    steps = colours[..., 0] * 65536 + colours[..., 1] * 256 + colours[..., 2]
+    return steps / (_SCALE if scale_factor is None else scale_factor)
 
 
 def mask_to_rgb_handles(mask: np.ndarray) -> np.ndarray:

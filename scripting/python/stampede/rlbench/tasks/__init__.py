@@ -1,33 +1,18 @@
 """
 The tasks that come with the engine, one class each: `from stampede.rlbench.tasks import ReachTarget`.
 
-FS10_V1, MT15_V1: task sets under RLBench's names, made of tasks that are there; their members are not RLBench's.
+Each has a module of its own beside this file, `stampede.rlbench.tasks.reach_target`, written when the package is built.
+FS10_V1 … FS95_V1, MT15_V1 … MT100_V1: RLBench's task sets (../task_sets.py).
 """
 
 import difflib
+import importlib
 import threading
 from functools import cache
 
 from stampede._core import Error, Session
 from stampede.rlbench.backend.task import Task
-
-_TRAIN = (
-    "close_drawer",
-    "lift_numbered_block",
-    "meat_off_grill",
-    "phone_on_base",
-    "pick_and_lift",
-    "pick_up_cup",
-    "push_buttons",
-    "put_rubbish_in_bin",
-    "reach_target",
-    "take_lid_off_saucepan",
-)
-_TEST = ("meat_on_grill", "pick_and_lift_small", "put_money_in_safe", "slide_block_to_target", "unplug_charger")
-_SETS: dict[str, dict[str, tuple[str, ...]]] = {
-    "FS10_V1": {"train": _TRAIN, "test": _TEST},
-    "MT15_V1": {"train": _TRAIN + _TEST},
-}
+from stampede.rlbench.task_sets import SET_NAMES, task_sets
 
 _lock = threading.Lock()
 
@@ -47,6 +32,8 @@ def class_name(task: str) -> str:
 @cache
 def task_of(name: str) -> type[Task]:
     """The class of a task that need not come with the engine: one of an Environment's `paths`."""
+    if name in _names().values():
+        return getattr(importlib.import_module(f"{__name__}.{name}"), class_name(name))
     return type(class_name(name), (Task,), {"task_name": name, "__module__": __name__})
 
 
@@ -65,16 +52,17 @@ def _did_you_mean(name: str, known: list[str]) -> str:
 
 def __getattr__(name: str):
     if name == "__all__":
-        return [*_names(), *_SETS]
-    if name in _SETS:
-        return {part: [task_of(task) for task in tasks] for part, tasks in _SETS[name].items()}
+        return [*_names(), *SET_NAMES]
+    if name in SET_NAMES:
+        members = task_sets(list(_names().values()))[name]
+        return {part: [task_of(task) for task in chosen] for part, chosen in members.items()}
     if name.startswith("_"):
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     if name not in _names():
-        hint = _did_you_mean(name, [*_names(), *_SETS])
+        hint = _did_you_mean(name, [*_names(), *SET_NAMES])
         raise AttributeError(f"module '{__name__}' has no task '{name}'{hint}", name=name)
     return task_of(_names()[name])
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_names(), *_SETS])
+    return sorted([*globals(), *_names(), *SET_NAMES])
