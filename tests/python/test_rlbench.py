@@ -1,6 +1,7 @@
 """RLBench's interface: programs in its style run with other import lines, and every field is what it says."""
 
 import functools
+import os
 import pickle
 import re
 import sys
@@ -27,6 +28,7 @@ from stampede.rlbench.action_modes.gripper_action_modes import Discrete, Gripper
 from stampede.rlbench.backend.exceptions import DemoError, InvalidActionError
 from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.rotations import composed, product, rotation_vector
+from stampede.rlbench.backend.task import TASKS_PATH
 from stampede.rlbench.backend.utils import (
     float_array_to_rgb_image,
     image_to_float_array,
@@ -34,6 +36,7 @@ from stampede.rlbench.backend.utils import (
     rgb_handles_to_mask,
     task_file_to_task_class,
 )
+from stampede.rlbench.environment import SUPPORTED_ROBOTS
 from stampede.rlbench.noise_model import GaussianNoise
 from stampede.rlbench.observation_config import CAMERAS, RenderMode
 from stampede.rlbench.utils import get_stored_demos, name_to_task_class
@@ -285,7 +288,7 @@ def test_cameras_have_rlbenchs_convention() -> None:
     x, y, z = extrinsics[:3, :3].T @ (target_of(seen) - extrinsics[:3, 3])
     u = intrinsics[0, 0] * x / z + intrinsics[0, 2]
     v = intrinsics[1, 1] * y / z + intrinsics[1, 2]
-    identity = seen.front_mask[int(v), int(u)]
+    identity = seen.front_mask[round(v), round(u)]
     assert identity > 0
     goal = seen.front_mask == identity
     assert goal.sum() < 0.05 * goal.size, "the goal is small, and not the floor"
@@ -298,7 +301,7 @@ def test_each_camera_has_its_own_size() -> None:
     _, seen = task_for(JointVelocity(), config).reset()
     assert seen.front_rgb.shape == (H, W, 3) and seen.wrist_rgb.shape == (20, 30, 3)
     assert seen.wrist_point_cloud.shape == (20, 30, 3)
-    assert seen.misc["wrist_camera_intrinsics"][0, 2] == 15
+    assert seen.misc["wrist_camera_intrinsics"][:2, 2].tolist() == [14.5, 9.5], "whole numbers are middles of pixels"
 
 
 def test_depth_and_masks_in_both_encodings() -> None:
@@ -319,6 +322,41 @@ def test_depth_and_masks_in_both_encodings() -> None:
     assert np.allclose(metres.front_point_cloud, unit.front_point_cloud, atol=1e-5)
 
 
+def project_back(metres: np.ndarray, extrinsics: np.ndarray, intrinsics: np.ndarray) -> np.ndarray:
+    """As programs do that take a pixel's whole indices for its place: by the inverse of the matrix that projects."""
+    height, width = metres.shape
+    v, u = np.mgrid[0:height, 0:width]
+    seen = np.stack([u * metres, v * metres, metres, np.ones_like(metres)], axis=-1)
+    projection = np.eye(4)
+    projection[:3] = intrinsics @ np.linalg.inv(extrinsics)[:3]
+    return (seen @ np.linalg.inv(projection).T)[..., :3]
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_the_table_is_at_its_height_by_back_projection(camera: str) -> None:
+    config = config_with(camera)
+    getattr(config, f"{camera}_camera").image_size = (128, 128)
+    getattr(config, f"{camera}_camera").depth_in_meters = True
+    _, seen = task_for(JointVelocity(), config).reset()
+    misc = seen.misc
+    points = project_back(
+        getattr(seen, f"{camera}_depth").astype(float),
+        misc[f"{camera}_camera_extrinsics"],
+        misc[f"{camera}_camera_intrinsics"],
+    )
+    heights = points[..., 2][np.abs(points[..., 2] - 0.75) < 5e-3]
+    assert heights.size > 300, "the table fills much of the picture"
+    assert np.abs(heights - 0.75).max() < 5e-4
+    assert np.abs(points - getattr(seen, f"{camera}_point_cloud")).max() < 1e-5
+
+
+def test_intrinsics_go_with_a_resized_picture() -> None:
+    from stampede.rlbench.backend.pictures import resized_intrinsics
+
+    half = resized_intrinsics(np.array([[-100.0, 0, 63.5], [0, -80.0, 31.5], [0, 0, 1]]), 0.5, 0.25)
+    assert half.tolist() == [[-50.0, 0, 31.5], [0, -20.0, 7.5], [0, 0, 1]]
+
+
 def test_nothing_in_range_is_the_far_plane() -> None:
     from stampede.rlbench.backend.pictures import depth_to_unit
 
@@ -326,10 +364,17 @@ def test_nothing_in_range_is_the_far_plane() -> None:
 
 
 def test_encodings_in_png_by_hand() -> None:
-    colours = float_array_to_rgb_image(np.array([[0.0, 1.0, 65536 / (2**24 - 1), 258 / (2**24 - 1)]]))
-    assert colours.tolist() == [[[0, 0, 0], [255, 255, 255], [1, 0, 0], [0, 1, 2]]]
+    pytest.importorskip("PIL")
+    most = 2**24 - 1
+    picture = float_array_to_rgb_image(np.array([[0.0, 1.0, 65536 / most, 258 / most, 2.0, -1.0]]), most)
+    assert picture.mode == "RGB" and picture.size == (6, 1)
+    colours = [[[0, 0, 0], [255, 255, 255], [1, 0, 0], [0, 1, 2], [255, 255, 255], [0, 0, 0]]]
+    assert np.asarray(picture).tolist() == colours
     values = np.random.random((5, 6)).astype(np.float32)
-    assert np.abs(image_to_float_array(float_array_to_rgb_image(values)) - values).max() < 1e-7
+    assert np.abs(image_to_float_array(float_array_to_rgb_image(values, most), most) - values).max() < 1e-7
+    metres = image_to_float_array(float_array_to_rgb_image(values))
+    assert np.abs(metres - values).max() <= 0.5 / 256000, "without a scale in steps of 1/256 mm"
+    assert not np.asarray(float_array_to_rgb_image(values, drop_blue=True))[..., 2].any()
     assert mask_to_rgb_handles(np.array([[1, 256, 65536 + 2]])).tolist() == [[[1, 0, 0], [0, 1, 0], [2, 0, 1]]]
 
 
@@ -609,6 +654,11 @@ def test_tasks_are_classes() -> None:
     assert set(tasks.__all__) >= {"ReachTarget", "StackBlocks", "FS10_V1"}
     assert tasks.ReachTarget is task_file_to_task_class("reach_target.py") is name_to_task_class("reach_target")
     assert tasks.ReachTarget.__name__ == "ReachTarget"
+    modules = {file.removesuffix(".py") for file in os.listdir(TASKS_PATH) if file.endswith(".py")}
+    assert modules - {"__init__"} == set(Session().tasks())
+    from stampede.rlbench.tasks.reach_target import ReachTarget
+
+    assert ReachTarget is tasks.ReachTarget and ReachTarget.__doc__.startswith("Bring the tip of the hand")
     assert {tasks.task_class(name).task_name for name in Session().tasks()} == set(Session().tasks())
     with pytest.raises(ImportError):
         exec("from stampede.rlbench.tasks import ReachTargt")
@@ -616,6 +666,18 @@ def test_tasks_are_classes() -> None:
         _ = tasks.ReachTargt
     with pytest.raises(Error, match="did you mean 'reach_target'"):
         task_file_to_task_class("reach_targt")
+
+
+def test_task_sets_have_rlbenchs_sizes_as_far_as_there_are_tasks() -> None:
+    sizes = {"FS10_V1": (10, 5), "FS25_V1": (25, 5), "FS50_V1": (50, 5), "FS95_V1": (85, 5)}
+    for name, size in sizes.items():
+        train, test = getattr(tasks, name)["train"], getattr(tasks, name)["test"]
+        assert (len(train), len(test)) == size, name
+        assert len({*train, *test}) == len(train) + len(test), "none twice"
+    joint = {name: getattr(tasks, name)["train"] for name in ("MT15_V1", "MT30_V1", "MT55_V1", "MT100_V1")}
+    assert [len(one) for one in joint.values()] == [15, 30, 55, len(Session().tasks())]
+    assert joint["MT15_V1"] == tasks.FS10_V1["train"] + tasks.FS10_V1["test"]
+    assert tasks.CloseMicrowave in tasks.FS10_V1["train"] and tasks.OpenFridge in tasks.FS10_V1["test"]
 
 
 def test_what_cannot_be_had_is_told() -> None:
@@ -633,6 +695,7 @@ def test_what_cannot_be_had_is_told() -> None:
     task = task_for(JointVelocity())
     with pytest.raises(Error, match=r"call reset\(\) before step\(\)"):
         task.step(np.zeros(8))
+    assert "sawyer" not in SUPPORTED_ROBOTS and issubclass(DemoError, RuntimeError)
     with pytest.raises(DemoError, match="dataset_root"):
         task.get_demos(1)
     with pytest.raises(DemoError, match="no such folder or catalogue"):
@@ -669,6 +732,11 @@ def dataset(catalogue: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @functools.cache
 def red() -> int:
     return shared_environment().session.variations("reach_target").index("colour=red")
+
+
+@functools.cache
+def black() -> int:
+    return shared_environment().session.variations("pick_and_lift").index("colour=black")
 
 
 def test_export_and_catalogue_give_the_same_demos(catalogue: Path, dataset: Path) -> None:
@@ -715,7 +783,11 @@ def test_files_of_a_dataset(catalogue: Path, dataset: Path) -> None:
         "front_mask",
         "front_rgb",
         "low_dim_obs.pkl",
+        "variation_descriptions.pkl",
+        "variation_number.pkl",
     ]
+    assert pickle.loads((episode / "variation_number.pkl").read_bytes()) == red()
+    assert pickle.loads((episode / "variation_descriptions.pkl").read_bytes()) == sentences
     for kind in ("rgb", "depth", "mask"):
         names = {one.name for one in (episode / f"front_{kind}").iterdir()}
         assert names == {f"{frame}.png" for frame in range(frames)}
@@ -728,6 +800,43 @@ def test_files_of_a_dataset(catalogue: Path, dataset: Path) -> None:
     assert np.allclose(0.01 + unit * (4.5 - 0.01), np.where(depth > 0, depth, 4.5), atol=1e-6)
     handles = np.asarray(Image.open(episode / "front_mask" / "0.png")).astype(int)
     assert np.array_equal(handles @ [1, 256, 65536], first.pictures("front_mask", [0])[0])
+
+
+def test_all_variations_together(catalogue: Path, tmp_path: Path) -> None:
+    """PerAct's layout: episodes by number over all variations, each with its own."""
+    pytest.importorskip("PIL")
+    folder = tmp_path / "peract"
+    export(["rlbench", str(catalogue), "--out", str(folder), "--cameras", "", "--all-variations"])
+    episodes = sorted(one.relative_to(folder).as_posix() for one in folder.glob("*/*/*/*"))
+    assert episodes == [
+        "pick_and_lift/all_variations/episodes/episode0",
+        "reach_target/all_variations/episodes/episode0",
+        "reach_target/all_variations/episodes/episode1",
+    ]
+    for root in (folder, catalogue):
+        demos = get_stored_demos(-1, False, root, -1, "reach_target", config_with(), random_selection=False)
+        assert [demo.variation_number for demo in demos] == [red(), red()]
+    number = folder / "reach_target" / "all_variations" / "episodes" / "episode0" / "variation_number.pkl"
+    number.write_bytes(pickle.dumps("red"))
+    with pytest.raises(DemoError, match="no variation's number"):
+        get_stored_demos(-1, False, folder, -1, "reach_target", config_with(), random_selection=False)
+
+
+def test_collisions_are_ignored_where_a_motion_was_not_planned_around_them(catalogue: Path) -> None:
+    (demo,) = get_stored_demos(-1, False, catalogue, black(), "pick_and_lift", config_with(), False)
+    from stampede import Catalogue
+
+    (episode,) = Catalogue(catalogue).demos("task = 'pick_and_lift'")
+    motions = [one for one in episode.segments if one.kind == "motion"]
+    for seen in demo:
+        assert seen.ignore_collisions.shape == ()
+        (motion,) = [one.name for one in motions if one.first_frame <= seen.misc["frame"] < one.end_frame] or ["hold"]
+        planned = motion in ("move_to", "move_through", "open_hand", "close_hand", "hold", "wait")
+        assert seen.ignore_collisions == float(not planned), motion
+    config = config_with()
+    config.record_ignore_collisions = False
+    (demo,) = get_stored_demos(-1, False, catalogue, black(), "pick_and_lift", config, False)
+    assert demo[0].ignore_collisions is None
 
 
 def test_paths_instead_of_pictures_and_other_sizes(dataset: Path) -> None:
