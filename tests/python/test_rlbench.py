@@ -344,9 +344,9 @@ def test_the_table_is_at_its_height_by_back_projection(camera: str) -> None:
         misc[f"{camera}_camera_extrinsics"],
         misc[f"{camera}_camera_intrinsics"],
     )
-    heights = points[..., 2][np.abs(points[..., 2] - 0.75) < 5e-3]
+    heights = points[..., 2][np.abs(points[..., 2] - 0.75) < 4e-3]
     assert heights.size > 300, "the table fills much of the picture"
-    assert np.abs(heights - 0.75).max() < 5e-4
+    assert np.quantile(np.abs(heights - 0.75), 0.95) < 1e-5, "but for its edge, and what crosses its height"
     assert np.abs(points - getattr(seen, f"{camera}_point_cloud")).max() < 1e-5
 
 
