@@ -148,6 +148,12 @@ class Writer:
             VARIATIONS_ALL_FOLDER if self._options.all_variations else VARIATIONS_FOLDER % variation
         )
 
+    def _cameras_of(self, episode: StoredEpisode) -> list[str]:
+        """With --draw all of RLBench's that the scene has, unless they are named: RLBench's own loader wants them all."""
+        if self._options.cameras is None and self._options.draw:
+            return [camera for camera in CAMERAS if camera in episode.table("cameras").values("camera")]
+        return [camera for camera in cameras_of(episode, self._options) if camera in CAMERAS]
+
     def _write_descriptions(self, episode: StoredEpisode) -> None:
         file = self._variation_folder(episode) / VARIATION_DESCRIPTIONS
         if file.exists():
@@ -157,7 +163,7 @@ class Writer:
         partial.rename(file)
 
     def _write_into(self, folder: Path, episode: StoredEpisode) -> None:
-        cameras = [camera for camera in cameras_of(episode, self._options) if camera in CAMERAS]
+        cameras = self._cameras_of(episode)
         arrays = episode.arrays(*columns(cameras))
         frames = kept_frames(arrays, self._options.gripper_frames)
         intrinsics = {camera: self._write_pictures(folder, episode, arrays, camera, frames) for camera in cameras}
