@@ -11,6 +11,7 @@
 #include "engine/episode/altered_task.h"
 #include "engine/episode/dense_reward.h"
 #include "engine/symbolic/pddl.h"
+#include "stampede/interruption.h"
 
 namespace stampede {
 namespace {
@@ -193,7 +194,14 @@ EnvironmentObservation Environment::reset(const ResetRequest& request) {
 
 EnvironmentObservation Environment::reset(const SavedState& state) { return restore(state); }
 
-StepResult Environment::step(const AgentAction& action) { return impl_->step(action); }
+StepResult Environment::step(const AgentAction& action) {
+  try {
+    return impl_->step(action);
+  } catch (const Interruption&) {
+    impl_->now.reset();  // in the midst of a step there is nothing to go on with
+    throw;
+  }
+}
 
 double Environment::frame_hz() const { return impl_->acting().rollout.view().scene().frame_hz; }
 

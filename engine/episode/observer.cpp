@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
@@ -81,6 +83,20 @@ void size_cameras(std::vector<stampede::Camera>& cameras, const EnvironmentSetti
         own == settings.picture_sizes.end() ? PictureSize{settings.width, settings.height} : own->second;
     if (size.width > 0 && size.height > 0) camera = resized(camera, size.width, size.height);
   }
+}
+
+bool has_quantifier(const Formula& formula) {
+  return formula.kind == Formula::Kind::exists || formula.kind == Formula::Kind::forall ||
+         std::any_of(formula.parts.begin(), formula.parts.end(), has_quantifier);
+}
+
+// Of a conjunction, those with quantifiers, or those without.
+Formula parts_of(const Formula& formula, bool quantified) {
+  std::vector<Formula> all = {formula}, parts;
+  if (formula.kind == Formula::Kind::conjunction) all = formula.parts;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(parts),
+               [&](const Formula& part) { return has_quantifier(part) == quantified; });
+  return conjunction(std::move(parts));
 }
 
 }  // namespace
@@ -180,19 +196,28 @@ const std::vector<std::uint8_t>& Observer::row() {
 
 const std::vector<std::uint8_t>& Observer::feasible() {
   if (feasible_at_ == rollout_.facts().changes()) return feasible_;
-  if (preconditions_.empty()) {
-    Facts ever = rollout_.facts().facts();  // what is no atom here never changes
-    ever.insert(atoms_.begin(), atoms_.end());
-    const AtomWorld world{places_, rollout_.domain(), rollout_.facts().objects(), ever};
-    for (const PlanStep& step : skills_) {
-      const Action& action = *rollout_.domain().action(step.action);
-      preconditions_.emplace_back(action.precondition, world, binding_of(action, step.arguments));
+  std::optional<Facts> ever;
+  const auto compiled = [&](const PlanStep& step, bool quantified) {
+    if (!ever) {
+      ever = rollout_.facts().facts();  // what is no atom here never changes
+      ever->insert(atoms_.begin(), atoms_.end());
     }
-  }
+    const Action& action = *rollout_.domain().action(step.action);
+    return AtomFormula(parts_of(action.precondition, quantified),
+                       {places_, rollout_.domain(), rollout_.facts().objects(), *ever},
+                       binding_of(action, step.arguments));
+  };
+  if (preconditions_.empty())
+    for (const PlanStep& step : skills_) preconditions_.push_back({compiled(step, false), std::nullopt});
   const std::uint8_t* now = row().data();
   feasible_at_ = rollout_.facts().changes();
-  feasible_.clear();
-  for (const AtomFormula& formula : preconditions_) feasible_.push_back(formula.holds(now) ? 1 : 0);
+  feasible_.assign(skills_.size(), 0);
+  for (std::size_t i = 0; i < skills_.size(); ++i) {
+    Precondition& one = preconditions_[i];
+    if (!one.plain.holds(now)) continue;
+    if (!one.quantified) one.quantified = compiled(skills_[i], true);
+    feasible_[i] = one.quantified->holds(now) ? 1 : 0;
+  }
   return feasible_;
 }
 

@@ -80,7 +80,12 @@ class Observer {
   std::vector<Fact> atoms_;
   AtomPlaces places_;
   std::vector<PlanStep> skills_;
-  std::vector<AtomFormula> preconditions_;  // of skills_, once asked for
+  // To ask for all things of a kind is most of the work: such parts are compiled when the others hold the first time.
+  struct Precondition {
+    AtomFormula plain;
+    std::optional<AtomFormula> quantified;
+  };
+  std::vector<Precondition> preconditions_;  // of skills_, once asked for
   std::optional<AtomFormula> goal_;
   std::vector<double> wanted_;  // of the stage wanted_at_
   std::vector<std::uint8_t> row_, feasible_;

@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/episode/recorder.h"
+#include "stampede/interruption.h"
 
 namespace stampede {
 namespace {
@@ -136,6 +137,8 @@ void SensorReader::read_own(const Own& own, const WorldView& view) {
     channel.values.insert(channel.values.end(), values.begin(), values.end());
   } catch (const std::exception& error) {
     fail(error.what());
+  } catch (const Interruption&) {
+    throw;
   } catch (...) {
     fail("it threw what is no std::exception");
   }

@@ -9,6 +9,7 @@
 #include "engine/episode/perturbation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/prepared_source.h"
+#include "stampede/interruption.h"
 
 namespace stampede {
 namespace {
@@ -163,6 +164,8 @@ EpisodeRecord act_as(PreparedEpisode& prepared, const EvaluationRequest& request
       policy->begin(call);
       mistake = let_act(*policy, world, seen, request.stop);
     } catch (const ScriptError&) {
+      throw;
+    } catch (const Interruption&) {
       throw;
     } catch (const std::exception& error) {
       mistake = std::string("it threw: ") + error.what();

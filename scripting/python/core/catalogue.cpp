@@ -39,6 +39,12 @@ struct PyColumn {
   const ArrayColumn* column;
 };
 
+std::string shape_text(const std::vector<std::int64_t>& shape) {
+  std::string text;
+  for (const std::int64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+  return text;
+}
+
 PyColumn column_of(const SharedArrays& self, const std::string& name) { return {self, &self.arrays->column(name)}; }
 
 NamedArrays picture_of(CameraPicture picture) {
@@ -60,12 +66,20 @@ nb::typed<nb::tuple, std::vector<std::string>, nb::typed<nb::list, nb::tuple>> a
   return nb::make_tuple(rows.columns, rows_of(rows));
 }
 
-NumpyArray pictures_of(const CatalogueReader& self, std::int64_t episode, const std::string& column,
+// A catalogue as Python has it: a file and a thread that draws are in it.
+struct PyReader : Owned<CatalogueReader> {
+  explicit PyReader(const std::filesystem::path& file) : Owned("Catalogue", Turn::Others::wait, file) {
+    turn.stay_in_this_process();
+  }
+};
+
+NumpyArray pictures_of(const PyReader& self, std::int64_t episode, const std::string& column,
                        std::vector<std::int64_t> frames, bool draw, int threads) {
+  const Using use(self.turn, "Catalogue.pictures");
   PictureFrames all;
   {
-    const nb::gil_scoped_release free;
-    all = self.pictures(episode, column, {std::move(frames), draw, threads});
+    const Released free;
+    all = self->pictures(episode, column, {std::move(frames), draw, threads});
   }
   return std::visit([&](auto& values) { return numpy_array(std::move(values), all.shape); }, all.data);
 }
@@ -83,7 +97,11 @@ void bind_arrays(nb::module_& module) {
           "labels", [](const PyColumn& c) { return c.column->labels; }, "of the last axis")
       .def_prop_ro(
           "values", [](const PyColumn& c) { return view_of(c.shared, *c.column); },
-          "numpy array without a copy, read-only; a row a frame");
+          "numpy array without a copy, read-only; a row a frame")
+      .def("__repr__", [](const PyColumn& c) {
+        return "Column('" + c.column->name + "', " + shape_text(c.column->shape) +
+               (c.column->unit.empty() ? "" : ", " + c.column->unit) + ")";
+      });
   nb::class_<ArraySegment>(module, "Segment", "A labelled stretch of an episode.")
       .def_ro("id", &ArraySegment::id)
       .def_ro("parent", &ArraySegment::parent, "-1: none")
@@ -106,7 +124,10 @@ void bind_arrays(nb::module_& module) {
       .def_ro("type", &ArrayPictures::type, "numpy's: uint8, float32, uint16")
       .def_ro("shape", &ArrayPictures::shape)
       .def_ro("unit", &ArrayPictures::unit)
-      .def_ro("stored", &ArrayPictures::stored, "frames whose picture the catalogue keeps");
+      .def_ro("stored", &ArrayPictures::stored, "frames whose picture the catalogue keeps")
+      .def("__repr__", [](const ArrayPictures& p) {
+        return "PictureColumn('" + p.name + "', " + shape_text(p.shape) + " " + p.type + ")";
+      });
   nb::class_<SharedArrays>(module, "EpisodeArrays", R"(One episode as named numpy arrays: `arrays["joint_positions"]`.
 
 Names, shapes, units and frames of reference: engine/episode/README.md. Memory is shared, read-only.)")
@@ -136,6 +157,12 @@ Names, shapes, units and frames of reference: engine/episode/README.md. Memory i
              return names;
            })
       .def("__len__", [](const SharedArrays& self) { return self.arrays->columns.size(); })
+      .def("__repr__",
+           [](const SharedArrays& self) {
+             const EpisodeArrays& a = *self.arrays;
+             return "EpisodeArrays(" + a.task + (a.variation.empty() ? "" : " " + a.variation) + ", " +
+                    std::to_string(a.frames) + " frames, " + std::to_string(a.columns.size()) + " columns)";
+           })
       .def(
           "pose_in",
           [](const SharedArrays& self, const std::string& object, const std::string& reference) {
@@ -163,7 +190,11 @@ void bind_states(nb::module_& module) {
       .def_ro("facts", &WorldState::facts)
       .def_ro("joints", &WorldState::joints)
       .def_ro("objects", &WorldState::objects)
-      .def_ro("hands", &WorldState::hands);
+      .def_ro("hands", &WorldState::hands)
+      .def("__repr__", [](const WorldState& state) {
+        return "WorldState(frame " + std::to_string(state.frame) + ", " + std::to_string(state.facts.size()) +
+               " facts, " + std::to_string(state.objects.size()) + " objects)";
+      });
 }
 
 }  // namespace
@@ -197,18 +228,20 @@ void bind_catalogue(nb::module_& module) {
       .def_ro("description", &ReadyQuestion::description)
       .def_ro("sql", &ReadyQuestion::sql);
   module.def("ready_questions", &ready_questions, "Questions that have a name.");
-  nb::class_<CatalogueReader>(module, "CatalogueReader", "A catalogue to be read, by one thread of one process.")
+  nb::class_<PyReader>(module, "CatalogueReader",
+                       "A catalogue to be read, in one process; threads that share it wait for each other.")
       .def(nb::init<const std::filesystem::path&>(), "file"_a)
       .def(
           "query",
-          [](const CatalogueReader& self, const std::string& question, const nb::sequence& parameters,
+          [](const PyReader& self, const std::string& question, const nb::sequence& parameters,
              std::int64_t most_rows) {
+            const Using use(self.turn, "Catalogue.query");
             std::vector<SqlValue> values;
             for (const nb::handle one : parameters) values.push_back(sql_value(one));
             Rows rows;
             {
-              const nb::gil_scoped_release free;
-              rows = self.query(question, values, most_rows);
+              const Released free;
+              rows = self->query(question, values, most_rows);
             }
             return answer_of(rows);
           },
@@ -216,11 +249,12 @@ void bind_catalogue(nb::module_& module) {
           "Names of columns, and rows as tuples. most_rows 0: all.")
       .def(
           "arrays",
-          [](const CatalogueReader& self, std::int64_t episode, std::vector<std::string> columns) {
+          [](const PyReader& self, std::int64_t episode, std::vector<std::string> columns) {
+            const Using use(self.turn, "Catalogue.arrays");
             EpisodeArrays arrays;
             {
-              const nb::gil_scoped_release free;
-              arrays = self.arrays(episode, {std::move(columns)});
+              const Released free;
+              arrays = self->arrays(episode, {std::move(columns)});
             }
             return shared_arrays(std::move(arrays));
           },
@@ -232,12 +266,14 @@ void bind_catalogue(nb::module_& module) {
 uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not stored raise Error, or are drawn now.)")
       .def(
           "picture",
-          [](const CatalogueReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera,
-             int width, int height, bool rgb, bool depth, bool mask, bool semantic_mask, bool shadows) {
+          [](const PyReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera, int width,
+             int height, bool rgb, bool depth, bool mask, bool semantic_mask, bool shadows) {
+            const Using use(self.turn, "Catalogue.picture");
             CameraPicture picture;
             {
-              const nb::gil_scoped_release free;
-              picture = self.picture(episode, frame, {camera, width, height, rgb, depth, mask, semantic_mask, shadows});
+              const Released free;
+              picture =
+                  self->picture(episode, frame, {camera, width, height, rgb, depth, mask, semantic_mask, shadows});
             }
             return picture_of(std::move(picture));
           },
@@ -246,19 +282,27 @@ uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not sto
           "Drawn now, at any size: rgb, depth, mask, semantic_mask, intrinsics, extrinsics (world_from_camera).")
       .def(
           "points",
-          [](const CatalogueReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera,
-             int width, int height, bool rgb, bool mask, bool semantic_mask) {
+          [](const PyReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera, int width,
+             int height, bool rgb, bool mask, bool semantic_mask) {
+            const Using use(self.turn, "Catalogue.points");
             CameraPoints points;
             {
-              const nb::gil_scoped_release free;
-              points = self.points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
+              const Released free;
+              points = self->points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
             }
             return points_object(std::move(points));
           },
           "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true, "mask"_a = false,
           "semantic_mask"_a = false,
           "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.")
-      .def("state", &CatalogueReader::state, "episode"_a, "frame"_a);
+      .def(
+          "state",
+          [](const PyReader& self, std::int64_t episode, std::int64_t frame) {
+            const Using use(self.turn, "Catalogue.state");
+            const Released free;
+            return self->state(episode, frame);
+          },
+          "episode"_a, "frame"_a);
 }
 
 }  // namespace stampede::python

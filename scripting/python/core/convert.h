@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-namespace stampede::python {
+#include "threads.h"
 
-namespace nb = nanobind;
+namespace stampede::python {
 
 inline bool is_any(PyObject*) { return true; }
 
@@ -63,34 +63,17 @@ nb::list rows_of(const Rows& rows);    // tuples
 // Numbers as they come: a number, lists, tuples, numpy arrays of one axis. `what`: for complaints.
 std::vector<double> numbers(nb::handle values, const char* what);
 
-// Holds a Python object, and lets go of it under the GIL, whichever thread does.
-class Kept {
- public:
-  explicit Kept(nb::object object) : object_(std::move(object)) {}
-  Kept(const Kept&) = delete;
-  Kept& operator=(const Kept&) = delete;
-  ~Kept() {
-    if (!nb::is_alive()) {
-      object_.release();
-      return;
-    }
-    const nb::gil_scoped_acquire gil;
-    object_.reset();
-  }
-  const nb::object& operator*() const { return object_; }
-
- private:
-  nb::object object_;
-};
-
-// Calls Python; what it raises becomes an error that any thread may hold.
-// `promise`: what Python gives, for complaints.
+// Calls Python; what it raises becomes an error that any thread may hold: a failure, or where it is no Exception
+// (KeyboardInterrupt, SystemExit), an Interruption. `promise`: what Python gives, for complaints.
 template <typename Work>
 auto ask_python(const char* promise, const Work& work) {
-  const nb::gil_scoped_acquire gil;
+  const Asking asking;
+  if (is_ending()) throw Interruption{std::make_exception_ptr(std::runtime_error("the interpreter is ending"))};
+  const Acquired gil;
   try {
     return work();
   } catch (nb::python_error& error) {
+    if (!error.matches(PyExc_Exception)) throw Interruption{std::current_exception()};
     const std::string text = error.what();
     error.restore();
     PyErr_Clear();

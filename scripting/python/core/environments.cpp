@@ -21,6 +21,13 @@ AgentAction skill_action(const std::string& skill, std::vector<std::string> argu
   return action;
 }
 
+// `pick(cup, table)`
+std::string call_text(const std::string& skill, const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const std::string& argument : arguments) text += (text.empty() ? "" : ", ") + argument;
+  return skill + "(" + text + ")";
+}
+
 nb::dict parameters_of(const AgentAction& action) {
   nb::dict all;
   for (const SkillParameter& one : action.parameters) all[one.name.c_str()] = one.values;
@@ -35,7 +42,10 @@ void bind_actions(nb::module_& module) {
       .def_ro("upper", &ActionComponent::upper, "both bounds are allowed");
   nb::class_<ActionSpace>(module, "ActionSpace", "A way to act: joint_position, tool_delta, skill …")
       .def_ro("name", &ActionSpace::name)
-      .def_ro("components", &ActionSpace::components);
+      .def_ro("components", &ActionSpace::components)
+      .def("__repr__", [](const ActionSpace& space) {
+        return "ActionSpace('" + space.name + "', " + std::to_string(space.components.size()) + " components)";
+      });
   nb::class_<AgentAction>(module, "Action", R"(What an agent asks of the robot for one step.
 
 space: joint_position (rad), joint_delta (rad), joint_velocity (rad/s), joint_torque (N m), tool_pose (x y z m,
@@ -99,7 +109,10 @@ own. frames: the step ends after so many, and `Action("go_on")` goes on; 0: at t
   nb::class_<SkillChoice>(module, "SkillChoice", "A ground skill, and whether its precondition holds now.")
       .def_ro("skill", &SkillChoice::skill)
       .def_ro("arguments", &SkillChoice::arguments)
-      .def_ro("feasible", &SkillChoice::feasible);
+      .def_ro("feasible", &SkillChoice::feasible)
+      .def("__repr__", [](const SkillChoice& choice) {
+        return "SkillChoice(" + call_text(choice.skill, choice.arguments) + (choice.feasible ? ")" : ", not now)");
+      });
   nb::class_<SkillParameterInfo>(module, "SkillParameterInfo", R"(A continuous parameter that a skill declares.
 
 initial, lower, upper: one entry a component. Grasps and poses have 7 (x y z m, quaternion x y z w), a grasp an opening
@@ -146,7 +159,10 @@ void bind_results(nb::module_& module) {
       .def_ro("detail", &SkillEnd::detail)
       .def_ro("precondition_held", &SkillEnd::precondition_held, "None: not reached")
       .def_ro("effect_held", &SkillEnd::effect_held, "None: not reached")
-      .def_ro("missing_effects", &SkillEnd::missing_effects);
+      .def_ro("missing_effects", &SkillEnd::missing_effects)
+      .def("__repr__", [](const SkillEnd& end) {
+        return "SkillEnd(" + call_text(end.skill, end.arguments) + ": " + (end.success ? "success" : end.reason) + ")";
+      });
   nb::class_<Step>(module, "Step", "What a step led to.")
       .def_prop_ro(
           "observation", [](const Step& s) { return s.observation; }, "channel -> numpy array, or list of str")
@@ -171,7 +187,12 @@ void bind_results(nb::module_& module) {
       .def_prop_ro(
           "running", [](const Step& s) { return s.rest.running; }, "what was cut off and can go_on, or empty")
       .def_prop_ro(
-          "ended", [](const Step& s) { return s.rest.ended; }, "skills");
+          "ended", [](const Step& s) { return s.rest.ended; }, "skills")
+      .def("__repr__", [](const Step& s) {
+        return "Step(frame " + std::to_string(s.rest.observation.frame) + ", reward " + std::to_string(s.rest.reward) +
+               (s.rest.refusal ? ", refused" : "") + (s.rest.terminated ? ", terminated" : "") +
+               (s.rest.truncated ? ", truncated" : "") + ")";
+      });
   nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.");
 }
 
@@ -202,17 +223,56 @@ Step to_step(StepResult result) {
   return {std::move(observation), std::move(result)};
 }
 
-std::function<std::unique_ptr<Policy>()> policy_maker(nb::callable factory) {
-  return [kept = std::make_shared<Kept>(std::move(factory))] {
+std::function<std::unique_ptr<Policy>()> policy_maker(std::shared_ptr<Kept> factory) {
+  return [factory = std::move(factory)] {
     return ask_python("a policy is made",
-                      [&]() -> std::unique_ptr<Policy> { return std::make_unique<PythonPolicy>((**kept)()); });
+                      [&]() -> std::unique_ptr<Policy> { return std::make_unique<PythonPolicy>((**factory)()); });
   };
 }
 
-PolicyEntry policy_entry(nb::callable factory, std::vector<std::string> channels, bool hidden, int width, int height,
-                         std::string version) {
+PolicyEntry policy_entry(std::shared_ptr<Kept> factory, std::vector<std::string> channels, bool hidden, int width,
+                         int height, std::string version) {
   return {policy_maker(std::move(factory)), std::move(channels), hidden, width, height, std::move(version)};
 }
+
+PyEnvironment::PyEnvironment(nb::object session_in, const std::string& task_in, const EnvironmentSettings& settings)
+    : Owned("Environment", Turn::Others::fail,
+            (*nb::cast<const PySession&>(session_in)).environment(task_in, settings)),
+      task(task_in),
+      session(std::move(session_in)) {}
+
+void PyEnvironment::check_may_keep() const {
+  const auto& made_by = nb::cast<const PySession&>(session);
+  if (made_by.turn.was_left_behind())
+    throw Error("Environment.episode", "this process was forked from the one that opened the catalogue",
+                "make the Environment in this process");
+}
+
+namespace {
+
+// For the cycle collector: a policy of the session's may hold the environment.
+int traverse_environment(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<PyEnvironment>(self)->session.ptr());
+  return 0;
+}
+int clear_environment(PyObject* self) {
+  nb::inst_ptr<PyEnvironment>(self)->session.reset();
+  return 0;
+}
+PyType_Slot kEnvironmentSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&traverse_environment)},
+                                   {Py_tp_clear, reinterpret_cast<void*>(&clear_environment)},
+                                   {0, nullptr}};
+
+// What an environment says of itself.
+template <typename Answer>
+Answer asked(const PyEnvironment& self, const char* question, Answer (Environment::*answer)() const) {
+  const Using use(self.turn, ("Environment." + std::string(question)).c_str());
+  const Released free;
+  return ((*self).*answer)();
+}
+
+}  // namespace
 
 EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
   EnvironmentSettings settings;
@@ -289,7 +349,11 @@ frame of an episode of this engine. channels: observed from now on; None: as bef
           "variation"_a = "", "seed"_a = 0, "where"_a = "", "goal"_a = "", "randomise"_a = false, "perturb"_a = "",
           "episode"_a = nb::none(), "frame"_a = 0, "channels"_a = nb::none())
       .def_ro("variation", &ResetRequest::variation)
-      .def_ro("seed", &ResetRequest::seed);
+      .def_ro("seed", &ResetRequest::seed)
+      .def("__repr__", [](const ResetRequest& request) {
+        return "Reset(" + (request.variation.empty() ? "" : "'" + request.variation + "', ") + "seed " +
+               std::to_string(request.seed) + ")";
+      });
   nb::class_<PolicyCall>(module, "PolicyCall",
                          "What a skill was called with, for the policy that is its body; or the "
                          "task, for one that acts in a whole episode.")
@@ -298,76 +362,111 @@ frame of an episode of this engine. channels: observed from now on; None: as bef
       .def_ro("skill", &PolicyCall::skill, "empty: a whole episode")
       .def_ro("arguments", &PolicyCall::arguments, "parameter -> object")
       .def_ro("parameters", &PolicyCall::parameters, "continuous ones");
-  nb::class_<Environment>(module, "Environment", R"(A task that the caller steps; made by Session.environment.
+  nb::class_<PyEnvironment>(module, "Environment", nb::type_slots(kEnvironmentSlots),
+                            R"(A task that the caller steps; made by Session.environment.
 
-Use it in the thread that resets it. An action that cannot be done gives a Step with a `refusal`, and nothing changed.)")
+One thread at a time: another one, meanwhile, gets an Error. An action that cannot be done gives a Step with a
+`refusal`, and nothing changed.)")
       .def(
           "reset",
-          [](Environment& self, const ResetRequest& request) {
+          [](PyEnvironment& self, const ResetRequest& request) {
+            const Using use(self.turn, "Environment.reset");
             EnvironmentObservation now;
             {
-              const nb::gil_scoped_release free;
-              now = self.reset(request);
+              const Released free;
+              now = self->reset(request);
             }
             return to_python(std::move(now));
           },
           "request"_a = ResetRequest{}, "A start. Raises Error for one that cannot be made.")
       .def(
           "step",
-          [](Environment& self, const AgentAction& action) {
+          [](PyEnvironment& self, const AgentAction& action) {
+            const Using use(self.turn, "Environment.step");
             StepResult result;
             {
-              const nb::gil_scoped_release free;
-              result = self.step(action);
+              const Released free;
+              result = self->step(action);
             }
             return to_step(std::move(result));
           },
           "action"_a)
-      .def("observe", [](const Environment& self) { return to_python(self.observe()); })
+      .def("__repr__", [](const PyEnvironment& self) { return "Environment('" + self.task + "')"; })
+      .def("observe",
+           [](const PyEnvironment& self) {
+             const Using use(self.turn, "Environment.observe");
+             return to_python(self->observe());
+           })
       .def(
           "picture",
-          [](const Environment& self, const std::string& camera, int width, int height) {
+          [](const PyEnvironment& self, const std::string& camera, int width, int height) {
+            const Using use(self.turn, "Environment.picture");
             ChannelValue seen;
             {
-              const nb::gil_scoped_release free;
-              seen = self.picture(camera, {width, height});
+              const Released free;
+              seen = self->picture(camera, {width, height});
             }
             return to_python(std::move(seen));
           },
           "camera"_a, "width"_a = 0, "height"_a = 0,
           "What a camera sees now, without noise: height x width x 3, uint8. 0: the size that its channels have.")
-      .def_prop_ro("frame_hz", &Environment::frame_hz, "Steps of set-points a second.")
-      .def_prop_ro("horizon_s", &Environment::horizon_s, "Simulated; the episode is truncated then.")
-      .def("instructions", &Environment::instructions, "What the task is called in words, for this start.")
+      .def_prop_ro(
+          "frame_hz", [](const PyEnvironment& self) { return asked(self, "frame_hz", &Environment::frame_hz); },
+          "Steps of set-points a second.")
+      .def_prop_ro(
+          "horizon_s", [](const PyEnvironment& self) { return asked(self, "horizon_s", &Environment::horizon_s); },
+          "Simulated; the episode is truncated then.")
+      .def(
+          "instructions",
+          [](const PyEnvironment& self) { return asked(self, "instructions", &Environment::instructions); },
+          "What the task is called in words, for this start.")
       .def(
           "labels",
-          [](const Environment& self) {
+          [](const PyEnvironment& self) {
             std::map<std::string, std::vector<std::string>> labels;
-            for (ChannelValue& channel : self.observe().channels)
+            for (ChannelValue& channel : asked(self, "labels", &Environment::observe).channels)
               if (!channel.labels.empty()) labels[channel.name] = std::move(channel.labels);
             return labels;
           },
           "What the last axis of each channel counts, where it has names; see also atoms() and skills().")
-      .def("spaces", &Environment::spaces)
-      .def("skills", &Environment::skills, nb::call_guard<nb::gil_scoped_release>(),
-           "Every ground skill of the scene, in a fixed order, with what can be done now.")
-      .def("skill_descriptions", &Environment::skill_descriptions)
-      .def("atoms", &Environment::atoms, "Ground atoms of the channels `facts` and `known`, in their order.")
-      .def("save", &Environment::save, nb::call_guard<nb::gil_scoped_release>(),
-           "Between two steps. What follows a save and a restore is equal, bit for bit.")
+      .def("spaces", [](const PyEnvironment& self) { return asked(self, "spaces", &Environment::spaces); })
+      .def(
+          "skills", [](const PyEnvironment& self) { return asked(self, "skills", &Environment::skills); },
+          "Every ground skill of the scene, in a fixed order, with what can be done now.")
+      .def(
+          "skill_descriptions",
+          [](const PyEnvironment& self) { return asked(self, "skill_descriptions", &Environment::skill_descriptions); })
+      .def(
+          "atoms", [](const PyEnvironment& self) { return asked(self, "atoms", &Environment::atoms); },
+          "Ground atoms of the channels `facts` and `known`, in their order.")
+      .def(
+          "save",
+          [](PyEnvironment& self) {
+            const Using use(self.turn, "Environment.save");
+            const Released free;
+            return self->save();
+          },
+          "Between two steps. What follows a save and a restore is equal, bit for bit.")
       .def(
           "restore",
-          [](Environment& self, const SavedState& state) {
+          [](PyEnvironment& self, const SavedState& state) {
+            const Using use(self.turn, "Environment.restore");
             EnvironmentObservation now;
             {
-              const nb::gil_scoped_release free;
-              now = self.restore(state);
+              const Released free;
+              now = self->restore(state);
             }
             return to_python(std::move(now));
           },
           "state"_a)
       .def(
-          "episode", &Environment::episode, nb::call_guard<nb::gil_scoped_release>(),
+          "episode",
+          [](PyEnvironment& self) {
+            const Using use(self.turn, "Environment.episode");
+            self.check_may_keep();
+            const Released free;
+            return self->episode();
+          },
           "The episode so far; it ends here. With `record` it is kept, in the session's catalogue where there is one.");
 }
 

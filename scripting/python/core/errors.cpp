@@ -2,6 +2,8 @@
 #include <nanobind/stl/string.h>
 #include <stampede/error.h>
 
+#include <regex>
+
 #include "convert.h"
 
 namespace stampede::python {
@@ -10,12 +12,30 @@ namespace {
 PyObject* error_type = nullptr;            // stampede.Error, kept by the module
 PyObject* catalogue_error_type = nullptr;  // stampede.CatalogueError
 
+// `EpisodeRequest::set` is the argument `set=` in Python, `Session::tasks()` the method `Session.tasks()`.
+std::string in_python(const std::string& text) {
+  static const std::regex argument(R"(\b[A-Z]\w*(?:Request|Options|Settings|Entry)::(\w+))"),
+      member(R"(\b([A-Z]\w*)::(\w))");
+  if (text.find("::") == std::string::npos) return text;
+  return std::regex_replace(std::regex_replace(text, argument, "$1="), member, "$1.$2");
+}
+
 void raise(PyObject* type, const Error& error) {
-  const nb::object instance = nb::handle(type)(nb::str(error.what()));
-  instance.attr("where") = nb::cast(error.where());
-  instance.attr("message") = nb::cast(error.message());
-  instance.attr("hint") = nb::cast(error.hint());
+  const nb::object instance = nb::handle(type)(nb::str(in_python(error.what()).c_str()));
+  instance.attr("where") = nb::cast(in_python(error.where()));
+  instance.attr("message") = nb::cast(in_python(error.message()));
+  instance.attr("hint") = nb::cast(in_python(error.hint()));
   PyErr_SetObject(type, instance.ptr());
+}
+
+void raise_cause(const Interruption& interruption) {
+  try {
+    std::rethrow_exception(interruption.cause);
+  } catch (nb::python_error& error) {
+    error.restore();
+  } catch (const std::exception& error) {
+    PyErr_SetString(PyExc_RuntimeError, error.what());
+  }
 }
 
 PyObject* new_type(nb::module_& module, const char* name, PyObject* base, const char* text) {
@@ -42,6 +62,8 @@ void bind_errors(nb::module_& module) {
       raise(catalogue_error_type, error);
     } catch (const Error& error) {
       raise(error_type, error);
+    } catch (const Interruption& interruption) {
+      raise_cause(interruption);
     }
   });
 }

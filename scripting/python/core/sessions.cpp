@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <future>
 
 #include "environments.h"
@@ -111,6 +112,21 @@ EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
   return request;
 }
 
+// For the cycle collector: a policy's function may hold its session.
+int traverse_session(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self))
+    for (const auto& [name, function] : nb::inst_ptr<PySession>(self)->functions) Py_VISIT((**function).ptr());
+  return 0;
+}
+int clear_session(PyObject* self) {
+  for (const auto& [name, function] : nb::inst_ptr<PySession>(self)->functions) function->let_go();
+  return 0;
+}
+PyType_Slot kSessionSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&traverse_session)},
+                               {Py_tp_clear, reinterpret_cast<void*>(&clear_session)},
+                               {0, nullptr}};
+
 // Does long work in another thread, so that Ctrl-C and other signals reach Python meanwhile: `stop` is set then, and
 // what the signal's handler raised is raised when the work has ended.
 template <typename Work>
@@ -119,10 +135,12 @@ auto interruptible(const Work& work) {
   std::future<decltype(work(stop))> answer = std::async(std::launch::async, [&] { return work(stop); });
   std::exception_ptr raised;
   {
-    const nb::gil_scoped_release free;
+    const Released free;
     while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-      const nb::gil_scoped_acquire gil;
-      if (raised || PyErr_CheckSignals() == 0) continue;
+      if (is_ending()) stop = true;
+      if (stop) continue;
+      const Acquired gil;
+      if (PyErr_CheckSignals() == 0) continue;
       try {
         throw nb::python_error();
       } catch (nb::python_error&) {
@@ -136,30 +154,34 @@ auto interruptible(const Work& work) {
   return result;
 }
 
-RunTally run_all(Session& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
+RunTally run_all(PySession& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
                  std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
+  const Using use(self.turn, "Session.run_all");
   RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
   request.each = request_from(words, "run_all");
   if (progress)
     request.progress = [&](const RunProgress& now) {
-      const nb::gil_scoped_acquire gil;
+      const Lent between_two_episodes(self.turn);
+      const Acquired gil;
       (*progress)(now.episode, now.done, now.total);
     };
   if (sink)
     request.sink = [&](const Episode& episode) {
-      const nb::gil_scoped_acquire gil;
+      const Lent between_two_episodes(self.turn);
+      const Acquired gil;
       (*sink)(episode);
     };
   return interruptible([&](const std::atomic<bool>& stop) {
     request.stop = &stop;
-    return self.run_all(request);
+    return self->run_all(request);
   });
 }
 
-Evaluation evaluate(Session& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
+Evaluation evaluate(PySession& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
                     std::int64_t episodes, std::int64_t first_seed, const std::string& variation,
                     std::vector<std::string> perturb, int workers, const std::string& policy_name,
                     const nb::kwargs& words) {
+  const Using use(self.turn, "Session.evaluate");
   EvaluationRequest request;
   request.episodes = episodes;
   request.first_seed = first_seed;
@@ -168,20 +190,20 @@ Evaluation evaluate(Session& self, const std::vector<std::string>& tasks, std::o
   request.workers = workers;
   request.settings = settings_from(words, "evaluate");
   request.policy_name = policy_name;
-  if (policy) request.policy = policy_maker(*policy);
+  if (policy) request.policy = policy_maker(std::make_shared<Kept>(*policy));
   return interruptible([&](const std::atomic<bool>& stop) {
     request.stop = &stop;
-    return self.evaluate(tasks, request);
+    return self->evaluate(tasks, request);
   });
 }
 
 // Asked by any thread that runs an episode.
-SensorEntry sensor_entry(nb::callable read, std::vector<std::string> components, std::string unit, int rate_hz,
+SensorEntry sensor_entry(std::shared_ptr<Kept> read, std::vector<std::string> components, std::string unit, int rate_hz,
                          std::string version) {
   SensorEntry entry{std::move(unit), std::move(components), rate_hz, std::move(version), {}};
-  entry.read = [kept = std::make_shared<Kept>(std::move(read))](const SimulatorView& now) {
+  entry.read = [read = std::move(read)](const SimulatorView& now) {
     return ask_python("a sensor's read() gives a list of numbers", [&] {
-      return numbers((**kept)(nb::cast(&now, nb::rv_policy::reference)), "what a sensor reads");
+      return numbers((**read)(nb::cast(&now, nb::rv_policy::reference)), "what a sensor reads");
     });
   };
   return entry;
@@ -202,6 +224,14 @@ It lives while the sensor's read() runs. Raises Error for a name that the scene 
       .def("distance", &SimulatorView::distance, "from_point"_a, "to_point"_a,
            "From a point to the first thing that collides on the straight way to another, m; None: it is free.");
 }
+
+std::string row_text(const EvaluationRow& row) {
+  return (row.task.empty() ? "all" : row.task) + ", " + row.perturbation +
+         (row.axis.empty() ? "" : ", " + row.axis + "=" + row.value) + ": " + std::to_string(row.succeeded) + " of " +
+         std::to_string(row.episodes);
+}
+
+std::string per_cent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
 void bind_answers(nb::module_& module) {
   nb::class_<Episode>(module, "Episode", "An episode that was run.")
@@ -233,7 +263,12 @@ void bind_answers(nb::module_& module) {
       .def_ro("succeeded", &RunTally::succeeded)
       .def_ro("existing", &RunTally::existing)
       .def_ro("interrupted", &RunTally::interrupted)
-      .def_ro("tasks", &RunTally::tasks);
+      .def_ro("tasks", &RunTally::tasks)
+      .def("__repr__", [](const RunTally& tally) {
+        return "RunTally(" + std::to_string(tally.succeeded) + " of " + std::to_string(tally.finished) +
+               " succeeded, " + std::to_string(tally.existing) + " were there" +
+               (tally.interrupted ? ", interrupted)" : ")");
+      });
   nb::class_<EvaluationRow>(module, "EvaluationRow", "Of a task, or of its variations with one value on one axis.")
       .def_ro("task", &EvaluationRow::task, "empty: all")
       .def_ro("perturbation", &EvaluationRow::perturbation)
@@ -247,14 +282,28 @@ void bind_answers(nb::module_& module) {
       .def_ro("mean_return", &EvaluationRow::mean_return)
       .def_ro("mean_length_s", &EvaluationRow::mean_length_s)
       .def_ro("reasons", &EvaluationRow::reasons)
-      .def("__repr__", [](const EvaluationRow& row) {
-        return "EvaluationRow(" + (row.task.empty() ? "all" : row.task) + ", " + row.perturbation +
-               (row.axis.empty() ? "" : ", " + row.axis + "=" + row.value) + ": " + std::to_string(row.succeeded) +
-               " of " + std::to_string(row.episodes) + ")";
-      });
+      .def("__repr__", [](const EvaluationRow& row) { return "EvaluationRow(" + row_text(row) + ")"; });
   nb::class_<Evaluation>(module, "Evaluation")
       .def_ro("rows", &Evaluation::rows)
-      .def_ro("interrupted", &Evaluation::interrupted);
+      .def_ro("interrupted", &Evaluation::interrupted)
+      .def("__repr__",
+           [](const Evaluation& evaluation) {
+             std::string text = "Evaluation(";
+             for (const EvaluationRow& row : evaluation.rows)
+               if (row.axis.empty()) text += (text.back() == '(' ? "" : "; ") + row_text(row);
+             return text + (evaluation.interrupted ? "; interrupted)" : ")");
+           })
+      .def("_repr_html_", [](const Evaluation& evaluation) {
+        std::string rows;
+        for (const EvaluationRow& row : evaluation.rows)
+          rows += "<tr><td>" + (row.task.empty() ? "all" : row.task) + "</td><td>" + row.perturbation + "</td><td>" +
+                  (row.axis.empty() ? "" : row.axis + "=" + row.value) + "</td><td>" + std::to_string(row.succeeded) +
+                  "</td><td>" + std::to_string(row.episodes) + "</td><td>" + per_cent(row.success) + " (" +
+                  per_cent(row.lower) + " – " + per_cent(row.upper) + ")</td></tr>";
+        return "<table><tr><th>task</th><th>perturbation</th><th>axis</th><th>succeeded</th><th>episodes</th>"
+               "<th>success</th></tr>" +
+               rows + "</table>";
+      });
   nb::class_<TaskPlanStep>(module, "PlanStep")
       .def_ro("action", &TaskPlanStep::action)
       .def_ro("arguments", &TaskPlanStep::arguments)
@@ -270,36 +319,60 @@ void bind_answers(nb::module_& module) {
       .def_ro("steps", &TaskPlan::steps)
       .def_ro("domain", &TaskPlan::domain, "PDDL")
       .def_ro("problem", &TaskPlan::problem, "PDDL")
-      .def_ro("assumed", &TaskPlan::assumed);
+      .def_ro("assumed", &TaskPlan::assumed)
+      .def("__repr__", [](const TaskPlan& plan) {
+        return "TaskPlan(" + (plan.found ? std::to_string(plan.steps.size()) + " steps" : plan.end) + ")";
+      });
 }
 
 }  // namespace
 
+PySession::PySession(SessionOptions options)
+    : Owned("Session", Turn::Others::wait, options), catalogue(options.catalogue) {
+  if (has_catalogue()) turn.stay_in_this_process();
+}
+
 void bind_sessions(nb::module_& module) {
   bind_answers(module);
   bind_sensors(module);
-  module.def("plan_pddl", &plan_pddl, "domain"_a, "problem"_a, nb::call_guard<nb::gil_scoped_release>(),
-             "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
-  nb::class_<Session>(module, "Session", R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
+  module.def(
+      "plan_pddl",
+      [](const std::string& domain, const std::string& problem) {
+        const Calling call;
+        const Released free;
+        return plan_pddl(domain, problem);
+      },
+      "domain"_a, "problem"_a,
+      "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
+  nb::class_<PySession>(module, "Session", nb::type_slots(kSessionSlots),
+                        R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
 
 root: holds tasks/, skills/, worlds/; None: those that came with the package. paths: further folders of the same shape,
 whose files win. catalogue: a file, where episodes go; None: each is kept by the Episode that `run` gives.
-One thread at a time.)")
+Threads that share one wait for each other.)")
       .def(
           "__init__",
-          [](Session* self, const std::optional<std::filesystem::path>& root, std::vector<std::filesystem::path> paths,
-             const std::optional<std::filesystem::path>& catalogue) {
-            new (self) Session({root.value_or(""), std::move(paths), catalogue.value_or("")});
+          [](PySession* self, const std::optional<std::filesystem::path>& root,
+             std::vector<std::filesystem::path> paths, const std::optional<std::filesystem::path>& catalogue) {
+            new (self) PySession({root.value_or(""), std::move(paths), catalogue.value_or("")});
           },
           "root"_a = nb::none(), "paths"_a = std::vector<std::filesystem::path>(), "catalogue"_a = nb::none())
-      .def("tasks", &Session::tasks, "Names.")
-      .def("variations", &Session::variations, "task"_a, "Canonical texts, in the task's order.")
+      .def("__repr__",
+           [](const PySession& self) {
+             return self.has_catalogue() ? "Session(catalogue='" + self.catalogue + "')" : std::string("Session()");
+           })
+      .def(
+          "tasks", [](const PySession& self) { return self->tasks(); }, "Names.")
+      .def(
+          "variations", [](const PySession& self, const std::string& task) { return self->variations(task); }, "task"_a,
+          "Canonical texts, in the task's order.")
       .def(
           "run",
-          [](Session& self, const std::string& task, const nb::kwargs& words) {
+          [](PySession& self, const std::string& task, const nb::kwargs& words) {
             const EpisodeRequest request = request_from(words, "run");
-            const nb::gil_scoped_release free;
-            return self.run(task, request);
+            const Using use(self.turn, "Session.run");
+            const Released free;
+            return self->run(task, request);
           },
           "task"_a, "request"_a,
           R"(Runs one episode. What the catalogue has already is given without running. Repeatable, bit for bit.
@@ -316,8 +389,8 @@ progress(episode, done, total) is called after each; sink(episode) gets each ins
 as of `run`; `seed` is the first one's.)")
       .def(
           "environment",
-          [](const Session& self, const std::string& task, const nb::kwargs& words) {
-            return self.environment(task, settings_from(words, "environment"));
+          [](nb::handle_t<PySession> self, const std::string& task, const nb::kwargs& words) {
+            return std::make_unique<PyEnvironment>(nb::borrow(self), task, settings_from(words, "environment"));
           },
           "task"_a, "settings"_a, R"(The task as an environment that the caller steps.
 
@@ -326,58 +399,72 @@ channels, hidden, reward (sparse, dense, task), frame_hz, physics_hz, horizon_s,
 torque_model: see EnvironmentSettings of stampede/environment.h.)")
       .def(
           "plan",
-          [](const Session& self, const std::string& task, const nb::kwargs& words) {
+          [](const PySession& self, const std::string& task, const nb::kwargs& words) {
             const EpisodeRequest request = request_from(words, "plan");
-            const nb::gil_scoped_release free;
-            return self.plan(task, request);
+            const Using use(self.turn, "Session.plan");
+            const Released free;
+            return self->plan(task, request);
           },
           "task"_a, "request"_a, "The plan for the start that `run` would make. variation, seed, where, goal matter.")
       .def(
           "query",
-          [](const Session& self, const std::string& question) {
+          [](const PySession& self, const std::string& question) {
+            const Using use(self.turn, "Session.query");
             Rows rows;
             {
-              const nb::gil_scoped_release free;
-              rows = self.query(question);
+              const Released free;
+              rows = self->query(question);
             }
             return nb::make_tuple(rows.columns, rows_of(rows));
           },
           "question"_a)
       .def(
           "arrays",
-          [](const Session& self, const Episode& episode, std::vector<std::string> columns) {
+          [](const PySession& self, const Episode& episode, std::vector<std::string> columns) {
+            const Using use(self.turn, "Session.arrays");
             EpisodeArrays arrays;
             {
-              const nb::gil_scoped_release free;
-              arrays = self.arrays(episode, {std::move(columns)});
+              const Released free;
+              arrays = self->arrays(episode, {std::move(columns)});
             }
             return shared_arrays(std::move(arrays));
           },
           "episode"_a, "columns"_a = std::vector<std::string>())
       .def(
           "picture",
-          [](const Session& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
+          [](const PySession& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
              int height, bool rgb, bool depth, bool mask, bool semantic_mask, bool shadows) {
+            const Using use(self.turn, "Session.picture");
+            self.turn.stay_in_this_process();  // it draws in a thread
             CameraPicture picture;
             {
-              const nb::gil_scoped_release free;
-              picture = self.picture(episode, frame, {camera, width, height, rgb, depth, mask, semantic_mask, shadows});
+              const Released free;
+              picture =
+                  self->picture(episode, frame, {camera, width, height, rgb, depth, mask, semantic_mask, shadows});
             }
             return picture_object(std::move(picture));
           },
           "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true,
           "depth"_a = false, "mask"_a = false, "semantic_mask"_a = false, "shadows"_a = false,
           "Drawn now: rgb, depth, mask, semantic_mask, intrinsics, extrinsics (world_from_camera).")
-      .def("state", nb::overload_cast<const Episode&, std::int64_t>(&Session::state, nb::const_), "episode"_a,
-           "frame"_a)
+      .def(
+          "state",
+          [](const PySession& self, const Episode& episode, std::int64_t frame) {
+            const Using use(self.turn, "Session.state");
+            const Released free;
+            return self->state(episode, frame);
+          },
+          "episode"_a, "frame"_a)
       .def(
           "points",
-          [](const Session& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
+          [](const PySession& self, const Episode& episode, std::int64_t frame, const std::string& camera, int width,
              int height, bool rgb, bool mask, bool semantic_mask) {
+            const Using use(self.turn, "Session.points");
+            self.turn.stay_in_this_process();  // it draws in a thread
             CameraPoints points;
             {
-              const nb::gil_scoped_release free;
-              points = self.points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
+              const Released free;
+              points = self->points(episode, frame, {camera, width, height, rgb, true, mask, semantic_mask});
             }
             return points_object(std::move(points));
           },
@@ -386,10 +473,13 @@ torque_model: see EnvironmentSettings of stampede/environment.h.)")
           "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.")
       .def(
           "add_sensor",
-          [](Session& self, const std::string& name, nb::callable read, std::vector<std::string> components,
+          [](PySession& self, const std::string& name, nb::callable read, std::vector<std::string> components,
              std::string unit, int rate_hz, std::string version) {
-            self.add_sensor(name, sensor_entry(std::move(read), std::move(components), std::move(unit), rate_hz,
-                                               std::move(version)));
+            const Using use(self.turn, "Session.add_sensor");
+            const auto kept = std::make_shared<Kept>(std::move(read));
+            self->add_sensor(name,
+                             sensor_entry(kept, std::move(components), std::move(unit), rate_hz, std::move(version)));
+            self.functions["sensor " + name] = kept;
           },
           "name"_a, "read"_a, "components"_a, "unit"_a = "", "rate_hz"_a = 20, "version"_a = "",
           R"(Another sensor of every world: columns `sensor/NAME` of arrays, channels of environments and policies.
@@ -399,10 +489,12 @@ episodes repeat. rate_hz divides the world's physics rate. components, unit, rat
 key: another text, another sensor.)")
       .def(
           "add_policy",
-          [](Session& self, const std::string& name, nb::callable make, std::vector<std::string> channels, bool hidden,
-             int width, int height, std::string version) {
-            self.add_policy(
-                name, policy_entry(std::move(make), std::move(channels), hidden, width, height, std::move(version)));
+          [](PySession& self, const std::string& name, nb::callable make, std::vector<std::string> channels,
+             bool hidden, int width, int height, std::string version) {
+            const Using use(self.turn, "Session.add_policy");
+            const auto kept = std::make_shared<Kept>(std::move(make));
+            self->add_policy(name, policy_entry(kept, std::move(channels), hidden, width, height, std::move(version)));
+            self.functions["policy " + name] = kept;
           },
           "name"_a, "make"_a,
           "channels"_a =

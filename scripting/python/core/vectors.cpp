@@ -54,6 +54,7 @@ class EnvironmentGroup {
 
   Environment& at(std::size_t i) { return environments_.at(i); }
   std::size_t size() const { return environments_.size(); }
+  bool has_threads() const { return !workers_.empty(); }
 
  private:
   void begin_round() {
@@ -92,6 +93,37 @@ class EnvironmentGroup {
   std::vector<std::jthread> workers_;
 };
 
+// A group as Python has it.
+struct PyGroup : Owned<EnvironmentGroup> {
+  PyGroup(nb::object session_in, std::vector<Environment> environments, int threads)
+      : Owned("VectorEnv", Turn::Others::fail, std::move(environments), threads), session(std::move(session_in)) {
+    if ((*this)->has_threads() || nb::cast<const PySession&>(session).has_catalogue()) turn.stay_in_this_process();
+  }
+  nb::object session;
+};
+
+int traverse_group(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<PyGroup>(self)->session.ptr());
+  return 0;
+}
+int clear_group(PyObject* self) {
+  nb::inst_ptr<PyGroup>(self)->session.reset();
+  return 0;
+}
+PyType_Slot kGroupSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&traverse_group)},
+                             {Py_tp_clear, reinterpret_cast<void*>(&clear_group)},
+                             {0, nullptr}};
+
+// What one of its environments says of itself.
+template <typename Answer>
+Answer asked(const PyGroup& self, const char* question, std::size_t index, Answer (Environment::*answer)() const) {
+  const Using use(self.turn, ("VectorEnv." + std::string(question)).c_str());
+  if (index >= self->size()) throw nb::index_error();
+  const Released free;
+  return (self->at(index).*answer)();
+}
+
 // What one environment does next: nothing, an action, or a new start.
 using Command = std::variant<std::monostate, AgentAction, ResetRequest>;
 
@@ -102,7 +134,9 @@ Command command_from(nb::handle asked) {
   throw nb::type_error("each environment is told a stampede.Action, a stampede.Reset, or None");
 }
 
-nb::list run_group(EnvironmentGroup& group, const nb::sequence& asked) {
+nb::list run_group(PyGroup& self, const nb::sequence& asked) {
+  const Using use(self.turn, "VectorEnv.step");
+  EnvironmentGroup& group = *self;
   std::vector<Command> commands;
   for (const nb::handle one : asked) commands.push_back(command_from(one));
   if (commands.size() != group.size())
@@ -112,7 +146,7 @@ nb::list run_group(EnvironmentGroup& group, const nb::sequence& asked) {
                 "give each one, None to leave it as it is");
   std::vector<StepResult> answers(group.size());
   {
-    const nb::gil_scoped_release free;
+    const Released free;
     group.each([&](std::size_t i, Environment& environment) {
       if (const auto* action = std::get_if<AgentAction>(&commands[i])) answers[i] = environment.step(*action);
       if (const auto* request = std::get_if<ResetRequest>(&commands[i]))
@@ -126,11 +160,13 @@ nb::list run_group(EnvironmentGroup& group, const nb::sequence& asked) {
   return results;
 }
 
-nb::list pictures_of(EnvironmentGroup& group, const std::string& camera, std::size_t count) {
+nb::list pictures_of(PyGroup& self, const std::string& camera, std::size_t count) {
+  const Using use(self.turn, "VectorEnv.render");
+  EnvironmentGroup& group = *self;
   if (count > group.size()) throw nb::index_error();
   std::vector<ChannelValue> seen(count);
   {
-    const nb::gil_scoped_release free;
+    const Released free;
     group.each([&](std::size_t i, const Environment& environment) {
       if (i < count) seen[i] = environment.picture(camera);
     });
@@ -140,9 +176,11 @@ nb::list pictures_of(EnvironmentGroup& group, const std::string& camera, std::si
   return pictures;
 }
 
-std::optional<Episode> episode_of(EnvironmentGroup& group, std::size_t index) {
+std::optional<Episode> episode_of(PyGroup& self, std::size_t index) {
+  const Using use(self.turn, "VectorEnv.episode");
+  EnvironmentGroup& group = *self;
   if (index >= group.size()) throw nb::index_error();
-  const nb::gil_scoped_release free;
+  const Released free;
   std::optional<Episode> episode;
   group.each([&](std::size_t i, Environment& environment) {
     if (i == index) episode = environment.episode();
@@ -153,8 +191,8 @@ std::optional<Episode> episode_of(EnvironmentGroup& group, std::size_t index) {
 }  // namespace
 
 void bind_vectors(nb::module_& module) {
-  nb::class_<EnvironmentGroup>(module, "EnvironmentGroup",
-                               "Environments that act at once in threads, the caller's among them.")
+  nb::class_<PyGroup>(module, "EnvironmentGroup", nb::type_slots(kGroupSlots),
+                      "Environments that act at once in threads, the caller's among them.")
       .def("run", &run_group, "commands"_a, R"(Tells each environment an Action, a Reset or None (nothing), all at once.
 
 Gives a Step for each that was told something; of a reset, only `observation` counts. The GIL is released.)")
@@ -162,25 +200,34 @@ Gives a Step for each that was told something; of a reset, only `observation` co
            "What the camera of each of the first `count` sees now, drawn at once: height x width x 3, uint8.")
       .def("episode", &episode_of, "index"_a, "Ends that environment's episode and keeps it; needs `record`.")
       .def(
-          "skills", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).skills(); }, "index"_a)
+          "skills", [](const PyGroup& self, std::size_t i) { return asked(self, "skills", i, &Environment::skills); },
+          "index"_a)
       .def(
-          "atoms", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).atoms(); }, "index"_a)
+          "atoms", [](const PyGroup& self, std::size_t i) { return asked(self, "atoms", i, &Environment::atoms); },
+          "index"_a)
       .def(
-          "spaces", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).spaces(); }, "index"_a)
+          "spaces", [](const PyGroup& self, std::size_t i) { return asked(self, "spaces", i, &Environment::spaces); },
+          "index"_a)
       .def(
-          "instructions", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).instructions(); }, "index"_a)
+          "instructions",
+          [](const PyGroup& self, std::size_t i) { return asked(self, "instructions", i, &Environment::instructions); },
+          "index"_a)
       .def(
-          "frame_hz", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).frame_hz(); }, "index"_a)
+          "frame_hz",
+          [](const PyGroup& self, std::size_t i) { return asked(self, "frame_hz", i, &Environment::frame_hz); },
+          "index"_a)
       .def(
-          "horizon_s", [](EnvironmentGroup& self, std::size_t i) { return self.at(i).horizon_s(); }, "index"_a)
-      .def("__len__", &EnvironmentGroup::size);
+          "horizon_s",
+          [](const PyGroup& self, std::size_t i) { return asked(self, "horizon_s", i, &Environment::horizon_s); },
+          "index"_a)
+      .def("__len__", [](const PyGroup& self) { return self->size(); });
   module.def(
       "environment_group",
-      [](const Session& session, const std::string& task, int count, int threads, const nb::kwargs& words) {
+      [](nb::handle_t<PySession> session, const std::string& task, int count, int threads, const nb::kwargs& words) {
         const EnvironmentSettings settings = settings_from(words, "environment_group");
         std::vector<Environment> all;
-        for (int i = 0; i < count; ++i) all.push_back(session.environment(task, settings));
-        return std::make_unique<EnvironmentGroup>(std::move(all), threads);
+        for (int i = 0; i < count; ++i) all.push_back(nb::cast<PySession&>(session)->environment(task, settings));
+        return std::make_unique<PyGroup>(nb::borrow(session), std::move(all), threads);
       },
       "session"_a, "task"_a, "count"_a, "threads"_a, "settings"_a,
       "Several environments of a task that act at once; further arguments as of Session.environment.");

@@ -6,7 +6,7 @@
     session.run_all(["pick_and_lift"], episodes=10, workers=2)
     for episode in stampede.Catalogue("demos.db").demos():     # episodes as numpy arrays, segments, facts, SQL
         print(episode, episode.arrays("joint_positions")["joint_positions"].shape)
-    env = stampede.Env("pick_and_lift")                        # a Gymnasium environment
+    env = stampede.Env("pick_and_lift")                        # a Gymnasium environment; or gymnasium.make
 
 `python -m stampede.export` writes datasets for trainers; `stampede.rlbench` has RLBench's interface.
 """
@@ -14,6 +14,10 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+
+from stampede.interpreter import check_interpreter
+
+check_interpreter()
 
 from stampede._core import (
     Action,
@@ -38,6 +42,7 @@ from stampede._core import (
     plan_pddl,
 )
 from stampede.catalogue import Catalogue, StoredEpisode, Table
+from stampede.registration import register_tasks
 
 if TYPE_CHECKING:
     from stampede.datasets import FrameDataset, WindowStream
@@ -87,9 +92,16 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 def __getattr__(name: str) -> Any:
     if name in _LATER:
         import importlib
 
         return getattr(importlib.import_module(_LATER[name]), name)
     raise AttributeError(f"module 'stampede' has no attribute {name!r}")
+
+
+register_tasks()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import os
 import threading
 from collections.abc import Iterator, Sequence
@@ -16,6 +17,8 @@ from numpy.typing import NDArray
 from stampede import _core
 from stampede._core import EpisodeArrays, Segment
 from stampede.faults import fault, unknown
+
+_SHOWN_ROWS = 20  # of a table in a notebook
 
 SqlValue = None | int | float | str | bytes
 
@@ -75,6 +78,16 @@ class Table:
 
     def __repr__(self) -> str:
         return f"Table({len(self)} rows: {', '.join(self.columns)})"
+
+    def _repr_html_(self) -> str:
+        """The first rows, for notebooks."""
+
+        def row(cells: Sequence[object], kind: str) -> str:
+            return "<tr>" + "".join(f"<{kind}>{html.escape(str(cell))}</{kind}>" for cell in cells) + "</tr>"
+
+        rows = [row(self.columns, "th"), *(row(cells, "td") for cells in self._rows[:_SHOWN_ROWS])]
+        more = f"<p>{len(self)} rows</p>" if len(self) > _SHOWN_ROWS else ""
+        return f"<table>{''.join(rows)}</table>{more}"
 
 
 @dataclass(frozen=True)

@@ -66,11 +66,26 @@ class FrameDataset:
             raise fault(
                 str(self.catalogue.path), f"no episode fulfils `{where}`", "Catalogue.query shows what there is"
             )
+        self._check_columns()
         self._cache_size = max(1, cache)
         self._cache: dict[int, EpisodeArrays] = {}
         self._spans = self._skill_spans()
         self.skills = sorted({name for spans in self._spans.values() for name, *_ in spans})
         self._index = self._windows(stride)
+
+    def _check_columns(self) -> None:
+        """What is not there is told of now, and not by a worker later: of the first episode of each task."""
+        for episode in {one.task: one for one in reversed(self.episodes)}.values():
+            if self.columns:
+                episode.arrays(*self.columns)
+            for name in self.pictures:
+                if name not in episode.stored_pictures:
+                    place = f"{self.catalogue.path}, episode {episode.id}"
+                    raise unknown(place, "column of stored pictures", name, episode.stored_pictures or ["none"])
+
+    def __repr__(self) -> str:
+        what = ", ".join([*self.columns, *self.pictures])
+        return f"FrameDataset({len(self)} windows of {self.window} of {len(self.episodes)} episodes: {what})"
 
     def _skill_spans(self) -> dict[int, list[tuple[str, str, int, int]]]:
         """Name, label, first and end frame of each innermost skill, by episode."""

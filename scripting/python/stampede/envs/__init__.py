@@ -1,10 +1,7 @@
-"""Tasks as environments of Gymnasium. Importing this registers them: `gymnasium.make("stampede/stack_blocks")`."""
+"""Tasks as environments of Gymnasium: `gymnasium.make("stampede/stack_blocks")`, once `stampede` is imported."""
 
 from .env import Env
-from .registration import register_tasks
 from .skill_env import SkillEnv
 from .vector import VectorEnv
 
 __all__ = ["Env", "SkillEnv", "VectorEnv"]
-
-register_tasks()

@@ -57,7 +57,7 @@ class EpisodeAccount:
 
     def after_end(self) -> Verdict:
         """Of a step after the end: it is refused."""
-        info = {**(self._identity or {}), "success": self._success, "refusal": _AFTER_END, "duration": 0}
+        info = {**(self._identity or {}), "success": self._success, "refusal": _AFTER_END, "duration": 0, "ended": []}
         return 0.0, self.terminated, self.truncated, info
 
     def after(self, *steps: _core.Step) -> Verdict:
@@ -82,6 +82,7 @@ class EpisodeAccount:
             "reason": last.reason,
             "running": self.running,
             "changes": changes_of(steps),
+            "ended": [_described(end) for step in steps for end in step.ended],
         }
         if refusal is not None:
             info["refusal"] = str(refusal)
@@ -102,3 +103,18 @@ def texts_of(raw: dict[str, Any]) -> dict[str, list[str]]:
 def changes_of(steps: Sequence[_core.Step]) -> list[str]:
     """Facts that came, `(on cup shelf)`, and went, `(not (on cup shelf))`."""
     return [str(fact) if fact.holds else f"(not {fact})" for step in steps for fact in step.changes]
+
+
+def skill_text(choice: _core.SkillChoice | _core.SkillEnd) -> str:
+    """`pick(cup, table, panda.hand)`."""
+    return f"{choice.skill}({', '.join(choice.arguments)})"
+
+
+def _described(end: _core.SkillEnd) -> dict[str, Any]:
+    return {
+        "skill": skill_text(end),
+        "success": end.success,
+        "reason": end.reason,
+        "detail": end.detail,
+        "missing_effects": list(end.missing_effects),
+    }

@@ -1,5 +1,7 @@
 """What environments that act by set-points and by skills have in common."""
 
+import inspect
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +12,8 @@ import numpy as np
 
 from stampede import _core
 
-from .account import EpisodeAccount, Verdict
+from .account import EpisodeAccount, Verdict, skill_text
+from .alone import alone
 from stampede.faults import fault
 from .sessions import PathLike, shared_session
 from .spaces import Observation, ObservationCodec
@@ -70,10 +73,25 @@ class SavedEpisode:
     motionless: int
 
 
+def made_again(kind: type, task: str, arguments: Mapping[str, Any]) -> Any:
+    return kind(task, **arguments)
+
+
+def shown_arguments(arguments: Mapping[str, Any], kind: type) -> str:
+    """`, action='tool_delta'`: those that are not the usual ones."""
+    usual = inspect.signature(kind).parameters
+    return "".join(
+        f", {name}={value!r}"
+        for name, value in arguments.items()
+        if name not in usual or usual[name].default != value
+    )
+
+
 class EpisodeEnv(gymnasium.Env[Observation, Any]):
     """A task whose episodes are begun, drawn, saved and kept; subclasses say how an agent acts.
 
-    Used by one thread at a time, the one that resets it.
+    Used by one thread at a time: another one gets an Error meanwhile. pickle and copy.deepcopy make another environment
+    of the same arguments, which begins with reset().
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
@@ -81,6 +99,7 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
     def __init__(self, task: str, settings: Settings, inner_channels: Sequence[str] = ()) -> None:
         """inner_channels: what the environment itself reads and the agent does not see."""
         self._closed = True  # until all is made: a constructor that raises leaves nothing open
+        self._use = threading.RLock()
         if settings.render_mode not in (None, *self.metadata["render_modes"]):
             raise fault("render_mode=", f"there is no render mode '{settings.render_mode}'", "rgb_array, or None")
         self.task = task
@@ -104,6 +123,17 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._closed = False
 
     @property
+    def arguments(self) -> dict[str, Any]:
+        """All that this environment was made with, but the task."""
+        raise NotImplementedError
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return made_again, (type(self), self.task, self.arguments), {"spec": self.spec}
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.task!r}{shown_arguments(self.arguments, type(self))})"
+
+    @property
     def session(self) -> _core.Session:
         return self._shared.core
 
@@ -116,6 +146,7 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         """Frames a second; a set-point lasts one."""
         return self.metadata["render_fps"]
 
+    @alone
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -135,11 +166,13 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         info = self._account.begin(self._start, raw, horizon, self._environment.instructions())
         return self._codec(raw), info
 
+    @alone
     def render(self) -> np.ndarray | None:
         """What `camera` sees at this frame: height x width x 3, uint8. None without a render mode."""
         self._check_begun("render")
         return self._environment.picture(self.settings.camera) if self.render_mode else None
 
+    @alone
     def close(self) -> None:
         """Lets go of engine and session. Any use from now on raises stampede.Error."""
         if self._closed:
@@ -148,23 +181,27 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._account.end()
         del self._environment, self._shared
 
+    @alone
     def skills(self) -> list[_core.SkillChoice]:
         """Every ground skill of the scene, in a fixed order, with what can be done now."""
         self._check_begun("skills")
         return self._environment.skills()
 
+    @alone
     def save(self) -> SavedEpisode:
         """This moment, between two steps. What follows a save and a restore is equal, bit for bit."""
         self._check_begun("save")
         assert self._start is not None
         return SavedEpisode(self._environment.save(), self._start, self._account.motionless)
 
+    @alone
     def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
         """Goes back to a moment of an episode of the same start; gives what reset gives, at that moment."""
         self._check_begun("restore")
         raw = self._environment.restore(saved.state)
         return self._codec(raw), self._account.go_back(raw, saved.motionless)
 
+    @alone
     def episode(self) -> _core.Episode:
         """Ends and keeps the episode that is under way; with `record` alone. One that ends by itself is kept then."""
         self._check_begun("episode")
@@ -203,8 +240,3 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._check_open(use)
         if not self._account.begun:
             raise fault(f"{type(self).__name__}.{use}", "no episode is under way", "call reset() first")
-
-
-def skill_text(choice: _core.SkillChoice | _core.SkillEnd) -> str:
-    """`pick(cup, table, panda.hand)`."""
-    return f"{choice.skill}({', '.join(choice.arguments)})"

@@ -7,6 +7,7 @@ import numpy as np
 
 from stampede import _core
 
+from .alone import alone
 from .base import EpisodeEnv, Result, Settings
 from .sessions import PathLike
 from .spaces import ActionCodec
@@ -107,6 +108,7 @@ class Env(EpisodeEnv):
         """The engine's action for one of the action space."""
         return self._actions(action)
 
+    @alone
     def step(self, action: np.ndarray | Sequence[float] | _core.Action) -> Result:
         """Acts for one frame, or for as long as a path, skill or hold lasts.
 

@@ -1,4 +1,4 @@
-"""Sessions that environments of one process share."""
+"""Sessions that environments of one process share; a process that was forked opens its own."""
 
 import os
 import weakref
@@ -35,8 +35,8 @@ def shared_session(root: PathLike | None, paths: Sequence[PathLike], catalogue: 
     def absolute(path: PathLike | None) -> str | None:
         return None if path is None else os.path.abspath(path)
 
-    key = (absolute(root), tuple(os.path.abspath(path) for path in paths), absolute(catalogue))
+    key = (os.getpid(), absolute(root), tuple(os.path.abspath(path) for path in paths), absolute(catalogue))
     session = _open.get(key)
     if session is None:
-        session = _open[key] = SharedSession(*key)
+        session = _open[key] = SharedSession(*key[1:])
     return session

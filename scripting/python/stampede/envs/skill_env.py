@@ -8,7 +8,9 @@ from gymnasium import spaces
 
 from stampede import _core
 
-from .base import EpisodeEnv, Result, Settings, skill_text
+from .account import skill_text
+from .alone import alone
+from .base import EpisodeEnv, Result, Settings
 from stampede.faults import fault
 from .sessions import PathLike
 from .spaces import Observation, box_within
@@ -117,6 +119,7 @@ class SkillEnv(EpisodeEnv):
             parts["set"] = spaces.MultiBinary(len(self._boxes))
         return spaces.Dict(parts)
 
+    @alone
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -149,6 +152,7 @@ class SkillEnv(EpisodeEnv):
             mask[len(self._choices)] = True
         return mask
 
+    @alone
     def step(self, action: SupportsInt | Mapping[str, Any] | _core.Action) -> Result:
         """Does one skill. One whose precondition does not hold ends at once, and counts as one frame of the horizon.
 
@@ -164,7 +168,6 @@ class SkillEnv(EpisodeEnv):
         verdict = self._account.after(*steps)
         info = verdict[-1]
         info["duration_s"] = info["duration"] / self.frame_hz
-        info["ended"] = [_described(end) for step in steps for end in step.ended]
         return self._result(verdict)
 
     def _waits_for_verdict(self, step: _core.Step) -> bool:
@@ -201,13 +204,3 @@ class SkillEnv(EpisodeEnv):
             if counts and owner == skill:
                 chosen[parameter] = np.asarray(action["parameters"][name], np.float64).tolist()
         return chosen
-
-
-def _described(end: _core.SkillEnd) -> dict[str, Any]:
-    return {
-        "skill": skill_text(end),
-        "success": end.success,
-        "reason": end.reason,
-        "detail": end.detail,
-        "missing_effects": list(end.missing_effects),
-    }

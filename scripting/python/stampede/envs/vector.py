@@ -1,6 +1,7 @@
 """Many environments of one task at once, each in a thread of the engine's."""
 
 import os
+import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -13,7 +14,8 @@ from gymnasium.vector.utils import batch_space
 from stampede import _core
 
 from .account import EpisodeAccount
-from .base import Settings
+from .alone import alone
+from .base import Settings, made_again, shown_arguments
 from .env import OBSERVATIONS
 from stampede.faults import fault, unknown
 from .sessions import shared_session
@@ -51,6 +53,17 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
     ) -> None:
         super().__init__()
         self.closed = True  # until all is made
+        self._use = threading.RLock()
+        self._arguments = {
+            "num_envs": num_envs,
+            "threads": threads,
+            "autoreset_mode": autoreset_mode,
+            "action": action,
+            "observations": observations,
+            "gripper": gripper,
+            "normalise_actions": normalise_actions,
+            **settings,
+        }
         if num_envs < 1:
             raise fault("num_envs=", f"{num_envs} environments", "one or more")
         self.settings = Settings(observations, **settings)
@@ -88,6 +101,12 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         self._seeds: list[int | None] = [None] * num_envs
         self.closed = False
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return made_again, (type(self), self.task, self._arguments), {"spec": self.spec}
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.task!r}{shown_arguments(self._arguments, type(self))})"
+
     @property
     def action_names(self) -> list[str]:
         """Of the components of an action of one environment."""
@@ -108,6 +127,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         """Of each environment's `np_random`."""
         return tuple(self._seeds)
 
+    @alone
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -125,6 +145,7 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
             infos = self._add_info(infos, info, i)
         return self._observation(), infos
 
+    @alone
     def step(self, actions: np.ndarray | Sequence[Any]) -> VectorResult:
         """Each environment acts, as Env.step; those that ended do what the autoreset mode says.
 
@@ -162,11 +183,13 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
                 each[i] = info
         return self._observation(), rewards, terminations, truncations, self._batched(each, infos)
 
+    @alone
     def render(self) -> tuple[np.ndarray, ...] | None:
         """What each environment's `camera` sees: height x width x 3, uint8. None without a render mode."""
         self._check_begun("render")
         return tuple(self._group.pictures(self.settings.camera, self.num_envs)) if self.render_mode else None
 
+    @alone
     def skills(self) -> tuple[list[_core.SkillChoice], ...]:
         """Of each environment: every ground skill of the scene, with what can be done now."""
         self._check_begun("skills")
