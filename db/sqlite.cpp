@@ -1,7 +1,11 @@
 #include "db/sqlite.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
+
+#include "engine/base/stopping.h"
 
 namespace stampede::sql {
 namespace {
@@ -48,6 +52,19 @@ std::string complaint_of(int code, const std::string& message) {
   }
 }
 
+// Asked by SQLite while a statement runs: one that takes long ends when its thread is to end.
+int is_stopped(void*) { return stop_asked() ? 1 : 0; }
+
+// Asked when another program has the file; `times`: before. 0: give up.
+int wait_a_little(void*, int times) {
+  constexpr int kWaitMs = 20;
+  if (stop_asked() || times * kWaitMs >= kBusyTimeoutMs) return 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(kWaitMs));
+  return 1;
+}
+
+constexpr int kInstructionsPerGlance = 100'000;  // of SQLite's, some milliseconds
+
 }  // namespace
 
 Database::Database(const std::string& path, int flags, const std::string& shown_path) : path_(shown_path) {
@@ -59,7 +76,8 @@ Database::Database(const std::string& path, int flags, const std::string& shown_
   const bool writes = (flags & SQLITE_OPEN_READWRITE) != 0;
   permissions_ = std::make_unique<Permissions>(Permissions{writes ? Purpose::write : Purpose::read});
   restrict_to(handle, permissions_.get());
-  sqlite3_busy_timeout(handle, kBusyTimeoutMs);
+  sqlite3_busy_handler(handle, wait_a_little, nullptr);
+  sqlite3_progress_handler(handle, kInstructionsPerGlance, is_stopped, nullptr);
 }
 
 void Database::run(const std::string& statements) const {
@@ -82,6 +100,7 @@ std::string Database::text(const std::string& statement) const {
 }
 
 void Database::fail(int code) const {
+  if ((code & 0xff) == SQLITE_INTERRUPT || (code & 0xff) == SQLITE_BUSY) heed_stop();
   const std::string message = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
   throw CatalogueError(path_, complaint_of(code, shown(message)), cure_of(code));
 }

@@ -1,20 +1,48 @@
+#include <semaphore.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
+#include <thread>
 
+#include "engine/base/leftovers.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/command_line.h"
+#include "scripting/program/exit_code.h"
 
 namespace {
 
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler must not touch it
+sem_t asked_to_stop;
 
-extern "C" void request_stop(int) { stop_requested = true; }
+extern "C" void request_stop(int) {
+  stop_requested = true;
+  sem_post(&asked_to_stop);
+}
+
+// Commands look at the flag in their loops. What does not in its time, within a library perhaps, is ended where it
+// stands: a catalogue undoes what is half stored in it, and nothing else is read that is half written.
+void end_late_ones(std::chrono::milliseconds patience) {
+  while (sem_wait(&asked_to_stop) != 0) continue;
+  std::this_thread::sleep_for(patience);
+  stampede::remove_leftovers();
+  constexpr std::string_view kSaid = "interrupted\n";
+  if (write(STDERR_FILENO, kSaid.data(), kSaid.size()) < 0) _exit(stampede::program::kNo);
+  _exit(stampede::program::kNo);
+}
+
+// Those that store are given time to store what is finished.
+std::chrono::milliseconds patience_with(std::string_view command) {
+  for (const std::string_view storing : {"run", "evaluate", "import", "merge"})
+    if (command == storing) return std::chrono::milliseconds(2000);
+  return std::chrono::milliseconds(100);
+}
 
 void handle_signals() {
   struct sigaction action = {};
@@ -37,6 +65,8 @@ int terminal_width() {
 
 // The `stampede` program: signals and the terminal; all else is in commands/ and program/.
 int main(int count, char** words) {
+  sem_init(&asked_to_stop, 0, 0);
+  std::thread(end_late_ones, patience_with(count > 1 ? words[1] : "")).detach();
   handle_signals();
   stampede::program::Console console{
       std::cout, std::cerr, isatty(STDOUT_FILENO) == 1, isatty(STDERR_FILENO) == 1, terminal_width(), &stop_requested};

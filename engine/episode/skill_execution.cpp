@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/stopping.h"
 #include "engine/episode/agent_action.h"
 #include "engine/episode/blockers.h"
 #include "engine/episode/call_motion.h"
@@ -307,6 +308,8 @@ bool SkillExecution::start_policy(const robot_call::Policy& call) {
     policy_ = std::make_unique<SkillPolicy>(
         rollout_, options_, call.name, std::move(told), call.seconds, controller_.kind, context_.segment,
         [this, until = call.until_effect] { return until && missing_effects().empty(); });
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::exception& error) {
     return finish({Reason::policy_error, error.what()});
   }

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 #include "engine/episode/agent_action.h"
 #include "engine/episode/priority_policy.h"
 
@@ -99,6 +100,8 @@ MotionResult SkillPolicy::step(World& world) {
   std::optional<AgentAction> action;
   try {
     action = policy_->act(observer_->observe());
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::exception& error) {
     return failed(error.what());
   }

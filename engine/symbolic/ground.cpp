@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 #include "engine/symbolic/reachability.h"
 #include "engine/symbolic/simplify.h"
 
@@ -26,6 +27,7 @@ class Builder {
     judge_atoms();
     number_facts();
     for (const Instance& one : reach_.instances()) {
+      heed_stop();
       if (lifted_.schemas[one.schema].action >= 0) {
         build_operator(one);
       } else {
@@ -63,6 +65,7 @@ class Builder {
     const std::size_t count = reach_.atoms();
     std::vector<char> added(count, 0), removed(count, 0);
     for (const Instance& one : reach_.instances()) {
+      heed_stop();
       const Schema& schema = lifted_.schemas[one.schema];
       std::vector<int> binding = one.binding;
       for (const LiftedEffect& effect : schema.effects) {

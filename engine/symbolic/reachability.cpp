@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 
 namespace stampede::symbolic {
 
@@ -134,6 +135,7 @@ const std::vector<int>* Reachability::candidates(const LiftedAtom& pattern, bool
 
 // `remaining`: positions of the body that are not yet matched, ascending.
 void Reachability::join(int schema, const std::vector<int>& remaining, int trigger_position, int atom) {
+  heed_stop();
   const std::vector<LiftedAtom>& body = task_.schemas[schema].body.positive;
   const auto limit_at = [&](int position) { return position < trigger_position ? atom : atom + 1; };  // each once
   std::vector<int> open;
@@ -166,6 +168,7 @@ void Reachability::join(int schema, const std::vector<int>& remaining, int trigg
 }
 
 void Reachability::fill(int schema, std::size_t variable) {
+  heed_stop();
   const Schema& from = task_.schemas[schema];
   std::size_t next = variable;
   const auto is_wanted = [&](std::size_t v) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/stopping.h"
 #include "engine/symbolic/open_list.h"
 
 namespace stampede::symbolic {
@@ -93,6 +94,7 @@ class Search {
       result_.plan = operators_to(number, [&](int at) { return parents_[static_cast<std::size_t>(at)]; });
       return true;
     }
+    heed_stop();
     ++result_.evaluated;
     const int h = heuristic_.evaluate(state);
     if (h == Heuristic::kDeadEnd) return false;

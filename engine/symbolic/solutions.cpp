@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/stopping.h"
+
 namespace stampede::symbolic {
 namespace {
 
@@ -117,6 +119,7 @@ class Solver {
     Task rest = task;
     std::erase(rest.conjuncts, &atom);
     for (auto at = view_.facts.lower_bound(first); at != view_.facts.end(); ++at) {
+      heed_stop();
       if (at->predicate != atom.predicate || at->arguments.size() < known ||
           !std::equal(first.arguments.begin(), first.arguments.end(), at->arguments.begin())) {
         break;
@@ -163,6 +166,7 @@ class Solver {
     const Parameter& variable = *task.unbound.front();
     bool go_on = true;
     for (const TypedObject& one : view_.objects) {
+      heed_stop();
       if (!admits(variable, one, view_)) continue;
       binding_[variable.name] = one.name;
       go_on = run(task);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/stopping.h"
 #include "engine/symbolic/open_list.h"
 #include "engine/symbolic/search.h"
 
@@ -59,6 +60,7 @@ class WidthSearch {
   SearchResult run(const Words& start) {
     if (add(start, {-1, -1})) return result_;
     while (!open_.empty() && result_.evaluated < limits_.expansions && bytes() < limits_.memory_bytes) {
+      heed_stop();
       const int number = open_.pop().parent;
       ++result_.expanded;
       state_ = pool_.get(number);

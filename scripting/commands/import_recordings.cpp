@@ -99,7 +99,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
       all.push_back(import_one(folder, catalogue, library, options));
       if (!arguments.flag("--json")) print(all.back(), console);
     }
-  } catch (const Error&) {
+  } catch (const std::exception&) {  // a mistake, or an end that was asked for
     const bool nothing = is_new && catalogue.episodes().empty();
     catalogue.close();
     std::error_code ignored;

@@ -15,9 +15,11 @@ namespace {
 constexpr const char kDefinitionsKey[] = "stampede.definitions";
 constexpr const char kWordsKey[] = "stampede.words";
 
+constexpr int kMostLevels = 16;  // of calls: ours are few, and finding a level takes time for all above it
+
 // The innermost line that an author wrote: prelude.lua and C++ are passed over. False: a tail call has hidden it.
 bool author_line(lua_State* state, lua_Debug& found) {
-  for (int level = 1; lua_getstack(state, level, &found) != 0; ++level) {
+  for (int level = 1; level <= kMostLevels && lua_getstack(state, level, &found) != 0; ++level) {
     lua_getinfo(state, "Sl", &found);
     if (found.currentline > 0 && found.source[0] == '@' && std::strcmp(found.source, "@prelude") != 0) return true;
   }

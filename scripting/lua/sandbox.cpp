@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/whitelist.h"
 
@@ -27,14 +28,15 @@ struct Sandbox::Impl {
   bool spent = false;                             // for good
   std::map<const void*, std::size_t> long_texts;  // alive
   std::size_t longest = 0;                        // of them
-  int hooks = 0;
-  std::optional<double> started_s;  // of this thread's processor
+  long tick = -1;                                 // of the cheap clock, when the other was read
+  std::optional<double> started_s;                // of this thread's processor
 
   void begin() {
+    heed_stop();
     if (spent) throw Error({}, "this script's instruction budget is spent", "it ran before and did not end");
     if (depth++ > 0) return;
     used = 0;
-    hooks = 0;
+    tick = -1;
     started_s.reset();
   }
   void end() { --depth; }
@@ -46,7 +48,6 @@ constexpr int kHookEvery = 1000;  // instructions; the cost of the hook does not
 constexpr std::int64_t kBytesPerInstruction = 64;
 // One instruction compares whole texts. As long as there is a long one, all instructions are charged as if they did.
 constexpr std::size_t kLongText = 2048;
-constexpr int kHooksPerClock = 16;  // the clock is read too seldom to be felt
 constexpr const char kSpent[] = "the script ran for too long: its instruction budget is spent";
 constexpr const char kEnvironmentKey[] = "stampede.environment";
 constexpr const char kModulesKey[] = "stampede.modules";
@@ -98,20 +99,28 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
 // An error outside every protected call (a push that found no memory): leave by an exception before Lua aborts.
 int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
 
+// A function of C++ may take milliseconds for one instruction, so it is asked often: the clock of the processor, which
+// is slow to read, only where some milliseconds have gone by.
 bool out_of_time(Sandbox::Impl& impl) {
-  if (++impl.hooks % kHooksPerClock != 0) return false;
   timespec now{};
+  clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+  if (now.tv_nsec == impl.tick) return false;
+  impl.tick = now.tv_nsec;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   if (!impl.started_s) impl.started_s = seconds;
   return seconds - *impl.started_s > impl.limits.seconds;
 }
 
+bool must_end(Sandbox::Impl& impl) {
+  impl.spent = impl.spent || impl.used >= impl.limits.instructions || out_of_time(impl) || stop_asked();
+  return impl.spent;
+}
+
 void on_count(lua_State* state, lua_Debug* where) {
   Sandbox::Impl& impl = impl_of(state);
   impl.used += lua_gethookcount(state) * static_cast<std::int64_t>(1 + impl.longest / kLongText);
-  if (impl.used < impl.limits.instructions && !impl.spent && !out_of_time(impl)) return;
-  impl.spent = true;
+  if (!must_end(impl)) return;
   lua_sethook(state, on_count, LUA_MASKCOUNT, 1);
   lua_getinfo(state, "Sl", where);  // luaL_error would name the caller
   lua_pushfstring(state, "%s:%d: %s", where->short_src, where->currentline, kSpent);
@@ -184,6 +193,7 @@ int trace_of(lua_State* state) {
                                    : "the script threw an error whose value is not text";
   }
   lua_settop(thrower, thrower == state ? lua_gettop(thrower) - 1 : 0);
+  heed_stop();
   throw error_from(std::move(message), std::move(trace));
 }
 
@@ -269,8 +279,7 @@ int append_bytes(lua_State*, const void* bytes, std::size_t size, void* user) {
 void charge(lua_State* state, std::int64_t cost) {
   Sandbox::Impl& impl = impl_of(state);
   impl.used += cost;
-  if (impl.depth == 0 || (impl.used < impl.limits.instructions && !impl.spent)) return;
-  impl.spent = true;
+  if (impl.depth == 0 || !must_end(impl)) return;
   lua_sethook(state, on_count, LUA_MASKCOUNT, 1);
   luaL_error(state, "%s", kSpent);
 }
@@ -333,6 +342,7 @@ bool Sandbox::resume(lua_State* coroutine, int arguments, int& results) {
   std::string message = text != nullptr        ? text
                         : status == LUA_ERRMEM ? "the script uses too much memory (or a string longer than 64 KiB)"
                                                : "the script threw an error whose value is not text";
+  heed_stop();
   if (impl_->spent && message.find(kSpent) == std::string::npos) message = kSpent;
   throw error_from(std::move(message), std::move(trace));
 }

@@ -105,6 +105,22 @@ bool too_long_for_number(lua_State* state, int index) {
   return lua_rawlen(state, index) > kLongestNumber;
 }
 
+void refuse_long_numbers(lua_State* state) {
+  for (int i = 1; i <= lua_gettop(state); ++i)
+    if (too_long_for_number(state, i))
+      luaL_error(state, "a text of more than %d bytes is no number", static_cast<int>(kLongestNumber));
+}
+
+// A stock function of any number of numbers. Upvalue 1: the function.
+int of_short_numbers(lua_State* state) {
+  charge(state, lua_gettop(state));
+  refuse_long_numbers(state);
+  lua_pushvalue(state, lua_upvalueindex(1));
+  lua_insert(state, 1);
+  lua_call(state, lua_gettop(state) - 1, 1);
+  return 1;
+}
+
 // Upvalue 1: the stock tonumber.
 int plain_tonumber(lua_State* state) {
   if (too_long_for_number(state, 1)) {
@@ -119,8 +135,7 @@ int plain_tonumber(lua_State* state) {
 
 // `"1" + 2`. Upvalue 1: the stock operator.
 int text_arithmetic(lua_State* state) {
-  if (too_long_for_number(state, 1) || too_long_for_number(state, 2))
-    return luaL_error(state, "a text of more than %d bytes is no number", static_cast<int>(kLongestNumber));
+  refuse_long_numbers(state);
   lua_pushvalue(state, lua_upvalueindex(1));
   lua_insert(state, 1);
   lua_call(state, lua_gettop(state) - 1, 1);
@@ -147,6 +162,7 @@ int bounded_byte(lua_State* state) {
 // Upvalue 1: the stock char.
 int char_without_zero(lua_State* state) {
   const int count = lua_gettop(state);
+  refuse_long_numbers(state);
   for (int i = 1; i <= count; ++i)
     luaL_argcheck(state, luaL_checkinteger(state, i) != 0, i, "texts hold no zero bytes");
   charge(state, count);
@@ -367,11 +383,12 @@ void install_math(lua_State* state, int globals) {
   lua_newtable(state);
   const int own = lua_gettop(state);
   luaL_requiref(state, "math", luaopen_math, 0);
-  for (const char* name : {"abs",       "acos", "asin", "atan", "ceil", "cos",        "deg",       "exp",  "floor",
-                           "fmod",      "log",  "max",  "min",  "modf", "rad",        "sin",       "sqrt", "tan",
-                           "tointeger", "type", "ult",  "pi",   "huge", "maxinteger", "mininteger"}) {
+  for (const char* name :
+       {"abs", "acos", "asin", "atan", "ceil",      "cos",  "deg", "exp", "floor", "fmod",       "log",       "modf",
+        "rad", "sin",  "sqrt", "tan",  "tointeger", "type", "ult", "pi",  "huge",  "maxinteger", "mininteger"}) {
     copy_function(state, own, name);
   }
+  for (const char* name : {"max", "min"}) copy_function(state, own, name, lua_function<of_short_numbers>);
   lua_pop(state, 1);
   protect(state);
   lua_setfield(state, globals, "math");

@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/help.h"
@@ -182,6 +183,7 @@ bool reader_has_left() {
 }  // namespace
 
 ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
+  const StopScope scope(console.stop);
   try {
     const ExitCode code = dispatch(commands, words, console);
     console.out.flush();
@@ -202,6 +204,8 @@ ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<
     return complain("stampede: ", error.what(), kUsage, console);
   } catch (const Error& error) {
     return complain("", error.what(), kBadInput, console);
+  } catch (const Interrupted&) {
+    return complain("", "interrupted", kNo, console);
   } catch (const std::exception& error) {
     return complain("stampede: a bug of ours: ", error.what(), kBug, console);
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "engine/base/stopping.h"
 #include "engine/render/renderer.h"
 #include "scripting/runtime/assets.h"
 #include "scripting/session/made_sentences.h"
@@ -44,12 +45,15 @@ void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, 
   std::exception_ptr first;
   std::mutex mutex;
   const auto loop = [&] {
+    const StopScope scope(stop);
     Workbench bench;
     while (!failed && !(stop && stop->load())) {
       const std::size_t i = next++;
       if (i >= count) return;
       try {
         work(i, bench);
+      } catch (const Interrupted&) {
+        return;  // as `stop` says
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();

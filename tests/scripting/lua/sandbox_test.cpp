@@ -1,11 +1,15 @@
 // What untrusted scripts can and cannot do.
 #include "scripting/lua/sandbox.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <ctime>
 #include <lua.hpp>
+#include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 #include "scripting/lua/binding.h"
 
 using namespace stampede;
@@ -124,6 +128,9 @@ TEST_CASE("a runaway script is an error with its place, never a hang") {
       "local t = {} for i = 1, 1000 do t[i] = i end while true do table.insert(t, 1, table.remove(t)) end",
       "for i = 1, 1e15 do local t = { i } end",
       "while true do local s = string.format('%s', ('a'):rep(60000)) end",
+      "local s = ('0'):rep(60000) .. '65' while true do local x = math.floor(s) end",
+      "local s = ('0'):rep(60000) .. '2' while true do local x = ('abc'):sub(s, s) end",
+      "local s = ('0'):rep(60000) .. '2' while true do local x = select(s, 1, 2, 3) end",
   };
   for (const char* source : sources) {
     INFO(source);
@@ -309,5 +316,20 @@ TEST_CASE("a fresh state knows nothing of another") {
     lua_pushvalue(sandbox.state(), -1);
     sandbox.call(0, 1);
     CHECK(lua_tointeger(sandbox.state(), -1) == 1);
+  }
+}
+
+TEST_CASE("a script that runs when an end is asked for is ended at once, and that is no mistake of its own") {
+  for (const char* source : {"while true do end", "local s = ('x'):rep(60000) while true do s = s:upper() end"}) {
+    INFO(source);
+    Sandbox sandbox(SandboxLimits{}, {});
+    std::atomic<bool> stop = false;
+    const StopScope scope(&stop);
+    std::thread later([&stop] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      stop = true;
+    });
+    CHECK_THROWS_AS(sandbox.run(Sandbox::compile(source, "test.lua"), "test.lua", 0), Interrupted);
+    later.join();
   }
 }
