@@ -15,7 +15,7 @@ constexpr double kTipStiffness = 800;     // N/m
 constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
 constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
 constexpr double kSingularity = 1e-4;     // damping of the null-space projector
-constexpr double kArmErp = 0.2, kFingerErp = 0.2;
+constexpr double kFingerErp = 0.2;
 constexpr double kGearErp = 0.04, kGearForce = 50;  // N
 // A finger just told to move is not blocked. Nor is one whose contact has just been dropped: asked for so much speed,
 // it would be 4 mm deep in what it holds before contact is found again.
@@ -24,6 +24,13 @@ constexpr double kBlockedLag = 0.001;   // m
 constexpr double kBlockedSpeed = 0.25;  // of finger_speed
 constexpr double kPressSpeed = 1.0;     // m/s
 constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
+// What an arm gives against contact, measured at its tip, and beside it the weight of what it holds; a wrist's short
+// lever needs some torque of its own.
+constexpr double kPress = 35;       // N
+constexpr double kLeastTorque = 6;  // N m
+constexpr double kLoadRate = 14;    // m/s^2: gravity and what carrying adds
+constexpr double kCatchUp = 0.3;    // share of a joint's acceleration for getting back to its reference
+constexpr double kMostPull = 60;    // N at the tip, of an arm that gives way
 
 // Rotation vector of `to` seen from `from`, in world axes.
 Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
@@ -72,8 +79,6 @@ void World::Impl::build_robot_motors() {
   for (std::size_t j = 0; j < robot.arm.size(); ++j) {
     start[static_cast<Eigen::Index>(j)] = part({kRobot, robot.arm[j]}).joint.initial;
     arm_motors.push_back(motor_of(robot.arm[j]));
-    arm_motors.back()->erp = kArmErp;
-    arm_motors.back()->position_gain = 1;
   }
   for (const int finger : robot.fingers) {
     finger_motors.push_back(motor_of(finger));
@@ -93,18 +98,20 @@ void World::Impl::build_robot_motors() {
 }
 
 JointState World::Impl::reference_at(std::int64_t step) const {
-  if (reference.servo) return guided(reference_now, *reference.servo, scene->robot.limits, dt);
   if (!reference.trajectory) return reference.setpoint;
   return evaluate(*reference.trajectory, static_cast<double>(step - reference.start_step), scene->physics_hz);
 }
 
 void World::Impl::control() {
+  look_ahead();
   if (under_torque()) {
     control_torque(reference.servo->value);
     control_hand();
     return;
   }
-  const JointState next = reference_at(steps + 1);
+  const JointState next =
+      reference.servo ? guided(reference_now, *reference.servo, arm, dt, {reference.pace, arm_position_now()}, acted)
+                      : reference_at(steps + 1);
   switch (controller.kind) {
     case ControllerKind::joint_position:
       control_position(reference_now, next);
@@ -120,14 +127,37 @@ void World::Impl::control() {
   control_hand();
 }
 
-// The motors' velocity rows: where the joint is on its reference now, it is on it after the step too.
+double World::Impl::load_mass() const {
+  const auto held = contacts.grasped(scene->robot.pads);
+  double mass = 0;
+  if (held && body(held->body).free)
+    for (const Part& one : body(held->body).parts) mass += one.mass;
+  return mass;
+}
+
+// The motors' velocity rows: where the joint is on its reference now, it is on it after the step too. Off it, by
+// contact, it comes back within the joint's limits, and contact never bears more than a hand's push: a stiff arm in its
+// way would else press with all it has, and whip forward when it comes free.
 void World::Impl::control_position(const JointState& now, const JointState& next) {
   const bool moving = reference.trajectory != nullptr || reference.servo;
+  const JointVector q = arm_position_now(), v = arm_velocity_now();
+  const auto jacobian = arm.jacobian(q);
+  const double press = kPress + kLoadRate * load_mass();
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    arm_motors[j]->position = now.position[i];
-    arm_motors[j]->velocity = moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i];
-    arm_motors[j]->most_force = effort_of(scene->robot.limits[j]);
+    const JointLimits& limits = scene->robot.limits[j];
+    JointMotor& motor = *arm_motors[j];
+    const double steady = moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i];
+    const double most = acceleration_of(limits), fastest = std::max(speed_of(limits), std::abs(steady));
+    const double error = now.position[i] - q[i];
+    const double own = std::max(std::abs(now.acceleration[i]), std::abs(next.acceleration[i]));
+    const double way = dt * (own + kCatchUp * most);
+    const double wanted = std::clamp(steady + catching_up(error, kCatchUp * most), -fastest, fastest);
+    motor.velocity = std::clamp(wanted, v[i] - way, v[i] + way);
+    motor.most_force = effort_of(limits);
+    motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
+    if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
+      acted.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }
   arm_torque.setZero();
 }
@@ -151,6 +181,7 @@ void World::Impl::give_torques(JointVector torque) {
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const double most = effort_of(scene->robot.limits[j]);
+    if (std::abs(torque[i]) > most) acted.note(Limit::torque);
     torque[i] = std::clamp(torque[i], -most, most);
     arm_motors[j]->most_force = 0;
     body_slot(kRobot).tree->torque[static_cast<std::size_t>(arm_motors[j]->dof)] += torque[i];
@@ -163,8 +194,18 @@ void World::Impl::control_torque(const JointVector& asked) {
   update_dynamics();
   const JointMatrix& mass = arm_dynamics.mass();
   const JointVector free = mass.ldlt().solve(asked);
-  const JointVector safe = safe_acceleration(free, arm_position_now(), arm_velocity_now(), scene->robot.limits, dt);
-  give_torques(arm_dynamics.gravity() + asked + mass * (safe - free));
+  give_torques(arm_dynamics.gravity() + asked + mass * (kept_safe(free) - free));
+}
+
+// The nearest acceleration that an arm may have which an agent steers.
+JointVector World::Impl::kept_safe(const JointVector& acceleration) {
+  return safe_acceleration(acceleration, arm_position_now(), arm_velocity_now(), arm, dt, reference.pace, acted);
+}
+
+// What keeps an arm within its limits that an agent steers, beside a controller that gives it this acceleration.
+JointVector World::Impl::held_back(const JointVector& acceleration) {
+  if (!reference.servo) return JointVector::Zero(acceleration.size());
+  return arm_dynamics.mass() * (kept_safe(acceleration) - acceleration);
 }
 
 // Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step
@@ -185,13 +226,18 @@ void World::Impl::control_joint_impedance(const JointState& next) {
   }
   const JointVector feed_forward = mass * next.acceleration;
   const JointVector error = next.position - q - dt * v;
-  const JointVector pull = stiffness.cwiseProduct(error) + damping.cwiseProduct(next.velocity - v);
+  JointVector pull = stiffness.cwiseProduct(error);
+  for (Eigen::Index i = 0; i < joints; ++i) {
+    const double most = std::max(kLeastTorque, kMostPull * arm_dynamics.jacobian().col(i).head<3>().norm());
+    if (std::abs(pull[i]) > most) acted.note(Limit::contact);
+    pull[i] = std::clamp(pull[i], -most, most) + damping[i] * (next.velocity[i] - v[i]);
+  }
   JointMatrix implicit = mass;
   implicit.diagonal() += dt * damping + dt * dt * stiffness;
   const JointVector acceleration = implicit.ldlt().solve(feed_forward + pull);
   const JointVector softened =
       pull - dt * damping.cwiseProduct(acceleration) - dt * dt * stiffness.cwiseProduct(acceleration);
-  give_torques(arm_dynamics.gravity() + feed_forward + softened);
+  give_torques(arm_dynamics.gravity() + feed_forward + softened + held_back(acceleration));
 }
 
 // As above with the stiffness of the tip mapped to the joints through the Jacobian, and a soft posture spring
@@ -228,8 +274,12 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   JointVector posture_damping(joints);
   for (Eigen::Index i = 0; i < joints; ++i) posture_damping[i] = 2 * std::sqrt(kPostureStiffness * mass(i, i));
 
-  const Vector6 force =
-      stiffness.cwiseProduct(error - dt * tip_velocity) + damping.cwiseProduct(target_velocity - tip_velocity);
+  Vector6 force = stiffness.cwiseProduct(error - dt * tip_velocity);
+  if (const double pull = force.head<3>().norm(); pull > kMostPull) {
+    force.head<3>() *= kMostPull / pull;
+    acted.note(Limit::contact);
+  }
+  force += damping.cwiseProduct(target_velocity - tip_velocity);
   const JointVector posture = kPostureStiffness * (projector * (next.position - q - dt * v)) +
                               posture_damping.cwiseProduct(projector * (next.velocity - v));
   const JointVector pull = jacobian.transpose() * force + projector * posture;
@@ -239,7 +289,7 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   const JointMatrix resistance = jacobian.transpose() * tip_resistance.asDiagonal() * jacobian +
                                  projector * posture_resistance.asDiagonal() * projector;
   const JointVector acceleration = JointMatrix(mass + resistance).ldlt().solve(feed_forward + pull);
-  give_torques(arm_dynamics.gravity() + feed_forward + pull - resistance * acceleration);
+  give_torques(arm_dynamics.gravity() + feed_forward + pull - resistance * acceleration + held_back(acceleration));
 }
 
 // Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction

@@ -24,11 +24,15 @@ constexpr double kSettled = 1e-6;      // m/s or rad/s: an iteration that change
 constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
 constexpr double kFastestJoint = 100;  // m/s or rad/s
 constexpr double kSlowSpin = 1e-4;     // rad/s: gyroscopic torque is left out below
-constexpr int kTorsionPoints = 2;      // more points between two free bodies resist turning by themselves
-constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;  // m/s, rad/s: slower is at rest
-constexpr double kTrembling = 10, kSettling = 100;     // times that
-constexpr double kSmoothing = 0.125;                   // of the speeds that are looked at: resting things tremble
-constexpr int kRestSteps = 24;                         // at rest for so long, an island falls asleep
+// Points between two free bodies that lie further apart than this, across the longest way between two of them, resist
+// turning by themselves.
+constexpr double kNarrow_m = 0.004;
+constexpr double kSoftForce = 80, kPointForce = 10;     // N: of a pair, and of each of its points at least
+constexpr double kSoft_m = 0.001, kHardness = 100'000;  // N/m
+constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;   // m/s, rad/s: slower is at rest
+constexpr double kTrembling = 10, kSettling = 100;      // times that
+constexpr double kSmoothing = 0.125;                    // of the speeds that are looked at: resting things tremble
+constexpr int kRestSteps = 24;                          // at rest for so long, an island falls asleep
 constexpr int kFindSteps = 8;      // that it stays awake for at least, where contacts have to be found anew
 constexpr double kMeetGap = 1e-3;  // m: what will be nearer than that at the end of the step meets
 
@@ -46,6 +50,25 @@ Vector3 after_gyration(const Vector3& spin, const Vector3& moments, const Matrix
   Matrix3 slope = moments.asDiagonal();
   slope += dt * (skew(local) * Matrix3(moments.asDiagonal()) - skew(momentum));
   return turn * (local - slope.inverse() * error);
+}
+
+// The greatest force of one of so many points of contact with a robot, N. Its skin, pads and joints give way a little:
+// perfectly rigid, 5 kg at a decimetre a second would strike with 120 N, all in one step. So it takes some steps,
+// within a millimetre; deeper, it gets hard.
+double softened(double distance, int points) {
+  const double most = kSoftForce + kHardness * std::max(0.0, -distance - kSoft_m);
+  return std::max(most / std::max(1, points), kPointForce);
+}
+
+bool lie_along_a_line(const std::vector<Vector3>& points) {
+  if (points.size() <= 2) return true;
+  Vector3 along = Vector3::Zero();
+  for (const Vector3& one : points)
+    for (const Vector3& other : points)
+      if ((one - other).squaredNorm() > along.squaredNorm()) along = one - other;
+  const double most = kNarrow_m * kNarrow_m * along.squaredNorm();
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vector3& one) { return along.cross(one - points.front()).squaredNorm() <= most; });
 }
 
 // Two directions across a unit one.
@@ -326,10 +349,15 @@ void Dynamics::find_touching() {
   });
   for (auto it = touching_.begin(); it != touching_.end();) {
     auto end = it;
-    int points = 0;
+    points_.clear();
     for (; end != touching_.end() && end->first == it->first && end->second == it->second; ++end)
-      points += end->manifold->getNumContacts();
-    for (; it != end; ++it) it->points = points;
+      for (int p = 0; p < end->manifold->getNumContacts(); ++p)
+        points_.push_back(from_bullet(end->manifold->getContactPoint(p).m_positionWorldOnB));
+    const bool narrow = lie_along_a_line(points_);
+    for (; it != end; ++it) {
+      it->points = static_cast<int>(points_.size());
+      it->narrow = narrow;
+    }
   }
   islands_.clear();
   auto next = touching_.begin();
@@ -483,6 +511,10 @@ void Dynamics::start(SolverRow& row, double impulse) {
 void Dynamics::add_contacts(const Touching& touching, double kept) {
   btPersistentManifold& manifold = *touching.manifold;
   const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
+  const auto robot = [&](const Node& node) {
+    return node.mover >= 0 && !movers_[static_cast<std::size_t>(node.mover)].may_sleep;
+  };
+  const bool of_robot = robot(one) || robot(other);
   for (int p = 0; p < manifold.getNumContacts(); ++p) {
     btManifoldPoint& point = manifold.getContactPoint(p);
     const Vector3 normal = from_bullet(point.m_normalWorldOnB);
@@ -504,7 +536,7 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
       if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
     }
     row.lower = 0;
-    row.upper = 1e10;
+    row.upper = of_robot ? dt_ * softened(distance, touching.points) : 1e10;
     start(row, kept * point.m_appliedImpulse);
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     for (int i = 0; i < 2; ++i) {
@@ -515,7 +547,7 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
     }
     point.m_lateralFrictionDir1 = to_bullet(across[0]);
     point.m_lateralFrictionDir2 = to_bullet(across[1]);
-    if (touching.on_link || touching.points <= kTorsionPoints) {
+    if (touching.on_link || touching.narrow) {
       const auto add_torsion = [&](const Vector3& axis) {
         SolverRow& torsion = begin_row(rows_);
         add_turn(torsion, one, axis);
@@ -599,12 +631,20 @@ void Dynamics::start_motors(const Mover& mover, std::size_t first) {
     for (std::size_t j = 0; j < count; ++j)
       impulse += tree.mass(mover.motors[i]->dof, static_cast<int>(j)) * missing[j];
     row.impulse = std::clamp(impulse, row.lower, row.upper);
+    if (const double most = dt_ * mover.motors[i]->against_contact; most > 0) {
+      row.lower = std::max(row.lower, row.impulse - most);
+      row.upper = std::min(row.upper, row.impulse + most);
+    }
   }
   for (std::size_t i = 0; i < count; ++i) start(joints_[first + i], joints_[first + i].impulse);
 }
 
 void Dynamics::keep_results() {
-  for (const auto& [row, motor] : motor_rows_) motor->force = joints_[static_cast<std::size_t>(row)].impulse / dt_;
+  for (const auto& [index, motor] : motor_rows_) {
+    const SolverRow& row = joints_[static_cast<std::size_t>(index)];
+    motor->force = row.impulse / dt_;
+    motor->saturated = row.impulse <= row.lower || row.impulse >= row.upper;
+  }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const SolverContact& contact = contacts_[i];
     btManifoldPoint& point = *touched_[i].point;

@@ -42,7 +42,10 @@ struct JointMotor {
   double position = 0, position_gain = 0, velocity = 0;
   double fastest = 1e30;  // m/s or rad/s
   double most_force = 0;  // N or N m; 0: it is off
-  double force = 0;       // of the last step
+  // N or N m, above 0: beyond what the speed asked for takes where nothing touches, the motor gives no more than this.
+  double against_contact = 0;
+  double force = 0;        // of the last step
+  bool saturated = false;  // in the last step, by one of both
 };
 
 // Keeps joint `one` of a tree at ratio * other + offset.
@@ -137,7 +140,8 @@ class Dynamics {
     int first = 0, second = 0;  // objects of the world
     btPersistentManifold* manifold = nullptr;
     bool on_link = false;
-    int points = 0;  // of all manifolds of these two
+    int points = 0;      // of all manifolds of these two
+    bool narrow = true;  // all points of these two lie along a line: nothing else resists turning about it
   };
   struct Island {
     int number = 0;
@@ -199,6 +203,7 @@ class Dynamics {
   std::vector<Touching> touching_;
   std::vector<Island> islands_;
   std::vector<int> waking_, least_rest_;
+  std::vector<Vector3> points_;
   std::vector<Torsion> torsions_;
   // Of the island that is being solved.
   std::vector<Quad> numbers_;

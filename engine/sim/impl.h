@@ -10,6 +10,7 @@
 #include "engine/sim/command_log.h"
 #include "engine/sim/contacts.h"
 #include "engine/sim/dynamics.h"
+#include "engine/sim/servo.h"
 #include "engine/sim/shapes.h"
 #include "engine/sim/world.h"
 
@@ -63,6 +64,7 @@ struct Reference {
   std::int64_t start_step = 0;
   JointState setpoint;
   std::optional<operation::Servo> servo = {};
+  double pace = 1;  // of a servo: the share of its speeds that what lies ahead allows
 };
 
 struct World::Impl {
@@ -87,8 +89,15 @@ struct World::Impl {
   void control_joint_impedance(const JointState& next);
   void control_cartesian_impedance(const JointState& next);
   void give_torques(JointVector torque);
+  JointVector kept_safe(const JointVector& acceleration);
+  JointVector held_back(const JointVector& acceleration);
+  double load_mass() const;
   void update_dynamics();
   void control_hand();
+
+  // approach.cpp
+  void look_ahead();
+  CollisionState now_for_planning() const;  // world.cpp
 
   // mechanisms.cpp
   void move_mechanisms();
@@ -145,6 +154,7 @@ struct World::Impl {
   JointState reference_now;  // of `steps`
   AnchorNormals anchors;
   ContactWindow contacts;
+  Limits acted;                              // since they were last forgotten
   JointVector arm_torque;                    // given by the controller in the last step
   std::vector<std::vector<double>> efforts;  // body + 1, part
   bool canonical = false;                    // nothing moved since the last boundary

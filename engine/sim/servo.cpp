@@ -11,25 +11,26 @@ constexpr double kLinear_s = 0.04;  // time constant of the last bit of the way
 constexpr double kMargin_rad = 0.05;
 constexpr double kUsualSpeed = 2;          // rad/s, where a robot states none
 constexpr double kUsualAcceleration = 10;  // rad/s^2, likewise
+constexpr double kUsualJerk = 5000;        // rad/s^3, likewise
+constexpr double kToolSpeed = 1.6;         // m/s: a Panda's tool may move at 1.7
+constexpr double kLeastPull = 1e-9;        // what rounding changes is no limit that acted
+// A motor takes away a small error at this rate: a fifth of it in a step of 1/240 s.
+constexpr double kCatch_s = 1.0 / 48;
 
-double speed_of(const JointLimits& limits) { return limits.velocity > 0 ? limits.velocity : kUsualSpeed; }
-
-double acceleration_of(const JointLimits& limits) {
-  return limits.acceleration > 0 ? limits.acceleration : kUsualAcceleration;
-}
+double jerk_of(const JointLimits& limits) { return limits.jerk > 0 ? limits.jerk : kUsualJerk; }
 
 // At which a joint can still stop within `way`: linear close by, the square root of the way beyond, joined smoothly.
-double stopping_speed(double way, double acceleration) {
+double stopping_speed(double way, double acceleration, double linear_s = kLinear_s) {
   if (way <= 0) return 0;
-  const double linear = acceleration * kLinear_s * kLinear_s;
-  return way <= linear ? way / kLinear_s : std::sqrt(2 * acceleration * (way - linear / 2));
+  const double linear = acceleration * linear_s * linear_s;
+  return way <= linear ? way / linear_s : std::sqrt(2 * acceleration * (way - linear / 2));
 }
 
 bool limited(const JointLimits& limits) { return limits.lower < limits.upper; }
 
 // The range of velocities that a joint may have at this place; into the margin before its stops it may only be led.
-std::pair<double, double> allowed(double position, const JointLimits& limits, double margin) {
-  const double most = speed_of(limits), acceleration = acceleration_of(limits);
+std::pair<double, double> allowed(double position, const JointLimits& limits, double margin, double pace) {
+  const double most = pace * speed_of(limits), acceleration = acceleration_of(limits);
   if (!limited(limits)) return {-most, most};
   return {-std::min(most, stopping_speed(position - limits.lower - margin, acceleration)),
           std::min(most, stopping_speed(limits.upper - margin - position, acceleration))};
@@ -37,25 +38,86 @@ std::pair<double, double> allowed(double position, const JointLimits& limits, do
 
 }  // namespace
 
-JointState guided(const JointState& now, const operation::Servo& servo, const std::vector<JointLimits>& limits,
-                  double dt) {
-  JointState next = now;
-  for (Eigen::Index i = 0; i < now.position.size(); ++i) {
+double speed_of(const JointLimits& limits) { return limits.velocity > 0 ? limits.velocity : kUsualSpeed; }
+
+double acceleration_of(const JointLimits& limits) {
+  return limits.acceleration > 0 ? limits.acceleration : kUsualAcceleration;
+}
+
+double catching_up(double error, double acceleration) {
+  return std::copysign(stopping_speed(std::abs(error), acceleration, kCatch_s), error);
+}
+
+JointVector slowed(const Arm& arm, const JointVector& q, JointVector velocity, double pace, Limits& acted) {
+  const double speed = (arm.jacobian(q).topRows<3>() * velocity).norm();
+  if (speed <= pace * kToolSpeed) return velocity;
+  acted.note(pace < 1 ? Limit::approach : Limit::tool_speed);
+  return velocity * (pace * kToolSpeed / speed);
+}
+
+JointState guided(const JointState& now, const operation::Servo& servo, const Arm& arm, double dt, const Guard& guard,
+                  Limits& acted) {
+  const std::vector<JointLimits>& limits = arm.limits();
+  const bool led = servo.of == operation::Servo::Of::position;
+  JointVector wanted = servo.value;
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const JointLimits& own = limits[static_cast<std::size_t>(i)];
-    const double q = now.position[i], most = acceleration_of(own);
-    double wanted = servo.value[i];
-    const bool led = servo.of == operation::Servo::Of::position;
+    const double q = now.position[i];
     if (led) {
-      const double way = (limited(own) ? std::clamp(wanted, own.lower, own.upper) : wanted) - q;
-      wanted = std::copysign(stopping_speed(std::abs(way), most), way);
+      const double way = (limited(own) ? std::clamp(wanted[i], own.lower, own.upper) : wanted[i]) - q;
+      // What the jerk takes to turn the acceleration round is not there for stopping.
+      const double turning_s = acceleration_of(own) / jerk_of(own);
+      const double lag = turning_s > dt ? std::abs(now.velocity[i]) * turning_s : 0;
+      const double linear_s = std::max(kLinear_s, 2.5 * turning_s);
+      wanted[i] = std::copysign(stopping_speed(std::abs(way) - lag, acceleration_of(own), linear_s), way);
     }
-    const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad);
-    wanted = std::clamp(wanted, slowest, fastest);
-    double velocity = std::clamp(wanted, now.velocity[i] - most * dt, now.velocity[i] + most * dt);
+    const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad, guard.pace);
+    const double kept = std::clamp(wanted[i], slowest, fastest);
+    if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(guard.pace < 1 ? Limit::approach : Limit::speed);
+    wanted[i] = kept;
+    if (guard.position.size() == 0) continue;
+    const double ahead = std::copysign(1.0, wanted[i]) * (q - guard.position[i]);
+    if (ahead <= kLead_rad / 2 || wanted[i] == 0) continue;
+    acted.note(Limit::reference);
+    wanted[i] *= std::max(0.0, 2 - 2 * ahead / kLead_rad);
+  }
+  wanted = slowed(arm, now.position, wanted, guard.pace, acted);
+
+  // Joints that change their speed each in its own time could make the tool faster than before and after.
+  double share = 1;
+  JointVector soon = now.velocity;
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+    const double most = acceleration_of(limits[static_cast<std::size_t>(i)]) * dt, change = wanted[i] - now.velocity[i];
+    soon[i] += std::clamp(change, -most, most);
+    if (std::abs(change) > most) share = std::min(share, most / std::abs(change));
+  }
+  if ((arm.jacobian(now.position).topRows<3>() * soon).norm() > kToolSpeed) {
+    wanted = now.velocity + share * (wanted - now.velocity);
+    acted.note(Limit::tool_speed);
+  }
+
+  JointState next = now;
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+    const JointLimits& own = limits[static_cast<std::size_t>(i)];
+    const double q = now.position[i], most = acceleration_of(own), jerk = jerk_of(own);
+    const double asked = (wanted[i] - now.velocity[i]) / dt;
+    double acceleration = std::clamp(asked, -most, most);
+    if (std::abs(acceleration - asked) > kLeastPull / dt) acted.note(Limit::acceleration);
+    const double eased = std::clamp(acceleration, std::min(now.acceleration[i] - jerk * dt, most),
+                                    std::max(now.acceleration[i] + jerk * dt, -most));
+    if (std::abs(eased - acceleration) > kLeastPull / dt) acted.note(Limit::jerk);
+    double velocity = std::clamp(now.velocity[i] + eased * dt, -speed_of(own), speed_of(own));
     double position = q + velocity * dt;
     if (limited(own) && (position < own.lower || position > own.upper)) {
       position = std::clamp(position, std::min(q, own.lower), std::max(q, own.upper));
       velocity = (position - q) / dt;
+    }
+    if (guard.position.size() > 0) {
+      const double near = std::clamp(position, guard.position[i] - 2 * kLead_rad, guard.position[i] + 2 * kLead_rad);
+      if (near != position) {
+        position = near;
+        velocity = std::clamp((near - q) / dt, -speed_of(own), speed_of(own));
+      }
     }
     next.position[i] = position;
     next.velocity[i] = velocity;
@@ -65,12 +127,25 @@ JointState guided(const JointState& now, const operation::Servo& servo, const st
 }
 
 JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
-                              const std::vector<JointLimits>& limits, double dt) {
-  JointVector result = asked;
-  for (Eigen::Index i = 0; i < asked.size(); ++i) {
-    const auto [slowest, fastest] =
-        allowed(position[i] + velocity[i] * dt, limits[static_cast<std::size_t>(i)], kMargin_rad);
-    result[i] = std::clamp(asked[i], (slowest - velocity[i]) / dt, (fastest - velocity[i]) / dt);
+                              const Arm& arm, double dt, double pace, Limits& acted) {
+  JointVector next = velocity + dt * asked;
+  const JointVector ahead = position + dt * velocity;
+  for (Eigen::Index i = 0; i < next.size(); ++i) {
+    const auto [slowest, fastest] = allowed(ahead[i], arm.limits()[static_cast<std::size_t>(i)], kMargin_rad, pace);
+    const double kept = std::clamp(next[i], slowest, fastest);
+    if (kept != next[i]) acted.note(pace < 1 ? Limit::approach : Limit::speed);
+    next[i] = kept;
+  }
+  next = slowed(arm, position, next, pace, acted);
+  JointVector result = (next - velocity) / dt;
+  for (Eigen::Index i = 0; i < next.size(); ++i) {
+    const JointLimits& own = arm.limits()[static_cast<std::size_t>(i)];
+    const double most = acceleration_of(own);
+    if (std::abs(result[i]) > most) acted.note(Limit::acceleration);
+    // To stop before its end, a joint may do more.
+    const auto [slowest, fastest] = allowed(ahead[i], own, kMargin_rad, 1);
+    result[i] =
+        std::clamp(std::clamp(result[i], -most, most), (slowest - velocity[i]) / dt, (fastest - velocity[i]) / dt);
   }
   return result;
 }

@@ -198,6 +198,7 @@ void World::restore(const Snapshot& snapshot) {
   w.reference_now = data.reference_now;
   w.contacts.set_state(data.contacts);
   w.arm_torque = data.arm_torque;
+  w.acted = {};
   w.efforts = data.efforts;
   w.log.back_to(data.log);
   w.canonical = true;

@@ -349,8 +349,8 @@ double World::commanded_opening(int robot) const {
 const std::vector<Contact>& World::contacts() const { return impl_->contacts.closed(); }
 void World::close_window() { impl_->contacts.close(); }
 
-CollisionState World::collision_state() const {
-  const Impl& w = *impl_;
+CollisionState World::Impl::now_for_planning() const {
+  const Impl& w = *this;
   if (!w.collision_model) w.collision_model = std::make_shared<const CollisionModel>(w.scene);
   std::vector<Transform> world_from_part;
   for (int b = 0; b < static_cast<int>(w.scene->bodies.size()); ++b)
@@ -361,6 +361,8 @@ CollisionState World::collision_state() const {
     robot_positions.push_back(w.position({kRobot, p}));
   return {w.collision_model, world_from_part, std::move(robot_positions)};
 }
+
+CollisionState World::collision_state() const { return impl_->now_for_planning(); }
 
 std::optional<PartRef> World::grasped(int robot) const {
   impl_->check_robot(robot);
