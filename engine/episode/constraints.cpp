@@ -1,14 +1,17 @@
 #include "engine/episode/constraints.h"
 
 #include <algorithm>
-#include <functional>
+#include <deque>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 #include "engine/episode/fact_tracker.h"
-#include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -23,7 +26,8 @@ std::vector<std::size_t> shuffled(std::size_t count, RandomKey key) {
   return order;
 }
 
-// Depth first over alternatives; `then` is what remains to be made true.
+// Depth first over alternatives. What is still to be made true is a list on the heap, and so are the choices to come
+// back to: a formula over many objects takes no more of the stack than one over few.
 class Drawing {
  public:
   Drawing(const Symbols& symbols, const std::vector<TypedObject>& objects, const Facts& known, RandomKey key)
@@ -33,32 +37,15 @@ class Drawing {
     decided_.insert(domain.traits.begin(), domain.traits.end());
   }
 
-  bool make(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
-    if (++steps_ > kMostSteps) return false;
-    switch (formula.kind) {
-      case Formula::Kind::always:
-        return then();
-      case Formula::Kind::never:
-        return false;
-      case Formula::Kind::atom:
-        return literal(formula, binding, false, then);
-      case Formula::Kind::equal:
-        return same(formula, binding) && then();
-      case Formula::Kind::negation:
-        if (formula.parts[0].kind == Formula::Kind::equal) return !same(formula.parts[0], binding) && then();
-        return literal(formula.parts[0], binding, true, then);
-      case Formula::Kind::conjunction:
-        return all(formula, binding, 0, then);
-      case Formula::Kind::disjunction:
-        for (const std::size_t i : shuffled(formula.parts.size(), key_.with(steps_)))
-          if (make(formula.parts[i], binding, then)) return true;
-        return false;
-      case Formula::Kind::exists:
-        return some(formula, binding, then);
-      case Formula::Kind::forall:
-        return every(formula, binding, then);
+  bool make(const Formula& formula) {
+    open_ = nullptr;
+    ask(formula, std::make_shared<const Binding>());
+    while (open_ != nullptr) {
+      heed_stop();
+      const Asked& next = *std::exchange(open_, open_->then);
+      if (!take_up(next) && !go_back()) return false;
     }
-    return false;
+    return true;
   }
 
   std::vector<Literal> take() { return std::move(literals_); }
@@ -68,17 +55,92 @@ class Drawing {
     return symbolic::value_of(formula.terms[0], binding) == symbolic::value_of(formula.terms[1], binding);
   }
 
-  bool literal(const Formula& formula, const Binding& binding, bool negated, const std::function<bool()>& then) {
+  using Bound = std::shared_ptr<const Binding>;
+  struct Asked {
+    const Formula* formula = nullptr;
+    Bound binding;
+    const Asked* then = nullptr;  // what is asked for behind it
+  };
+  // One of several, of which those up to `next` were tried.
+  struct Choice {
+    std::vector<Asked> ways;  // in the order drawn
+    std::size_t next = 0, literals = 0, asked = 0;
+  };
+
+  void ask(const Formula& formula, Bound binding) {
+    open_ = &asked_.emplace_back(Asked{&formula, std::move(binding), open_});
+  }
+
+  // False: it cannot be.
+  bool take_up(const Asked& asked) {
+    if (++steps_ > kMostSteps) return false;
+    const Formula& formula = *asked.formula;
+    switch (formula.kind) {
+      case Formula::Kind::always:
+        return true;
+      case Formula::Kind::never:
+        return false;
+      case Formula::Kind::atom:
+        return literal(formula, *asked.binding, false);
+      case Formula::Kind::equal:
+        return same(formula, *asked.binding);
+      case Formula::Kind::negation:
+        if (formula.parts[0].kind == Formula::Kind::equal) return !same(formula.parts[0], *asked.binding);
+        return literal(formula.parts[0], *asked.binding, true);
+      case Formula::Kind::conjunction:
+        for (std::size_t i = formula.parts.size(); i-- > 0;) ask(formula.parts[i], asked.binding);
+        return true;
+      case Formula::Kind::forall: {
+        const std::vector<Bound> list = bindings(formula, *asked.binding);
+        for (std::size_t i = list.size(); i-- > 0;) ask(formula.parts[0], list[i]);
+        return true;
+      }
+      case Formula::Kind::disjunction:
+      case Formula::Kind::exists:
+        return choose(formula, asked.binding);
+    }
+    return false;
+  }
+
+  bool choose(const Formula& formula, const Bound& binding) {
+    std::vector<Asked> ways;
+    if (formula.kind == Formula::Kind::disjunction)
+      for (const Formula& part : formula.parts) ways.push_back({&part, binding, open_});
+    else
+      for (Bound& one : bindings(formula, *binding)) ways.push_back({&formula.parts[0], std::move(one), open_});
+    Choice choice;
+    for (const std::size_t i : shuffled(ways.size(), key_.with(steps_))) choice.ways.push_back(ways[i]);
+    choice.literals = literals_.size();
+    choice.asked = asked_.size();
+    choices_.push_back(std::move(choice));
+    return go_back();
+  }
+
+  // To the last choice that has another way left. False: there is none, or no more steps.
+  bool go_back() {
+    while (!choices_.empty() && steps_ <= kMostSteps) {
+      Choice& last = choices_.back();
+      if (last.next == last.ways.size()) {
+        choices_.pop_back();
+        continue;
+      }
+      literals_.resize(last.literals);
+      asked_.resize(last.asked);
+      open_ = &asked_.emplace_back(last.ways[last.next++]);
+      return true;
+    }
+    return false;
+  }
+
+  bool literal(const Formula& formula, const Binding& binding, bool negated) {
     const Fact fact = symbolic::ground_atom(formula.predicate, formula.terms, binding);
-    if (decided_.contains(fact.predicate)) return view_.facts.contains(fact) != negated && then();
+    if (decided_.contains(fact.predicate)) return view_.facts.contains(fact) != negated;
     for (const Literal& known : literals_) {
-      if (known.fact == fact) return known.negated == negated && then();
+      if (known.fact == fact) return known.negated == negated;
       if (!negated && !known.negated && (excludes(fact, known.fact) || excludes(known.fact, fact))) return false;
     }
     literals_.push_back({fact, negated});
-    if (then()) return true;
-    literals_.pop_back();
-    return false;
+    return true;
   }
 
   // What `one` says of itself rules the other out.
@@ -94,34 +156,14 @@ class Drawing {
     return true;
   }
 
-  bool all(const Formula& formula, const Binding& binding, std::size_t from, const std::function<bool()>& then) {
-    if (from == formula.parts.size()) return then();
-    return make(formula.parts[from], binding, [&] { return all(formula, binding, from + 1, then); });
-  }
-
-  std::vector<Binding> bindings(const Formula& formula, const Binding& binding) const {
-    std::vector<Binding> list;
+  std::vector<Bound> bindings(const Formula& formula, const Binding& binding) const {
+    std::vector<Bound> list;
     Binding own = binding;
     symbolic::for_each_binding(formula.variables, view_, own, [&] {
-      list.push_back(own);
+      list.push_back(std::make_shared<const Binding>(own));
       return true;
     });
     return list;
-  }
-
-  bool some(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
-    const std::vector<Binding> list = bindings(formula, binding);
-    for (const std::size_t i : shuffled(list.size(), key_.with(steps_)))
-      if (make(formula.parts[0], list[i], then)) return true;
-    return false;
-  }
-
-  bool every(const Formula& formula, const Binding& binding, const std::function<bool()>& then) {
-    const std::vector<Binding> list = bindings(formula, binding);
-    const std::function<bool(std::size_t)> from = [&](std::size_t i) {
-      return i == list.size() ? then() : make(formula.parts[0], list[i], [&] { return from(i + 1); });
-    };
-    return from(0);
   }
 
   const Symbols& symbols_;
@@ -129,6 +171,9 @@ class Drawing {
   RandomKey key_;
   std::set<std::string> decided_;
   std::vector<Literal> literals_;
+  std::deque<Asked> asked_;      // what was asked for on this way: what is open leads through them
+  const Asked* open_ = nullptr;  // the first of what is still to be made true
+  std::vector<Choice> choices_;
   int steps_ = 0;
 };
 
@@ -229,7 +274,8 @@ std::optional<std::vector<Literal>> draw_literals(const Formula& formula, const 
                                                   const std::vector<TypedObject>& objects, const Facts& known,
                                                   RandomKey key) {
   Drawing drawing(symbols, objects, known, key);
-  if (!drawing.make(symbolic::negation_normal(formula), {}, [] { return true; })) return std::nullopt;
+  const Formula wanted = symbolic::negation_normal(formula);
+  if (!drawing.make(wanted)) return std::nullopt;
   return drawing.take();
 }
 
@@ -242,7 +288,9 @@ std::set<std::string> predicates_of(const Formula& formula) {
 
 Formula checked_formula(const Formula& formula, const Domain& domain, const std::vector<TypedObject>& objects,
                         const std::string& place) {
-  return Checker(domain, objects, place).check(formula, {});
+  Formula checked = Checker(domain, objects, place).check(formula, {});
+  symbolic::limit_instances(checked, {Facts{}, domain, objects}, place);
+  return checked;
 }
 
 std::vector<std::string> failing_parts(const Formula& formula, const Facts& facts, const Domain& domain,

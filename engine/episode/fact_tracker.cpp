@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl_text.h"
 
 namespace stampede {
@@ -48,6 +49,21 @@ void combine(const std::vector<std::vector<std::string>>& choices, bool own, Fac
 
 std::int64_t frame_at(std::int64_t step, int steps_per_frame) { return (step + steps_per_frame - 1) / steps_per_frame; }
 
+// What quantifies over an episode's objects, whoever will ask for it.
+void limit_formulas(const symbolic::View& all) {
+  for (const Predicate& predicate : all.domain.predicates)
+    if (predicate.kind == PredicateKind::derived)
+      symbolic::limit_instances(predicate.derived, all, "predicate " + predicate.name);
+  for (const Action& action : all.domain.actions) {
+    const std::string place = "skill " + (action.skill.empty() ? action.name : action.skill);
+    symbolic::limit_instances(action.precondition, all, place);
+    for (const Effect& effect : action.effects) {
+      symbolic::limit_instances("forall", effect.forall, all, place);
+      symbolic::limit_instances(effect.when, all, place);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& domain) {
@@ -67,6 +83,7 @@ FactTracker::FactTracker(Symbols& symbols, const WorldView& view, const std::set
   enumerate(view, asked);
   index_arguments(view);
   add_static(view);
+  limit_formulas({static_, symbols_.domain(), objects_});
   state_.atoms.resize(names_.size());
 }
 
@@ -83,8 +100,16 @@ void FactTracker::enumerate(const WorldView& view, const std::set<std::string>& 
                                        [&](const Object& thing) { return thing.attributes.contains(predicate.name); });
     if (attribute) continue;  // known without reading the world
     std::vector<std::vector<std::string>> choices;
-    for (const Parameter& parameter : predicate.parameters)
+    std::int64_t count = 1;
+    std::vector<std::string> variables;
+    for (const Parameter& parameter : predicate.parameters) {
       choices.push_back(candidates(parameter, domain, view, objects_));
+      count = symbolic::times(count, static_cast<std::int64_t>(choices.back().size()));
+      variables.push_back(parameter.name);
+    }
+    if (count > symbolic::kMostInstances)
+      symbolic::too_many_instances(predicate.name, variables, count, symbolic::kMostInstances,
+                                   "predicate " + predicate.name);
     Group group{predicate.name,
                 symbols_.traits(predicate.name),
                 predicate.kind == PredicateKind::fixed,

@@ -15,7 +15,7 @@
 #include "engine/model/camera.h"
 #include "engine/render/point_cloud.h"
 #include "engine/symbolic/drawn_choice.h"
-#include "engine/symbolic/evaluation.h"
+#include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -145,6 +145,7 @@ void Observer::enumerate_atoms() {
   const symbolic::View view{rollout_.facts().facts(), rollout_.domain(), things};
   for (const Predicate& predicate : rollout_.domain().predicates) {
     if (predicate.kind != PredicateKind::derived) continue;
+    symbolic::limit_instances(predicate.name, predicate.parameters, view, "predicate " + predicate.name);
     Binding binding;
     symbolic::for_each_binding(predicate.parameters, view, binding, [&] {
       Fact fact{predicate.name, {}};
@@ -160,6 +161,7 @@ void Observer::enumerate_atoms() {
 void Observer::enumerate_skills() {
   const symbolic::View view{rollout_.facts().facts(), rollout_.domain(), rollout_.facts().objects()};
   for (const Action& action : rollout_.domain().actions) {
+    symbolic::limit_instances(action.name, action.parameters, view, "skill " + action.skill);
     Binding binding;
     symbolic::for_each_binding(action.parameters, view, binding, [&] {
       PlanStep step{action.name, {}};

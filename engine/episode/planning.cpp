@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/episode/effects.h"
+#include "engine/symbolic/instances.h"
 
 namespace stampede {
 namespace {
@@ -185,6 +186,15 @@ void complete(const Action& action, std::vector<std::string>& arguments, std::si
   }
 }
 
+// What is left open is tried object by object.
+void limit_choices(const Action& action, const std::vector<std::string>& arguments, const FactTracker& facts,
+                   const Domain& domain) {
+  std::vector<Parameter> open;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    if (arguments[i].empty()) open.push_back(action.parameters[i]);
+  symbolic::limit_instances(action.name, open, {facts.facts(), domain, facts.objects()}, "skill " + action.skill);
+}
+
 }  // namespace
 
 PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTracker& facts) {
@@ -194,6 +204,7 @@ PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTrac
     std::vector<std::string> arguments = step.arguments;
     arguments.resize(action.parameters.size());
     const bool whole = std::none_of(arguments.begin(), arguments.end(), [](const auto& name) { return name.empty(); });
+    limit_choices(action, arguments, facts, domain);
     complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
       if (whole || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
         fitting.push_back({action.name, names});
@@ -227,6 +238,7 @@ std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& fac
     actions.erase(actions.begin() + static_cast<std::ptrdiff_t>(index));
     std::vector<std::vector<std::string>> bindings;
     std::vector<std::string> arguments(action.parameters.size());
+    limit_choices(action, arguments, facts, domain);
     complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
       if (!applicable || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
         bindings.push_back(names);

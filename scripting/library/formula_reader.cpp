@@ -4,13 +4,15 @@
 #include <utility>
 
 #include "engine/model/scene.h"
+#include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {
 
-constexpr std::size_t kMostOrders = 5040;  // 7!
+constexpr std::size_t kMostOrders = 5040;      // 7!
+constexpr std::int64_t kMostWritten = 20'000;  // instances of a formula that are written out: each member of a group
 
 std::string trimmed(std::string text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -123,6 +125,42 @@ class Reader {
    private:
     Reader& reader_;
     bool before_;
+  };
+
+  // While it lives, what is read is written out once for each choice of members of these groups, all of which are
+  // counted together before the first is made.
+  class Written {
+   public:
+    Written(Reader& reader, const Value& node, const char* what)
+        : reader_(reader), before_(reader.written_), names_before_(reader.written_for_.size()) {
+      for (const Value& variable : node["variables"].items) {
+        const std::size_t colon = variable.text.find(':');
+        const std::string range = colon == std::string::npos ? std::string() : trimmed(variable.text.substr(colon + 1));
+        if (is_group(range)) by(trimmed(variable.text.substr(0, colon)), reader.group_members(range).size());
+      }
+      reader.limit_written(what, reader.written_for_, reader.written_);
+    }
+    // `count` choices of what `name` stands for.
+    Written(Reader& reader, const std::string& name, std::size_t count, const char* what)
+        : reader_(reader), before_(reader.written_), names_before_(reader.written_for_.size()) {
+      by(name, count);
+      reader.limit_written(what, reader.written_for_, reader.written_);
+    }
+    ~Written() {
+      reader_.written_ = before_;
+      reader_.written_for_.resize(names_before_);
+    }
+    Written(const Written&) = delete;
+    Written& operator=(const Written&) = delete;
+
+   private:
+    void by(const std::string& name, std::size_t count) {
+      reader_.written_ = symbolic::times(reader_.written_, static_cast<std::int64_t>(count));
+      reader_.written_for_.push_back(name);
+    }
+    Reader& reader_;
+    std::int64_t before_;
+    std::size_t names_before_;
   };
 
   // A goal's stages, all of which have come true at its end.
@@ -304,6 +342,7 @@ class Reader {
       for (std::size_t i = 0; i < parameters.size(); ++i) hint += (i > 0 ? ", " : "") + parameters[i].name;
       fail(shown(name, parameters.size()) + ", not " + std::to_string(given), "write " + hint + ")");
     }
+    limit_members(node);
     std::vector<std::vector<Term>> tuples(1);
     std::size_t next = 0;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -328,6 +367,24 @@ class Reader {
       tuples = std::move(longer);
     }
     return tuples;
+  }
+
+  // Of a literal that names groups: before any of them is made.
+  void limit_members(const Value& node) const {
+    std::int64_t count = written_;
+    std::vector<std::string> groups;
+    for (const Value& item : node.items) {
+      if (!is_group(item.text)) continue;
+      count = symbolic::times(count, static_cast<std::int64_t>(members(item.text).size()));
+      groups.push_back(item.text);
+    }
+    if (!groups.empty()) limit_written(node["predicate"].text, groups, count);
+  }
+
+  void limit_written(const std::string& what, const std::vector<std::string>& names, std::int64_t count) const {
+    if (count > kMostWritten)
+      symbolic::too_many_instances(context_.field.empty() ? what : context_.field + ": " + what, names, count,
+                                   kMostWritten, place());
   }
 
   std::vector<std::string> members(const std::string& group) const {
@@ -388,6 +445,11 @@ class Reader {
 
   // A variable whose range is a group is replaced by each member.
   Formula quantified(const Value& node, bool exists) {
+    const Written written(*this, node, exists ? "exists" : "forall");
+    return quantified_over(node, exists);
+  }
+
+  Formula quantified_over(const Value& node, bool exists) {
     for (std::size_t i = 0; i < node["variables"].items.size(); ++i) {
       const std::string& text = node["variables"].items[i].text;
       const std::size_t colon = text.find(':');
@@ -398,7 +460,7 @@ class Reader {
       std::vector<Formula> parts;
       const std::string name = trimmed(text.substr(0, colon));
       for (const std::string& member : group_members(trimmed(text.substr(colon + 1)))) {
-        parts.push_back(quantified(replaced(rest, name, member), exists));
+        parts.push_back(quantified_over(replaced(rest, name, member), exists));
       }
       return exists ? disjunction(std::move(parts)) : conjunction(std::move(parts));
     }
@@ -440,6 +502,7 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) orders *= names.size() - i;
     if (orders > kMostOrders)
       fail("any_order has " + std::to_string(orders) + " orders, at most 5040", "choose fewer members");
+    const Written written(*this, node["group"].text, orders, "any_order");
     std::vector<Formula> parts;
     std::vector<std::size_t> chosen;
     choose(node, names, count, chosen, parts);
@@ -479,6 +542,7 @@ class Reader {
     for (std::size_t i = 0; i < count && choices <= kMostOrders; ++i) choices = choices * (names.size() - i) / (i + 1);
     if (choices > kMostOrders)
       fail("at_least has more than 5040 choices", "make the group smaller, or ask for nearly all or nearly none of it");
+    const Written written(*this, node["group"].text, choices, "at_least");
     ++narrow_;
     std::vector<Formula> single;
     for (const std::string& name : names)
@@ -524,9 +588,11 @@ class Reader {
 
   const FormulaContext& context_;
   const Domain& domain_;
-  std::vector<PartTerm> parts_;         // that the literal being read names
-  std::vector<std::string> scope_;      // quantified variables, outermost first
-  std::vector<std::string> universal_;  // those of them that a forall binds
+  std::vector<PartTerm> parts_;           // that the literal being read names
+  std::vector<std::string> scope_;        // quantified variables, outermost first
+  std::vector<std::string> universal_;    // those of them that a forall binds
+  std::int64_t written_ = 1;              // times that what is read is written out, for the groups around it
+  std::vector<std::string> written_for_;  // the variables and groups that it is written out for
   int line_ = 0;
   int narrow_ = 0;     // inside any_of or exists
   bool whole_ = true;  // what is read is the whole formula

@@ -4,7 +4,9 @@
 #include <lua.hpp>
 #include <set>
 
+#include "engine/episode/constraints.h"
 #include "engine/model/camera.h"
+#include "engine/symbolic/instances.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/variation.h"
 #include "scripting/runtime/world_reader.h"
@@ -31,6 +33,17 @@ Value overlaid(Value file, const Value& entry) {
   }
   file.place = entry.place;
   return file;
+}
+
+// What is written out for the members of groups was counted as it was read.
+void limit_formulas(const Task& task, const Domain& domain, const std::string& file) {
+  const StaticFacts known = static_facts(task.scene, domain);
+  const auto limit = [&](const Formula& formula, const std::string& field) {
+    symbolic::limit_instances(formula, {known.facts, domain, known.objects}, file + ": " + field);
+  };
+  if (task.where) limit(*task.where, "init");
+  limit(task.goal, "goal");
+  for (const Subgoal& subgoal : task.subgoals) limit(subgoal.formula, "subgoals." + subgoal.name);
 }
 
 }  // namespace
@@ -66,6 +79,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   place_clutter();
   read_goal();
   read_subgoals();
+  limit_formulas(drawn_.task, scripts_.library().domain(), file_.shown_path);
   read_steps();
   read_instructions();
   drawn_.also = has_function("also");

@@ -185,3 +185,21 @@ TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repea
   CHECK(refused > 0);  // tried all the same
   CHECK(replay_episode(c).empty());
 }
+
+TEST_CASE("what quantifies over very many is refused with the count, and over many it takes no stack") {
+  std::vector<TypedObject> objects;
+  for (int i = 0; i < 100; ++i) objects.push_back({"c" + std::to_string(100 + i), "cube"});
+  const auto checked = [&](const char* text) {
+    return checked_formula(formula(text), PlainSymbols().domain(), objects, "--where");
+  };
+  CHECK_THROWS_WITH(
+      checked("(forall (?a - cube ?b - cube ?c - cube ?d - cube ?e - cube ?f - cube) (not (on ?a ?b)))"),
+      Catch::Contains("--where: forall over ?a ?b ?c ?d ?e ?f: 1,000,000,000,000 instances, at most 200,000") &&
+          Catch::Contains("name fewer variables"));
+  CHECK_THROWS_WITH(checked("(exists (?a - cube ?b - cube) (forall (?c - cube ?d - cube) (on ?a ?d)))"),
+                    Catch::Contains("forall over ?a ?b ?c ?d: 100,000,000 instances"));
+  const Formula many = checked("(forall (?a - cube ?b - cube) (or (= ?a ?b) (not (on ?a ?b))))");
+  const auto drawn = draw_literals(many, PlainSymbols(), objects, {}, RandomKey("test"));
+  REQUIRE(drawn);
+  CHECK((drawn->size() >= 100 * 99 && drawn->size() <= 100 * 100));  // of one thing either part will do
+}

@@ -119,3 +119,16 @@ TEST_CASE("a part of a variable is one that there is: part_of and part_name") {
   CHECK(fixture.formula("is.open('obj.a.b')", obj).parts.at(0).parts.at(1).terms.at(1).name == "a--b");
   CHECK_THROWS_WITH(fixture.formula("is.open('?y.lid')"), Catch::Contains("unknown variable '?y.lid'"));
 }
+
+TEST_CASE("what is written out for the members of groups is counted first") {
+  Fixture fixture;
+  CHECK(fixture.formula("exists('?a: b*', '?c: b*', is.on('?a', '?c'))").parts.size() == 3);
+  CHECK_THROWS_WITH(fixture.formula("exists('?a: b*', '?c: b*', '?d: b*', '?e: b*', '?f: b*', '?g: b*', '?h: b*', "
+                                    "'?i: b*', '?j: b*', '?k: b*', is.on('?a', '?c'))"),
+                    Catch::Contains("goal: exists over ?a ?c ?d ?e ?f ?g ?h ?i ?j ?k: 59,049 instances, at "
+                                    "most 20,000"));
+  CHECK_THROWS_WITH(
+      fixture.formula("forall('?a: b*', '?c: b*', '?d: b*', '?e: b*', '?f: b*', forall('?g: b*', '?h: b*', "
+                      "'?i: b*', '?j: b*', '?k: b*', is.on('?a', '?g')))"),
+      Catch::Contains("59,049 instances"));
+}
