@@ -254,24 +254,34 @@ void FactTracker::frame(const WorldView& view) {
   look(view);
 }
 
+// What changes in sight is known from when it changed, though that is certain only once it has settled; what changed
+// out of sight, from when it came into sight.
 void FactTracker::look(const WorldView& view) {
+  const std::int64_t step = view.world().step_count();
   for (const Group& group : groups_) {
     if (!group.hides) continue;
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
       Atom& atom = state_.atoms[i];
-      if ((atom.seen && atom.known == atom.holds) || !symbols_.observable(names_[i], view)) continue;
+      const bool in_sight =
+          (!atom.seen || atom.known != atom.holds || atom.raw != atom.holds) && symbols_.observable(names_[i], view);
+      if (!in_sight) {
+        atom.seen_since_step = -1;
+        continue;
+      }
+      if (atom.seen_since_step < 0) atom.seen_since_step = step;
       atom.seen = true;
       if (atom.known == atom.holds) continue;
+      const std::int64_t at_step = std::max(atom.since_step, atom.seen_since_step);
       if (atom.known) {
         FactRecord record;
         record.fact = names_[i];
         record.start_step = atom.known_since_step;
-        record.end_step = view.world().step_count();
+        record.end_step = at_step;
         state_.closed_known.push_back(std::move(record));
       }
       ++changes_;
       atom.known = atom.holds;
-      atom.known_since_step = view.world().step_count();
+      atom.known_since_step = at_step;
     }
   }
 }

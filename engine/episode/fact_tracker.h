@@ -68,6 +68,8 @@ class FactTracker {
     bool seen = false;             // of predicates that can hide: could it be seen so far?
     bool known = false;            // of these: as it was when it was last seen
     std::int64_t known_since_step = 0;
+    std::int64_t seen_since_step =
+        -1;  // while it changes: since when it has been in sight without a break; -1: it is not
   };
   struct State {
     std::vector<Atom> atoms;
