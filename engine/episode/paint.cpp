@@ -56,6 +56,7 @@ SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64
   SceneState state = initial_state(scene);
   for (std::size_t i = 0; i < episode.joints.size(); ++i) {
     const PartRef ref = episode.joints[i].part;
+    if (ref.part == 0) continue;  // a body of its own, which has a pose
     auto& positions = ref.body < 0 ? state.robot_position : state.joint_position.at(static_cast<std::size_t>(ref.body));
     if (const auto position = last_known(episode, frame, i))
       positions.at(static_cast<std::size_t>(ref.part)) = *position;

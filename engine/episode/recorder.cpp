@@ -6,11 +6,12 @@ namespace stampede {
 namespace {
 
 void add_joints(std::vector<JointName>& joints, const Body& body, int index, const std::vector<int>& driven) {
-  for (std::size_t part = 1; part < body.parts.size(); ++part) {
+  const bool joined = !body.joined_to.empty();  // a body of its own, on the joint of another until that lets go of it
+  for (std::size_t part = joined ? 0 : 1; part < body.parts.size(); ++part) {
     const Joint& joint = body.parts[part].joint;
     if (joint.kind == JointKind::fixed) continue;
     const std::string own = joint.name.empty() ? body.parts[part].name : joint.name;
-    joints.push_back({body.name + "." + own,
+    joints.push_back({part == 0 ? body.name : body.name + "." + own,
                       {index, static_cast<int>(part)},
                       joint.kind == JointKind::slider  ? "slider"
                       : joint.kind == JointKind::screw ? "screw"
@@ -41,7 +42,9 @@ std::vector<JointName> joints_of(const Scene& scene) {
   return joints;
 }
 
-FrameReader::FrameReader(const WorldView& view) : joints_(joints_of(view.scene())) {
+FrameReader::FrameReader(const WorldView& view) : FrameReader(view, joints_of(view.scene())) {}
+
+FrameReader::FrameReader(const WorldView& view, std::vector<JointName> joints) : joints_(std::move(joints)) {
   const Scene& scene = view.scene();
   for (const Object& thing : scene.objects)
     if (thing.kind != ObjectKind::hand) posed_.push_back(thing.name);

@@ -16,8 +16,9 @@ std::vector<JointName> joints_of(const Scene& scene);
 class FrameReader {
  public:
   explicit FrameReader(const WorldView& view);
-  FrameRecord read(const WorldView& view) const;  // without action, reward and done
-  ActionRecord action(const World& world) const;  // the reference as it is now
+  FrameReader(const WorldView& view, std::vector<JointName> joints);  // of these alone
+  FrameRecord read(const WorldView& view) const;                      // without action, reward and done
+  ActionRecord action(const World& world) const;                      // the reference as it is now
   const std::vector<JointName>& joints() const { return joints_; }
   const std::vector<std::string>& posed() const { return posed_; }
 

@@ -38,7 +38,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
   if (episode.frames.empty()) return {};
   World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
   WorldView view(world);
-  const FrameReader reader(view);
+  const FrameReader reader(view, episode.joints);  // an older catalogue may lack some
   SensorReader sensors = sensors_of(world.scene(), episode, nullptr);
   const std::int64_t per_frame = episode.physics_hz / episode.frame_hz;
   std::vector<FrameRecord> frames;

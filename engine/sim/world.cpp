@@ -280,6 +280,15 @@ double World::joint_position(PartRef part) const { return impl_->position(part);
 
 double World::joint_velocity(PartRef part) const {
   const PartSlot& slot = impl_->slot(part);
+  if (joined(part)) {
+    const Body& body = scene().bodies[static_cast<std::size_t>(part.body)];
+    const Joint& joint = body.parts.front().joint;
+    const PartRef on{scene().body_index(body.joined_to), body.joined_part};
+    const Vector3 axis = world_from_part(part).linear() * joint.axis.normalized();
+    const bool slides = joint.kind == JointKind::slider;
+    return axis.dot(slides ? Vector3(linear_velocity(part) - linear_velocity(on))
+                           : Vector3(angular_velocity(part) - angular_velocity(on)));
+  }
   return slot.dof >= 0 ? slot.tree->velocity[static_cast<std::size_t>(slot.dof)] : 0;
 }
 

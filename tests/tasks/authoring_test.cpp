@@ -72,6 +72,20 @@ TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, 
                                    [](const FactRecord& one) { return one.fact.predicate == "joined"; });
   REQUIRE(joined != episode.facts.end());
   CHECK((joined->open_start && !joined->open_end));
+  const auto screw = std::find_if(episode.joints.begin(), episode.joints.end(),
+                                  [](const JointName& one) { return one.name == "jar.lid"; });
+  REQUIRE(screw != episode.joints.end());
+  CHECK((screw->kind == "screw" && screw->unit == "rad"));
+  const auto place = static_cast<std::size_t>(screw - episode.joints.begin());
+  const auto at = [&](std::int64_t frame) {
+    return episode.frames[static_cast<std::size_t>(frame)].joint_position[place];
+  };
+  CHECK(std::abs(at(0)) < 0.01);
+  CHECK(at(joined->end_frame) > 1.39);  // 80 degrees: there the thread lets go
+  double fastest = 0;
+  for (const FrameRecord& frame : episode.frames) fastest = std::max(fastest, frame.joint_velocity[place]);
+  CHECK(fastest > 0.2);
+  CHECK(episode.frames.back().joint_velocity[place] == 0);
   CHECK(replay_episode(episode) == "");
 }
 
