@@ -8,6 +8,7 @@
 #include "engine/episode/altered_task.h"
 #include "engine/episode/constraints.h"
 #include "engine/episode/fact_tracker.h"
+#include "engine/episode/joint_placement.h"
 #include "engine/model/camera.h"
 #include "engine/symbolic/pddl.h"
 
@@ -349,6 +350,8 @@ class StartMaker {
                                   clutter ? kClutterSamples : kSamples);
       if (clutter) keep_clear(ways, draft.view(), literal, looked);
       const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
+      if (!clutter && waiting != unplaced.end() && is_free(draft.view(), subject(literal)))
+        if (const auto better = jointly(draft, subject(literal), unplaced, ways, key.with(number))) ways = {*better};
       if (ways.empty()) {
         if (waiting != unplaced.end()) return refuse_place(draft, literal, looked);
         continue;  // nothing to place: the literal is only tested
@@ -365,6 +368,27 @@ class StartMaker {
     if (unplaced.empty()) return true;
     throw Error("task " + task_.name, "no literal of init places '" + unplaced.front() + "'",
                 "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
+  }
+
+  // The way that meets all that is asked of the thing and can be tested by now, if that is more than one literal.
+  std::optional<Placement> jointly(Draft& draft, const std::string& thing, const std::vector<std::string>& unplaced,
+                                   const std::vector<Placement>& ways, RandomKey key) {
+    PlacementAsked asked{thing,
+                         {},
+                         {},
+                         [&](const Placement& way) { draft.place(way); },
+                         [&]() -> const WorldView& { return draft.view(); },
+                         &draft.collision_state()};
+    for (const Literal& literal : literals_) {
+      const auto& arguments = literal.fact.arguments;
+      const bool ready = std::ranges::none_of(arguments, [&](const std::string& name) {
+        return name != thing && std::ranges::find(unplaced, name) != unplaced.end();
+      });
+      if (!ready || std::ranges::find(arguments, thing) == arguments.end()) continue;
+      asked.literals.push_back(literal);
+      if (start_only(literal.fact.predicate)) asked.conditions.insert(literal.fact.predicate);
+    }
+    return joint_placement(asked, ways, symbols_, key);
   }
 
   // The first literal whose other arguments have their places; the first of all where each waits for another.

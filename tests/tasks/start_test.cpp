@@ -1,4 +1,6 @@
 // Starts that formulas in `init` draw: the same as --where, written in the task.
+#include "engine/episode/start.h"
+
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -26,4 +28,17 @@ TEST_CASE("formulas of init hold at the start, by different bindings and alterna
   }
   CHECK(tops.size() > 1);
   CHECK(drawers == std::set<std::string>{"chest.middle_drawer", "chest.top_drawer"});
+}
+
+TEST_CASE("a start that asks for a place on a surface and in a region is found, in any order of literals") {
+  for (const char* task : {"cup_on_and_in", "cup_in_and_on"})
+    for (int seed = 0; seed < 12; ++seed) {
+      RunOptions options;
+      options.seed = seed;
+      EpisodeScripts scripts(all_tasks(), task, "", seed);
+      const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
+      INFO(task << " " << seed << ": " << start.detail);
+      CHECK(start.reason == Reason::none);
+      CHECK(start.draws <= 5);
+    }
 }
