@@ -27,7 +27,7 @@ std::string verdict(Outcome outcome, Reason reason) {
   return outcome == Outcome::success ? "success" : std::string(to_string(reason));
 }
 
-// The start, amid each skill, and the end.
+// The start, where the effect of each skill comes true, and the end.
 std::vector<Moment> moments_of(const EpisodeRecord& episode, const std::vector<Shot>& shots) {
   std::vector<Moment> moments{{0, "start", "", true}};
   for (const Shot& shot : shots)

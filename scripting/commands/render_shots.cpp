@@ -1,7 +1,9 @@
 #include "scripting/commands/render_shots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "engine/model/masks.h"
@@ -30,13 +32,19 @@ std::vector<std::string> things_of(const EpisodeRecord& episode, const SegmentRe
   return things.empty() ? hands : things;
 }
 
-Vector3 place_of(const Scene& scene, const ScenePoses& poses, const Object& object) {
-  if (object.kind == ObjectKind::region)
-    return poses.world_from_region[static_cast<std::size_t>(scene.region_index(object.name))].translation();
+// Its middle, and the middles of three of its sides: what turns in its place moves these.
+std::array<Vector3, 4> places_of(const Scene& scene, const ScenePoses& poses, const Object& object) {
+  if (object.kind == ObjectKind::region) {
+    const Vector3 at = poses.world_from_region[static_cast<std::size_t>(scene.region_index(object.name))].translation();
+    return {at, at, at, at};
+  }
   const auto body = static_cast<std::size_t>(scene.body_index(object.body));
   const auto part = static_cast<std::size_t>(object.kind == ObjectKind::part ? object.part : 0);
   const auto box = bounding_box(scene.bodies[body].parts[part]);  // a door's frame is its hinge, and stays where it is
-  return poses.world_from_part[body][part] * Vector3((box[0] + box[1]) / 2);
+  const Vector3 middle = (box[0] + box[1]) / 2, half = (box[1] - box[0]) / 2;
+  const Transform& from_part = poses.world_from_part[body][part];
+  return {from_part * middle, from_part * (middle + half.x() * Vector3::UnitX()),
+          from_part * (middle + half.y() * Vector3::UnitY()), from_part * (middle + half.z() * Vector3::UnitZ())};
 }
 
 // How far the shot's things went from each of its frames to the next; the hand where nothing else moves.
@@ -47,13 +55,17 @@ std::vector<double> ways(const EpisodeRecord& episode, const Scene& scene, const
     if (object->kind == ObjectKind::region || scene.body_index(object->body) >= 0) things.push_back(object);
   }
   std::vector<double> by_things, by_hand;
-  std::vector<Vector3> before;
+  std::vector<std::array<Vector3, 4>> before;
   for (std::int64_t frame = shot.first_frame; frame < shot.end_frame; ++frame) {
     const ScenePoses poses = scene_poses(scene, state_at(scene, episode, frame));
-    std::vector<Vector3> now;
-    for (const Object* object : things) now.push_back(place_of(scene, poses, *object));
+    std::vector<std::array<Vector3, 4>> now;
+    for (const Object* object : things) now.push_back(places_of(scene, poses, *object));
     double way = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) way += (now[i] - before[i]).norm();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      double most = 0;
+      for (std::size_t k = 0; k < now[i].size(); ++k) most = std::max(most, (now[i][k] - before[i][k]).norm());
+      way += most;
+    }
     by_things.push_back(way);
     before = std::move(now);
     const auto& hands = episode.frames[static_cast<std::size_t>(frame)].hands;
@@ -67,6 +79,18 @@ std::vector<double> ways(const EpisodeRecord& episode, const Scene& scene, const
   double all = 0;
   for (const double way : by_things) all += way;
   return all < kStill ? by_hand : by_things;
+}
+
+// The frame in which the last of what the skill declared to become true did so, if any did.
+std::optional<std::int64_t> comes_true(const EpisodeRecord& episode, const Shot& shot) {
+  std::optional<std::int64_t> last;
+  if (shot.skill == nullptr) return last;
+  for (const EffectRecord& effect : shot.skill->declared_effects)
+    for (const FactRecord& record : episode.facts) {
+      const bool here = record.first_frame > shot.first_frame && record.first_frame < shot.end_frame;
+      if (!effect.negated && here && record.fact == effect.fact) last = std::max(last.value_or(0), record.first_frame);
+    }
+  return last;
 }
 
 std::int64_t halfway(const EpisodeRecord& episode, const Scene& scene, const Shot& shot) {
@@ -134,7 +158,8 @@ std::vector<Shot> shots_of(const EpisodeRecord& episode, const Scene& scene) {
     const std::int64_t next = i + 1 < shots.size() ? shots[i + 1].first_frame : count;
     shot.end_frame = shot.skill != nullptr ? std::min(shot.skill->span.end_frame, next) : next;
     shot.things = things_of(episode, shot.skill, scene);
-    shot.telling_frame = std::min(halfway(episode, scene, shot), count - 1);
+    const std::optional<std::int64_t> act = comes_true(episode, shot);
+    shot.telling_frame = std::min(act ? *act : halfway(episode, scene, shot), count - 1);
     if (i == 0) shot.first_frame = 0;
     shot.end_frame = next;
   }

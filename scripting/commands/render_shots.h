@@ -11,8 +11,10 @@ struct Shot {
   const SegmentRecord* skill = nullptr;         // null: the episode has none
   std::vector<std::string> things;              // what it is about: objects and their parts, else the hand; no fixtures
   std::int64_t first_frame = 0, end_frame = 0;  // half-open; shots follow each other without gaps
-  std::int64_t telling_frame = 0;               // where half of the way that its things go lies behind them
-  std::size_t camera = 0;                       // an index into the cameras that were looked through
+  // Where the last of the skill's effects comes true; else where half of the way that its things go, or turn, lies
+  // behind them.
+  std::int64_t telling_frame = 0;
+  std::size_t camera = 0;  // an index into the cameras that were looked through
 };
 
 // At least one; their cameras are 0. The scene and the episode belong together.

@@ -144,6 +144,30 @@ TEST_CASE("shots follow each other without gaps, inner skills among them, and te
   CHECK(shots[1].telling_frame == 25);                        // nothing moves: the middle of the skill
 }
 
+TEST_CASE("the frame that tells of a skill is the one in which its effect comes true") {
+  EpisodeRecord record = episode();
+  add_skill(record, 2, 20, "chest.drawer");
+  const Fact open{"open", {"chest.drawer"}}, closed{"closed", {"chest.drawer"}};
+  record.segments.front().declared_effects = {{open, false}, {closed, true}};
+  FactRecord before, after;
+  before.fact = open, before.first_frame = 0, before.end_frame = 1;  // not this one
+  after.fact = open, after.first_frame = kOpen - 1, after.end_frame = kFrames;
+  record.facts = {before, after};
+  CHECK(shots_of(record, *scene()).front().telling_frame == kOpen - 1);
+}
+
+TEST_CASE("what turns in its place moves") {
+  Scene turning = *scene();
+  turning.bodies[0].parts[1].joint.kind = JointKind::hinge;
+  turning.bodies[0].parts[1].joint.axis = {0, 0, 1};
+  turning.bodies[0].parts[1].shapes = {box_at({0.04, 0.04, 0.08}, {0, 0, 0.05})};  // about its own middle
+  EpisodeRecord record = episode();
+  record.joints = {{"chest.drawer", {0, 1}, "hinge", "rad", 0, 2, false}};
+  for (FrameRecord& frame : record.frames) frame.joint_position = {10 * frame.joint_position[0]};
+  add_skill(record, 0, kFrames, "chest.drawer");
+  CHECK(shots_of(record, turning).front().telling_frame == (kOpens + kOpen + 1) / 2);
+}
+
 TEST_CASE("an episode without skills is one shot of all that can move") {
   const std::vector<Shot> shots = shots_of(episode(), *scene());
   REQUIRE(shots.size() == 1);
