@@ -107,6 +107,7 @@ void SkillExecution::start(SkillContext context, int parent) {
   arm_moved_ = false;
   step_asked_ = false;
   phase_ = Phase::calling;
+  forget_lost();
   const Facts before = rollout_.facts().facts();
   open_segment(parent, before);
   const auto unmet_literals = unmet(context_.action->precondition, before, rollout_.domain(),
@@ -114,6 +115,11 @@ void SkillExecution::start(SkillContext context, int parent) {
   rollout_.recorder().segment(context_.segment).precondition_held = unmet_literals.empty();
   if (!unmet_literals.empty() && context_.mode.refuse) {
     finish({Reason::precondition_false, unmet_literals.front() + " does not hold"});
+    return;
+  }
+  if (nothing_to_do()) {
+    rollout_.recorder().segment(context_.segment).effect_held = true;
+    finish({});
     return;
   }
   SkillCall call = undrawn_call();
@@ -144,6 +150,23 @@ void SkillExecution::start(SkillContext context, int parent) {
   rollout_.world().apply(controller_);
   start_run(std::move(call));
   if (reference_moves(rollout_.world())) follow(make_brake());
+}
+
+// What the hand was asked to hold and no finger touches any more is not lost by this call: it was lost before.
+void SkillExecution::forget_lost() {
+  const World& world = rollout_.world();
+  if (!rollout_.keep) return;
+  const auto& pads = world.scene().robot.pads;
+  const auto touches = [&](const Contact& contact) {
+    return contact.a.on_robot() && contact.b == *rollout_.keep &&
+           std::find(pads.begin(), pads.end(), contact.a.part) != pads.end();
+  };
+  if (std::ranges::none_of(world.contacts(), touches)) rollout_.keep.reset();
+}
+
+// All that it declares is so already: it ends at once, and nothing moves.
+bool SkillExecution::nothing_to_do() {
+  return !rollout_.recorder().segment(context_.segment).declared_effects.empty() && missing_effects().empty();
 }
 
 void SkillExecution::note_parameters(const SkillCall& call) {
@@ -418,6 +441,7 @@ void SkillExecution::end_motion(SkillResult result) {
   if (hand_) after_hand(*hand_, result.ok());
   hand_.reset();
   let_go();
+  if (result.reason == Reason::dropped) rollout_.keep.reset();  // once; whoever goes on has an empty hand
   motion_.reset();
   close(motion_segment_, result);
   if (result.ok())

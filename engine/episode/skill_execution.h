@@ -35,8 +35,9 @@ class SkillExecution {
   std::optional<Error> mistake_in(const SkillRequest& request) const;
 
   // Opens the skill's segment, draws its continuous parameters and starts its run; what fails there is a segment that
-  // has failed at once. Result: nothing, or why there can be no such call: then nothing has changed, in the world, in
-  // the record or here. May be called again when the last call is over.
+  // has failed at once. One whose declared effects all hold already has succeeded at once. Result: nothing, or why
+  // there can be no such call: then nothing has changed, in the world, in the record or here. May be called again when
+  // the last call is over.
   std::optional<Error> begin(const SkillRequest& request);
 
   // To be called before every physics step until it is over: running means that one step is due now, made by
@@ -54,6 +55,8 @@ class SkillExecution {
   enum class Phase { over, calling, moving, child, settling };
 
   void start(SkillContext context, int parent);
+  void forget_lost();
+  bool nothing_to_do();
   SkillCall undrawn_call() const;
   void note_parameters(const SkillCall& call);
   void start_run(SkillCall call);

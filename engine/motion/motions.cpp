@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/motion/looked.h"
 #include "engine/motion/motion.h"
 #include "engine/motion/steering.h"
 
@@ -167,10 +169,29 @@ class HandMotion : public Motion {
     if (!expect_) return fingers_.arrived(world) || stopped ? kDone : kRunning;
     held_ = world.grasped(robot_) == expect_ ? held_ + 1 : 0;
     if (held_ > steps_of(kGrasped_s, world)) return kDone;
-    return stopped && held_ == 0 ? failed(Reason::grasp_missed) : kRunning;
+    return stopped && held_ == 0 ? MotionResult{MotionStatus::failed, Reason::grasp_missed, met(world)} : kRunning;
   }
 
  private:
+  // What the fingers are at instead of holding it.
+  std::string met(const World& world) const {
+    const Scene& scene = world.scene();
+    const auto& pads = scene.robot.pads;
+    std::set<int> on_it;
+    std::string other;
+    for (const Contact& contact : world.contacts()) {
+      if (!contact.a.on_robot() || std::find(pads.begin(), pads.end(), contact.a.part) == pads.end()) continue;
+      if (contact.b == *expect_)
+        on_it.insert(contact.a.part);
+      else if (other.empty() && !contact.b.on_robot())
+        other = name_of_part(scene, contact.b);
+    }
+    const std::string name = name_of_part(scene, *expect_);
+    if (on_it.size() > 1) return "both fingers touch " + name + ", but do not hold it between them";
+    if (on_it.size() == 1) return "only one finger touches " + name;
+    return other.empty() ? "the hand closed on nothing" : "the fingers touch " + other + ", not " + name;
+  }
+
   double opening_m_, force_;
   std::optional<PartRef> expect_;
   int robot_;

@@ -1,6 +1,8 @@
 // The figures of tasks/README.md are of the tasks as they are now: tests/bench/tasks_page writes them anew.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "scripting/library/library.h"
@@ -40,4 +42,22 @@ TEST_CASE("every task is on the page with figures of its present files: else run
     CHECK(hashes.at(task) == now.substr(0, 32));
   }
   CHECK(hashes.size() == count);
+}
+
+TEST_CASE("the page says of every task what success and yaw are, beside RLBench's") {
+  std::set<std::string> listed;
+  std::istringstream page(file_text(std::string(STAMPEDE_SOURCE_DIR) + "/tasks/README.md"));
+  bool within = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) within = line == "## Success beside RLBench's";
+    if (!within || !line.starts_with("| `")) continue;
+    INFO(line);
+    CHECK(std::count(line.begin(), line.end(), '|') == 6);
+    CHECK(line.find("|  |") == std::string::npos);
+    const std::string task = line.substr(3, line.find('`', 3) - 3);
+    CHECK(std::filesystem::exists(STAMPEDE_SOURCE_DIR "/tasks/" + task + ".lua"));
+    CHECK(listed.insert(task).second);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tasks"))
+    if (entry.path().extension() == ".lua") CHECK(listed.contains(entry.path().stem()));
 }

@@ -1,7 +1,9 @@
 #include "engine/base/reason.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <set>
+#include <string>
 
 using namespace stampede;
 
@@ -14,4 +16,12 @@ TEST_CASE("every reason has one name, leads back from it, and a sentence") {
     CHECK(describe(reason).back() != '.');
   }
   CHECK_FALSE(reason_from("no_such_reason"));
+}
+
+TEST_CASE("the page says of every reason when it is given") {
+  std::ifstream page(STAMPEDE_SOURCE_DIR "/engine/base/README.md");
+  std::set<std::string> told;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `")) told.insert(line.substr(3, line.find('`', 3) - 3));
+  for (const Reason reason : all_reasons()) CHECK(told.contains(std::string(to_string(reason))));
 }

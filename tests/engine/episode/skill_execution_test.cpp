@@ -74,6 +74,42 @@ TEST_CASE("a skill is ticked to its end, a physics step at a time") {
   CHECK(run_to_end(*running.execution, *running.rollout).ok());
 }
 
+TEST_CASE("a skill whose declared effects hold already ends at once: it succeeds, and nothing moves") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+  const std::string before = running.rollout->world().state_hash();
+  const std::int64_t step = running.rollout->step();
+  SkillRequest again = running.request(kPick);
+  again.mode.refuse = false;
+  REQUIRE_FALSE(running.execution->begin(again));
+  CHECK(running.execution->tick() == SkillStatus::done);
+  CHECK(running.rollout->step() == step);
+  CHECK(running.rollout->world().state_hash() == before);
+  const SegmentRecord& segment = running.rollout->recorder().segment(running.execution->result().segment);
+  CHECK((segment.outcome == Outcome::success && segment.effect_held == true));
+  CHECK(segment.precondition_held == false);
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));  // who minds its precondition is told so
+  CHECK(running.execution->result().reason == Reason::precondition_false);
+  REQUIRE_FALSE(running.execution->begin(running.request({"place", {"cube1", "table", "panda.hand"}})));
+  CHECK(run_to_end(*running.execution, *running.rollout).ok());  // what has something to do does it
+  CHECK(running.rollout->step() > step);
+}
+
+TEST_CASE("what is lost is dropped once: whoever goes on has an empty hand") {
+  Running running;
+  REQUIRE_FALSE(running.execution->begin(running.request(kPick)));
+  REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+  running.rollout->world().apply(operation::Hand{0.08, 20});
+  SkillRequest place = running.request({"place", {"cube1", "cube2", "panda.hand"}});
+  place.mode.refuse = false;
+  REQUIRE_FALSE(running.execution->begin(place));
+  CHECK(run_to_end(*running.execution, *running.rollout).reason == Reason::dropped);
+  CHECK_FALSE(running.rollout->keep);
+  REQUIRE_FALSE(running.execution->begin(place));
+  CHECK(run_to_end(*running.execution, *running.rollout).reason != Reason::dropped);
+}
+
 TEST_CASE("a call that cannot be is an error value, and nothing has changed") {
   Running running;
   const auto before = traces(running);

@@ -82,11 +82,22 @@ TEST_CASE("a part that is let go on the way is dropped") {
   CHECK(result.reason == Reason::dropped);
 }
 
+TEST_CASE("a hand that closes on another thing says on what") {
+  World world(std::make_shared<Scene>(table_scene(3)));
+  const Object& other = *world.scene().object("cube1");
+  REQUIRE(grasp(world, other).status == MotionStatus::done);
+  run(world, *make_hand(0.08, 20, std::nullopt));
+  const MotionResult result = run(world, *make_hand(0, 20, PartRef{world.scene().body_index("cube2"), 0}));
+  CHECK(result.reason == Reason::grasp_missed);
+  CHECK(result.detail == "the fingers touch cube1, not cube2");
+}
+
 TEST_CASE("closing on nothing misses") {
   World world(std::make_shared<Scene>(table_scene(1)));
   const MotionResult result = run(world, *make_hand(0, 20, PartRef{world.scene().body_index("cube1"), 0}));
   CHECK(result.status == MotionStatus::failed);
   CHECK(result.reason == Reason::grasp_missed);
+  CHECK(result.detail == "the hand closed on nothing");
 }
 
 TEST_CASE("the hand opens to where it is told and a wait takes its steps") {
