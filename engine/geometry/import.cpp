@@ -1,11 +1,14 @@
 #include "engine/geometry/import.h"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/error.h"
+#include "engine/geometry/mesh_form.h"
 
 namespace stampede {
 namespace {
@@ -35,6 +38,15 @@ class ScopedFiles : public Assimp::DefaultIOSystem {
   const ImportContext& context_;
   std::string refused_;
 };
+
+// assimp reads some fifty formats, and goes by what a file begins with: here an `.obj` is read as one, or not at all.
+void keep_loaders_of(Assimp::Importer& importer, const std::string& ending) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    std::set<std::string> endings;
+    importer.GetImporter(i)->GetExtensionList(endings);
+    if (!endings.contains(ending.substr(1))) importer.UnregisterLoader(importer.GetImporter(i));
+  }
+}
 
 [[noreturn]] void unsound(const ImportContext& context, const std::string& what) {
   throw Error(context.file.string(), "not a sound mesh: " + what, kMeshCure);
@@ -78,6 +90,8 @@ const aiScene& import_scene(Assimp::Importer& importer, const ImportContext& con
   const std::string where = context.file.string();
   if (!scale.allFinite() || (scale.array() == 0).any())
     throw Error(where, "its scale must be three finite numbers other than 0", "write 0.001 for millimetres");
+  check_form(context.file);
+  keep_loaders_of(importer, ending_of(context.file));
   auto* const files = new ScopedFiles(context);  // the importer's from here on
   importer.SetIOHandler(files);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

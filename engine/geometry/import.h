@@ -12,6 +12,7 @@ namespace stampede {
 
 inline constexpr const char* kMeshCure = "write it again as OBJ, STL, DAE, PLY or GLB with triangles, in metres";
 inline constexpr int kDeepestNode = 256;
+inline constexpr double kFarthest = 1e6;                  // m, of a corner from the root's origin
 inline constexpr std::size_t kMostTriangles = 2'000'000;  // of a file, what is placed twice counted twice
 
 // How a file is read: what it may name, and what it named.

@@ -12,6 +12,7 @@
 #include "engine/geometry/image.h"
 #include "engine/geometry/import.h"
 #include "engine/geometry/mesh.h"
+#include "engine/geometry/mesh_form.h"
 #include "engine/geometry/smooth.h"
 
 namespace stampede {
@@ -21,9 +22,7 @@ using Matrix4 = Eigen::Matrix4d;
 using Picture = std::shared_ptr<const Image>;
 
 bool has_ending(const std::filesystem::path& file, std::initializer_list<std::string_view> endings) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end();
 }
 
 double srgb_from_linear(double x) {  // IEC 61966-2-1
@@ -116,6 +115,9 @@ class Loader {
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
       throw Error(file_.string(),
                   std::string("node '") + node.mName.C_Str() + "' has a coordinate that is not a finite number",
+                  kMeshCure);
+    if (v.cwiseAbs().maxCoeff() > kFarthest)
+      throw Error(file_.string(), std::string("node '") + node.mName.C_Str() + "' has a corner more than 1000 km away",
                   kMeshCure);
     return point;
   }

@@ -2,10 +2,13 @@
 
 #include <assimp/postprocess.h>
 
+#include <fstream>
+
 #include "engine/base/error.h"
 #include "engine/geometry/bytes.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/import.h"
+#include "engine/geometry/mesh_form.h"
 
 namespace stampede {
 namespace {
@@ -37,9 +40,12 @@ void walk(const aiScene& scene, const aiNode& node, const aiMatrix4x4& root_from
 }
 
 void check_finite(const std::filesystem::path& file, const Mesh& mesh) {
-  for (const Vector3& vertex : mesh.vertices)
+  for (const Vector3& vertex : mesh.vertices) {
     if (!vertex.allFinite())
       throw Error(file.string(), "node '" + mesh.node + "' has a coordinate that is not a finite number", kMeshCure);
+    if (vertex.cwiseAbs().maxCoeff() > kFarthest)
+      throw Error(file.string(), "node '" + mesh.node + "' has a corner more than 1000 km away", kMeshCure);
+  }
 }
 
 std::vector<Mesh> read_meshes(const ImportContext& context, const Vector3& scale) {
@@ -71,6 +77,17 @@ Hulls read_hulls(const ImportContext& context, const Vector3& scale, int most_po
 }
 
 }  // namespace
+
+std::string mesh_remark(const std::filesystem::path& file) {
+  if (ending_of(file) != ".dae") return {};
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::size_t{64} << 10, '\0');  // it stands in the file's head
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const std::size_t at = text.find("<up_axis>");
+  if (at == std::string::npos || text.compare(at + 9, 4, "Z_UP") == 0) return {};
+  const std::string axis = text.compare(at + 9, 1, "X") == 0 ? "x" : "y";
+  return "it says that " + axis + " is up, which is ignored as by ROS: z of its numbers is up";
+}
 
 std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& scale) {
   return load_meshes(file, scale, beside(file));

@@ -28,6 +28,10 @@ std::vector<Mesh> load_meshes(const std::filesystem::path& file, const Vector3& 
 // As load_drawn of drawn_mesh.h, for files that may name what lies in the scope.
 std::vector<DrawnMaterial> load_drawn(const std::filesystem::path& file, const Vector3& scale, const FileScope& scope);
 
+// What a reader of the file should know, or nothing: a DAE whose up axis is not z, which is ignored.
+std::string mesh_remark(const std::filesystem::path& file);
+inline constexpr const char* kUpAxisCure = "turn it where it is used: rpy, or <origin rpy>; or export it with z up";
+
 inline constexpr int kHullPoints = 64;  // of a hull, where nobody asks for more
 
 // The corners of each node's convex hull, at most `most_points` of them. Throws Error as load_meshes does, and for a

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/geometry/hull.h"
+#include "engine/model/inertials.h"
 
 namespace stampede {
 namespace {
@@ -130,6 +131,15 @@ std::string part_name_of(std::string_view name) {
   std::string result;
   for (const char c : name) result += c == '.' ? "--" : std::string(1, c);
   return result;
+}
+
+double enclosed_volume(const Part& part) {
+  const bool any =
+      std::any_of(part.shapes.begin(), part.shapes.end(), [](const Shape& shape) { return shape.collides; });
+  double volume = 0;
+  for (const Shape& shape : part.shapes)
+    if (shape.collides || !any) volume += solid(shape).volume;
+  return volume;
 }
 
 void set_uniform_mass(Part& part, double mass) {

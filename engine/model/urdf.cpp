@@ -14,6 +14,8 @@
 
 #include "engine/base/error.h"
 #include "engine/geometry/mesh.h"
+#include "engine/model/inertials.h"
+#include "engine/model/urdf_files.h"
 
 namespace stampede {
 namespace {
@@ -65,6 +67,36 @@ std::string read_text(const std::filesystem::path& file) {
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+// Exporters leave out what they do not know: no mass and no moment are 0, which is put right later.
+bool complete_elements(TiXmlElement& inertial) {
+  bool changed = false;
+  const auto child = [&](const char* name, std::initializer_list<const char*> attributes) {
+    TiXmlElement* element = inertial.FirstChildElement(name);
+    if (element == nullptr) element = inertial.InsertEndChild(TiXmlElement(name))->ToElement();
+    for (const char* attribute : attributes) {
+      if (element->Attribute(attribute) != nullptr) continue;
+      element->SetAttribute(attribute, "0");
+      changed = true;
+    }
+  };
+  child("mass", {"value"});
+  child("inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"});
+  return changed;
+}
+
+std::string with_inertials(TiXmlDocument& xml, std::string text) {
+  bool changed = false;
+  TiXmlElement* robot = xml.FirstChildElement("robot");
+  for (TiXmlElement* link = robot == nullptr ? nullptr : robot->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link"))
+    if (TiXmlElement* inertial = link->FirstChildElement("inertial"); inertial != nullptr)
+      changed |= complete_elements(*inertial);
+  if (!changed) return text;
+  TiXmlPrinter printer;
+  xml.Accept(&printer);
+  return printer.Str();
 }
 
 // Every `<` before a letter, in comments and values too: no reader sees more elements than that.
@@ -132,7 +164,7 @@ urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
   {
     const Capture capture(messages);
     try {
-      model = urdf::parseURDF(text);
+      model = urdf::parseURDF(with_inertials(xml, text));
     } catch (const std::exception& error) {
       messages += error.what();
     }
@@ -161,7 +193,8 @@ class UrdfReader {
         if (!seen_.contains(name))
           fail("link '" + name + "'", "does not hang on the root link '" + model_.getRoot()->name + "'",
                "connect it by a joint, without a cycle");
-    return {std::move(body_), std::move(drawn_)};
+    for (Error& remark : complete_inertials(file_.string(), false, body_.parts)) remarks_.push_back(std::move(remark));
+    return {std::move(body_), std::move(drawn_), std::move(remarks_)};
   }
 
  private:
@@ -233,12 +266,8 @@ class UrdfReader {
   }
 
   void read_inertia(const urdf::Link& link, Part& part) const {
+    if (!link.inertial) return;
     const std::string element = "link '" + link.name + "'";
-    if (!link.inertial) {
-      if (part.parent >= 0 && part.joint.kind != JointKind::fixed)
-        fail(element, "it moves but has no mass", "give it an <inertial> with mass and inertia");
-      return;
-    }
     const urdf::Inertial& source = *link.inertial;
     const Transform part_from_inertia = from(source.origin);
     Matrix3 inertia;
@@ -248,11 +277,9 @@ class UrdfReader {
     part.mass = source.mass;
     part.centre_of_mass = part_from_inertia.translation();
     part.inertia = source.origin.rotation.w == 1.0 ? inertia : Matrix3(rotation * inertia * rotation.transpose());
-    // Positive leading minors (Sylvester): what a solid body has.
-    const bool solid =
-        inertia(0, 0) > 0 && inertia.topLeftCorner<2, 2>().determinant() > 0 && inertia.determinant() > 0;
-    if (!(part.mass > 0) || !solid)
-      fail(element, "its mass must be above 0 and its inertia positive definite", "correct its <inertial>");
+    if (!std::isfinite(part.mass) || !inertia.allFinite() || !part_from_inertia.matrix().allFinite())
+      fail(element, "its mass, inertia and origin must be finite numbers", "correct its <inertial>");
+    if (part.mass < 0) fail(element, "its mass is negative", "correct its <inertial>: kg, 0 or above");
   }
 
   void add_shapes(const urdf::Link& link, const std::string& element, Part& part) {
@@ -285,7 +312,7 @@ class UrdfReader {
     if (c.r == 0 && c.g == 0 && c.b == 0) looks.colour = {1, 1, 1, 1};  // what urdfdom says for no colour at all
     guarded(element, "texture", [&] {
       Texture texture;
-      const std::filesystem::path picture = resolve(name);
+      const std::filesystem::path picture = file_named(name, file_, scope_);
       scope_.check(picture);
       texture.image = std::make_shared<const Image>(load_image(picture));
       looks.texture = drawn_.add(std::filesystem::path(name).filename().string(), texture);
@@ -333,7 +360,9 @@ class UrdfReader {
     const Vector3 scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
     const bool seen = shape.visible;
     guarded(element, "mesh", [&] {
-      const std::filesystem::path file = resolve(mesh.filename);
+      const std::filesystem::path file = file_named(mesh.filename, file_, scope_);
+      if (const std::string remark = mesh_remark(file); !remark.empty() && remarked_.insert(file).second)
+        remarks_.emplace_back(file_.string(), element + ": mesh " + file.string() + ": " + remark, kUpAxisCure);
       if (shape.collides) {
         shape.kind = ShapeKind::hull;
         shape.visible = false;
@@ -348,21 +377,13 @@ class UrdfReader {
     });
   }
 
-  // package://NAME/PATH and file://PATH as ROS writes them; a package is looked for beside the URDF.
-  std::filesystem::path resolve(std::string name) const {
-    if (name.starts_with("file://")) name.erase(0, 7);
-    if (name.starts_with("package://")) {
-      name.erase(0, 10);
-      if (const auto slash = name.find('/'); slash != std::string::npos) name.erase(0, slash + 1);
-    }
-    return file_.parent_path() / name;
-  }
-
   const std::filesystem::path& file_;
   const FileScope& scope_;
   const urdf::ModelInterface& model_;
   Body body_;
   DrawnAssets drawn_;
+  std::vector<Error> remarks_;
+  std::set<std::filesystem::path> remarked_;
   std::set<std::string> seen_;
 };
 

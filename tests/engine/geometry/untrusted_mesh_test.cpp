@@ -49,6 +49,40 @@ TEST_CASE("corners that are not there, text for numbers and endless counts in PL
   CHECK(refused(folder.put("cut.ply", kHeader.substr(0, kHeader.find("end_header")))) != "accepted");
 }
 
+TEST_CASE("what a mesh file counts has to be in it, and its form its ending's, before anybody else reads it") {
+  const TemporaryFolder folder;
+  const auto refuses = [&](const std::string& name, const std::string& text, const std::string& why) {
+    CAPTURE(name, why);
+    CHECK_THAT(refused(folder.put(name, text)), Contains(why));
+  };
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = kHeader + "3 2 0 3\n";
+    return text.replace(text.find(from), from.size(), to);
+  };
+  refuses("a.ply", changed("3 2 0 3", "3 2 0 4"), "face 3 names a corner that is not there; there are 4");
+  refuses("b.ply", changed("3 2 0 3", "3 2 0 -1"), "face 3 names a corner");
+  refuses("c.ply", changed("3 2 0 3", "-3 2 0 3"), "face 3 has a list of a length that cannot be");
+  refuses("d.ply", changed("3 2 0 3", "900000000 2 0 3"), "face 3 has a list of a length that cannot be");
+  refuses("e.ply", changed("3 2 0 3", "3 2 x 3"), "where a number should be");
+  refuses("f.ply", changed("3 2 0 3", "3 2 0"), "ends before the last");
+  refuses("g.ply", changed("property float x", "e y"), "its header has the line 'e y'");
+  refuses("h.ply", changed("element face 4", "element face 2147483648"), "2147483648 of 'face'");
+  refuses("i.ply", changed("element vertex 4", "element vertex -4"), "its header has the line");
+  refuses("j.ply", changed("format ascii", "format braille"), "its header has the line");
+  refuses("k.ply", changed("0 0 1\n", "0 0 nan\n"), "not a finite number");
+  refuses("l.ply", changed("0 0 1\n", "0 0 1e30\n"), "1000 km");
+  refuses("m.ply", "", "it is empty");
+  std::string stl(84 + 50, '\0');
+  stl[80] = '\x02';
+  refuses("n.stl", stl, "it says that it has 2 triangles, and has bytes for 1");
+  refuses("o.stl", "solid", "at least 84 bytes");
+  refuses("p.glb", std::string("glTF\2\0\0\0\xff\xff\xff\0\x10\0\0\0JSON{}", 22), "it says that it has 16777215 bytes");
+  refuses("q.dae", "<!DOCTYPE a [<!ENTITY b 'c'>]><COLLADA/>", "it declares entities");
+  refuses("r.obj", kHeader, "not a readable mesh");  // a PLY by another name
+  refuses("s.3mf", "PK", "mesh files that end in '.3mf' are not read; these are: .obj .stl .dae .ply .gltf .glb");
+  refuses("t", "v 0 0 0\n", "mesh files that end in ''");
+}
+
 TEST_CASE("nodes within nodes, and the same ones many times over") {
   const TemporaryFolder folder;
   CHECK(load_drawn(folder.put("one.gltf", gltf(R"({"mesh":0})", kTriangle, 3))).size() == 1);

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/geometry/mesh.h"
 
 using namespace stampede;
 
@@ -184,8 +185,6 @@ TEST_CASE("bad URDF files say where and what") {
                                           "<visual><geometry><box size='1 1 1'/></geometry><material "
                                           "name='wood'/></visual>"))),
              Contains("link 'a'") && Contains("texture") && Contains("gone.png"));
-  CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b", "") + joint_of("j", "a", "b"))),
-             Contains("link 'b'") && Contains("mass"));
   CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b") + joint_of("j", "a", "b", "floating", ""))),
              Contains("joint 'j'") && Contains("floating"));
   CHECK_THAT(urdf_complaint(robot(link_of("a", "<collision><geometry><box size='1 -1 1'/></geometry></collision>"))),
@@ -197,6 +196,110 @@ TEST_CASE("bad URDF files say where and what") {
                        joint_of("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"))),
              Contains("joint 'j'") && Contains("lower limit"));
   CHECK_THROWS_AS(body_from_urdf("/nowhere/arm.urdf"), Error);
+}
+
+namespace {
+
+std::string inertial(const std::string& mass, const std::string& xx, const std::string& yy, const std::string& zz) {
+  return "<inertial><mass value='" + mass + "'/><inertia ixx='" + xx + "' ixy='0' ixz='0' iyy='" + yy +
+         "' iyz='0' izz='" + zz + "'/></inertial>";
+}
+const std::string kBlock = "<collision><geometry><box size='0.1 0.2 0.3'/></geometry></collision>";
+
+std::string texts(const std::vector<Error>& remarks) {
+  std::string all;
+  for (const Error& remark : remarks) all += remark.message() + "\n";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("inertias as exporters write them are worked out from mass and shape, with a remark that names the link") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& inside, const std::string& type = "revolute") {
+    return read_urdf(
+        folder.write("e.urdf", robot(link_of("a") + link_of("b", inside) + joint_of("j", "a", "b", type))));
+  };
+  const double m = 2, xx = m * (0.04 + 0.09) / 12, zz = m * (0.01 + 0.04) / 12;
+  for (const std::string& one :
+       {inertial("2", "0", "0", "0"), inertial("2", "1", "1", "0"), inertial("2", "1", "1", "-1"),
+        inertial("2", "1", "1", "5"), std::string("<inertial><mass value='2'/></inertial>")}) {
+    const UrdfBody urdf = read(one + kBlock);
+    CAPTURE(one, texts(urdf.remarks));
+    CHECK(urdf.body.parts[1].mass == 2);
+    CHECK(urdf.body.parts[1].inertia(0, 0) == Approx(xx));
+    CHECK(urdf.body.parts[1].inertia(2, 2) == Approx(zz));
+    CHECK_THAT(texts(urdf.remarks), Contains("link 'b': no solid has its inertia: it is worked out from its 2 kg"));
+  }
+  for (const std::string& one : {std::string(), inertial("0", "0", "0", "0"), std::string("<inertial/>")}) {
+    const UrdfBody urdf = read(one + kBlock);
+    CAPTURE(one, texts(urdf.remarks));
+    CHECK(urdf.body.parts[1].mass == Approx(500 * 0.006));
+    CHECK_THAT(texts(urdf.remarks), Contains("link 'b': it moves and has no mass: 3 kg are taken, from its shapes"));
+  }
+  const UrdfBody frame = read("");
+  CHECK(frame.body.parts[1].mass == 0.01);
+  CHECK_THAT(texts(frame.remarks), Contains("as it has no solid shape"));
+  CHECK(read(inertial("2", "1", "2", "3.2") + kBlock).remarks.empty());  // measured, or rounded
+  CHECK(read(inertial("0", "0", "0", "0"), "fixed").remarks.empty());     // a flange
+  const UrdfBody still = read(inertial("2", "0", "0", "0") + kBlock, "fixed");
+  CHECK_THAT(texts(still.remarks), Contains("which is ignored: it cannot move"));
+  CHECK(read("", "fixed").body.parts[1].mass == 0);
+  for (const std::string& one :
+       {inertial("-1", "1", "1", "1"), inertial("nan", "1", "1", "1"), inertial("1", "inf", "1", "1")})
+    CHECK_THAT(urdf_complaint(robot(link_of("a") + link_of("b", one) + joint_of("j", "a", "b"))), Contains("bad.urdf"));
+}
+
+TEST_CASE("meshes of packages are found above the URDF, inside the roots only") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  const std::string tetra = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const auto put = [&](const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder.write("x", "").parent_path() / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+    return path;
+  };
+  const std::filesystem::path root = folder.write("x", "").parent_path();
+  const auto reads = [&](const std::string& urdf, const std::string& mesh) {
+    const auto file =
+        put(urdf, robot(link_of("a", "<collision><geometry><mesh filename='" + mesh + "'/></geometry></collision>")));
+    try {
+      return std::to_string(read_urdf(file, FileScope({root})).body.parts[0].shapes.size());
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  put("arm_description/meshes/visual/a b.obj", tetra);
+  CHECK(reads("arm_description/urdf/arm.urdf", "package://arm_description/meshes/visual/a b.obj") == "1");
+  CHECK(reads("arm_description/urdf/arm.urdf", "package://arm_description/meshes/visual/a%20b.obj") == "1");
+  CHECK(reads("arm_description/urdf/arm.urdf", "../meshes/visual/a%20b.obj") == "1");
+  CHECK(reads("arm_description/urdf/arm.urdf", "..\\meshes\\visual\\a b.obj") == "1");
+  CHECK(reads("arm_description/urdf/arm.urdf", "file://" + (root / "arm_description/meshes/visual/a b.obj").string()) ==
+        "1");
+  CHECK(reads("arm_description/urdf/arm.urdf", "package://other/meshes/visual/a b.obj") ==
+        "1");  // urdf/ beside meshes/
+  put("ros/hand/package.xml", "<package><name> hand_model </name></package>");
+  put("ros/hand/m/h.obj", tetra);
+  CHECK(reads("ros/hand/deep/down/h.urdf", "package://hand_model/m/h.obj") == "1");
+  CHECK(reads("ros/arm/urdf/a.urdf", "package://hand/m/h.obj") == "1");  // a package beside
+  CHECK_THAT(
+      reads("ros/arm/urdf/a.urdf", "package://hand/m/gone.obj"),
+      Contains("link 'a'") && Contains("package 'hand'") && Contains("m/gone.obj") && Contains("inside the roots"));
+  CHECK_THAT(reads("ros/arm/urdf/a.urdf", "package://hand"), Contains("names no file of a package"));
+  CHECK_THAT(reads("ros/arm/urdf/a.urdf", "https://host/h.obj"), Contains("'https://' are not fetched"));
+  CHECK_THAT(reads("ros/arm/urdf/a.urdf", "file:///etc/hosts.obj"), Contains("outside the roots"));
+  CHECK_THAT(reads("ros/arm/urdf/a.urdf", "package://hand/../../../../../../../../etc/passwd"), Contains("outside"));
+}
+
+TEST_CASE("a DAE whose y axis is up says so, and is read as it is written") {
+  const TemporaryFolder folder;
+  for (const std::string axis : {"Y_UP", "X_UP"})
+    CHECK(mesh_remark(folder.write("a.dae", "<COLLADA><asset><up_axis>" + axis + "</up_axis></asset></COLLADA>"))
+              .find("which is ignored as by ROS") != std::string::npos);
+  CHECK(mesh_remark(folder.write("a.dae", "<COLLADA><asset><up_axis>Z_UP</up_axis></asset></COLLADA>")).empty());
+  CHECK(mesh_remark(folder.write("a.obj", "<up_axis>Y_UP")).empty());
 }
 
 TEST_CASE("a URDF is no format, and has its limits") {
