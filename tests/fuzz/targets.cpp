@@ -158,6 +158,10 @@ const std::vector<Target>& targets() {
       {"sql", ask},
       {"catalogue", read_catalogue},
       of_file("ply", "fuzzed.ply", [](const fs::path& file) { return load_hulls(file); }),
+      of_file("stl", "fuzzed.stl", [](const fs::path& file) { return load_hulls(file); }),
+      of_file("dae", "fuzzed.dae", [](const fs::path& file) { return load_hulls(file); }),
+      of_file("gltf", "fuzzed.gltf", [](const fs::path& file) { return load_hulls(file); }),
+      of_file("glb", "fuzzed.glb", [](const fs::path& file) { return load_hulls(file); }),
       of_file("obj", "fuzzed.obj", [](const fs::path& file) { return load_hulls(file); })};
   return all;
 }
