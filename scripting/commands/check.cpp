@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <ostream>
-#include <set>
 
 #include "db/table_text.h"
 #include "scripting/commands/check_built.h"
@@ -19,46 +18,30 @@
 namespace stampede::program {
 namespace {
 
-// The tasks without mistakes, where what all of them share has none; else nothing.
-std::shared_ptr<const Library> usable_part(const Arguments& arguments) {
-  try {
-    return load_usable_library(arguments);
-  } catch (const LibraryError&) {
-    return nullptr;
-  }
+// How many variations of a task are built: all that a person would wait for.
+constexpr std::size_t kBuiltOfNamed = 240, kBuiltOfAll = 2;
+
+// All files of these names, also those with mistakes.
+std::vector<const ScriptFile*> named_files(const Library& library, const std::vector<std::string>& names) {
+  std::vector<const ScriptFile*> files = library.all_files();
+  for (const ScriptFile& file : library.left_out()) files.push_back(&file);
+  if (names.empty()) return files;
+  std::erase_if(files, [&](const ScriptFile* file) { return std::ranges::find(names, file->name) == names.end(); });
+  return files;
 }
 
-bool is_about(const Error& error, const std::string& path) {
-  return error.where() == path || error.where().starts_with(path + ":");
-}
-
-// Files of these names, and the modules that they require.
-std::set<std::string> paths_of(const Library& library, const std::vector<std::string>& names) {
-  std::vector<const ScriptFile*> files;
-  for (const ScriptFile* file : library.all_files())
-    if (std::find(names.begin(), names.end(), file->name) != names.end()) files.push_back(file);
-  for (std::size_t i = 0; i < files.size(); ++i)
-    for (const ScriptFile* module : library.files(DefinitionKind::module)) {
-      std::string required = module->shown_path.substr(0, module->shown_path.rfind('.'));
-      std::replace(required.begin(), required.end(), '/', '.');
-      const bool named = files[i]->source.find('"' + required + '"') != std::string::npos ||
-                         files[i]->source.find("'" + required + "'") != std::string::npos;
-      if (named && std::find(files.begin(), files.end(), module) == files.end()) files.push_back(module);
-    }
-  std::set<std::string> paths;
-  for (const ScriptFile* file : files) paths.insert(file->shown_path);
-  return paths;
-}
-
-// NAMES given: only complaints about what these files are made of.
+// NAMES given: only complaints about these files, about what they use, and about no file at all.
 std::vector<Error> wanted_complaints(const Library& library, const std::vector<Error>& all,
                                      const std::vector<std::string>& names) {
   if (names.empty()) return all;
-  const std::set<std::string> paths = paths_of(library, names);
+  const std::vector<const ScriptFile*> used = library.used_by(named_files(library, names));
+  const std::vector<const ScriptFile*> known = named_files(library, {});
+  const auto about = [](const std::vector<const ScriptFile*>& files, const Error& error) {
+    return std::any_of(files.begin(), files.end(), [&](const ScriptFile* file) { return is_about(error, *file); });
+  };
   std::vector<Error> wanted;
   for (const Error& error : all) {
-    bool meant =
-        std::any_of(paths.begin(), paths.end(), [&](const std::string& path) { return is_about(error, path); });
+    bool meant = about(used, error) || !about(known, error);
     for (const std::string& name : names) meant = meant || error.where().find("/" + name + ".lua") != std::string::npos;
     if (meant) wanted.push_back(error);
   }
@@ -214,11 +197,23 @@ std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& libra
 
 ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
-  const auto library = Library::load(roots_of(arguments), all);
-  if (std::shared_ptr<const Library> usable = all.empty() ? library : usable_part(arguments)) check_built(usable, all);
   const std::vector<std::string>& names = arguments.list("NAMES");
+  auto library = Library::load(roots_of(arguments), all);
   check_names(*library, names, all);
+  bool usable = all.empty();
+  if (!usable) {
+    try {
+      library = load_usable_library(arguments);
+      usable = true;
+    } catch (const LibraryError&) {  // in what all files share: said already
+    }
+  }
   std::vector<Error> complaints = wanted_complaints(*library, all, names);
+  if (usable) {
+    BuiltCheck built{named_files(*library, names), names.empty() ? kBuiltOfAll : kBuiltOfNamed, console.stop};
+    std::erase_if(built.files, [&](const ScriptFile* file) { return library->file(file->kind, file->name) != file; });
+    for (const Error& remark : check_built(library, built, complaints)) console.err << remark.what() << "\n";
+  }
   if (complaints.empty()) complaints = sentence_mistakes(library, names);
   const bool physics = arguments.flag("--physics");
   if (!physics || !complaints.empty()) {
@@ -235,7 +230,9 @@ CommandRow check_command() {
   return {
       "check",
       "Check scripts, and with --physics that tasks can be done",
-      "Reads every file and reports every mistake in one run, each with its place, the complaint and the cure. "
+      "Reads every file, builds every object, robot, world and task as a run would, and reports every mistake at once, "
+      "each with its place, the complaint and the cure; remarks on what is no mistake go to stderr. With NAMES only "
+      "what these files use counts, and tasks are built in all their variations, up to 240. "
       "With --physics it settles the start of each task, verifies that init holds and the goal does not, plans, "
       "runs, and prints for each variation that was met: the success rate, undone tries, the mean length, the slowest "
       "step, and the commonest reason why a try or an episode failed. With --why it also tells how often each step "

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <set>
 
+#include "engine/model/kinematics.h"
 #include "engine/motion/looked.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/source_lines.h"
+#include "scripting/runtime/assets.h"
 #include "scripting/runtime/episode_scripts.h"
 #include "scripting/runtime/object_scene.h"
+#include "scripting/runtime/stage.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::program {
@@ -21,18 +24,33 @@ std::string place_in(const ScriptFile& file, const std::string& field) {
   return fmt::format("{}:{}: {}", file.shown_path, line_of(field_lines(file.source), field), field);
 }
 
-// `worlds/objects/stick.lua: tip: …` with its line. What has gone through Lua is all message.
-Error with_line(const Library& library, const Error& error) {
+// The field as its own file has it: `objects.stick.tip` of a task's stick is `tip` of stick.lua.
+std::string field_in(const ScriptFile& file, std::string field) {
+  if (field.starts_with(file.name + ".")) field.erase(0, file.name.size() + 1);  // an object by itself
+  if (file.kind != DefinitionKind::object) return field;
+  for (const char* list : {"objects.", "fixtures."})
+    if (const std::size_t dot = field.find('.', std::string_view(list).size());
+        field.starts_with(list) && dot != std::string::npos)
+      return field.substr(dot + 1);
+  return field;
+}
+
+// `worlds/objects/stick.lua: tip: …` with its line. What has gone through Lua is all message. What has no place of a
+// file that can be opened is said to be of `otherwise`.
+Error with_line(const Library& library, const Error& error, const ScriptFile* otherwise) {
   const std::string text = error.where().empty() ? error.message() : error.where() + ": " + error.message();
   for (const ScriptFile* file : library.all_files()) {
+    if (is_about(error, *file) && error.where() != file->shown_path) return error;
     const std::string start = file->shown_path + ": ";
     const std::size_t end = text.find(": ", start.size());
     if (!text.starts_with(start) || end == std::string::npos) continue;
-    std::string field = text.substr(start.size(), end - start.size());
-    if (field.starts_with(file->name + ".")) field.erase(0, file->name.size() + 1);  // an object by itself
+    const std::string field = field_in(*file, text.substr(start.size(), end - start.size()));
+    if (field.find(' ') != std::string::npos) return error;  // no field
     return Error(place_in(*file, field), text.substr(end + 2), error.hint());
   }
-  return error;
+  if (otherwise == nullptr || text.starts_with("/") || text.starts_with("worlds/") || text.starts_with("skills/"))
+    return error;
+  return Error(otherwise->shown_path, text, error.hint());
 }
 
 // All but the two stand far away, each by itself.
@@ -133,27 +151,135 @@ void check_fits(EpisodeScripts& scripts, const Task& task, const ScriptFile& fil
     }
 }
 
-}  // namespace
+// All that a run would build of these files, and in the way in which it would.
+class Builds {
+ public:
+  Builds(std::shared_ptr<const Library> library, const BuiltCheck& asked, std::vector<Error>& complaints)
+      : library_(std::move(library)),
+        asked_(asked),
+        complaints_(complaints),
+        assets_(std::make_shared<Assets>(FileScope(library_->roots().folders))) {}
 
-void check_built(const std::shared_ptr<const Library>& library, std::vector<Error>& complaints) {
-  std::set<std::string> said;
-  const auto guarded = [&](const auto& work) {
+  // As people call these files: with their lines.
+  std::vector<Error> remarks() const {
+    std::vector<Error> all;
+    for (const Error& one : assets_->remarks()) all.push_back(with_line(*library_, one, nullptr));
+    return all;
+  }
+
+  void check(const ScriptFile& file) {
+    switch (file.kind) {
+      case DefinitionKind::object:
+        return guarded(&file, [&] { simulate(object_scene(library_, file.name, assets_)); });
+      case DefinitionKind::robot:
+        return guarded(&file, [&] { simulate(stage_of(library_, robot_alone(file), assets_).scene); });
+      case DefinitionKind::world:
+        return guarded(&file, [&] { simulate(world_scene(library_, file.name, assets_)); });
+      case DefinitionKind::task:
+        return guarded(&file, [&] { check_task(task_info(*library_, file.name), file); });
+      default:
+        return;  // only tasks build what these speak of
+    }
+  }
+
+ private:
+  // Robots that are named by no task are built too: what `import` and recordings ask for.
+  static StageRequest robot_alone(const ScriptFile& file) {
+    StageRequest request;
+    request.robot = file.name;
+    request.where = file.shown_path;
+    return request;
+  }
+
+  // The least that a world has to have.
+  static Robot some_robot() {
+    Robot robot;
+    Part link;
+    link.parent = 0;
+    link.mass = 1;
+    link.inertia = Matrix3::Identity();
+    link.joint.kind = JointKind::hinge;
+    link.joint.lower = -1;
+    link.joint.upper = 1;
+    robot.name = "none";
+    robot.body.parts = {Part{}, link};
+    robot.arm = {1};
+    robot.limits = {{-1, 1, 1, 1, 1, 1}};
+    robot.home = {0};
+    robot.tip_part = 1;
+    return robot;
+  }
+
+  template <typename Work>
+  void guarded(const ScriptFile* file, const Work& work) {
     try {
       work();
-    } catch (const LibraryError&) {  // said already
+    } catch (const LibraryError& all) {
+      for (const Error& error : all.errors()) add(error);
     } catch (const Error& error) {
-      if (said.insert(error.what()).second) complaints.push_back(with_line(*library, error));
+      add(with_line(*library_, error, file));
     }
-  };
-  for (const ScriptFile* file : library->files(DefinitionKind::object))
-    if (field_lines(file->source).contains("tip")) guarded([&] { object_scene(library, file->name); });
-  for (const ScriptFile* file : library->files(DefinitionKind::task))
-    guarded([&] {
-      const Library::TaskInfo& task = task_info(*library, file->name);
-      const std::string variation = task.variation_texts.empty() ? "" : task.variation_texts.front();
-      EpisodeScripts scripts(library, task.name, variation, 0);
-      check_fits(scripts, scripts.task()(0), *file, complaints);
-    });
+  }
+
+  void add(const Error& error) {
+    const auto same = [&](const Error& other) { return std::string_view(other.what()) == error.what(); };
+    if (std::none_of(complaints_.begin(), complaints_.end(), same)) complaints_.push_back(error);
+  }
+
+  // Bodies, joints and motors as an episode has them. What is wrong is of the file that describes the thing.
+  void simulate(Scene scene) {
+    const bool lone = scene.robot.body.parts.empty();  // an object by itself
+    if (lone) scene.robot = some_robot();
+    const auto shared = std::make_shared<const Scene>(std::move(scene));
+    try {
+      const World world(shared);
+      if (!lone) const Arm arm(shared->robot);
+    } catch (const Error& error) {
+      throw placed(*shared, error);
+    }
+  }
+
+  Error placed(const Scene& scene, const Error& error) const {
+    const ScriptFile* file = library_->file(DefinitionKind::robot, scene.robot.name);
+    if (error.where() != scene.robot.name) {
+      const auto of_body = [&](const Object& object) { return error.where().starts_with(object.body); };
+      const auto object = std::find_if(scene.objects.begin(), scene.objects.end(), of_body);
+      if (object == scene.objects.end()) return error;
+      file = library_->file(DefinitionKind::object, object->class_name);
+    }
+    return file == nullptr ? error : Error(file->shown_path, error.message(), error.hint());
+  }
+
+  void check_task(const Library::TaskInfo& task, const ScriptFile& file) {
+    const std::size_t count = std::max<std::size_t>(task.variation_texts.size(), 1);
+    const std::size_t stride = (count + asked_.most_variations - 1) / asked_.most_variations;
+    const std::size_t before = complaints_.size();
+    for (std::size_t i = 0; i < count && complaints_.size() == before; i += stride) {
+      if (asked_.stop != nullptr && *asked_.stop) return;
+      const std::string variation = task.variation_texts.empty() ? "" : task.variation_texts[i];
+      EpisodeScripts scripts(library_, task.name, variation, 0, 0, assets_);
+      const Task drawn = scripts.task()(0);
+      if (i == 0) check_fits(scripts, drawn, file, complaints_);
+      if (i == 0) simulate(drawn.scene);
+    }
+  }
+
+  std::shared_ptr<const Library> library_;
+  const BuiltCheck& asked_;
+  std::vector<Error>& complaints_;
+  std::shared_ptr<Assets> assets_;
+};
+
+}  // namespace
+
+std::vector<Error> check_built(const std::shared_ptr<const Library>& library, const BuiltCheck& asked,
+                               std::vector<Error>& complaints) {
+  Builds builds(library, asked, complaints);
+  for (const ScriptFile* file : asked.files) {
+    if (asked.stop != nullptr && *asked.stop) break;
+    builds.check(*file);
+  }
+  return builds.remarks();
 }
 
 }  // namespace stampede::program

@@ -19,13 +19,23 @@ std::pair<std::string, int> place_of(const Error& error) {
 
 }  // namespace
 
-LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints)
+LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints,
+                               const std::vector<ScriptFile>& left_out)
     : complaints_(complaints), library_(std::make_shared<Library>()) {
   library_->roots_ = roots;
+  for (const ScriptFile& file : left_out) left_out_.push_back(file.shown_path);
 }
 
 std::shared_ptr<Library> LibraryBuilder::build() {
   library_->files_ = find_files(library_->roots_, complaints_);
+  std::erase_if(library_->files_, [&](const ScriptFile& file) {
+    return std::find(left_out_.begin(), left_out_.end(), file.shown_path) != left_out_.end();
+  });
+  std::erase_if(complaints_, [&](const Error& error) {  // said when they were read first
+    return std::any_of(left_out_.begin(), left_out_.end(), [&](const std::string& path) {
+      return error.where().substr(0, error.where().find(':')) == path;
+    });
+  });
   check_names();
   read_definitions();
   read_types();
@@ -56,7 +66,7 @@ void LibraryBuilder::check_names() {
 void LibraryBuilder::read_definitions() {
   for (const ScriptFile& file : library_->files_) {
     if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::module || file.bytecode.empty()) continue;
-    guarded([&] {
+    guarded_in(file, [&] {
       DefinitionState state(library_, kCheckLimits);
       state.push(file.kind, file.name);
       Definition definition{&file, value_as_written(state.state(), -1, file.shown_path), field_lines(file.source)};
@@ -93,6 +103,13 @@ Complain LibraryBuilder::complainer(const Definition& definition) {
   return [this, &definition](const std::string& path, const std::string& what, const std::string& hint) {
     complain(definition, path, what, hint);
   };
+}
+
+Error LibraryBuilder::placed_in(const ScriptFile& file, const Error& error) const {
+  const auto& files = library_->files_;
+  if (std::any_of(files.begin(), files.end(), [&](const ScriptFile& one) { return is_about(error, one); }))
+    return error;
+  return Error(file.shown_path, (error.where().empty() ? "" : error.where() + ": ") + error.message(), error.hint());
 }
 
 void LibraryBuilder::add(const Error& error) {

@@ -36,7 +36,8 @@ using SceneObjects = std::map<std::string, SceneObject>;
 
 class LibraryBuilder {
  public:
-  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints);
+  // `left_out`: files that are read as if they were not there.
+  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, const std::vector<ScriptFile>& left_out = {});
   std::shared_ptr<Library> build();
 
  private:
@@ -65,6 +66,16 @@ class LibraryBuilder {
       return false;
     }
   }
+  // As guarded; what has no place of a file's is said to be of this one.
+  template <typename Work>
+  void guarded_in(const ScriptFile& file, const Work& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      add(placed_in(file, error));
+    }
+  }
+  Error placed_in(const ScriptFile& file, const Error& error) const;
   void add(const Error& error);
 
   // check_predicates.cpp
@@ -135,6 +146,7 @@ class LibraryBuilder {
   void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 
   std::vector<Error>& complaints_;
+  std::vector<std::string> left_out_;  // as shown
   std::shared_ptr<Library> library_;
   std::map<DefinitionKind, Definitions> definitions_;
   std::set<std::string> attributes_;

@@ -42,7 +42,7 @@ void collect_variables(const Value& node, std::vector<std::string>& names) {
 
 void LibraryBuilder::read_tasks() {
   for (const auto& [name, definition] : of(DefinitionKind::task)) {
-    guarded([&, &task = definition] { read_task(task); });
+    guarded_in(*definition.file, [&, &task = definition] { read_task(task); });
   }
 }
 

@@ -96,8 +96,15 @@ void read_file(const fs::path& root, const fs::path& path, std::map<std::string,
   try {
     file.bytecode = Sandbox::compile(file.source, file.shown_path);
   } catch (const Error& error) {
-    complaints.push_back(error);
+    if (is_about(error, file))
+      complaints.push_back(error);
+    else  // Lua's own limits have no place
+      complaints.emplace_back(file.shown_path, error.message(),
+                              error.message() == "C stack overflow"
+                                  ? "its brackets and blocks are nested too deep: at most 200"
+                                  : error.hint());
   }
+  file.replaces = files.contains(file.shown_path);
   files[file.shown_path] = std::move(file);
 }
 

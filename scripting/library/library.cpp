@@ -14,13 +14,12 @@ std::string all_texts(const std::vector<Error>& errors) {
   return text;
 }
 
-// Its place is the file, or a line of it.
+}  // namespace
+
 bool is_about(const Error& error, const ScriptFile& file) {
   return error.where().starts_with(file.shown_path) &&
          (error.where().size() == file.shown_path.size() || error.where()[file.shown_path.size()] == ':');
 }
-
-}  // namespace
 
 LibraryError::LibraryError(std::vector<Error> errors) : Error({}, all_texts(errors)), errors_(std::move(errors)) {}
 
@@ -35,30 +34,54 @@ std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Err
   return LibraryBuilder(roots, complaints).build();
 }
 
+namespace {
+
+bool is_shared(const ScriptFile& file) {
+  return file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.replaces;
+}
+
+}  // namespace
+
+// Reads again without what has mistakes, until what is left has none but in tasks: each round finds who needed what the
+// rounds before left out.
 std::shared_ptr<const Library> Library::load_usable(const Roots& roots) {
-  std::vector<Error> complaints;
-  const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints).build();
-  const auto own = [&](const Error& error) {  // of a file that a task may do without
-    for (const ScriptFile& file : library->files_) {
-      const bool shared = file.kind == DefinitionKind::skill || file.kind == DefinitionKind::predicate ||
-                          file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours ||
-                          file.kind == DefinitionKind::module;
-      if (!shared && is_about(error, file)) return true;
+  std::vector<ScriptFile> left_out;
+  std::vector<std::vector<Error>> rounds;
+  for (;;) {
+    std::vector<Error> complaints;
+    const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints, left_out).build();
+    const std::size_t before = left_out.size();
+    std::vector<Error> shared;
+    for (const Error& error : complaints) {
+      const auto& files = library->files_;
+      const auto file = std::find_if(files.begin(), files.end(), [&](const auto& one) { return is_about(error, one); });
+      if (file == files.end() || is_shared(*file)) {
+        shared.push_back(error);
+      } else if (file->kind != DefinitionKind::task &&
+                 std::none_of(left_out.begin(), left_out.end(),
+                              [&](const ScriptFile& one) { return one.shown_path == file->shown_path; })) {
+        left_out.push_back(*file);
+      }
     }
-    return false;
-  };
-  if (!std::all_of(complaints.begin(), complaints.end(), own)) throw LibraryError(std::move(complaints));
-  library->complaints_ = std::move(complaints);
-  return library;
+    if (!shared.empty()) throw LibraryError(std::move(shared));
+    rounds.push_back(std::move(complaints));
+    if (left_out.size() > before) continue;
+    library->left_out_ = std::move(left_out);
+    library->complaints_ = std::move(rounds);
+    return library;
+  }
 }
 
 void Library::require_sound(const std::vector<const ScriptFile*>& files) const {
-  std::vector<Error> found;
-  for (const Error& error : complaints_) {
-    const auto about = [&](const ScriptFile* file) { return is_about(error, *file); };
-    if (std::any_of(files.begin(), files.end(), about)) found.push_back(error);
+  if (std::all_of(complaints_.begin(), complaints_.end(), [](const auto& round) { return round.empty(); })) return;
+  const std::vector<const ScriptFile*> used = used_by(files);
+  for (const std::vector<Error>& round : complaints_) {
+    std::vector<Error> found;
+    for (const Error& error : round)
+      if (std::any_of(used.begin(), used.end(), [&](const ScriptFile* file) { return is_about(error, *file); }))
+        found.push_back(error);
+    if (!found.empty()) throw LibraryError(std::move(found));
   }
-  if (!found.empty()) throw LibraryError(std::move(found));
 }
 
 const ScriptFile* Library::file(DefinitionKind kind, std::string_view name) const {

@@ -29,7 +29,11 @@ struct ScriptFile {
   std::string shown_path;   // relative to its root, for messages and catalogues
   std::string description;  // its first comment line
   std::string source, bytecode, hash;
+  bool replaces = false;  // a file of an earlier root
 };
+
+// Its place is the file, or a line of it.
+bool is_about(const Error& error, const ScriptFile& file);
 
 // Every complaint of a file set at once, sorted by file and line.
 class LibraryError : public Error {
@@ -54,11 +58,15 @@ class Library {
   // As load, but complaints are returned and the sound files kept (for `stampede check`).
   static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints);
 
-  // As load, but a complaint about a task, world, object or robot is only thrown at those who use that file: see
-  // require_sound. What every task shares (skills, predicates, types, colours, modules) must be right.
+  // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see
+  // require_sound. What every task shares must be right: types, colours, and what replaces a file of an earlier root.
   static std::shared_ptr<const Library> load_usable(const Roots& roots);
-  // Throws LibraryError with the complaints about these files, if there are any.
+  // Throws LibraryError with the complaints about these files and what they use, if there are any.
   void require_sound(const std::vector<const ScriptFile*>& files) const;
+  // These files and those that they name, and so on: objects, worlds, robots, predicates, skills, modules. Of a task
+  // without steps also skills that were left out and that alone could make true what the task speaks of.
+  std::vector<const ScriptFile*> used_by(const std::vector<const ScriptFile*>& files) const;
+  const std::vector<ScriptFile>& left_out() const { return left_out_; }
 
   const Roots& roots() const { return roots_; }
   const ScriptFile* file(DefinitionKind kind, std::string_view name) const;
@@ -92,7 +100,8 @@ class Library {
   friend class LibraryBuilder;
   Roots roots_;
   std::vector<ScriptFile> files_;
-  std::vector<Error> complaints_;  // about files that not every task uses
+  std::vector<ScriptFile> left_out_;            // have mistakes
+  std::vector<std::vector<Error>> complaints_;  // about them and about tasks; first causes, then what comes of them
   Domain domain_;
   std::map<std::vector<std::string>, Domain> domains_;  // by TaskInfo::skills, where there are some
   std::map<std::string, PredicateTraits> predicate_traits_;

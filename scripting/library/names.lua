@@ -332,6 +332,7 @@
 ---| "safe"
 ---| "saucepan"
 ---| "saucepan_lid"
+---| "serving_tray"
 ---| "shape_sorter"
 ---| "shoe"
 ---| "sliding_cabinet"

@@ -1,5 +1,6 @@
 #include "scripting/library/source_lines.h"
 
+#include <algorithm>
 #include <cctype>
 #include <vector>
 
@@ -10,10 +11,12 @@ class Scanner {
  public:
   explicit Scanner(std::string_view source) : source_(source) {}
 
-  std::map<std::string, int> lines() {
+  void scan() {
     while (at_ < source_.size()) step();
-    return std::move(lines_);
   }
+
+  std::map<std::string, int> lines_;
+  Mentions mentions_;
 
  private:
   char peek(std::size_t ahead = 0) const { return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0'; }
@@ -31,16 +34,19 @@ class Scanner {
     const std::string close = "]" + std::string(level, '=') + "]";
     const std::size_t end = source_.find(close, at_);
     const std::size_t stop = end == std::string_view::npos ? source_.size() : end + close.size();
+    if (!comment_) mentions_.texts.emplace(source_.substr(at_ + close.size(), end - at_ - close.size()));
     while (at_ < stop) advance();
     return true;
   }
 
   void text(char quote) {
     advance();
+    const std::size_t start = at_;
     while (at_ < source_.size() && peek() != quote && peek() != '\n') {
       if (peek() == '\\') advance();
       advance();
     }
+    mentions_.texts.emplace(source_.substr(start, at_ - start));
     advance();
   }
 
@@ -49,6 +55,9 @@ class Scanner {
     while (std::isalnum(static_cast<unsigned char>(peek())) != 0 || peek() == '_') ++at_;
     last_word_ = source_.substr(start, at_ - start);
     word_line_ = line_;
+    if (before_dot_ == "is" || before_dot_ == "is_not") mentions_.after_is.emplace(last_word_);
+    if (before_dot_ == "act") mentions_.after_act.emplace(last_word_);
+    before_dot_ = {};
     if (last_word_ == "return" && depth_ == 0) lines_[""] = line_;
   }
 
@@ -65,9 +74,11 @@ class Scanner {
     const char c = peek();
     if (c == '-' && peek(1) == '-') {
       at_ += 2;
+      comment_ = true;
       if (!(peek() == '[' && long_bracket())) {
         while (at_ < source_.size() && peek() != '\n') ++at_;
       }
+      comment_ = false;
     } else if (c == '"' || c == '\'') {
       text(c);
     } else if (c == '[' && (peek(1) == '[' || peek(1) == '=')) {
@@ -94,6 +105,7 @@ class Scanner {
       advance();
       return;  // `name =` has space between
     } else {
+      before_dot_ = c == '.' ? last_word_ : std::string_view{};
       advance();
     }
     last_word_ = {};
@@ -102,15 +114,52 @@ class Scanner {
   std::string_view source_;
   std::size_t at_ = 0;
   int line_ = 1, word_line_ = 1, depth_ = 0;
-  std::string_view last_word_;
+  bool comment_ = false;
+  std::string_view last_word_, before_dot_;
   std::string pending_;            // the key whose value begins
   std::vector<std::string> keys_;  // of the tables around
-  std::map<std::string, int> lines_;
 };
 
 }  // namespace
 
-std::map<std::string, int> field_lines(std::string_view source) { return Scanner(source).lines(); }
+std::map<std::string, int> field_lines(std::string_view source) {
+  Scanner scanner(source);
+  scanner.scan();
+  return std::move(scanner.lines_);
+}
+
+Mentions mentions_in(std::string_view source) {
+  Scanner scanner(source);
+  scanner.scan();
+  for (const auto& [path, line] : scanner.lines_) scanner.mentions_.fields.insert(path);
+  return std::move(scanner.mentions_);
+}
+
+int line_of_atom(std::string_view source, std::string_view predicate, const std::vector<std::string>& arguments) {
+  const std::string name(predicate);
+  const auto speaks = [&](std::string_view text) {
+    for (const std::string& form : {"is." + name + "(", "is_not." + name + "(", "(" + name + " "})
+      if (text.find(form) != std::string_view::npos) return true;
+    return false;
+  };
+  int line = 0, found = 0;
+  std::ptrdiff_t most = -1;
+  while (!source.empty()) {
+    const std::size_t end = std::min(source.find('\n'), source.size());
+    const std::string_view text = source.substr(0, end);
+    source.remove_prefix(std::min(end + 1, source.size()));
+    ++line;
+    if (!speaks(text)) continue;
+    const auto named = std::count_if(arguments.begin(), arguments.end(), [&](const std::string& argument) {
+      const std::string group = argument.substr(0, argument.find_last_not_of("0123456789") + 1) + "*";
+      return text.find("\"" + argument + "\"") != std::string_view::npos || text.find(group) != std::string_view::npos;
+    });
+    if (named <= most) continue;
+    most = named;
+    found = line;
+  }
+  return found;
+}
 
 int line_of(const std::map<std::string, int>& lines, std::string path) {
   for (;;) {

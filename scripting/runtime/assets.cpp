@@ -1,5 +1,6 @@
 #include "scripting/runtime/assets.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "engine/base/error.h"
@@ -31,13 +32,17 @@ const Kept& kept(std::map<Key, Kept>& map, const Key& key, const Value& where, c
 const Assets::Drawn& Assets::drawn(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
   return kept(drawn_, key_of(file, scale), where, [&] {
     Drawn drawn;
+    if (const std::string text = mesh_remark(file); !text.empty()) remark({file.string(), text, kUpAxisCure});
     drawn.pieces = add_drawn(drawn.assets, file.filename().string(), load_drawn(file, scale, scope_));
     return drawn;
   });
 }
 
 const Assets::Hulls& Assets::hulls(const std::filesystem::path& file, const Vector3& scale, const Value& where) {
-  return kept(hulls_, key_of(file, scale), where, [&] { return load_hulls(file, scale, kHullPoints, scope_); });
+  return kept(hulls_, key_of(file, scale), where, [&] {
+    if (const std::string text = mesh_remark(file); !text.empty()) remark({file.string(), text, kUpAxisCure});
+    return load_hulls(file, scale, kHullPoints, scope_);
+  });
 }
 
 std::shared_ptr<const Image> Assets::image(const std::filesystem::path& file, const Value& where) {
@@ -48,8 +53,15 @@ std::shared_ptr<const Image> Assets::image(const std::filesystem::path& file, co
 }
 
 const UrdfBody& Assets::urdf(const std::filesystem::path& file) {
-  const auto found = urdfs_.find(file);
-  return found != urdfs_.end() ? found->second : urdfs_.emplace(file, read_urdf(file, scope_)).first->second;
+  if (const auto found = urdfs_.find(file); found != urdfs_.end()) return found->second;
+  const UrdfBody& read = urdfs_.emplace(file, read_urdf(file, scope_)).first->second;
+  for (const Error& one : read.remarks) remark(one);
+  return read;
+}
+
+void Assets::remark(const Error& remark) {
+  const auto same = [&](const Error& other) { return std::string_view(other.what()) == remark.what(); };
+  if (std::none_of(remarks_.begin(), remarks_.end(), same)) remarks_.push_back(remark);
 }
 
 }  // namespace stampede

@@ -29,11 +29,16 @@ class Assets {
   std::shared_ptr<const Image> image(const std::filesystem::path& file, const Value& where);
   const UrdfBody& urdf(const std::filesystem::path& file);  // its own errors name place enough
 
+  // What is no mistake and worth knowing of what was read and built: each once, in the order in which it came up.
+  void remark(const Error& remark);
+  const std::vector<Error>& remarks() const { return remarks_; }
+
  private:
   FileScope scope_;
   std::map<std::string, Drawn> drawn_;  // by file and scale
   std::map<std::string, Hulls> hulls_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+  std::vector<Error> remarks_;
   std::map<std::filesystem::path, UrdfBody> urdfs_;  // a robot's takes longer than all else in a draw
 };
 

@@ -142,12 +142,13 @@ class MappingReader {
     std::vector<BddlPredicateRule> result;
     for (const Value& item : list.items) {
       const std::string field = "predicates[" + std::to_string(result.size() + 1) + "]";
-      only(item, field, {"theirs", "ours", "negated", "order", "meaning", "why"});
+      only(item, field, {"theirs", "ours", "negated", "order", "meaning", "toggles", "why"});
       BddlPredicateRule rule;
       rule.theirs = text(item["theirs"], field + ".theirs");
       rule.ours = text(item["ours"], field + ".ours");
       known_predicate(field + ".ours", rule.ours);
       rule.negated = item["negated"].boolean;
+      rule.toggles = item["toggles"].boolean;
       for (const Value& place : item["order"].items) {
         if (!place.integer) fail(field + ".order", "expected whole numbers from 1", "{ 2, 1 } swaps two arguments");
         rule.order.push_back(static_cast<int>(place.number) - 1);  // Lua counts from 1

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
+#include "engine/model/inertials.h"
 #include "engine/model/kinematics.h"
 #include "scripting/runtime/evaluate.h"
 
@@ -114,6 +116,8 @@ class Builder {
     body.free = is_free(fields);
     result_.stands_still = !body.free;
     join_loose(body);
+    if (body.free && fields["urdf"].present()) weigh(fields, body);
+    check_size(fields, body);
     if (body.free && !(body.parts[0].mass > 0)) {
       throw Error(fields.place, "'" + source_.name + "' can move, so it needs a mass", "mass = 0.1 (kg)");
     }
@@ -123,6 +127,52 @@ class Builder {
   }
 
  private:
+  // What moves needs a mass: its file's, the author's, or what its shapes say.
+  void weigh(const Value& fields, Body& body) const {
+    const double mass = fields.number_or("mass", 0);
+    if (!(body.parts[0].mass > 0) && mass > 0 && enclosed_volume(body.parts[0]) > 0)
+      set_uniform_mass(body.parts[0], mass);
+    const std::string file = (source_.folder / fields["urdf"].as_text()).string();
+    for (const Error& remark : complete_inertials(file, true, body.parts)) assets_.remark(remark);
+  }
+
+  // Files in millimetres are a thousand times too large; what was scaled twice is too small to be seen.
+  void check_size(const Value& fields, const Body& body) const {
+    constexpr double kLargestMovable = 2, kLargestThing = 100, kUnusual = 5, kSmallest = 0.001;  // m
+    std::vector<double> positions;
+    for (const Part& part : body.parts) positions.push_back(part.parent < 0 ? 0 : part.joint.initial);
+    std::vector<Transform> body_from_part;
+    forward_kinematics(body, Transform::Identity(), positions, body_from_part);
+    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (std::size_t i = 0; i < body.parts.size(); ++i) {
+      if (body.parts[i].shapes.empty()) continue;
+      const auto [lower, upper] = bounding_box(body.parts[i]);
+      const Vector3 reach = 0.5 * (body_from_part[i].linear().cwiseAbs() * (upper - lower));
+      const Vector3 centre = body_from_part[i] * Vector3(0.5 * (lower + upper));
+      low = low.cwiseMin(centre - reach);
+      high = high.cwiseMax(centre + reach);
+    }
+    const Vector3 size = high - low;
+    if (!(size.maxCoeff() > -1)) return;  // nothing to be seen
+    const double largest = size.maxCoeff();
+    const std::string text = "it is " + metres(size.x()) + " x " + metres(size.y()) + " x " + metres(size.z()) + " m";
+    const std::string cure =
+        fields["urdf"].present()
+            ? "sizes are in metres: scale=\"0.001 0.001 0.001\" at the URDF's meshes in millimetres"
+            : "sizes are in metres: of a file in millimetres, mesh { \"…\", scale = 0.001 }";
+    if (!(largest <= (body.free ? kLargestMovable : kLargestThing)))
+      throw Error(fields.place, text + (body.free ? ": too large to be moved" : ": too large for a scene"), cure);
+    if (largest < kSmallest)
+      throw Error(fields.place, text + ": too small for a scene", "is it scaled twice? Sizes are in metres");
+    if (largest > kUnusual) assets_.remark({fields.place, text, cure});
+  }
+
+  static std::string metres(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", length);
+    return text;
+  }
+
   BuiltObject whole_region(const Value& value) {
     Region region;
     region.name = source_.name;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "scripting/library/source_lines.h"
 #include "scripting/runtime/sampling_binding.h"
 
 namespace stampede {
@@ -67,6 +68,15 @@ Symbols::Value LuaSymbols::value(const Fact& fact, const WorldView& view) {
   throw Error("predicate " + fact.predicate, "has no 'holds', and is neither a trait nor an attribute");
 }
 
+Error LuaSymbols::asked_by_task(const Fact& fact, const Error& error) const {
+  const ScriptFile* file = tests_.library()->file(DefinitionKind::task, task_);
+  const int line = file == nullptr ? 0 : line_of_atom(file->source, fact.predicate, fact.arguments);
+  if (line == 0) return error;
+  return Error(file->shown_path + ":" + std::to_string(line),
+               to_text(fact) + ": " + (error.where().empty() ? "" : error.where() + ": ") + error.message(),
+               error.hint());
+}
+
 Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView& view) {
   ScriptState& scripts = tests_.get();
   const ViewScope scope(scripts.view, view);
@@ -74,7 +84,11 @@ Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView&
   lua_rawgeti(state, LUA_REGISTRYINDEX, function);
   lua_rawgeti(state, LUA_REGISTRYINDEX, scripts.view_reference());
   push_arguments(state, fact);
-  scripts.sandbox().call(static_cast<int>(fact.arguments.size()) + 1, 2);
+  try {
+    scripts.sandbox().call(static_cast<int>(fact.arguments.size()) + 1, 2);
+  } catch (const Error& error) {
+    throw asked_by_task(fact, error);
+  }
   Value value;
   value.holds = lua_toboolean(state, -2) != 0;
   if (lua_type(state, -1) == LUA_TNUMBER) value.margin = lua_tonumber(state, -1);
@@ -90,7 +104,7 @@ std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& vie
   std::vector<Placement> placements;
   if (own.function != 0) {
     const ViewScope scope(scripts.view, view, &free, most, turned_down_);
-    scripts.protect([&](lua_State* state) {
+    const auto draw = [&](lua_State* state) {
       scripts.push_kept(own.function);
       scripts.push_kept(scripts.view_reference());
       push_arguments(state, fact);
@@ -98,7 +112,12 @@ std::vector<Placement> LuaSymbols::sample(const Fact& fact, const WorldView& vie
       lua_call(state, static_cast<int>(fact.arguments.size()) + 2, 1);
       const std::string object = fact.arguments.empty() ? std::string() : fact.arguments[0];
       placements = placements_at(state, -1, object, "predicate " + fact.predicate);
-    });
+    };
+    try {
+      scripts.protect(draw);
+    } catch (const Error& error) {
+      throw asked_by_task(fact, error);
+    }
     if (placements.size() > static_cast<std::size_t>(most)) placements.resize(static_cast<std::size_t>(most));
   }
   if (own.kept && own.kept == kept_by(scripts, own.function)) samplers_[fact.predicate] = std::move(own);

@@ -14,7 +14,8 @@ namespace stampede {
 
 class LuaSymbols : public Symbols {
  public:
-  LuaSymbols(TestState& tests, std::string_view task) : tests_(tests), domain_(tests.library()->domain_of(task)) {}
+  LuaSymbols(TestState& tests, std::string_view task)
+      : tests_(tests), task_(task), domain_(tests.library()->domain_of(task)) {}
   const Domain& domain() const override { return domain_; }
   PredicateTraits traits(const std::string& predicate) const override;
   // Traits and attributes are read from the scene's objects, all else by the predicate's `holds`.
@@ -40,7 +41,11 @@ class LuaSymbols : public Symbols {
   };
   Sampler sampler(const std::string& predicate);
 
+  // What a predicate complains of, at the place where the task asked for the fact.
+  Error asked_by_task(const Fact& fact, const Error& error) const;
+
   TestState& tests_;
+  std::string task_;
   const Domain& domain_;
   std::unordered_map<std::string, Sampler> samplers_;  // as good as fresh
   Functions holds_, observable_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/base/nearest.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/scene_builder.h"
 
@@ -11,7 +12,12 @@ int part_index_of(const Body& body, const std::string& name, const Value& where)
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     if (body.parts[i].name == name || body.parts[i].joint.name == name) return static_cast<int>(i);
   }
-  throw Error(where.place, "the URDF has no link or joint '" + name + "'");
+  std::vector<std::string> known;
+  for (const Part& part : body.parts) {
+    known.push_back(part.name);
+    if (!part.joint.name.empty()) known.push_back(part.joint.name);
+  }
+  throw Error(where.place, "the URDF has no link or joint '" + name + "'", did_you_mean(name, known));
 }
 
 int part_named(const Body& body, const Value& value) { return part_index_of(body, value.as_text(), value); }
@@ -34,6 +40,37 @@ std::vector<double> per_joint(const Value& fields, std::string_view name, std::s
   std::vector<double> numbers = value.as_numbers();
   if (numbers.size() != joints) value.expected(std::to_string(joints) + " numbers, one for each joint of the arm");
   return numbers;
+}
+
+// A mesh in millimetres makes a link of hundreds of metres.
+void check_sizes(const Body& body, const Value& where) {
+  constexpr double kLargestLink = 5;  // m
+  for (const Part& part : body.parts) {
+    if (part.shapes.empty()) continue;
+    const auto [low, high] = bounding_box(part);
+    const double largest = (high - low).maxCoeff();
+    if (!(largest <= kLargestLink) && largest > -1)
+      throw Error(where.place,
+                  "link '" + part.name + "' of the URDF is " + std::to_string(static_cast<long>(largest)) + " m long",
+                  "sizes are in metres: scale=\"0.001 0.001 0.001\" at meshes in millimetres");
+  }
+}
+
+// The engine drives two jaws along one line, and measures what is between them.
+void check_fingers(const Value& listed, const Robot& robot) {
+  if (robot.fingers.empty()) return;
+  if (robot.fingers.size() != 2)
+    throw Error(listed.place, "a hand closes two sliding joints, not " + std::to_string(robot.fingers.size()),
+                "name two prismatic joints, or none for an arm without a hand");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Joint& joint = robot.body.parts[static_cast<std::size_t>(robot.fingers[i])].joint;
+    if (joint.kind != JointKind::slider)
+      throw Error(listed.place,
+                  "finger '" + listed.items[i].as_text() + "' " +
+                      (joint.kind == JointKind::fixed ? "does not move" : "turns") +
+                      ": a hand closes two sliding joints",
+                  "name two prismatic joints, or put sliding jaws in the place of the turning ones");
+  }
 }
 
 // Driven joints: what moves and is no finger, in the order of the URDF, unless the file lists them.
@@ -130,6 +167,8 @@ Robot build_robot(const std::string& name, const Value& fields, Body body, const
   robot.body.free = false;
   robot.body.world_from_body = world_from_base;
   robot.fingers = parts_named(robot.body, fields["fingers"]);
+  check_fingers(fields["fingers"], robot);
+  check_sizes(robot.body, fields["urdf"].present() ? fields["urdf"] : fields);
   robot.arm = arm_parts(fields, robot);
   read_limits(fields, robot);
   read_hand(fields, robot);

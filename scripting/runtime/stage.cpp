@@ -17,10 +17,11 @@ const ScriptFile& file_of(const Library& library, DefinitionKind kind, const std
 
 }  // namespace
 
-Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest& request) {
+Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest& request,
+               std::shared_ptr<Assets> assets) {
   std::vector<std::filesystem::path> folders = library->roots().folders;
   if (!request.urdf.empty()) folders.push_back(request.urdf.parent_path());
-  Assets assets{FileScope(folders)};
+  if (!assets) assets = std::make_shared<Assets>(FileScope(folders));
   ScriptFile own;  // what complaints about a robot that no file describes begin with
   own.shown_path = request.where;
   const ScriptFile* file = &own;
@@ -31,7 +32,7 @@ Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest
   ScriptState scripts(library, "");
   Stage stage;
   scripts.protect(
-      [&](lua_State* state) { stage = TaskReader(scripts, *file, axes, key, assets, 0).read_stage(state, request); });
+      [&](lua_State* state) { stage = TaskReader(scripts, *file, axes, key, *assets, 0).read_stage(state, request); });
   library->require_sound(stage.files);
   number_masks(stage.scene, key.with("masks"));
   return stage;

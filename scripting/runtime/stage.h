@@ -12,6 +12,8 @@
 
 namespace stampede {
 
+class Assets;
+
 struct StageRequest {
   std::string world;           // whose fixtures stand around; empty: none
   std::string robot;           // a robot of the library, or the name of that of `urdf`
@@ -28,6 +30,8 @@ struct Stage {
 
 // Repeatable: what a world draws is drawn from its name. URDFs lie in the library's roots or beside themselves.
 // Throws Error.
-Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest& request);
+// `assets`: as of EpisodeScripts, for a robot of the library.
+Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest& request,
+               std::shared_ptr<Assets> assets = nullptr);
 
 }  // namespace stampede

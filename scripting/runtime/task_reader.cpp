@@ -65,7 +65,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   const Value name = field("world");
   const Value world = definition(DefinitionKind::world, name.as_text(), "", name);
   const std::filesystem::path folder = used(DefinitionKind::world, name.text, name).path.parent_path();
-  read_world(world);
+  read_world(name.text, world);
   read_objects();
   add_clutter();
   read_looks(world, folder);
@@ -139,9 +139,9 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
   return source;
 }
 
-void TaskReader::read_world(const Value& world) {
+void TaskReader::read_world(const std::string& name, const Value& world) {
   colours_ = read_colours(state_, key_);
-  builder_ = std::make_unique<SceneBuilder>(field("world").text, colours_);
+  builder_ = std::make_unique<SceneBuilder>(name, colours_);
   read_robot(world["robot"]);
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));
@@ -203,6 +203,21 @@ Stage TaskReader::read_stage(lua_State* state, const StageRequest& request) {
   Stage stage{builder_->build(), drawn_.files};
   stage.scene.robot.body.world_from_body = request.world_from_base;
   return stage;
+}
+
+Scene TaskReader::read_world_alone(lua_State* state) {
+  state_ = state;
+  luaL_checkstack(state_, 64, "world");
+  Value where;
+  where.place = file_.shown_path;
+  const Value world = definition(DefinitionKind::world, file_.name, "", where);
+  const std::filesystem::path folder = file_.path.parent_path();
+  read_world(file_.name, world);
+  read_looks(world, folder);
+  observation_from(world["observe"]);
+  drawn_.task.scene = builder_->build();
+  if (world["calibration"].present()) read_calibration(world["calibration"], folder);
+  return std::move(drawn_.task.scene);
 }
 
 void TaskReader::set_classes() {

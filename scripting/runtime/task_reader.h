@@ -16,12 +16,14 @@ class TaskReader {
   // What stands around whatever the task: a world's fixtures, or nothing, and a robot. `file` is then the world's or
   // the robot's own.
   Stage read_stage(lua_State* state, const StageRequest& request);
+  // A world as every task has it; `file` is the world's.
+  Scene read_world_alone(lua_State* state);
 
  private:
   Value field(const char* name);  // of the task, drawn
   bool has_function(const char* name);
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
-  void read_world(const Value& world);
+  void read_world(const std::string& name, const Value& world);
   void read_robot(const Value& robot);
   void read_looks(const Value& world, const std::filesystem::path& folder);  // light, randomisation, classes
   void set_classes();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "engine/base/stopping.h"
@@ -107,12 +108,20 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
     return options;
   };
   std::mutex mutex;
+  std::set<std::string> remarked;
+  const auto pass_on = [&](const std::vector<Error>& remarks) {
+    if (!settings.remark || remarks.empty()) return;
+    const std::lock_guard lock(mutex);
+    for (const Error& remark : remarks)
+      if (remarked.insert(remark.what()).second) settings.remark(remark);
+  };
   in_parallel(static_cast<std::size_t>(jobs.size()), settings.workers, stop, [&](std::size_t i, Workbench& bench) {
     const auto place = static_cast<std::int64_t>(i);
     try {
       const EpisodeJob job = jobs[place];
       if (!bench.assets) bench.assets = std::make_shared<Assets>(FileScope(library->roots().folders));
       PreparedEpisode prepared(library, job, options_for(job, bench.renderer), bench.assets);
+      pass_on(bench.assets->remarks());
       const auto is_there = [&](const std::string& key) {
         if (!sink || !sink->has(key)) return false;
         sink->abandon(place);

@@ -23,6 +23,7 @@ struct RunSettings {
   // Makes an episode, and its key, instead of the planner; each worker calls it.
   std::function<EpisodeRecord(PreparedEpisode&)> act;
   std::function<void(const EpisodeRecord&, const RunTally&)> progress;  // one at a time, from worker threads
+  std::function<void(const Error&)> remark;                             // likewise, each remark of Assets once
   const std::atomic<bool>* stop = nullptr;
 };
 
