@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/bddl/bddl.h"
@@ -21,7 +22,8 @@ struct BddlPredicateRule {
   bool negated = false;    // `ours` stands for `not theirs`; `meaning` is then of ours relative to that
   std::vector<int> order;  // their argument i is our argument order[i]; empty: the same order
   BddlMeaning meaning = BddlMeaning::equal;
-  std::string why;  // a sentence on the difference
+  std::string why;       // a sentence on the difference
+  bool toggles = false;  // `ours` says that it has changed since the start: of what is on there, the other way round
 };
 
 struct BddlPair {
@@ -49,6 +51,9 @@ struct BddlMapping {
   std::vector<BddlPair> sites;
   // Our class -> its parts with a joint. Of such a thing as a whole, theirs `open` and `in` are any part, `close` all.
   std::map<std::string, std::vector<std::string>> parts;
+  // Our class, a predicate of ours, which of its arguments: the parts of which it can be said, where it cannot be said
+  // of the whole. In no file: who has the classes fills it in. Of several any will do, of `close` all.
+  std::map<std::tuple<std::string, std::string, std::size_t>, std::vector<std::string>> choices;
   std::vector<BddlPredicateRule> predicates;  // the first that fits is taken
   std::string support;                        // ours; with a LIBERO region of a surface it becomes `within` as well
   std::string within;

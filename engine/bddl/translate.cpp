@@ -119,7 +119,7 @@ Formula BddlTranslator::plain_literal(const Fact& atom, bool negated, const std:
     const std::size_t at = rule->order.empty() ? i : static_cast<std::size_t>(rule->order.at(i));
     terms.at(at) = {false, i + 1 == atom.arguments.size() ? last : task_.names.at(atom.arguments[i])};
   }
-  const bool ours_negated = rule->negated != negated;
+  const bool ours_negated = (rule->negated != negated) != (rule->toggles && on_at_start(atom));
   BddlNote note{signed_name(atom.predicate, negated), signed_name(rule->ours, ours_negated),
                 ours_negated ? opposite(rule->meaning) : rule->meaning, rule->why};
   std::vector<Formula> parts;
@@ -133,11 +133,35 @@ Formula BddlTranslator::plain_literal(const Fact& atom, bool negated, const std:
     note.meaning = negated ? BddlMeaning::weaker : BddlMeaning::stronger;
     note.why = "of a region both ask that the object is over it; ours also that the surface carries it";
   }
-  parts.insert(parts.begin(), stampede::atom(rule->ours, terms));
+  parts.insert(parts.begin(), with_choices(atom.predicate, rule->ours, terms, 0));
   task_.notes.insert(note);
   Formula result = conjunction(std::move(parts));
   if (ours_negated) result = negation(std::move(result));
   return result;
+}
+
+// Our atom; of the parts that it can be said of, where it cannot be said of a thing as a whole.
+Formula BddlTranslator::with_choices(const std::string& theirs, const std::string& ours, std::vector<Term> terms,
+                                     std::size_t from) {
+  for (std::size_t i = from; i < terms.size(); ++i)
+    for (const auto* things : {&task_.fixtures, &task_.objects})
+      for (const BddlObject& thing : *things) {
+        const auto found = mapping_.choices.find({thing.class_name, ours, i});
+        if (thing.name != terms[i].name || found == mapping_.choices.end()) continue;
+        std::vector<Formula> each;
+        for (const std::string& part : found->second) {
+          terms[i].name = thing.name + "." + part;
+          each.push_back(with_choices(theirs, ours, terms, i + 1));
+        }
+        return join(std::move(each), theirs == "close");
+      }
+  return stampede::atom(ours, std::move(terms));
+}
+
+bool BddlTranslator::on_at_start(const Fact& atom) const {
+  return std::any_of(problem_.init.begin(), problem_.init.end(), [&](const BddlLiteral& literal) {
+    return literal.atom.predicate == "turnon" && !literal.negated && literal.atom.arguments == atom.arguments;
+  });
 }
 
 Formula BddlTranslator::atom_formula(const BddlFormula& formula, bool negated) {

@@ -21,6 +21,8 @@ class BddlTranslator {
 
  private:
   Formula plain_literal(const Fact& atom, bool negated, const std::string& last);  // last: our last argument
+  Formula with_choices(const std::string& theirs, const std::string& ours, std::vector<Term> terms, std::size_t from);
+  bool on_at_start(const Fact& atom) const;
   const std::vector<std::string>* parts_of(const std::string& theirs) const;
   Formula atom_formula(const BddlFormula& formula, bool negated);
   Formula join(std::vector<Formula> parts, bool all) const;

@@ -48,6 +48,8 @@ std::string drawn(const std::array<double, 2>& range) {
 // What an object file of ours is, by the names that predicates ask for.
 struct Class {
   bool exists = false;
+  bool stands = false;  // a body that nothing moves
+  double lower_m = 0;   // of the body, below its frame
   std::string type;
   std::vector<std::string> traits;
   std::map<std::string, Class> parts;  // regions too
@@ -56,8 +58,16 @@ struct Class {
 Class class_of(const std::shared_ptr<const Library>& library, const std::string& name) {
   Class result;
   if (library->file(DefinitionKind::object, name) == nullptr) return result;
-  for (const Object& object : object_scene(library, name).objects) {
-    const Class one{true, object.type, object.traits, {}};
+  const Scene scene = object_scene(library, name);
+  if (const int body = scene.body_index(name); body >= 0) {
+    const auto has = [&](const Object& object) {
+      return object.name == name && std::ranges::find(object.traits, "movable") != object.traits.end();
+    };
+    result.stands = std::ranges::none_of(scene.objects, has);
+    result.lower_m = bounding_box(scene.bodies[static_cast<std::size_t>(body)].parts.at(0))[0].z();
+  }
+  for (const Object& object : scene.objects) {
+    const Class one{true, false, 0, object.type, object.traits, {}};
     if (object.name == name) {
       result.type = one.type;
       result.traits = one.traits;
@@ -67,6 +77,37 @@ Class class_of(const std::shared_ptr<const Library>& library, const std::string&
   }
   result.exists = true;
   return result;
+}
+
+bool fits(const Class& thing, const Parameter& parameter, const Domain& domain) {
+  const auto has = [&](const std::string& trait) {
+    return std::ranges::find(thing.traits, trait) != thing.traits.end();
+  };
+  return (parameter.type.empty() || domain.is_a(thing.type, parameter.type)) &&
+         std::all_of(parameter.traits.begin(), parameter.traits.end(), has);
+}
+
+// With its choices: what a predicate of ours asks for and a class has not, its parts may have.
+BddlMapping with_choices(const std::shared_ptr<const Library>& library, const BddlProblem& problem,
+                         BddlMapping mapping) {
+  std::set<std::string> classes;
+  for (const auto* groups : {&problem.fixtures, &problem.objects})
+    for (const BddlGroup& group : *groups)
+      if (const std::string* ours = mapping.class_of(group.category)) classes.insert(*ours);
+  for (const std::string& name : classes) {
+    const Class thing = class_of(library, name);
+    for (const BddlPredicateRule& rule : mapping.predicates) {
+      const Predicate* declared = thing.exists ? library->domain().predicate(rule.ours) : nullptr;
+      for (std::size_t i = 0; declared != nullptr && i < declared->parameters.size(); ++i) {
+        if (fits(thing, declared->parameters[i], library->domain())) continue;
+        std::vector<std::string> parts;
+        for (const auto& [part, has] : thing.parts)
+          if (fits(has, declared->parameters[i], library->domain())) parts.push_back(part);
+        if (!parts.empty()) mapping.choices[{name, rule.ours, i}] = std::move(parts);
+      }
+    }
+  }
+  return mapping;
 }
 
 struct Top {
@@ -80,7 +121,7 @@ class TaskWriter {
              const std::string& world, const Scene& scene, const std::string& origin)
       : library_(library),
         problem_(problem),
-        mapping_(mapping.mapping),
+        mapping_(with_choices(library, problem, mapping.mapping)),
         mapping_file_(mapping.file),
         world_(world),
         scene_(scene),
@@ -97,6 +138,8 @@ class TaskWriter {
     if (!result_.refusal.empty()) return std::move(result_);
     task_ = with_scene_names(plain_, names_);
     know_classes();
+    leave_standing();
+    leave_out_unplaced();
     check_literals();
     if (!result_.refusal.empty()) return std::move(result_);
     objects();
@@ -156,6 +199,58 @@ class TaskWriter {
           refuse("`" + thing.theirs + "` is mapped to `" + thing.class_name +
                  "`, which is a type and no object file: map its category to an object");
       }
+  }
+
+  // What they can carry and we cannot stands where :init puts it: nothing is said of what bears it.
+  void leave_standing() {
+    for (const BddlObject& object : task_.objects) {
+      if (!classes_[object.class_name].stands) continue;
+      standing_.insert(object.name);
+      std::erase_if(task_.init, [&](const BddlLiteral& literal) {
+        return literal.atom.predicate == mapping_.support && literal.atom.arguments.front() == object.name;
+      });
+    }
+  }
+
+  static bool names_thing(const Formula& formula, const std::string& name) {
+    const auto is = [&](const Term& term) { return term.name.substr(0, term.name.find('.')) == name; };
+    const auto in = [&](const Formula& part) { return names_thing(part, name); };
+    return std::ranges::any_of(formula.terms, is) || std::ranges::any_of(formula.parts, in);
+  }
+
+  // Of a thing that nothing puts anywhere and nothing asks for nobody knows more than that it exists.
+  void leave_out_unplaced() {
+    std::erase_if(task_.objects, [&](const BddlObject& object) {
+      const auto placed = [&](const BddlPlacement& one) { return one.object == object.name; };
+      const auto spoken_of = [&](const BddlLiteral& literal) {
+        return std::ranges::any_of(literal.atom.arguments, [&](const std::string& argument) {
+          return argument.substr(0, argument.find('.')) == object.name;
+        });
+      };
+      if (std::ranges::any_of(task_.placements, placed) || std::ranges::any_of(task_.init, spoken_of) ||
+          std::ranges::any_of(task_.goal_parts, [&](const Formula& part) { return names_thing(part, object.name); }))
+        return false;
+      result_.warnings.push_back("`" + object.theirs +
+                                 "` is left out: nothing says where it is, and nothing asks for it");
+      return true;
+    });
+  }
+
+  void stand(const BddlObject& object) {
+    const auto place = std::find_if(task_.placements.begin(), task_.placements.end(),
+                                    [&](const BddlPlacement& one) { return one.object == object.name; });
+    const auto top = place == task_.placements.end() ? std::nullopt : surface(place->on);
+    if (!top) {
+      refuse("nothing in :init says where `" + object.theirs +
+             "` stands, which nothing moves here; put it on a region " + "of a table that has a rectangle");
+      return;
+    }
+    const BddlRectangle area = fitted(place->ranges.at(0), *top, "`" + object.name + "`");
+    const Vector3 middle = top->world_from_body * Vector3((area.x_min_m + area.x_max_m) / 2,
+                                                          (area.y_min_m + area.y_max_m) / 2, top->upper.z());
+    objects_ += "    " + object.name + " = { " + lua_text(object.class_name) + ", at = { " + number(middle.x()) + ", " +
+                number(middle.y()) + ", " + number(middle.z() - classes_[object.class_name].lower_m) + " } },\n";
+    result_.warnings.push_back("`" + object.theirs + "` stands where it is: nothing moves ours");
   }
 
   // What is known of a thing of ours by its name in the task; null where only the checker knows.
@@ -293,7 +388,10 @@ class TaskWriter {
       result_.warnings.push_back("`" + fixture.theirs + "` stands where the arm reaches it");
     }
     for (const BddlObject& object : task_.objects)
-      objects_ += "    " + object.name + " = { " + lua_text(object.class_name) + " },\n";
+      if (standing_.contains(object.name))
+        stand(object);
+      else
+        objects_ += "    " + object.name + " = { " + lua_text(object.class_name) + " },\n";
     for (const BddlMadeRegion& region : task_.regions)
       if (region.ranges.empty()) {
         refuse("`" + region.theirs + "` is a site of their model and no part of ours; map it, see `sites` and `parts`");
@@ -310,7 +408,7 @@ class TaskWriter {
   void init() {
     std::set<std::string> placed;
     for (const BddlPlacement& placement : task_.placements) {
-      if (!is_object(placement.object)) continue;
+      if (!is_object(placement.object) || standing_.contains(placement.object)) continue;
       const std::string spot = placement.object + "_spot";
       add_region(spot, placement.on, placement.ranges, "\"container\"");
       init_ += "    is." + mapping_.within + "(" + lua_text(placement.object) + ", " + lua_text(spot) + "),\n";
@@ -326,7 +424,7 @@ class TaskWriter {
       if (!literal.negated && !literal.atom.arguments.empty()) placed.insert(literal.atom.arguments[0]);
     }
     for (const BddlObject& object : task_.objects)
-      if (!placed.contains(object.name))
+      if (!placed.contains(object.name) && !standing_.contains(object.name))
         refuse("nothing in :init says where `" + object.theirs + "` is; add an atom such as (on " + object.theirs +
                " TABLE)");
   }
@@ -353,7 +451,7 @@ class TaskWriter {
 
   const std::shared_ptr<const Library>& library_;
   const BddlProblem& problem_;
-  const BddlMapping& mapping_;
+  BddlMapping mapping_;
   const std::string& mapping_file_;
   const std::string& world_;
   const Scene& scene_;
@@ -361,7 +459,7 @@ class TaskWriter {
   BddlTask plain_, task_;
   std::map<std::string, std::string> names_;  // of plain_ -> of the scene
   std::map<std::string, Class> classes_;
-  std::set<std::string> here_, stands_;
+  std::set<std::string> here_, stands_, standing_;
   std::string objects_, init_;
   ImportedTask result_;
 };
@@ -390,6 +488,7 @@ std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Libr
   imported.mapping.add_namesakes(imported.problem, [](const std::string&) { return true; });  // import has looked
   std::map<std::string, std::string> names;
   for (const auto& [theirs, ours] : field["names"].fields) names[theirs] = ours.text;
+  imported.mapping = with_choices(library, imported.problem, std::move(imported.mapping));
   imported.task = with_scene_names(from_bddl(imported.problem, imported.mapping), names);
   return imported;
 }

@@ -25,7 +25,7 @@ return {
     { "white_yellow_mug", "mug" },
     { "alphabet_soup", "soup_can" },
     { "chocolate_pudding", "chocolate_jelly" },
-    { "wooden_tray", "tray" },
+    { "wooden_tray", "serving_tray" },
   },
   instances = { table = "main_table" }, -- the one name that their arena knows
   unsaid = { "floor" }, -- stands in the arena whatever the problem says
@@ -36,10 +36,12 @@ return {
     { "bottom_region", "bottom_drawer" },
     { "top_side", "" },
     { "cook_region", "" },
+    { "contain_region", "" },
   },
   parts = { chest = { "bottom_drawer", "middle_drawer", "top_drawer" } },
   stands = { -- what opens towards the robot, or is pressed by it, stands where the arm reaches it
     chest = { x = { 0.52, 0.55 }, y = { 0.12, 0.16 }, z = 0.75 },
+    microwave = { x = { 0.53, 0.57 }, y = { -0.10, 0.10 }, z = 0.75 },
     push_button = { x = { 0.10, 0.30 }, y = { -0.28, -0.10 }, z = 0.75 },
   },
   predicates = {
@@ -51,9 +53,9 @@ return {
       why = "of a fixture with several joints theirs asks for any of them" },
     { theirs = "close", ours = "closed", meaning = "equal",
       why = "of a fixture with several joints theirs asks for all of them" },
-    { theirs = "turnon", ours = "pressed", meaning = "weaker",
+    { theirs = "turnon", ours = "pressed", toggles = true, meaning = "weaker", -- what is on at the start is off once pressed
       why = "theirs asks that the knob is on now, ours that it has been pressed once" },
-    { theirs = "turnoff", ours = "pressed", negated = true, meaning = "stronger",
+    { theirs = "turnoff", ours = "pressed", negated = true, toggles = true, meaning = "stronger",
       why = "ours asks that it was never pressed, theirs that it is off now" },
     { theirs = "up", ours = "lifted", meaning = "incomparable",
       why = "theirs asks for a height of 1 m in the world, ours that the hand holds it and nothing else holds it up" },
