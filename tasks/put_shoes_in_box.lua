@@ -11,7 +11,7 @@ return task {
   instructions = {
     "put the shoes in the box",
     "open the box and lay both shoes in it",
-    "the pair of shoes goes into the wooden box",
+    "the pair of shoes goes into the box",
     "pack the two shoes away in the box",
   },
 }

@@ -12,6 +12,6 @@ return task {
     "take the shoes out of the box",
     "open the box and put both shoes on the table",
     "somebody wants to go out: get the two shoes out of the box",
-    "unpack the pair of shoes from the wooden box",
+    "unpack the pair of shoes from the box",
   },
 }

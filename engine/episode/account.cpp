@@ -71,7 +71,10 @@ void describe_scene(const Scene& scene, EpisodeRecord& record) {
 }
 
 void describe_beginning(const Rollout& rollout, EpisodeRecord& record) {
-  for (const std::string& sentence : describe_world(rollout.facts().facts(), rollout.domain(), rollout.view().scene()))
+  const FactTracker& facts = rollout.facts();
+  const Scene& scene = rollout.view().scene();
+  const Facts said = mentionable(facts.facts(), facts.observed(), rollout.domain(), scene);
+  for (const std::string& sentence : describe_world(said, rollout.domain(), scene))
     record.language.push_back({.level = LanguageLevel::world, .text = sentence});
   write_problem(rollout.task(), rollout.domain(), rollout, record);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace stampede {
 namespace {
@@ -15,12 +16,30 @@ std::string spaced(std::string text) {
   return text;
 }
 
+constexpr std::array kOrdinals = {"first",   "second", "third", "fourth", "fifth",    "sixth",
+                                  "seventh", "eighth", "ninth", "tenth",  "eleventh", "twelfth"};
+
+// Regions that are numbered: `base3` is the third base place, `red_square2` the second red square, `d7` the square d7.
+std::string place_words(const Scene& scene, const Object& region) {
+  const std::string name = region.name.substr(region.name.rfind('.') + 1);
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  if (digits == 0 || digits == name.size() || name.size() - digits > 2) return spaced(name);
+  if (digits == 1) return "square " + name;
+  const std::string stem = name.substr(0, digits), owner = region.name.substr(0, region.name.size() - name.size());
+  const auto number = static_cast<std::size_t>(std::stoi(name.substr(digits)));
+  if (number < 1 || number > kOrdinals.size()) return spaced(name);
+  const bool several = scene.object(owner + stem + (number == 1 ? "2" : "1")) != nullptr;
+  if (!several) return spaced(name);
+  return std::string(kOrdinals[number - 1]) + " " + spaced(stem) + (region.type == "region" ? " place" : "");
+}
+
 std::string words(const Scene& scene, const Object& thing) {
   if (thing.kind == ObjectKind::hand) return "hand";
   const std::size_t dot = thing.name.rfind('.');  // a region of a part is the part's, and that the thing's
   if (dot != std::string::npos) {
     const Object* whole = scene.object(thing.name.substr(0, dot));
-    const std::string part = spaced(thing.name.substr(dot + 1));
+    const std::string part =
+        thing.kind == ObjectKind::region ? place_words(scene, thing) : spaced(thing.name.substr(dot + 1));
     return whole == nullptr ? part : part + " of the " + words(scene, *whole);
   }
   const auto colour = thing.attributes.find("colour");
@@ -56,8 +75,6 @@ struct Told {
 // Things that share their words are told apart by where they are in the first picture: one above the other, or else
 // from left to right.
 Told told_apart(const Scene& scene, const Object& thing, std::vector<const Object*> same, const std::string& own) {
-  static constexpr std::array kOrdinals = {"first", "second",  "third",  "fourth", "fifth",
-                                           "sixth", "seventh", "eighth", "ninth",  "tenth"};
   const auto order = [&](const auto& value) {
     std::stable_sort(same.begin(), same.end(), [&](const Object* a, const Object* b) { return value(*a) < value(*b); });
   };
@@ -119,6 +136,36 @@ std::string fill(const std::string& text, const std::vector<Parameter>& paramete
   return filled;
 }
 
+namespace {
+
+// A region of a body, and that body or another of its parts: how it is made, and nobody's news.
+bool of_one_body(const Scene& scene, const Fact& fact) {
+  if (fact.arguments.size() != 2) return false;
+  const Object &first = *scene.object(fact.arguments[0]), &second = *scene.object(fact.arguments[1]);
+  return (first.kind == ObjectKind::region || second.kind == ObjectKind::region) && !first.body.empty() &&
+         first.body == second.body;
+}
+
+}  // namespace
+
+Facts mentionable(const Facts& holds, const Facts& known, const Domain& domain, const Scene& scene) {
+  std::set<std::string> hidden;
+  for (const Fact& fact : holds) {
+    const Predicate* predicate = domain.predicate(fact.predicate);
+    const Object* thing = fact.arguments.empty() ? nullptr : scene.object(fact.arguments[0]);
+    if (thing == nullptr || predicate == nullptr || predicate->kind != PredicateKind::basic) continue;
+    const int body = thing->kind == ObjectKind::body ? scene.body_index(thing->body) : -1;
+    if (body >= 0 && scene.bodies[static_cast<std::size_t>(body)].free && !known.contains(fact))
+      hidden.insert(thing->name);
+  }
+  Facts said;
+  for (const Fact& fact : known)
+    if (std::none_of(fact.arguments.begin(), fact.arguments.end(),
+                     [&](const std::string& name) { return hidden.contains(name.substr(0, name.find('.'))); }))
+      said.insert(fact);
+  return said;
+}
+
 std::vector<std::string> describe_world(const Facts& facts, const Domain& domain, const Scene& scene) {
   std::vector<std::string> sentences;
   for (const Fact& fact : facts) {
@@ -126,7 +173,8 @@ std::vector<std::string> describe_world(const Facts& facts, const Domain& domain
     if (predicate == nullptr || predicate->label.empty()) continue;
     const bool known = std::all_of(fact.arguments.begin(), fact.arguments.end(),
                                    [&](const std::string& name) { return scene.object(name) != nullptr; });
-    if (known) sentences.push_back(fill(predicate->label, predicate->parameters, fact.arguments, scene));
+    if (known && !of_one_body(scene, fact))
+      sentences.push_back(fill(predicate->label, predicate->parameters, fact.arguments, scene));
   }
   return sentences;
 }

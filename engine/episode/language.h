@@ -21,7 +21,12 @@ std::optional<std::string> clear_phrase(const Scene& scene, const std::string& o
 std::string fill(const std::string& text, const std::vector<Parameter>& parameters,
                  const std::vector<std::string>& arguments, const Scene& scene);
 
-// One sentence a fact that a person would mention: basic and derived facts with a label, robot's own left out.
+// Of what is known of what holds: without facts on things of which something is not known that holds. Of a tin in a
+// shut drawer nothing is said, not even that it is on the drawer's floor.
+Facts mentionable(const Facts& holds, const Facts& known, const Domain& domain, const Scene& scene);
+
+// One sentence a fact that a person would mention: basic and derived facts with a label; nothing on where a region of a
+// thing is seen from that thing.
 std::vector<std::string> describe_world(const Facts& facts, const Domain& domain, const Scene& scene);
 
 }  // namespace stampede

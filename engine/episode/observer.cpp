@@ -501,7 +501,9 @@ ChannelValue Observer::abstract(const std::string& name) {
     if (!settings_.hidden) problem.init = rollout_.facts().known_basic();
     texts({to_pddl(problem, named_by_content(rollout_.domain()), beside_goal(rollout_.task()))});
   } else if (name == "sentences") {
-    texts(describe_world(facts(), rollout_.domain(), *scene_));
+    const Domain& domain = rollout_.domain();
+    texts(describe_world(settings_.hidden ? facts() : mentionable(rollout_.facts().facts(), facts(), domain, *scene_),
+                         domain, *scene_));
   } else if (name == "plan") {
     texts(plan());
   } else if (name == "tool_jacobian") {

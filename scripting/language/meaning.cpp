@@ -294,7 +294,7 @@ Meaning meaning_at_start(const std::shared_ptr<const Library>& library, const st
   read_roles(question.asked.domain, question.state.facts, question.assumed, question.plain.goal, meaning);
   meaning.goal = to_pddl(question.plain.goal);
   meaning.ordered = question.beside_goal.find("in the order") != std::string::npos;
-  Facts seen = question.state.facts;
+  Facts seen = mentionable(question.state.facts, question.state.observed, domain, *question.start.scene);
   std::erase_if(seen, [&](const Fact& fact) {
     return std::any_of(fact.arguments.begin(), fact.arguments.end(), [&](const std::string& name) {
       const Object* object = question.start.scene->object(name);

@@ -1,4 +1,4 @@
--- A wooden box whose lid swings up towards +x. Its frame is below it; it stands on the table as furniture does.
+-- A painted box whose lid swings up towards +x. Its frame is below it; it stands on the table as furniture does.
 local lids = require "worlds.lib.lids"
 local wood, inner = { 0.30, 0.42, 0.47 }, { 0.80, 0.70, 0.52 } -- painted, so that it stands out from the table
 local length, width, height, wall = 0.25, 0.32, 0.077, 0.010 -- m

@@ -1,6 +1,7 @@
 // A sentence names a thing so that a person who sees the first picture finds it.
 #include "engine/episode/language.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "engine/model/camera.h"
@@ -56,4 +57,57 @@ TEST_CASE("a number at the end of a name stands apart, the name of a square of a
   CHECK(phrase(scene, "socket3") == "socket 3");
   CHECK(phrase(scene, "c8") == "c8");
   CHECK(phrase(scene, "row c8") == "row c8");
+}
+
+namespace {
+
+void add_region(Scene& scene, const std::string& name, const std::string& type = "region") {
+  Object region;
+  region.name = name;
+  region.kind = ObjectKind::region;
+  region.type = type;
+  region.body = name.substr(0, name.find('.'));
+  region.part = 0;
+  scene.objects.push_back(region);
+  std::sort(scene.objects.begin(), scene.objects.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+}
+
+}  // namespace
+
+TEST_CASE("numbered places of a thing are called as a person would") {
+  Scene scene = table_scene(1);
+  for (const char* name : {"table.base1", "table.base2", "table.base3", "table.d7", "table.slot", "table.row12"})
+    add_region(scene, name);
+  add_region(scene, "table.black_square1", "black_square");
+  add_region(scene, "table.black_square4", "black_square");
+  CHECK(phrase(scene, "table.base3") == "third base place of the table");
+  CHECK(phrase(scene, "table.base1") == "first base place of the table");
+  CHECK(phrase(scene, "table.black_square4") == "fourth black square of the table");
+  CHECK(phrase(scene, "table.d7") == "square d7 of the table");
+  CHECK(phrase(scene, "table.slot") == "slot of the table");
+  CHECK(phrase(scene, "table.row12") == "row 12 of the table");  // the only one
+}
+
+TEST_CASE("nothing is said of what is hidden, nor of a thing's own regions") {
+  Scene scene = table_scene(2);
+  add_region(scene, "table.inside");
+  Domain domain;
+  const auto declare = [&](const char* name, const char* label) {
+    Predicate predicate;
+    predicate.name = name;
+    predicate.label = label;
+    predicate.parameters = {{"a", "", {}}, {"b", "", {}}};
+    domain.predicates.push_back(predicate);
+  };
+  declare("inside", "the {a} is inside the {b}");
+  declare("on", "the {a} is on the {b}");
+  declare("behind", "the {a} is behind the {b}");
+  const Fact hides{"inside", {"cube1", "table.inside"}}, lies{"on", {"cube1", "table"}};
+  const Fact open{"on", {"cube2", "table"}}, own{"behind", {"table.inside", "table"}};
+  const Facts holds = {hides, lies, open, own};
+  CHECK(mentionable(holds, {lies, open, own}, domain, scene) == Facts{open, own});
+  CHECK(mentionable(holds, holds, domain, scene) == holds);  // seen, or told
+  CHECK(describe_world(holds, domain, scene).size() == 3);
+  for (const std::string& sentence : describe_world(holds, domain, scene))
+    CHECK(sentence.find("behind") == std::string::npos);
 }
