@@ -187,6 +187,7 @@ class Builds {
   static StageRequest robot_alone(const ScriptFile& file) {
     StageRequest request;
     request.robot = file.name;
+    request.driven = true;
     request.where = file.shown_path;
     return request;
   }

@@ -56,23 +56,6 @@ void check_sizes(const Body& body, const Value& where) {
   }
 }
 
-// The engine drives two jaws along one line, and measures what is between them.
-void check_fingers(const Value& listed, const Robot& robot) {
-  if (robot.fingers.empty()) return;
-  if (robot.fingers.size() != 2)
-    throw Error(listed.place, "a hand closes two sliding joints, not " + std::to_string(robot.fingers.size()),
-                "name two prismatic joints, or none for an arm without a hand");
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Joint& joint = robot.body.parts[static_cast<std::size_t>(robot.fingers[i])].joint;
-    if (joint.kind != JointKind::slider)
-      throw Error(listed.place,
-                  "finger '" + listed.items[i].as_text() + "' " +
-                      (joint.kind == JointKind::fixed ? "does not move" : "turns") +
-                      ": a hand closes two sliding joints",
-                  "name two prismatic joints, or put sliding jaws in the place of the turning ones");
-  }
-}
-
 // Driven joints: what moves and is no finger, in the order of the URDF, unless the file lists them.
 std::vector<int> arm_parts(const Value& fields, const Robot& robot) {
   const Value& listed = fields["arm"];
@@ -158,6 +141,22 @@ void read_pairs(const Value& fields, Robot& robot) {
 
 }  // namespace
 
+void check_fingers(const Value& listed, const Robot& robot) {
+  if (robot.fingers.empty()) return;
+  if (robot.fingers.size() != 2)
+    throw Error(listed.place, "a hand closes two sliding joints, not " + std::to_string(robot.fingers.size()),
+                "name two prismatic joints, or none for an arm without a hand");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Joint& joint = robot.body.parts[static_cast<std::size_t>(robot.fingers[i])].joint;
+    if (joint.kind != JointKind::slider)
+      throw Error(listed.place,
+                  "finger '" + listed.items[i].as_text() + "' " +
+                      (joint.kind == JointKind::fixed ? "does not move" : "turns") +
+                      ": a hand closes two sliding joints",
+                  "name two prismatic joints, or put sliding jaws in the place of the turning ones");
+  }
+}
+
 Robot build_robot(const std::string& name, const Value& fields, Body body, const Transform& world_from_base,
                   const Colours& colours) {
   Robot robot;
@@ -167,7 +166,6 @@ Robot build_robot(const std::string& name, const Value& fields, Body body, const
   robot.body.free = false;
   robot.body.world_from_body = world_from_base;
   robot.fingers = parts_named(robot.body, fields["fingers"]);
-  check_fingers(fields["fingers"], robot);
   check_sizes(robot.body, fields["urdf"].present() ? fields["urdf"] : fields);
   robot.arm = arm_parts(fields, robot);
   read_limits(fields, robot);

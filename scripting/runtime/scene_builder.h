@@ -53,6 +53,8 @@ class SceneBuilder {
 };
 
 // `body`: as its URDF has it. `fields`: of its Lua file.
+// The engine drives two jaws along one line, and measures what is between them. `listed`: the robot's `fingers`.
+void check_fingers(const Value& listed, const Robot& robot);
 Robot build_robot(const std::string& name, const Value& fields, Body body, const Transform& world_from_base,
                   const Colours& colours);
 

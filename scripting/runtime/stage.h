@@ -20,7 +20,8 @@ struct StageRequest {
   std::filesystem::path urdf;  // empty: the library's robot
   Value robot_fields;          // of a robot of `urdf`: as a robot's Lua file has them
   Transform world_from_base = Transform::Identity();
-  std::string where;  // starts complaints about these words
+  bool driven = false;  // will it be simulated? Recordings move hands that the engine cannot
+  std::string where;    // starts complaints about these words
 };
 
 struct Stage {

@@ -142,7 +142,7 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
 void TaskReader::read_world(const std::string& name, const Value& world) {
   colours_ = read_colours(state_, key_);
   builder_ = std::make_unique<SceneBuilder>(name, colours_);
-  read_robot(world["robot"]);
+  read_robot(world["robot"], true);
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));
   for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
@@ -153,7 +153,7 @@ void TaskReader::read_world(const std::string& name, const Value& world) {
   for (const auto& [key, sensor] : world["sensors"].fields) builder_->add_sensor(key, sensor);
 }
 
-void TaskReader::read_robot(const Value& robot) {
+void TaskReader::read_robot(const Value& robot, bool driven) {
   const std::string name =
       robot.kind == Value::Kind::text || robot.items.empty() ? robot.as_text() : robot.items[0].as_text();
   const ScriptFile& file = used(DefinitionKind::robot, name, robot);
@@ -161,6 +161,7 @@ void TaskReader::read_robot(const Value& robot) {
   const UrdfBody& urdf = assets_.urdf(file.path.parent_path() / fields.text_or("urdf", name + ".urdf"));
   builder_->add_drawn(urdf.drawn);
   Robot built = build_robot(name, fields, urdf.body, transform_from(robot), colours_);
+  if (driven) check_fingers(fields["fingers"], built);
   set_start(robot["joints"], built);
   builder_->set_robot(std::move(built));
   drawn_.hand = builder_->hand();
@@ -184,7 +185,7 @@ Stage TaskReader::read_stage(lua_State* state, const StageRequest& request) {
   Value name;
   name.kind = Value::Kind::text, name.text = request.robot, name.place = request.where;
   if (request.urdf.empty()) {
-    read_robot(name);
+    read_robot(name, request.driven);
   } else {
     const UrdfBody& urdf = assets_.urdf(request.urdf);
     builder_->add_drawn(urdf.drawn);

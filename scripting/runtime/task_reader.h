@@ -24,7 +24,7 @@ class TaskReader {
   bool has_function(const char* name);
   bool push_field(const char* name);  // called if it is a function; false (nothing pushed): absent
   void read_world(const std::string& name, const Value& world);
-  void read_robot(const Value& robot);
+  void read_robot(const Value& robot, bool driven);
   void read_looks(const Value& world, const std::filesystem::path& folder);  // light, randomisation, classes
   void set_classes();
   void read_calibration(const Value& file, const std::filesystem::path& folder);
