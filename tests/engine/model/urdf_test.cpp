@@ -242,7 +242,7 @@ TEST_CASE("inertias as exporters write them are worked out from mass and shape, 
   CHECK(frame.body.parts[1].mass == 0.01);
   CHECK_THAT(texts(frame.remarks), Contains("as it has no solid shape"));
   CHECK(read(inertial("2", "1", "2", "3.2") + kBlock).remarks.empty());  // measured, or rounded
-  CHECK(read(inertial("0", "0", "0", "0"), "fixed").remarks.empty());     // a flange
+  CHECK(read(inertial("0", "0", "0", "0"), "fixed").remarks.empty());    // a flange
   const UrdfBody still = read(inertial("2", "0", "0", "0") + kBlock, "fixed");
   CHECK_THAT(texts(still.remarks), Contains("which is ignored: it cannot move"));
   CHECK(read("", "fixed").body.parts[1].mass == 0);
