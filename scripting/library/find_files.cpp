@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "engine/base/hash.h"
+#include "engine/base/read_file.h"
+#include "engine/base/utf8.h"
 #include "scripting/library/builder.h"
 #include "scripting/lua/sandbox.h"
 
@@ -84,13 +84,14 @@ void read_file(const fs::path& root, const fs::path& path, std::map<std::string,
   file.kind = kind_of(file.shown_path);
   file.name = path.stem().string();
   if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours) stand_beside(root, files, file);
-  std::error_code code;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || fs::file_size(path, code) > kLargest) {
-    complaints.emplace_back(file.shown_path, stream ? "larger than 1 MiB" : "cannot be read");
+  try {
+    file.source = stampede::read_file(path, kLargest);
+    require_text(file.source, file.shown_path);
+  } catch (const Error& error) {
+    complaints.emplace_back(error.where() == path.string() ? file.shown_path : error.where(), error.message(),
+                            error.hint());
     return;
   }
-  file.source.assign(std::istreambuf_iterator<char>(stream), {});
   file.description = description_of(file.source);
   file.hash = content_hash(file.source);
   try {

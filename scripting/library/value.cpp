@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/utf8.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {
@@ -51,6 +52,8 @@ Value read(lua_State* state, int index, Reading& reading, int depth) {
   if (lua_istable(state, index)) return read_table(state, index, reading, depth);
   Value value = plain_value(state, index);
   if (lua_isfunction(state, index)) value.kind = Value::Kind::function;
+  if (value.is_text() && not_text_at(value.text) != std::string::npos)
+    throw Error(reading.place, "a text that is no UTF-8", "write letters as they are, without escapes such as \\xE9");
   return value;
 }
 

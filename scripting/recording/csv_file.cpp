@@ -3,24 +3,38 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "engine/base/error.h"
-#include "scripting/session/text_file.h"
+#include "engine/base/read_file.h"
+#include "engine/base/utf8.h"
 
 namespace stampede {
+namespace {
+
+constexpr std::size_t kMostColumns = 4096;
+constexpr std::uintmax_t kMostCsvBytes = std::uintmax_t{512} << 20;
+
+}  // namespace
 
 CsvFile::CsvFile(const std::filesystem::path& file, std::string shown)
-    : shown_(std::move(shown)), text_(read_text_file(file)) {
+    : shown_(std::move(shown)), text_(read_file(file, kMostCsvBytes)) {
+  require_text(text_, shown_);
   if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // how some programs begin UTF-8
   if (!read_row()) throw Error(shown_, "this file is empty", "its first line names the columns");
   if (row_.size() == 1 && row_[0].find_first_of(";\t") != std::string_view::npos)
     throw Error(place(), "its fields are not separated by commas",
                 "write commas between fields, and a point in decimal numbers");
   for (const std::string_view name : row_) header_.emplace_back(name);
-  for (std::size_t i = 0; i < header_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (header_[i] == header_[j])
-        throw Error(place(), "two columns are named '" + header_[i] + "'", "name each column once");
+  if (header_.size() > kMostColumns)
+    throw Error(place(),
+                "it has " + std::to_string(header_.size()) + " columns, at most " + std::to_string(kMostColumns),
+                "split it into streams of fewer columns");
+  std::set<std::string_view> seen;
+  for (const std::string& name : header_)
+    if (!seen.insert(name).second)
+      throw Error(place(), "two columns are named '" + name + "'", "name each column once");
+  require_line_end();
 }
 
 bool CsvFile::read_row() {
@@ -64,6 +78,13 @@ bool CsvFile::read_row() {
   return true;
 }
 
+// A file that was cut in its last number has as many fields as a whole one.
+void CsvFile::require_line_end() const {
+  if (at_ < text_.size() || text_.ends_with('\n') || text_.ends_with('\r')) return;
+  throw Error(place(), "the file ends within this line: it may have been cut here",
+              "copy it again; where nothing is missing, end its last line with a line end");
+}
+
 bool CsvFile::next() {
   if (!read_row()) return false;
   if (row_.size() != header_.size())
@@ -71,6 +92,7 @@ bool CsvFile::next() {
                 "this row has " + std::to_string(row_.size()) + " fields, and the header names " +
                     std::to_string(header_.size()),
                 at_ >= text_.size() ? "the file ends too early: copy it again" : "write one field for each column");
+  require_line_end();
   return true;
 }
 

@@ -10,7 +10,8 @@
 namespace stampede {
 
 // Fields are separated by commas; one that begins with a quote ends at the next, where two quotes stand for one.
-// Throws Error with file and line for rows of another length than the header's, and for a last row that is cut off.
+// Throws Error with file and line for what is no UTF-8, rows of another length than the header's, a last line without a
+// line end, which may be cut off, and more columns or bytes than anybody records.
 class CsvFile {
  public:
   CsvFile(const std::filesystem::path& file, std::string shown);
@@ -24,6 +25,7 @@ class CsvFile {
 
  private:
   bool read_row();
+  void require_line_end() const;  // throws Error
   std::string shown_, text_;
   std::size_t at_ = 0;
   int line_ = 0;

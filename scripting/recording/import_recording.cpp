@@ -14,8 +14,8 @@
 namespace stampede {
 namespace {
 
-constexpr int kTicks = 1'000'000;  // a second, about: steps of a real episode
-constexpr std::size_t kMostFrames = 10'000'000;
+constexpr int kTicks = 1'000'000;          // a second, about: steps of a real episode
+constexpr double kMostFrames = 1'000'000;  // nine hours at 30 a second
 constexpr const char* kNoKey = "no key yet: its pictures are being read";
 constexpr double kSameMoment = 1e-6;  // s
 constexpr double kSlowest = 0.9;      // s between joint states: 1000 Hz in milliseconds are beyond
@@ -85,7 +85,14 @@ class Importer {
       later_.emplace_back([text](Hasher& hasher) { hasher.text(text); });
   }
   Track track_of(const RecordedStream& stream, std::vector<TrackColumn> columns) {
-    return read_track(recording_, stream, std::move(columns), [this](const std::string& text) { hash(text); });
+    Track track = read_track(recording_, stream, std::move(columns), [this](const std::string& text) { hash(text); });
+    readings_ += track.values.size();
+    if (readings_ > kMostReadings)
+      throw Error(stream.place,
+                  "with this stream the recording has more than " + std::to_string(kMostReadings) +
+                      " readings, rows times columns",
+                  "cut it into shorter recordings, or leave streams out");
+    return track;
   }
 
   void read_robot() {
@@ -144,10 +151,13 @@ class Importer {
     if (!(count >= 2))
       throw Error(recording_.shown, "it has no two frames: from " + seconds(begin) + " to " + seconds(end),
                   "record joint states for longer, or correct start_s and end_s");
-    if (count > static_cast<double>(kMostFrames))
-      throw Error(recording_.shown,
-                  "it would have more than 10 million frames: from " + seconds(begin) + " to " + seconds(end),
-                  "are all stamps in seconds, and start_s and end_s on the recording's time line?");
+    for (const int hz : {recording_.frame_hz, own_hz_})
+      if (frames_at(hz) > kMostFrames)
+        throw Error(recording_.shown,
+                    "from " + seconds(begin) + " to " + seconds(end) + " are " + std::to_string(hz) +
+                        " frames a second more than a million frames",
+                    "are all stamps in seconds, and start_s and end_s on the recording's time line? If so, lower "
+                    "frame_hz, or cut it into shorter recordings");
     times_ = {begin, recording_.frame_hz, static_cast<std::size_t>(count)};
     own_times_ = {begin, own_hz_, static_cast<std::size_t>(frames_at(own_hz_))};
     require_overlap(*stream_of(StreamKind::joints), joints_.time);
@@ -278,6 +288,7 @@ class Importer {
   RobotTracks tracks_;
   FrameTimes times_, own_times_;  // own: at the rate that recording.json says
   int own_hz_ = 0;
+  std::size_t readings_ = 0;
   EpisodeRecord record_;
   std::vector<std::string> notes_;
   std::shared_ptr<ImageStore> images_ = std::make_shared<ImageStore>();

@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* kList = "[]";  // what tells a list from an object where both are empty: tables have no text
+
 Value converted(const Json& json, const std::string& file, const std::string& path) {
   Value value;
   value.place = file + (path.empty() ? "" : ": " + path);
@@ -21,13 +23,15 @@ Value converted(const Json& json, const std::string& file, const std::string& pa
   } else if (json.is_string()) {
     value.kind = Value::Kind::text, value.text = json.get<std::string>();
   } else if (json.is_array()) {
-    value.kind = Value::Kind::table;
+    value.kind = Value::Kind::table, value.text = kList;
     for (std::size_t i = 0; i < json.size(); ++i)
       value.items.push_back(converted(json[i], file, path + "[" + std::to_string(i) + "]"));
   } else if (json.is_object()) {
     value.kind = Value::Kind::table;
     for (const auto& [name, field] : json.items())
       value.fields.emplace(name, converted(field, file, path.empty() ? name : path + "." + name));
+  } else {
+    value.kind = Value::Kind::other, value.text = "null";  // somebody wrote it: it is not what is left out
   }
   return value;
 }
@@ -40,6 +44,20 @@ Value value_from_json(const std::string& text, const std::string& shown_file) {
   return converted(json_from_text(text, shown_file, "", limits), shown_file, "");
 }
 
+bool is_list(const Value& value) { return value.is_table() && value.text == kList; }
+
+const std::vector<Value>& list_in(const Value& object, const std::string& field) {
+  const Value& value = object[field];
+  if (value.present() && !is_list(value))
+    expected(value, "a list: [ … ]", "leave '" + field + "' out where there are none");
+  return value.items;
+}
+
+std::vector<std::string> texts_in(const Value& value) {
+  if (!is_list(value) && !value.is_text()) expected(value, "a list of texts", "write [\"cup\", \"shelf\"]");
+  return value.as_texts();
+}
+
 void expected(const Value& value, const std::string& what, const std::string& cure) {
   try {
     value.expected(what);
@@ -49,7 +67,7 @@ void expected(const Value& value, const std::string& what, const std::string& cu
 }
 
 void require_fields(const Value& object, const std::vector<std::string>& known) {
-  if (!object.is_table() || !object.items.empty()) object.expected("an object: { … }");
+  if (!object.is_table() || is_list(object)) expected(object, "an object: { … }", "write its fields by name");
   for (const auto& [name, field] : object.fields)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw Error(object.place, "there is no field '" + name + "'", did_you_mean(name, known));

@@ -18,6 +18,11 @@ Value value_from_json(const std::string& text, const std::string& shown_file);
 void require_fields(const Value& object, const std::vector<std::string>& known);
 const Value& required(const Value& object, const std::string& field, const std::string& cure);  // throws Error
 
+bool is_list(const Value& value);
+// The items of a list; none where the field is left out. Throws Error for anything else.
+const std::vector<Value>& list_in(const Value& object, const std::string& field);
+std::vector<std::string> texts_in(const Value& value);  // a list, or one text; throws Error
+
 // `a-z0-9_`, beginning with a letter: of tasks, cameras, channels. Throws Error.
 const std::string& plain_name(const Value& value);
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "engine/base/nearest.h"
 #include "scripting/recording/label_rows.h"
@@ -127,17 +130,39 @@ class LabelReader {
     segment_rows_.push_back(&row);
   }
 
-  static bool meet(const Span& a, const Span& b) { return a.start_step < b.end_step && b.start_step < a.end_step; }
+  const LabelRow& row_of(const SegmentRecord& segment) const {
+    return *segment_rows_[static_cast<std::size_t>(segment.ordinal)];
+  }
 
-  // Before what lies across another is complained of: parts of a segment lie across what it overlaps.
+  // Before what lies across another is complained of: parts of a segment lie across what it overlaps. In the order of
+  // starts, only the one before of the same kind can be met.
   void refuse_overlaps() const {
+    std::map<SegmentKind, const SegmentRecord*> before;
+    for (const SegmentRecord& segment : labels_.segments) {
+      const auto [found, first] = before.try_emplace(segment.kind, &segment);
+      if (!first && found->second->span.end_step > segment.span.start_step)
+        throw Error(row_of(segment).place,
+                    "it overlaps the " + std::string(to_string(segment.kind)) + " " + found->second->skill,
+                    "one of a kind runs at a time");
+      found->second = &segment;
+    }
+  }
+
+  // Of those of one kind, which do not overlap and are in the order of starts: the one that holds `segment`, -1 where
+  // none meets it.
+  int holder(const SegmentRecord& segment, const std::vector<int>& of_kind) const {
     const std::vector<SegmentRecord>& list = labels_.segments;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (list[j].kind == list[i].kind && meet(list[j].span, list[i].span))
-          throw Error(segment_rows_[static_cast<std::size_t>(list[i].ordinal)]->place,
-                      "it overlaps the " + std::string(to_string(list[j].kind)) + " " + list[j].skill,
-                      "one of a kind runs at a time");
+    const auto span = [&](int at) -> const Span& { return list[static_cast<std::size_t>(at)].span; };
+    auto next = std::upper_bound(of_kind.begin(), of_kind.end(), segment.span.start_step,
+                                 [&](std::int64_t step, int at) { return step < span(at).end_step; });
+    if (next == of_kind.end() || span(*next).start_step >= segment.span.end_step) return -1;
+    if (segment.span.start_step < span(*next).start_step || segment.span.end_step > span(*next).end_step) {
+      const SegmentRecord& other = list[static_cast<std::size_t>(*next)];
+      throw Error(row_of(segment).place,
+                  "it lies partly within the " + std::string(to_string(other.kind)) + " " + other.skill,
+                  "let it begin and end within it, or outside");
+    }
+    return *next;
   }
 
   // By start, then depth; each part of the innermost that holds it.
@@ -147,19 +172,15 @@ class LabelReader {
       return std::tie(a.span.start_step, a.kind) < std::tie(b.span.start_step, b.kind);
     });
     refuse_overlaps();
+    std::map<SegmentKind, std::vector<int>> of_kind;
+    for (std::size_t i = 0; i < list.size(); ++i) of_kind[list[i].kind].push_back(static_cast<int>(i));
     ordinal_of_.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const LabelRow& row = *segment_rows_[static_cast<std::size_t>(list[i].ordinal)];
       ordinal_of_[static_cast<std::size_t>(list[i].ordinal)] = static_cast<int>(i);
-      for (std::size_t j = 0; j < list.size(); ++j) {
-        const Span &own = list[i].span, &other = list[j].span;
-        if (list[j].kind >= list[i].kind || !meet(own, other)) continue;
-        const std::string whom = std::string(to_string(list[j].kind)) + " " + list[j].skill;
-        if (own.start_step < other.start_step || own.end_step > other.end_step)
-          throw Error(row.place, "it lies partly within the " + whom, "let it begin and end within it, or outside");
-        if (list[i].parent < 0 || list[static_cast<std::size_t>(list[i].parent)].kind < list[j].kind)
-          list[i].parent = static_cast<int>(j);
-      }
+      for (const auto& [kind, places] : of_kind)  // the outermost first
+        if (kind < list[i].kind)
+          if (const int whole = holder(list[i], places); whole >= 0) list[i].parent = whole;
+      places_.try_emplace({list[i].kind, list[i].span.start_step, list[i].span.end_step}, static_cast<int>(i));
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
       const LabelRow& row = *segment_rows_[static_cast<std::size_t>(list[i].ordinal)];
@@ -181,9 +202,12 @@ class LabelReader {
     fact.open_start = span.start_step == 0;
     fact.open_end = span.end_step == episode_.steps;
     fact.labelled_by = labeller(row);
-    for (const FactRecord& other : labels_.facts)
-      if (other.fact == fact.fact && fact.start_step < other.end_step && other.start_step < fact.end_step)
-        throw Error(row.place, "this fact holds twice at once", "join the two spans");
+    std::map<std::int64_t, std::int64_t>& spans = spans_[fact.fact];  // by their starts, none meets another
+    const auto next = spans.lower_bound(fact.start_step);
+    if ((next != spans.end() && next->first < fact.end_step) ||
+        (next != spans.begin() && std::prev(next)->second > fact.start_step))
+      throw Error(row.place, "this fact holds twice at once", "join the two spans");
+    spans.emplace(fact.start_step, fact.end_step);
     labels_.facts.push_back(std::move(fact));
   }
 
@@ -223,10 +247,9 @@ class LabelReader {
     }
     if (row.span.given()) {
       const Span span = span_of(row, false);
-      for (const SegmentRecord& segment : labels_.segments)
-        if (to_string(segment.kind) == row.name && segment.span.start_step == span.start_step &&
-            segment.span.end_step == span.end_step)
-          return segment.ordinal;
+      if (const auto kind = segment_kind_from(row.name))
+        if (const auto found = places_.find({*kind, span.start_step, span.end_step}); found != places_.end())
+          return found->second;
     }
     throw Error(row.place, "it does not say which " + row.name + " it is of",
                 "give `segment`, or in a CSV the span of a segment of that kind");
@@ -240,6 +263,9 @@ class LabelReader {
   Labels labels_;
   std::vector<const LabelRow*> segment_rows_;  // by place in the file
   std::vector<int> ordinal_of_;                // likewise
+  std::map<std::tuple<SegmentKind, std::int64_t, std::int64_t>, int>
+      places_;  // of the ordered segments, by their spans
+  std::map<Fact, std::map<std::int64_t, std::int64_t>> spans_;
 };
 
 }  // namespace
@@ -256,10 +282,9 @@ void put_labels(Labels labels, EpisodeRecord& episode) {
     episode.segments = std::move(labels.segments);
   }
   if (!labels.facts.empty()) episode.facts = std::move(labels.facts);
-  const auto replaced = [&](const LanguageRecord& sentence) {
-    return std::any_of(labels.language.begin(), labels.language.end(),
-                       [&](const LanguageRecord& other) { return other.level == sentence.level; });
-  };
+  std::set<LanguageLevel> levels;
+  for (const LanguageRecord& sentence : labels.language) levels.insert(sentence.level);
+  const auto replaced = [&](const LanguageRecord& sentence) { return levels.contains(sentence.level); };
   std::erase_if(episode.language, replaced);
   episode.language.insert(episode.language.end(), labels.language.begin(), labels.language.end());
 }

@@ -28,9 +28,9 @@ class JsonLabels {
                     "give times in seconds from frame 0");
       its_clock_ = &clock.recording->clock(named);
     }
-    for (const Value& value : root["segments"].items) segment(value);
-    for (const Value& value : root["facts"].items) fact(value);
-    for (const Value& value : root["language"].items) sentence(value);
+    for (const Value& value : list_in(root, "segments")) segment(value);
+    for (const Value& value : list_in(root, "facts")) fact(value);
+    for (const Value& value : list_in(root, "language")) sentence(value);
   }
   std::vector<LabelRow> rows;
 
@@ -58,7 +58,7 @@ class JsonLabels {
     LabelRow& one = row(value);
     one.kind = required(value, "kind", "subgoal, skill or motion").as_text();
     one.name = required(value, "name", "name the skill").as_text();
-    if (value["arguments"].present()) one.arguments = value["arguments"].as_texts();
+    if (value["arguments"].present()) one.arguments = texts_in(value["arguments"]);
     one.outcome = value.text_or("outcome", "success");
     one.reason = value.text_or("reason", "");
     one.text = value.text_or("label", "");
@@ -67,7 +67,7 @@ class JsonLabels {
     require_fields(value, {"fact", "start_s", "end_s", "first_frame", "end_frame", "labelled_by", "model"});
     LabelRow& one = row(value);
     one.kind = "fact";
-    one.arguments = required(value, "fact", "write [\"on\", \"cup\", \"table\"]").as_texts();
+    one.arguments = texts_in(required(value, "fact", "write [\"on\", \"cup\", \"table\"]"));
     if (one.arguments.empty()) value["fact"].expected("a predicate and what it holds of");
     one.name = one.arguments.front();
     one.arguments.erase(one.arguments.begin());

@@ -1,9 +1,6 @@
 #include "scripting/recording/picture_stream.h"
 
-#include <fcntl.h>
 #include <libdeflate.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,7 +8,9 @@
 #include <map>
 #include <memory>
 
+#include "engine/base/file_scope.h"
 #include "engine/base/hash.h"
+#include "engine/base/read_file.h"
 #include "engine/render/png.h"
 #include "scripting/recording/csv_file.h"
 
@@ -19,6 +18,9 @@ namespace stampede {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kMostPixels = 4096;  // a side, as of cameras
+constexpr std::uintmax_t kMostPictureBytes = std::uintmax_t{128} << 20;
 
 std::uint32_t get32(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -79,23 +81,18 @@ PictureHeader check_jpeg(std::string_view bytes, StreamKind kind, const std::str
 
 std::string_view as_text(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-Bytes whole_file(const fs::path& path, const std::string& shown) {
-  struct Descriptor {
-    int number;
-    ~Descriptor() {
-      if (number >= 0) ::close(number);
-    }
-  } file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  struct stat status {};
-  if (file.number < 0 || ::fstat(file.number, &status) != 0) throw Error(shown, "it cannot be read");
-  Bytes bytes(static_cast<std::size_t>(status.st_size));
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const ssize_t got = ::read(file.number, bytes.data() + at, bytes.size() - at);
-    if (got <= 0) throw Error(shown, "it cannot be read");
-    at += static_cast<std::size_t>(got);
-  }
-  return bytes;
+// A picture in its folder may be a link: it lies in the recording none the less, or it is refused.
+void check_place(const FileScope& scope, const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_symlink(path, ignored) && !scope.contains(path))
+    throw Error(path.string(), "this picture is a link to a file outside of the recording",
+                "copy the file itself into the folder");
+}
+
+Bytes whole_file(const fs::path& path) {
+  const std::string text = read_file(path, kMostPictureBytes);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(text.data());
+  return {first, first + text.size()};
 }
 
 // Depths in our unit, within the range; the bytes as they are where nothing would change.
@@ -127,8 +124,12 @@ bool is_picture(const fs::path& file) {
 
 void list_by_names(const RecordingFile& recording, const RecordedStream& stream, PictureStream& pictures) {
   std::vector<std::pair<double, fs::path>> found;
-  for (const auto& entry : fs::directory_iterator(recording.path_of(stream.file, stream.place)))
-    if (is_picture(entry.path())) found.emplace_back(stamp_of(entry.path(), entry.path().string()), entry.path());
+  const FileScope scope({recording.folder});
+  for (const auto& entry : fs::directory_iterator(recording.path_of(stream.file, stream.place))) {
+    if (!is_picture(entry.path())) continue;
+    check_place(scope, entry.path());
+    found.emplace_back(stamp_of(entry.path(), entry.path().string()), entry.path());
+  }
   std::sort(found.begin(), found.end());
   for (const auto& [stamp, path] : found) {
     if (!pictures.time.empty() && !(stream.clock.time(stamp) > pictures.time.back()))
@@ -145,6 +146,7 @@ void list_by_times(const RecordingFile& recording, const RecordedStream& stream,
   if (csv.header() != std::vector<std::string>{"time_s", "file"})
     throw Error(shown + ":1", "the times of pictures have the columns time_s,file, and no other");
   const fs::path folder = recording.folder / stream.file;
+  const FileScope scope({recording.folder});
   std::map<std::string, std::string> seen;  // the row that named a picture
   int repeated = 0;
   while (csv.next()) {
@@ -158,6 +160,7 @@ void list_by_times(const RecordingFile& recording, const RecordedStream& stream,
     if (name.empty() || fs::path(name).filename() != name || !fs::is_regular_file(folder / name, ignored))
       throw Error(csv.place(), "there is no picture '" + name + "' in " + folder.string(),
                   "leave the row out: a frame without a picture is no fault");
+    check_place(scope, folder / name);
     const auto [before, first] = seen.emplace(name, csv.place());
     if (!first && repeated++ == 0)
       pictures.note = csv.place() + ": the picture '" + name + "' was named before, at " + before->second;
@@ -175,7 +178,7 @@ struct PictureReader {
 
   Bytes read(std::size_t at) {
     const std::string& where = pictures.shown[chosen[at]];
-    Bytes bytes = whole_file(pictures.files[chosen[at]], where);
+    Bytes bytes = whole_file(pictures.files[chosen[at]]);
     const PictureHeader header = check_picture(as_text(bytes), stream.kind, where);
     if (header.width != camera.width || header.height != camera.height)
       throw Error(where,
@@ -206,14 +209,21 @@ PictureStream read_picture_stream(const RecordingFile& recording, const Recorded
 
 std::array<int, 2> first_size(const RecordingFile& recording, const RecordedStream& stream) {
   const PictureStream pictures = read_picture_stream(recording, stream);
-  const PictureHeader header =
-      check_picture(as_text(whole_file(pictures.files[0], pictures.shown[0])), stream.kind, pictures.shown[0]);
+  const PictureHeader header = check_picture(as_text(whole_file(pictures.files[0])), stream.kind, pictures.shown[0]);
   return {header.width, header.height};
 }
 
 PictureHeader check_picture(std::string_view bytes, StreamKind kind, const std::string& where) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return check_png(bytes, kind, where);
-  if (bytes.starts_with("\xff\xd8\xff")) return check_jpeg(bytes, kind, where);
+  const bool png = bytes.starts_with("\x89PNG\r\n\x1a\n");
+  if (png || bytes.starts_with("\xff\xd8\xff")) {
+    const PictureHeader header = png ? check_png(bytes, kind, where) : check_jpeg(bytes, kind, where);
+    const auto fits = [](int side) { return side >= 1 && side <= kMostPixels; };
+    if (fits(header.width) && fits(header.height)) return header;
+    throw Error(where,
+                "this picture says that it has " + std::to_string(static_cast<std::uint32_t>(header.width)) + " x " +
+                    std::to_string(static_cast<std::uint32_t>(header.height)) + " pixels, at most 4096 a side",
+                "scale the pictures down, and calibrate at that size");
+  }
   throw Error(where, bytes.empty() ? "this picture is empty" : "this is neither a PNG nor a JPEG picture",
               "write PNG (8 bits a channel, depth 16), or JPEG for colours");
 }

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostStreams = 256;
 constexpr std::array<std::string_view, 7> kKinds{"joints", "gripper", "command", "wrench", "channel", "rgb", "depth"};
 
 StreamKind kind_of(const Value& value) {
@@ -67,9 +68,9 @@ void read_robot(const Value& robot, RecordingFile& recording) {
 
 void read_clocks(const Value& clocks, RecordingFile& recording) {
   if (!clocks.present()) return;
-  if (!clocks.is_table() || !clocks.items.empty()) clocks.expected("an object of clocks by name");
+  if (!clocks.is_table() || is_list(clocks)) clocks.expected("an object of clocks by name");
   for (const auto& [name, fields] : clocks.fields) {
-    if (!fields.fields.empty()) require_fields(fields, {"offset_s", "drift_ppm", "reference_s"});
+    require_fields(fields, {"offset_s", "drift_ppm", "reference_s"});
     const RecordingClock clock{name, finite_or(fields, "offset_s", 0), finite_or(fields, "drift_ppm", 0),
                                finite_or(fields, "reference_s", 0), fields["reference_s"].present()};
     if (!(std::abs(clock.drift_ppm) < 1e5))
@@ -118,6 +119,10 @@ void read_numbers(const Value& value, const RecordingFile& recording, RecordedSt
 
 void read_streams(const Value& streams, RecordingFile& recording) {
   if (streams.items.empty()) streams.expected("a list of streams, of which one has the kind \"joints\"");
+  if (streams.items.size() > kMostStreams)
+    throw Error(streams.place,
+                "it has " + std::to_string(streams.items.size()) + " streams, at most " + std::to_string(kMostStreams),
+                "join channels: one may have many columns");
   std::vector<std::string> seen;
   for (const Value& value : streams.items) {
     if (!value.is_table()) value.expected("an object: { \"kind\": …, … }");

@@ -1,6 +1,8 @@
 #include "scripting/recording/track.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
@@ -25,19 +27,22 @@ std::vector<std::size_t> places_of(const CsvFile& csv, const RecordedStream& str
       if (name != "time_s") columns.push_back({name, false});
   std::vector<std::string> known = {"time_s"};
   for (const TrackColumn& column : columns) known.push_back(column.name);
+  const std::set<std::string_view> known_names(known.begin(), known.end());
+  std::map<std::string_view, std::size_t> in_header;
+  for (std::size_t i = 0; i < csv.header().size(); ++i) in_header.emplace(csv.header()[i], i);
   for (const std::string& name : csv.header())
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!known_names.contains(name))
       throw Error(shown + ":1",
                   "a stream of kind " + std::string(to_string(stream.kind)) + " has no column '" + name + "'",
                   did_you_mean(name, known));
   std::vector<std::size_t> places;
   for (const std::string& name : known) {
-    const auto found = std::find(csv.header().begin(), csv.header().end(), name);
+    const auto found = in_header.find(name);
     const bool needed = name == "time_s" || columns[places.size() - 1].needed;
-    if (found == csv.header().end() && needed)
+    if (found == in_header.end() && needed)
       throw Error(shown + ":1", "the column '" + name + "' is missing",
                   "it has " + listed(csv.header()) + "; is this another robot's?");
-    places.push_back(found == csv.header().end() ? kNoColumn : static_cast<std::size_t>(found - csv.header().begin()));
+    places.push_back(found == in_header.end() ? kNoColumn : found->second);
   }
   return places;
 }
@@ -63,6 +68,9 @@ Track read_track(const RecordingFile& recording, const RecordedStream& stream, s
           "its clock runs backwards: " + std::string(csv.fields()[places[0]]) + " does not come after the row before",
           "sort the rows by time, and leave out those that were sent twice");
     last_stamp = stamp;
+    if (track.values.size() + track.width() > kMostReadings)
+      throw Error(csv.place(), "it has more than " + std::to_string(kMostReadings) + " readings, rows times columns",
+                  "record for a shorter time or at a lower rate, or leave columns out");
     track.time.push_back(stream.clock.time(stamp));
     for (std::size_t i = 1; i < places.size(); ++i)
       track.values.push_back(places[i] == kNoColumn ? std::nan("") : csv.number(places[i]));

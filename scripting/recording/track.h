@@ -9,6 +9,8 @@
 
 namespace stampede {
 
+inline constexpr std::size_t kMostReadings = 50'000'000;  // of a recording: of all its streams
+
 struct TrackColumn {
   std::string name;  // in the CSV's header
   bool needed = false;

@@ -81,6 +81,9 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   limits.depth = 16;  // answers need three
   const nlohmann::json json = json_from_text(text, answers.where, kCompare, limits);
   if (!json.is_object()) throw Error(answers.where, "answers are one JSON object", kCompare);
+  std::vector<std::string> known = {"answers", "dataset", "problem"};
+  for (const AnswerColumn& column : problem.answer_texts) known.push_back(column.name);
+  require_known_fields(json, known, answers.where);
   for (const auto& [name, value] : json.items()) {
     if (name == "answers") continue;
     if (!value.is_string()) throw Error(answers.where, "'" + shown(name) + "' is a text", kCompare);
@@ -168,6 +171,9 @@ void read_csv(const std::string& text, const ResearchProblem& problem, Answers& 
                         ? SqlValue(std::monostate{})
                         : value_from(cells[static_cast<std::size_t>(at)], column, where));
     }
+    if (end == text.size())
+      throw Error(where, "the file ends within this line: it may have been cut here",
+                  "write it again; where nothing is missing, end its last line with a line end");
     answers.rows.rows.push_back(std::move(row));
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <lua.hpp>
 
+#include "engine/base/utf8.h"
 #include "scripting/runtime/pose_binding.h"
 
 namespace stampede {
@@ -73,6 +74,8 @@ Value read(lua_State* state, int index, const Evaluation& how, const std::string
   Value value = lua_isfunction(state, index) ? Value() : plain_value(state, index);
   value.place = place_of(how, path);
   if (value.is_number() && !std::isfinite(value.number)) throw Error(value.place, "a number that is not finite");
+  if (value.is_text() && not_text_at(value.text) != std::string::npos)
+    throw Error(value.place, "a text that is no UTF-8", "write letters as they are, without escapes such as \\xE9");
   if (value.kind == Value::Kind::other) {
     const std::optional<Transform> pose = pose_at(state, index);
     if (!pose) throw Error(value.place, "cannot hold a " + value.text);

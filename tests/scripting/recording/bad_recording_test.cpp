@@ -1,4 +1,7 @@
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
+#include <ctime>
 
 #include "engine/base/error.h"
 #include "lab.h"
@@ -174,4 +177,94 @@ TEST_CASE("bad pictures are named") {
       "front/0.png", "16 bits and one channel");
   refuse([](const Lab& lab) { lab.add_pictures("front", 5, 100, 20, 80, 60); }, "front/0.png",
          "80 x 60 pixels, and camera front was measured at 160 x 120");
+}
+
+TEST_CASE("files of a recording lie in it, as plain files") {
+  namespace fs = std::filesystem;
+  const Lab elsewhere;
+  elsewhere.add_pictures("front", 5, 100, 20);
+  const fs::path picture = elsewhere.folder() / "front" / "0.png";
+  const auto linked = [&](const auto& damage, const std::string& place, const std::string& complaint) {
+    refuse(
+        [&](const Lab& lab) {
+          lab.add_pictures("front", 5, 100, 20);
+          damage(lab);
+        },
+        place, complaint);
+  };
+  REQUIRE(fs::exists(picture));
+  const auto in_place_of = [](const fs::path& path, const fs::path& target) {
+    fs::remove_all(path);
+    fs::create_symlink(target, path);
+  };
+  linked([&](const Lab& lab) { in_place_of(lab.folder() / "front/0.png", picture); }, "front/0.png",
+         "a link to a file outside of the recording");
+  linked([&](const Lab& lab) { in_place_of(lab.folder() / "front", picture.parent_path()); }, "recording.json",
+         "outside");
+  linked([&](const Lab& lab) { in_place_of(lab.folder() / "front/0.png", "/dev/zero"); }, "0.png",
+         "there is no picture");
+  linked(
+      [](const Lab& lab) {
+        fs::remove(lab.folder() / "front/0.png");
+        REQUIRE(mkfifo((lab.folder() / "front/0.png").c_str(), 0600) == 0);
+      },
+      "0.png", "there is no picture");
+  linked(
+      [&](const Lab& lab) {  // named by their stamps
+        in_place_of(lab.folder() / "front/0.png", picture);
+        lab.change([](auto& j) { j["streams"].back().erase("times"); });
+      },
+      "front/0.png", "a link to a file outside of the recording");
+  refuse(
+      [](const Lab& lab) {
+        fs::remove(lab.folder() / "gripper.csv");
+        REQUIRE(mkfifo((lab.folder() / "gripper.csv").c_str(), 0600) == 0);
+      },
+      "gripper.csv", "it is no file");
+  for (const std::string name : {"../x.csv", "/etc/hostname", "a/../../x.csv"})
+    refuse([&](const Lab& lab) { lab.change([&](auto& j) { j["streams"][1]["file"] = name; }); }, "streams[1].file",
+           "");
+  const Lab within;  // a link that stays inside is one
+  within.add_pictures("front", 5, 100, 20);
+  fs::rename(within.folder() / "front/0.png", within.folder() / "first.png");
+  fs::create_symlink("../first.png", within.folder() / "front/0.png");
+  CHECK(within.import().images->count() == 5);
+}
+
+TEST_CASE("a CSV that was cut in its last number, or is no UTF-8, is refused with its line") {
+  refuse(
+      [](const Lab& lab) {
+        std::string text = lab.read("joints.csv");
+        while (text.back() == '\n' || text.back() == '\r') text.pop_back();
+        lab.write("joints.csv", text.substr(0, text.size() - 2));
+      },
+      "joints.csv:202", "the file ends within this line");
+  refuse([](const Lab& lab) { lab.replace("gripper.csv", "opening_m", "\xff_m"); }, "gripper.csv:1", "the byte 0xFF");
+}
+
+TEST_CASE("what would cost too much is told with its limit, before it costs anything") {
+  const std::clock_t start = std::clock();
+  const auto channel = [](const Lab& lab, const std::string& text) {
+    lab.write("x.csv", text);
+    lab.change([](auto& j) {
+      j["streams"].push_back({{"kind", "channel"}, {"name", "x"}, {"unit", "N"}, {"file", "x.csv"}, {"clock", "arm"}});
+    });
+  };
+  std::string header = "time_s", row = "100.5";
+  for (int i = 0; i < 100'000; ++i) header += ",c" + std::to_string(i), row += ",0";
+  refuse([&](const Lab& lab) { channel(lab, header + "\n" + row + "\n"); }, "x.csv:1",
+         "it has 100001 columns, at most 4096");
+  refuse([](const Lab& lab) { lab.change([](auto& j) { j["end_s"] = 100'000.0; }); }, "recording.json",
+         "more than a million frames");
+  refuse(
+      [](const Lab& lab) {
+        lab.change([](auto& j) {
+          const auto one = j["streams"][0];
+          for (int i = 0; i < 300; ++i) j["streams"].push_back(one);
+        });
+      },
+      "streams", "streams, at most 256");
+  refuse([](const Lab& lab) { lab.write("recording.json", "{\"task\":" + std::string(1'000'000, '[')); },
+         "recording.json:1", "brackets are 65 deep");
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 20);
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <ctime>
 
 #include "lab.h"
 #include "scripting/recording/label_file.h"
@@ -122,4 +123,50 @@ TEST_CASE("bad labels are refused with their line") {
   CHECK_THROWS_WITH(labels_of(R"({"clock": "arm"})"), Contains("in seconds from frame 0"));
   CHECK_THROWS_WITH(labels_of("{"), Contains("labels.json:1: this JSON ends too early"));
   CHECK_THROWS_WITH(labels_of("{\n, }"), Contains("labels.json:2: this is no JSON"));
+}
+
+TEST_CASE("labels that are no lists of labels are refused, never taken for none") {
+  const auto refuse = [](const std::string& text, const std::string& place, const std::string& complaint) {
+    INFO(text);
+    CHECK_THROWS_WITH(labels_of(text), Contains(place) && Contains(complaint));
+  };
+  refuse("[]", "labels.json", "an object: { … }");
+  refuse("3", "labels.json", "an object: { … }");
+  refuse(R"({"segments": "x"})", "labels.json: segments", "a list: [ … ]");
+  refuse(R"({"segments": {}})", "labels.json: segments", "a list: [ … ]");
+  refuse(R"({"facts": null})", "labels.json: facts", "a list: [ … ]");
+  refuse(R"({"language": 3})", "labels.json: language", "a list: [ … ]");
+  refuse(R"({"segmnets": []})", "labels.json", "did you mean 'segments'?");
+  refuse(R"({"segments": [[]]})", "labels.json: segments[0]", "an object: { … }");
+  refuse(R"({"segments": [{"kind": "skill", "name": "a", "arguments": {"b": 1}, "start_s": 0, "end_s": 1}]})",
+         "segments[0].arguments", "a list of texts");
+  refuse(R"({"facts": [{"fact": {}}]})", "facts[0].fact", "a list of texts");
+  CHECK(labels_of("{}").segments.empty());
+  CHECK(labels_of(R"({"segments": [], "facts": []})").segments.empty());
+}
+
+TEST_CASE("a labels file that was cut, is no UTF-8 or is nested a million deep is refused with its line") {
+  CHECK_THROWS_WITH(labels_of("kind,name,start_s,end_s\nskill,a,0,1\nskill,b,1,1.2", "labels.csv"),
+                    Contains("labels.csv:3: the file ends within this line"));
+  CHECK_THROWS_WITH(labels_of("kind,name,start_s,end_s\nskill,\xe9,0,1\n", "labels.csv"),
+                    Contains("labels.csv:2: the byte 0xE9"));
+  CHECK_THROWS_WITH(labels_of("{\"segments\":" + std::string(1'000'000, '[')),
+                    Contains("labels.json:1: brackets are 65 deep"));
+}
+
+TEST_CASE("a hundred thousand labels are read in the time of so many lines") {
+  constexpr int kLabels = 100'000;
+  std::string rows = "kind,name,arguments,start_s,end_s,text\nsubgoal,all,,0,2,\n";
+  for (int i = 0; i < kLabels; ++i) {
+    const std::string span = "," + std::to_string(1.9e-5 * i) + "," + std::to_string(1.9e-5 * (i + 1));
+    rows += (i % 2 == 0 ? "skill,s," : "fact,f,a") + span + ",\n";
+    if (i % 2 == 0) rows += "motion,m," + span + ",\nlanguage,skill," + span + ",do it\n";
+  }
+  const std::clock_t start = std::clock();
+  const Labels labels = labels_of(rows, "labels.csv");
+  CHECK(labels.segments.size() == kLabels + 1);
+  CHECK(labels.facts.size() == kLabels / 2);
+  CHECK((labels.segments[1].parent == 0 && labels.segments[2].parent == 1));
+  CHECK((labels.language.back().segment == kLabels - 1 && labels.language.size() == kLabels / 2));
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 10);  // it was 17 s for half of them
 }

@@ -130,4 +130,12 @@ TEST_CASE("ten megabytes of answers are read") {
   CHECK(read(text, "rewards").rows.size() == rows);
 }
 
+TEST_CASE("answers that could not be written again, or were cut, are refused with their line") {
+  refused("episode,first_frame,end_frame,skill\n1,0,2,pick\n1,2,4,\xe9\n", ":3: the byte 0xE9 here is no UTF-8 text");
+  refused("{\"dataset\": \"\xe9\"}", ":1: the byte 0xE9");
+  refused("episode,first_frame,end_frame,skill\n1,0,2,pick\n1,2,4,pi", ":3: the file ends within this line");
+  refused("{\"dataset\": \"a\", \"anwsers\": \"\"}", "did you mean 'answers'?");
+  refused("{\"dataset\": \"a\", \"dataset\": \"b\"}", "'dataset' is there twice");
+}
+
 }  // namespace stampede::research
