@@ -1,5 +1,6 @@
 // Pictures that are asked for, or that come later than their episode.
 #include "db/catalogue_impl.h"
+#include "db/check_numbers.h"
 #include "db/episode_writer.h"
 
 namespace stampede {
@@ -20,8 +21,11 @@ AddedImages Catalogue::add_images(std::int64_t id, const ImageStore& images, con
 }
 
 std::vector<ImageEntry> Catalogue::images(std::int64_t id) const {
-  if (!sql::Statement(impl_->database, "SELECT 1 FROM episode WHERE id = ?1").start(id).step())
-    throw_no_episode(impl_->database, id);
+  sql::Statement episode(impl_->database, "SELECT frames FROM episode WHERE id = ?1");
+  std::int64_t frames = 0;
+  if (!episode.start(id).step()) throw_no_episode(impl_->database, id);
+  episode.read(frames);
+  const std::string here = "episode " + std::to_string(id) + ", a picture's ";
   sql::Statement rows(impl_->database,
                       "SELECT i.frame, c.name, i.kind, i.width, i.height, length(i.data) FROM image i "
                       "JOIN camera c ON c.episode = i.episode AND c.ordinal = i.camera "
@@ -30,6 +34,9 @@ std::vector<ImageEntry> Catalogue::images(std::int64_t id) const {
   for (rows.start(id); rows.step();) {
     ImageEntry& e = list.emplace_back();
     rows.read(e.frame, e.camera, e.kind, e.width, e.height, e.bytes);
+    require_within(impl_->database.path(), here + "frame", e.frame, 0, frames - 1);
+    require_within(impl_->database.path(), here + "width", e.width, 1, kMostPixels);
+    require_within(impl_->database.path(), here + "height", e.height, 1, kMostPixels);
   }
   return list;
 }

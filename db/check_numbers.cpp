@@ -1,11 +1,16 @@
 #include "db/check_numbers.h"
 
+#include <cmath>
+#include <initializer_list>
+#include <span>
+
 #include "engine/base/error.h"
 
 namespace stampede {
 namespace {
 
-constexpr std::int64_t kMostPixels = 1 << 16;
+constexpr std::int64_t kMostParts = 1 << 20;
+constexpr std::int64_t kMostInstances = 1 << 16;  // numbers in a mask
 
 class Checker {
  public:
@@ -43,6 +48,7 @@ class Checker {
     for (const FrameRecord& frame : e_.frames) {
       within("a frame's step", frame.step, least, e_.steps);
       least = frame.step + 1;
+      poses(frame);
     }
     for (const Command& command : e_.commands) within("a command's step", command.step, 0, e_.steps);
     for (const AskedAction& one : e_.agent_actions) {
@@ -86,7 +92,44 @@ class Checker {
     for (const Camera& c : e_.cameras) {
       within("a camera's width", c.width, 1, kMostPixels);
       within("a camera's height", c.height, 1, kMostPixels);
+      within("a camera's part", c.mount_part, -1, kMostParts);
+      finite("a camera's lens", {c.focal_x, c.focal_y, c.centre_x, c.centre_y, c.near_m, c.far_m});
+      finite("a camera's lens", c.distortion);
+      finite("a camera's mount", std::span(c.mount_from_camera.matrix().data(), 16));
     }
+    for (const JointName& j : e_.joints) {
+      within("a joint's body", j.part.body, -1, kMostParts);
+      within("a joint's part", j.part.part, 0, kMostParts);
+    }
+    for (const MaskEntry& m : e_.masks) {
+      within("a mask's instance", m.instance, 1, kMostInstances);
+      within("a mask's class", m.semantic, 1, kMostInstances);
+    }
+    for (const ImageTimeRecord& i : e_.image_times) {
+      within("a picture's frame", i.frame, 0, frames_ - 1);
+      within("a picture's camera", i.camera, 0, static_cast<std::int64_t>(e_.cameras.size()) - 1);
+    }
+  }
+  void finite(const char* what, std::span<const double> values) const {
+    for (const double value : values)
+      if (!std::isfinite(value))
+        throw CatalogueError(path_, where_ + what + " is not finite",
+                             "the file was damaged or changed by hand: take a copy of it, or generate it again");
+  }
+  void finite(const char* what, std::initializer_list<double> values) const {
+    finite(what, std::span<const double>(values.begin(), values.size()));
+  }
+  // Of recordings much is not known (NaN); nothing is infinite.
+  void bounded(const char* what, std::span<const double> values) const {
+    for (const double value : values)
+      if (std::isinf(value)) finite(what, {value});
+  }
+  void poses(const FrameRecord& frame) const {
+    for (const auto* list : {&frame.object_pose, &frame.camera_pose})
+      for (const Pose& pose : *list) bounded("a pose", pose.position), bounded("a pose", pose.quaternion);
+    for (const HandRecord& hand : frame.hands)
+      bounded("a hand", hand.tip.position), bounded("a hand", hand.tip.quaternion);
+    bounded("a joint's position", frame.joint_position);
   }
 
   const EpisodeRecord& e_;

@@ -8,7 +8,7 @@
 
 namespace stampede {
 
-inline constexpr std::int64_t kMostHz = 1'000'000;
+inline constexpr std::int64_t kMostHz = 1'000'000, kMostPixels = 1 << 16;
 
 // Throws CatalogueError that names the file, the place, the number and its bounds.
 void require_within(const std::string& path, const std::string& what, std::int64_t value, std::int64_t least,

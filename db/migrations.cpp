@@ -112,15 +112,4 @@ void copy_database(const std::filesystem::path& file, const std::filesystem::pat
   to.fail(code);
 }
 
-KeptCopy::KeptCopy(const std::filesystem::path& file, int schema)
-    : path_(file.string() + ".schema" + std::to_string(schema)) {
-  remove();  // of a migration that was killed: the file is as it was then
-  copy_database(file, path_);
-}
-
-void KeptCopy::remove() {
-  std::error_code ignored;
-  for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path_.string() + ending, ignored);
-}
-
 }  // namespace stampede

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "db/sqlite.h"
+#include "engine/base/scratch_folder.h"
 
 namespace stampede {
 
@@ -23,16 +24,14 @@ sql::Database migrated_to_read(const std::string& uri, int flags, const std::str
 // Everything that is committed in `file`, in a new file without a log. Throws CatalogueError when there is no room.
 void copy_database(const std::filesystem::path& file, const std::filesystem::path& copy);
 
-// A copy of the file that stays until remove() or, when the program dies, beside the file: SQLite's own log brings the
-// file back, the copy is for disks that lie. Throws CatalogueError when there is no room for it.
+// A copy of the file that goes with its owner or, when the program dies, stays beside the file until it is migrated:
+// SQLite's own log brings the file back, the copy is for disks that lie. Throws CatalogueError when there is no room.
 class KeptCopy {
  public:
-  KeptCopy(const std::filesystem::path& file, int schema);
-  void remove();
-  const std::filesystem::path& path() const { return path_; }
+  explicit KeptCopy(const std::filesystem::path& file) : folder_(file) { copy_database(file, folder_.file()); }
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder folder_;
 };
 
 }  // namespace stampede

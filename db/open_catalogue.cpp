@@ -2,7 +2,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <thread>
 
@@ -69,6 +71,26 @@ bool has_log(const fs::path& path) {  // pages that are not in the file itself y
   return ::stat((path.string() + "-wal").c_str(), &status) == 0 && status.st_size > 0;
 }
 
+// It was not closed: what was written last is in a log beside it, or in nothing.
+bool expects_log(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 20> header{};
+  return file.read(header.data(), header.size()) && header[18] == 2;
+}
+
+[[noreturn]] void refuse_empty(const fs::path& path) {
+  const std::string file = path.string();
+  if (expects_log(path))
+    throw CatalogueError(
+        file,
+        "this file holds nothing by itself: what a run wrote that was killed, or still runs, is in " + file +
+            "-wal, which is not beside it",
+        "move or copy both files together, or copy where both lie: `stampede merge copy.db " + file + "`");
+  throw CatalogueError(file, "this file is empty: no run has written to it",
+                       "run some tasks first: `stampede run TASK --out " + file + "`; if it was moved, its " + file +
+                           "-wal belongs beside it");
+}
+
 void check_path(const fs::path& path, bool writing) {
   std::error_code ignored;
   if (path == ":memory:")
@@ -80,6 +102,7 @@ void check_path(const fs::path& path, bool writing) {
     throw CatalogueError(path.string(), "there is no such file", "name a catalogue that `stampede run --out` has made");
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))  // a pipe would be waited for without end
     throw CatalogueError(path.string(), "this is a pipe or a device, and no file", "name a file, such as demos.db");
+  sql::check_journal(path.string());
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (writing && !fs::is_directory(folder, ignored))
     throw CatalogueError(path.string(), "the folder " + folder.string() + " does not exist", "make it first");
@@ -168,7 +191,7 @@ void make_ready(const sql::Database& database, const fs::path& path) {
   try {
     database.run("BEGIN IMMEDIATE");
     const Content content = inspect(database);
-    if (content.older()) copy.emplace(path, content.schema);
+    if (content.older()) copy.emplace(path);
     const bool stale = content.empty() || content.older() || !has_current_views(database);
     if (content.empty()) database.run(schema_script());
     if (content.older()) {
@@ -180,10 +203,8 @@ void make_ready(const sql::Database& database, const fs::path& path) {
     database.run("COMMIT");
   } catch (...) {
     roll_back(database);
-    if (copy) copy->remove();  // the file is as it was
     throw;
   }
-  if (copy) copy->remove();
 }
 
 }  // namespace
@@ -193,9 +214,7 @@ Catalogue Catalogue::open(const fs::path& path) {
   auto impl = std::make_unique<Impl>();
   ReadFile file = open_to_read(path);
   const Content content = inspect_alone(file.database);
-  if (content.empty())
-    throw CatalogueError(path.string(), "this file is empty: no run has written to it",
-                         "run some tasks first: `stampede run TASK --out " + path.string() + "`");
+  if (content.empty()) refuse_empty(path);
   if (content.older()) {
     impl->uncounted = content.schema == 5;
     file.database.close();

@@ -7,6 +7,7 @@
 #include "db/embedded_sql.h"
 #include "db/read_only.h"
 #include "db/sqlite.h"
+#include "engine/base/scratch_folder.h"
 
 namespace stampede {
 namespace {
@@ -36,32 +37,22 @@ void bind_value(sql::Database& database, sqlite3_stmt* statement, int place, con
 }  // namespace
 
 struct PlainFileWriter::Impl {
-  fs::path path, unfinished;
+  explicit Impl(const fs::path& file) : path(file), scratch(file) {}
+  fs::path path;
+  ScratchFolder scratch;
   sql::Database database;
   sql::Statement insert;
   std::vector<std::string> indexes;
-  bool finished = false;
 };
 
-PlainFileWriter::PlainFileWriter(const fs::path& path) : impl_(std::make_unique<Impl>()) {
-  impl_->path = path;
-  impl_->unfinished = path.string() + ".unfinished";
-  std::error_code ignored;
-  fs::remove(impl_->unfinished, ignored);  // of a run that was killed
-  impl_->database = sql::Database(fs::absolute(impl_->unfinished).string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
-                                  path.string());
+PlainFileWriter::PlainFileWriter(const fs::path& path) : impl_(std::make_unique<Impl>(path)) {
+  impl_->database = sql::Database(fs::absolute(impl_->scratch.file()).string(),
+                                  SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, path.string());
   impl_->database.run("PRAGMA page_size = 4096; PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; BEGIN");
 }
 
 PlainFileWriter::PlainFileWriter(PlainFileWriter&&) noexcept = default;
-
-PlainFileWriter::~PlainFileWriter() {
-  if (!impl_ || impl_->finished) return;
-  impl_->insert = {};
-  impl_->database.close();
-  std::error_code ignored;
-  fs::remove(impl_->unfinished, ignored);
-}
+PlainFileWriter::~PlainFileWriter() = default;
 
 void PlainFileWriter::table(const std::string& name, const std::vector<std::string>& columns) {
   std::string list, places;
@@ -91,9 +82,8 @@ void PlainFileWriter::finish() {
   impl_->database.run("COMMIT");
   impl_->database.close();
   std::error_code error;
-  fs::rename(impl_->unfinished, impl_->path, error);
+  fs::rename(impl_->scratch.file(), impl_->path, error);
   if (error) throw CatalogueError(impl_->path.string(), "it cannot be written: " + error.message());
-  impl_->finished = true;
 }
 
 struct PlainFile::Impl {
@@ -111,6 +101,7 @@ PlainFile PlainFile::open(const fs::path& path) {
     throw CatalogueError(path.string(), "there is no such file", "name a folder that `stampede dataset` has made");
   auto impl = std::make_unique<Impl>();
   impl->path = path;
+  sql::check_journal(path.string());
   impl->database = sql::Database(path.string(), SQLITE_OPEN_READONLY, path.string());
   check_plain_tables(impl->database);
   return PlainFile(std::move(impl));

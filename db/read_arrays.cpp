@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "db/check_numbers.h"
 #include "db/episode_reader.h"
 #include "engine/episode/arrays.h"
 
@@ -55,7 +56,9 @@ void ArrayReader::read_head() {
   std::int64_t frames = 0, rows = 0, commanded = 0;
   row.read(record_.task, record_.variation, record_.seed, record_.physics_hz, record_.frame_hz, frames, rows, commanded,
            record_.real);
-  if (frames != rows || record_.physics_hz < 1 || record_.frame_hz < 1) damaged("episode");
+  if (frames != rows || record_.physics_hz < 1 || record_.frame_hz < 1 || record_.frame_hz > record_.physics_hz ||
+      record_.physics_hz > kMostHz)
+    damaged("episode");
   tables_.frames = static_cast<std::size_t>(frames);
   tables_.commanded = static_cast<std::size_t>(commanded);
 }
@@ -160,6 +163,7 @@ void ArrayReader::read_stored_pictures(EpisodeArrays& arrays) {
     std::int64_t camera = 0, frame = 0;
     std::string kind;
     row.read(camera, kind, frame);
+    if (frame < 0 || frame >= static_cast<std::int64_t>(tables_.frames)) damaged("image");
     stored[{at(record_.cameras, camera, "image").name, kind}].push_back(frame);
   });
   for (auto& [which, frames] : stored) set_stored(arrays, which.first, which.second, std::move(frames));

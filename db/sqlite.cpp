@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "engine/base/stopping.h"
@@ -120,6 +121,16 @@ void Database::attach(const std::string& uri, const std::string& name) const {
 
 void Database::only_read() const { permissions_->purpose = Purpose::read; }
 
+void check_journal(const std::string& path) {
+  constexpr std::string_view kNamesAnother("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);  // at the end of such a journal
+  std::ifstream journal(path + "-journal", std::ios::binary);
+  std::string end(kNamesAnother.size(), '\0');
+  journal.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  if (!journal.read(end.data(), static_cast<std::streamsize>(end.size())) || end != kNamesAnother) return;
+  throw CatalogueError(path, "the journal beside it (" + path + "-journal) names another file, which would be deleted",
+                       "no program of ours makes such a journal: move it away, and see whom the file is from");
+}
+
 std::string quoted_name(std::string_view name) {
   std::string text = "\"";
   for (const char c : name) text.append(c == '"' ? 2 : 1, c);
@@ -194,6 +205,30 @@ void Statement::bind(std::nullopt_t) { checked(sqlite3_bind_null(handle_.get(), 
 void Statement::bind(const Pose& value) {
   for (const double number : value.position) bind(number);
   for (const double number : value.quaternion) bind(number);
+}
+
+// A file may hold anything in any column, whatever its tables declare.
+void Statement::strange_column(int place) const {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), place));
+  const char* name = sqlite3_column_name(handle_.get(), place);
+  throw CatalogueError(database_->path(),
+                       std::string("a value of ") + (name ? name : "a column") + " can be none: '" +
+                           shown(text ? text : "").substr(0, 40) + "'",
+                       "the file was damaged or changed by hand: take a copy of it, or generate it again");
+}
+
+std::int64_t Statement::whole(std::int64_t least, std::int64_t most) {
+  const int place = place_++, type = sqlite3_column_type(handle_.get(), place);
+  if (type == SQLITE_NULL) return 0;
+  const std::int64_t value = sqlite3_column_int64(handle_.get(), place);
+  if (type != SQLITE_INTEGER || value < least || value > most) strange_column(place);
+  return value;
+}
+
+void Statement::column(double& value) {
+  const int place = place_++, type = sqlite3_column_type(handle_.get(), place);
+  if (type == SQLITE_TEXT || type == SQLITE_BLOB) strange_column(place);
+  value = sqlite3_column_double(handle_.get(), place);
 }
 
 void Statement::column(std::string& value) {

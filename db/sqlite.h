@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,6 +76,10 @@ class AsQuestion {
   Purpose before_;
 };
 
+// SQLite deletes the file that a journal beside a database names as that of several databases. No journal of ours names
+// one: throws CatalogueError where one does.
+void check_journal(const std::string& path);
+
 // A name as SQL takes it, whatever is in it.
 std::string quoted_name(std::string_view name);
 
@@ -141,11 +146,13 @@ class Statement {
     else
       bind(std::nullopt);
   }
-  void column(std::int64_t& value) { value = sqlite3_column_int64(handle_.get(), place_++); }
-  void column(int& value) { value = sqlite3_column_int(handle_.get(), place_++); }
-  void column(std::size_t& value) { value = static_cast<std::size_t>(sqlite3_column_int64(handle_.get(), place_++)); }
-  void column(bool& value) { value = sqlite3_column_int(handle_.get(), place_++) != 0; }
-  void column(double& value) { value = sqlite3_column_double(handle_.get(), place_++); }
+  void column(std::int64_t& value) { value = whole(std::numeric_limits<std::int64_t>::min(), kMostWhole); }
+  void column(int& value) {
+    value = static_cast<int>(whole(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  }
+  void column(std::size_t& value) { value = static_cast<std::size_t>(whole(0, kMostWhole)); }
+  void column(bool& value) { value = whole(0, 1) != 0; }
+  void column(double& value);
   void column(std::string& value);
   void column(Pose& value);
   template <typename Value>
@@ -157,6 +164,10 @@ class Statement {
     }
     column(value.emplace());
   }
+  static constexpr std::int64_t kMostWhole = std::numeric_limits<std::int64_t>::max();
+  // The next column, which is a whole number from `least` to `most`, or NULL: 0. Throws CatalogueError.
+  std::int64_t whole(std::int64_t least, std::int64_t most);
+  [[noreturn]] void strange_column(int place) const;
   void checked(int code) const;
 
   struct Finalizer {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/check_dataset.h"
 #include "scripting/research/segmentation.h"
 #include "scripting/research/signals.h"
 
@@ -69,7 +70,7 @@ void count_episode(const Model& model, const Eigen::MatrixXd& features, const Se
   }
 }
 
-Model learn(const std::vector<Signals>& all, const Segmentations& truth, const Scale& scale) {
+Model learn(const PlainFile& given, const std::vector<Signals>& all, const Segmentations& truth, const Scale& scale) {
   Model model;
   for (const auto& [episode, one] : truth)
     for (const LabelledSegment& segment : one.segments)
@@ -84,8 +85,11 @@ Model learn(const std::vector<Signals>& all, const Segmentations& truth, const S
             Eigen::VectorXd::Zero(states),
             Eigen::MatrixXd::Constant(labels, labels, 0.01),
             Eigen::VectorXd::Constant(labels, 0.01)};
-  for (const Signals& signals : all)
+  for (const Signals& signals : all) {
+    if (truth.at(signals.unit).frames > signals.hand.rows())
+      refuse_unfit(given, "episode " + std::to_string(signals.unit) + " lacks joints of some frames");
     count_episode(model, scale.of(motion_features(signals)), truth.at(signals.unit), sums);
+  }
   model.mean.setZero(states, width), model.deviation.setOnes(states, width), model.stay.setZero(states, 2);
   for (Eigen::Index state = 0; state < states; ++state) {
     const double frames = std::max(sums.frames(state), 1.0);
@@ -158,7 +162,7 @@ Answers hidden_markov(const ResearchProblem& problem, const PlainFile& given) {
     features.push_back(motion_features(signals));
   }
   const Scale scale(stacked(features));
-  const Model model = learn(training, true_segments(given, episodes, problem.answer.back().name), scale);
+  const Model model = learn(given, training, true_segments(given, episodes, problem.answer.back().name), scale);
   Answers answers;
   for (const Signals& signals : signals_of(given, {"test"})) {
     if (signals.frames.empty()) continue;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/check_dataset.h"
 #include "scripting/research/signals.h"
 
 namespace stampede::research {
@@ -51,6 +52,9 @@ Steps steps_of(const PlainFile& given, const std::vector<Signals>& all) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const std::int64_t frame = rows.integer(i, "frame");  // training episodes have every frame
+      if (frame >= state.rows())
+        refuse_unfit(given,
+                     "episode " + std::to_string(signals.unit) + " lacks joints of frame " + std::to_string(frame));
       some.row(row) = state.row(frame);
       for (int j = 0; j < 7; ++j) {
         const std::string name = "action_j" + std::to_string(j + 1);
@@ -117,6 +121,7 @@ Answers nearest_action(const ResearchProblem&, const PlainFile& given) {
   const Steps steps = steps_of(given, signals_of(given, {"train", "validation"}));
   const Scale scale(steps.features);
   const Eigen::MatrixXd known = scale.of(steps.features);
+  if (known.rows() == 0) refuse_unfit(given, "no training episode has actions");
   return actions_by(given, [&](const Signals&, Eigen::Index, const auto& state) -> Eigen::RowVectorXd {
     Eigen::Index nearest = 0;
     (known.rowwise() - scale.of(state).row(0)).rowwise().squaredNorm().minCoeff(&nearest);

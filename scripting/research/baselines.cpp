@@ -4,6 +4,7 @@
 #include "engine/base/nearest.h"
 #include "scripting/research/baseline.h"
 #include "scripting/research/baseline_functions.h"
+#include "scripting/research/check_dataset.h"
 #include "scripting/research/dataset.h"
 
 namespace stampede::research {
@@ -74,7 +75,7 @@ const Baseline& find_baseline(std::string_view name) {
 }
 
 Answers answer_by(const Baseline& baseline, const std::filesystem::path& given_folder) {
-  const PlainFile given = PlainFile::open(given_folder / kGivenFile);
+  const PlainFile given = open_dataset(given_folder / kGivenFile);
   const std::string name = dataset_problem(given);
   if (std::find(baseline.problems.begin(), baseline.problems.end(), name) == baseline.problems.end()) {
     std::string served;
@@ -82,7 +83,7 @@ Answers answer_by(const Baseline& baseline, const std::filesystem::path& given_f
     throw Error("baseline", baseline.name + " does not answer " + name, "it answers " + served);
   }
   const ResearchProblem& problem = find_problem(name);
-  Answers answers = baseline.answer(problem, given);
+  Answers answers = fitting(given, [&] { return baseline.answer(problem, given); });
   answers.dataset = dataset_id(given);
   answers.problem = name;
   if (answers.rows.columns.empty())

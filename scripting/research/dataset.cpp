@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/base/scratch_folder.h"
 #include "scripting/research/answers.h"
 #include "scripting/research/computed_tables.h"
 #include "scripting/research/datasheet.h"
@@ -209,9 +210,8 @@ void write_identity(PlainFileWriter& file, const ResearchProblem& problem, const
 void check_folder(const fs::path& folder, const char* file, const ResearchProblem& problem) {
   std::error_code error;
   const auto empty = [&] {
-    const std::string left_behind = std::string(file) + ".unfinished";  // by a program that was killed
     for (const fs::directory_entry& one : fs::directory_iterator(folder, error))
-      if (one.path().filename() != left_behind) return false;
+      if (!ScratchFolder::is_one(one.path(), folder / file)) return false;  // of a program that was killed
     return true;
   };
   if (!fs::is_directory(folder, error) || empty()) return;

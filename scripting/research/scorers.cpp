@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "scripting/research/check_dataset.h"
 #include "scripting/research/dataset.h"
 #include "scripting/research/scorer.h"
 
@@ -97,7 +98,7 @@ bool makes_plans(const ResearchProblem& problem) { return !problem.answer_texts.
 
 Scored score(const std::filesystem::path& answers_file, const std::filesystem::path& hidden_folder,
              const ScoreOptions& options) {
-  const PlainFile hidden = PlainFile::open(hidden_folder / kHiddenFile);
+  const PlainFile hidden = open_dataset(hidden_folder / kHiddenFile);
   const std::string id = dataset_id(hidden);
   const ResearchProblem& problem = find_problem(dataset_problem(hidden));
   const Answers answers = read_answers(answers_file, problem);
@@ -108,7 +109,7 @@ Scored score(const std::filesystem::path& answers_file, const std::filesystem::p
   for (const Scorer& scorer : all_scorers()) {
     if (scorer.name != problem.scorer) continue;
     Scored scored{id, problem.name, static_cast<std::int64_t>(tests.size()), {}};
-    scored.figures = scorer.score({problem, answers, hidden, tests, options});
+    scored.figures = fitting(hidden, [&] { return scorer.score({problem, answers, hidden, tests, options}); });
     for (const Figure& figure : scored.figures)
       if (!std::isfinite(figure.value)) throw Error(answers.where, "its " + figure.name + " is not a finite number");
     return scored;

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "scripting/research/check_dataset.h"
 #include "scripting/research/known_columns.h"
 
 namespace stampede::research {
@@ -26,6 +28,8 @@ void read_joints(const PlainFile& given, const KnownColumns& known, const std::s
     position.push_back(known.real(rows, i, "position")), velocity.push_back(known.real(rows, i, "velocity"));
   }
   const auto count = static_cast<Eigen::Index>(signals.frames.size());
+  if (count > 0 && position.size() % signals.frames.size() != 0)
+    refuse_unfit(given, "of " + unit + " " + std::to_string(signals.unit) + " some frames lack joints");
   const Eigen::Index joints = count > 0 ? static_cast<Eigen::Index>(position.size()) / count : 0;
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   signals.position = Eigen::Map<const RowMajor>(position.data(), count, joints);
@@ -43,6 +47,15 @@ void read_hand(const PlainFile& given, const KnownColumns& known, const std::str
       signals.hand(i, static_cast<Eigen::Index>(column)) =
           known.real(rows, static_cast<std::size_t>(i), kHandColumns[column]);
   signals.touch = known.has("touch_1") && known.has("touch_2");
+}
+
+// Columns of what is learned from together, or of what is learned and what is asked.
+void check_alike(Eigen::Index columns, Eigen::Index others) {
+  if (columns == others) return;
+  throw Error("baseline",
+              "episodes of the data set differ in what was measured: " + std::to_string(columns) +
+                  " numbers a frame, " + "and " + std::to_string(others),
+              "make a data set of episodes of one robot, of which some are for training");
 }
 
 // The sum of squared distances to the centres, which it moves.
@@ -112,6 +125,7 @@ Scale::Scale(const Eigen::MatrixXd& rows) : mean(rows.colwise().mean()) {
 }
 
 Eigen::MatrixXd Scale::of(const Eigen::MatrixXd& rows) const {
+  check_alike(rows.cols(), mean.cols());
   return (rows.rowwise() - mean).array().rowwise() / deviation.array();
 }
 
@@ -124,12 +138,16 @@ Eigen::MatrixXd ridge(const Eigen::MatrixXd& features, const Eigen::MatrixXd& ta
 }
 
 Eigen::MatrixXd apply_ridge(const Eigen::MatrixXd& features, const Eigen::MatrixXd& weights) {
+  check_alike(features.cols() + 1, weights.rows());
   return (features * weights.topRows(features.cols())).rowwise() + weights.row(features.cols());
 }
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts) {
   Eigen::Index rows = 0;
-  for (const Eigen::MatrixXd& part : parts) rows += part.rows();
+  for (const Eigen::MatrixXd& part : parts) {
+    rows += part.rows();
+    check_alike(part.cols(), parts.front().cols());
+  }
   Eigen::MatrixXd all(rows, parts.empty() ? 0 : parts.front().cols());
   rows = 0;
   for (const Eigen::MatrixXd& part : parts) all.middleRows(rows, part.rows()) = part, rows += part.rows();

@@ -19,6 +19,21 @@ std::filesystem::path file_in(const Roots& roots, const std::string& shown_path)
   return found;
 }
 
+// Cameras are stored beside the scene too: what each is mounted on is there.
+void check_mounts(const EpisodeRecord& episode, const Scene& scene, std::int64_t id) {
+  for (const Camera& camera : episode.cameras) {
+    if (camera.mount_body.empty()) continue;
+    const bool on_robot = camera.mount_body == scene.robot.name;
+    const int body = scene.body_index(camera.mount_body);
+    const auto parts = on_robot || body >= 0 ? scene.body_at(body).parts.size() : 0;
+    if (camera.mount_part < 0 || static_cast<std::size_t>(camera.mount_part) >= parts)
+      throw CatalogueError(
+          "episode " + std::to_string(id),
+          "a camera is mounted on part " + std::to_string(camera.mount_part) + " of a body, which is not in its scene",
+          "the file was damaged or changed by hand: take a copy of it, or generate it again");
+  }
+}
+
 }  // namespace
 
 StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id) {
@@ -29,6 +44,7 @@ StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id) {
     stored.why_not = "it has no frames: no start was found";
   } else {
     stored.scene = std::make_shared<const Scene>(scene_from_document(stored.episode.scene_document));
+    check_mounts(stored.episode, *stored.scene, id);
   }
   return stored;
 }

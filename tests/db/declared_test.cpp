@@ -2,6 +2,7 @@
 #include "db/declared.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "db/embedded_sql.h"
 #include "db/merge.h"
@@ -193,6 +194,21 @@ TEST_CASE("nothing that is asked of a catalogue reaches beyond it") {
   }
   CHECK(catalogue.query("SELECT * FROM pragma_table_info('episodes')").size() > 10);
   CHECK(catalogue.query("PRAGMA table_info(episodes)").size() > 10);
+  shelf.check_untouched();
+}
+
+TEST_CASE("a journal that names another file is not played back") {
+  const Shelf shelf;
+  const fs::path file = shelf.catalogues.back();
+  std::string journal("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7\xff\xff\xff\xff", 12);
+  journal.resize(512);
+  const std::string other = shelf.canary_path();
+  journal += other + std::string(8, '\0') + std::string("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
+  std::ofstream(file.string() + "-journal", std::ios::binary) << journal;
+  CHECK_THROWS_WITH(Catalogue::open(file), Contains("names another file, which would be deleted"));
+  CHECK_THROWS_WITH(Catalogue::write(file), Contains("names another file"));
+  CHECK_THROWS_WITH(PlainFile::open(file), Contains("names another file"));
+  CHECK_THROWS_WITH(merge(shelf.folder / "sum.db", {file}), Contains("names another file"));
   shelf.check_untouched();
 }
 

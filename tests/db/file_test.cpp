@@ -81,6 +81,26 @@ TEST_CASE("missing files, folders and empty files say what to do") {
   CHECK_NOTHROW(make(folder / "empty.db"));  // a run that was killed at once leaves such a file
 }
 
+TEST_CASE("moved without its log, a file says where its data are") {
+  const Folder folder;
+  const auto path = folder / "a.db";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Catalogue catalogue = Catalogue::write(path);
+    catalogue.add(sample_episode("lift", "colour=red", 1), kEngine);
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  std::filesystem::copy_file(path, folder / "moved.db");
+  CHECK_THROWS_WITH(Catalogue::open(folder / "moved.db"),
+                    Contains("moved.db-wal, which is not beside it") && Contains("stampede merge copy.db"));
+  std::filesystem::copy_file(path.string() + "-wal", folder / "moved.db-wal",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(Catalogue::open(folder / "moved.db").episodes().size() == 1);
+}
+
 TEST_CASE("killed while it writes in place, the file is what it was, also for who only reads") {
   const Folder folder;
   const auto path = folder / "a.db";

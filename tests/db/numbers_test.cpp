@@ -60,6 +60,15 @@ TEST_CASE("a number that cannot be is told with its place, whichever it is") {
       {"UPDATE agent_action SET numbers = '[nan]' WHERE ordinal = 0", "a row of agent_action"},
       {"UPDATE agent_action SET parameters = '{\"height\":0.2}' WHERE ordinal = 1", "a row of agent_action"},
       {"UPDATE camera SET width = 0", "a camera's width"},
+      {"UPDATE camera SET width = 4294967298", "a value of width can be none: '4294967298'"},
+      {"UPDATE camera SET mount_part = 99999999", "a camera's part"},
+      {"UPDATE camera SET focal_x = 9e999", "a camera's lens is not finite"},
+      {"UPDATE camera SET k3 = -9e999", "a camera's lens is not finite"},
+      {"UPDATE mask SET semantic = 70000", "a mask's class"},
+      {"UPDATE joint SET body = -9", "a joint's body"},
+      {"UPDATE joint SET part = -1", "a joint's part"},
+      {"UPDATE object_state SET y = 9e999", "a pose is not finite"},
+      {"UPDATE hand_state SET qw = -9e999", "a hand is not finite"},
       {"UPDATE object_state SET frame = 5000 WHERE frame = 0 AND posed = 0", "a row of object_state"},
       {"UPDATE object_state SET posed = 7 WHERE posed = 1", "a row of object_state"},
       {"UPDATE joint_state SET part = 9 WHERE frame = 2", "a row of joint_state"},
@@ -105,6 +114,28 @@ TEST_CASE("arrays are not made of rows that lie") {
     const Catalogue catalogue = Catalogue::open(changed_copy(folder, good, statement));
     CHECK_THROWS_WITH(catalogue.read_arrays(1), Contains(complaint) && Contains("generate it again"));
   }
+}
+
+TEST_CASE("pictures of frames and sizes that cannot be are told before anything is made of them") {
+  const Folder folder;
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  episode.images = sample_images(episode, {0, 2}, {"rgb"}, 60);
+  const auto good = folder / "good.db";
+  Catalogue::write(good).add(episode, kEngine);
+  REQUIRE(Catalogue::open(good).images(1).size() > 1);
+  for (const auto& [statement, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE image SET frame = 4294967296 WHERE frame = 2", "a picture's frame is 4294967296"},
+           {"UPDATE image SET frame = 12 WHERE frame = 2", "a picture's frame is 12, and can be 0 to 11"},
+           {"UPDATE image SET frame = -1 WHERE frame = 2", "a picture's frame"},
+           {"UPDATE image SET width = 65537", "a picture's width"},
+           {"UPDATE image SET height = 4294967297", "a value of height can be none"}}) {
+    INFO(statement);
+    const Catalogue catalogue = Catalogue::open(changed_copy(folder, good, statement));
+    CHECK_THROWS_WITH(catalogue.images(1), Contains(complaint) && Contains("generate it again"));
+  }
+  const Catalogue lie =
+      Catalogue::open(changed_copy(folder, good, "UPDATE image SET frame = 4294967296 WHERE frame = 2"));
+  CHECK_THROWS_AS(lie.read_arrays(1), CatalogueError);
 }
 
 TEST_CASE("a scene that is cut off, and a parameter without its first number, are refused") {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "db/plain_file.h"
+#include "engine/base/scratch_folder.h"
 #include "scripting/research/baseline.h"
 #include "scripting/research/dataset.h"
 #include "tests/program/say.h"
@@ -510,7 +511,11 @@ TEST_CASE("a folder is written to if it is new, empty, or holds the same problem
   CHECK_FALSE(fs::exists(hidden));
 
   fs::create_directories(given);
-  put(folder, "given/given.db.unfinished", "of a program that was killed");
+  put(folder, "given/given.db.unfinished", "mine");
+  refused(dataset("motions", given, hidden), kBadInput, "is not empty", given);
+  CHECK(file_text(given + "/given.db.unfinished") == "mine");
+  fs::remove(given + "/given.db.unfinished");
+  const ScratchFolder of_another(given + "/given.db");  // as a program that was killed leaves it
   REQUIRE(dataset("motions", given, hidden).code == kDone);
   put(folder, "given/notes.txt", "what I saw");
   const std::string bytes = file_text(given + "/given.db"), page = file_text(given + "/README.md");

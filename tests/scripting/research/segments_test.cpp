@@ -1,4 +1,6 @@
 // Figures of segments, worked out by hand on episodes of twenty frames.
+#include <sqlite3.h>
+
 #include <catch2/catch.hpp>
 
 #include "engine/base/error.h"
@@ -26,6 +28,13 @@ class Hidden {
     file.row({std::int64_t{2}, std::int64_t{0}, std::int64_t{8}, std::string("pick")});
     file.finish();
   }
+  // As any program could change it.
+  void change(const std::string& sql) const {
+    sqlite3* handle = nullptr;
+    REQUIRE(sqlite3_open((folder_.path() / kHiddenFile).c_str(), &handle) == SQLITE_OK);
+    REQUIRE(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(handle);
+  }
   std::map<std::string, double> score(const std::string& rows, const std::string& dataset = "abc",
                                       const ScoreOptions& options = {}) const {
     write_text_file(folder_.path() / "a.csv",
@@ -41,6 +50,31 @@ class Hidden {
 };
 
 }  // namespace
+
+TEST_CASE("numbers of a data set that can be none are refused before anything counts with them") {
+  for (const auto& [sql, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE skills SET first_frame = -1", "skills.first_frame"},
+           {"UPDATE skills SET first_frame = 'x'", "skills.first_frame"},
+           {"UPDATE skills SET end_frame = 4294967296", "skills.end_frame"},
+           {"UPDATE skills SET first_frame = end_frame, end_frame = first_frame", "skills.end_frame"},
+           {"UPDATE skills SET first_frame = 1.5", "skills.first_frame"},
+           {"UPDATE skills SET episode = 7", "skills is of an episode that is not there"},
+           {"UPDATE episodes SET frames = -1", "a row of episodes"},
+           {"UPDATE episodes SET frames = 9223372036854775807", "a row of episodes"},
+           {"UPDATE episodes SET frame_hz = 1e-300", "a row of episodes"},
+           {"UPDATE episodes SET frame_hz = NULL", "a row of episodes"},
+           {"UPDATE episodes SET episode = 1", "is there twice"},
+           {"UPDATE episodes SET episode = x'00'", "a row of episodes"},
+           {"UPDATE episodes SET split = 7", "a row of episodes"},
+           {"DROP TABLE episodes", "lacks the table episodes"},
+           {"CREATE VIEW v AS SELECT 1", "plain tables only"}}) {
+    INFO(sql);
+    const Hidden hidden("segments_supervised");
+    hidden.change(sql);
+    CHECK_THROWS_WITH(hidden.score("1,0,8,pick\n1,8,16,put\n"),
+                      Catch::Contains(complaint) && Catch::Contains("stampede dataset"));
+  }
+}
 
 TEST_CASE("true segments get full marks") {
   const auto figures = Hidden("segments_supervised").score("1,0,8,pick\n1,8,16,put\n");
