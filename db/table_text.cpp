@@ -8,6 +8,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "engine/base/printable.h"
 #include "engine/base/utf8.h"
 
 namespace stampede {
@@ -44,28 +45,11 @@ std::size_t width_of(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-// Control characters would break a table's lines or a terminal.
-std::string on_one_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n') {
-      line += "\\n";
-    } else if (c == '\t') {
-      line += "\\t";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-      line += "\\x" + hexadecimal({&c, 1});
-    } else {
-      line += c;
-    }
-  }
-  return line;
-}
-
 struct TableCell {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return rounded(value); }
-  std::string operator()(const std::string& value) const { return on_one_line(value); }
+  std::string operator()(const std::string& value) const { return printable_line(value); }
   std::string operator()(const SqlBlob& value) const { return "<" + std::to_string(value.bytes.size()) + " bytes>"; }
 };
 
@@ -110,9 +94,9 @@ class TableWriter : public RowWriter {
  public:
   explicit TableWriter(std::ostream& out) : out_(out) {}
   void columns(const std::vector<std::string>& names) override {
-    names_ = names;
+    for (const std::string& name : names) names_.push_back(printable_line(name));
     right_.resize(names.size());
-    for (const std::string& name : names) width_.push_back(width_of(name));
+    for (const std::string& name : names_) width_.push_back(width_of(name));
   }
   bool row(const std::vector<SqlValue>& values) override {
     std::vector<std::string> line;

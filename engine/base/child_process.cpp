@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/shell_program.h"
 
 namespace stampede {
 namespace {
@@ -140,6 +141,7 @@ std::string in_child(const std::string& where, const std::string& hint, const Ch
   if (pipe2(ends, O_CLOEXEC) != 0) throw Error(where, "no pipe can be opened to read it", "close some files");
   const pid_t child = fork();
   if (child == 0) be_child(ends[1], limits, work);
+  const OwnChild known(child);
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);

@@ -717,11 +717,12 @@ std::size_t pixels_of(const SurfaceView& surface) {
 
 void write_colours(const SurfaceView& surface, const std::uint32_t* colours, std::uint8_t* rgb) {
   using Bytes = std::uint8_t __attribute__((vector_size(16)));
-  constexpr Bytes kOrder{0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15};
   const std::size_t count = pixels_of(surface);
   std::size_t i = 0;
-  for (; i + 6 <= count; i += 4)  // four bytes too many each, which the next overwrite
-    store(rgb + 3 * i, __builtin_shuffle(load<Bytes>(colours + i), kOrder));
+  for (; i + 6 <= count; i += 4) {  // four bytes too many each, which the next overwrite
+    const Bytes four = load<Bytes>(colours + i);
+    store(rgb + 3 * i, __builtin_shufflevector(four, four, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15));
+  }
   for (; i < count; ++i)
     for (std::size_t k = 0; k < 3; ++k) rgb[3 * i + k] = static_cast<std::uint8_t>(colours[i] >> (8 * k));
 }

@@ -7,7 +7,11 @@
 #include <immintrin.h>
 
 // After all headers: what they define must run on every processor.
+#ifdef __clang__  // which does not know the other
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
 #pragma GCC target("avx2")
+#endif
 
 namespace stampede {
 namespace {
@@ -24,6 +28,10 @@ Floats square_root(Floats of) { return _mm256_sqrt_ps(of); }
 const PixelKernels* avx2_pixel_kernels() { return __builtin_cpu_supports("avx2") ? &kKernels : nullptr; }
 
 }  // namespace stampede
+
+#ifdef __clang__
+#pragma clang attribute pop
+#endif
 
 #else
 

@@ -203,6 +203,19 @@ Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb) {
   return png_of_rows(width, height, 8, ColourType::rgb, with, false);
 }
 
+std::string picture_mark() { return std::string("tEXtSoftware\0stampede", 21); }
+
+Bytes marked_png(int width, int height, std::span<const std::uint8_t> rgb) {
+  Bytes png = png_of(width, height, rgb), chunk;
+  const std::size_t start = open_chunk(chunk, "");
+  const std::string mark = picture_mark();
+  chunk.insert(chunk.end(), mark.begin(), mark.end());
+  close_chunk(chunk, start);
+  constexpr std::ptrdiff_t kHeader = 8 + 12 + 13;  // the signature and IHDR
+  png.insert(png.begin() + kHeader, chunk.begin(), chunk.end());
+  return png;
+}
+
 Bytes to_png(const Picture& picture, PictureKind kind) {
   if (kind == PictureKind::rgb) {
     require(!picture.rgb.empty(), "it has no colours");

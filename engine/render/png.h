@@ -24,5 +24,8 @@ void from_png(std::span<const std::uint8_t> png, PictureKind kind, Picture& pict
 void from_file(std::span<const std::uint8_t> file, PictureKind kind, Picture& picture);
 
 Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb);
+// With a text in it that says who drew it; the file's first 512 bytes hold picture_mark().
+Bytes marked_png(int width, int height, std::span<const std::uint8_t> rgb);
+std::string picture_mark();
 
 }  // namespace stampede

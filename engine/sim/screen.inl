@@ -39,9 +39,9 @@ inline unsigned bits(const Mask& mask) {
 }
 
 inline float least_of(Lanes a) {
-  a = lesser(a, __builtin_shuffle(a, Mask{4, 5, 6, 7, 0, 1, 2, 3}));
-  a = lesser(a, __builtin_shuffle(a, Mask{2, 3, 0, 1, 6, 7, 4, 5}));
-  a = lesser(a, __builtin_shuffle(a, Mask{1, 0, 3, 2, 5, 4, 7, 6}));
+  a = lesser(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+  a = lesser(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
+  a = lesser(a, __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6));
   return a[0];
 }
 inline float greatest_of(const Lanes& a) { return -least_of(-a); }

@@ -2,8 +2,12 @@
 #include "engine/sim/screen.h"
 
 #if defined(__x86_64__)
+#ifdef __clang__  // which does not know the others
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#endif
 
 namespace stampede {
 namespace avx2_screen {
@@ -16,7 +20,11 @@ static std::uint8_t screen_with_avx2(const ScreenTables& tables, ScreenBatch& ba
 }
 }  // namespace stampede
 
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 namespace stampede {
 Screen screen_avx2() {

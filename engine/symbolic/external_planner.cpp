@@ -7,8 +7,10 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "engine/base/error.h"
+#include "engine/base/shell_program.h"
 #include "engine/base/temporary_folder.h"
 #include "engine/symbolic/pddl.h"
 
@@ -87,10 +89,15 @@ PlanOutcome solve_externally(const std::string& command, const Domain& domain, c
   write_file(folder / "problem.pddl", to_pddl(problem, domain));
   const std::string whole =
       "cd " + quoted(folder.string()) + " && { " + line + "\n} >" + quoted(log_path.string()) + " 2>&1 </dev/null";
-  const int status = std::system(whole.c_str());
+  int status = 0;
+  try {
+    status = ShellProgram(whole, -1, -1, ShellProgram::Group::ours, ShellProgram::Orphans::searched).wait();
+  } catch (const std::system_error& error) {
+    throw Error("--planner", "the planner could not be started: " + error.code().message(), "");
+  }
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   const std::string said = last_lines(file_text(log_path).value_or(""));
-  if (status == -1 || exit_code == 127 || exit_code == 126) {
+  if (exit_code == 127 || exit_code == 126) {
     throw Error("--planner", "the planner could not be started: " + said, "check its path: `" + command + "`");
   }
   PlanOutcome outcome;

@@ -6,7 +6,6 @@
 
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {
@@ -38,8 +37,13 @@ ExitCode do_baseline(const Arguments& arguments, Console& console) {
                      "`stampede baseline --list` names the baselines");
   if (!arguments.has("--out")) throw UsageError("stampede baseline needs --out FILE");
   const research::Baseline& baseline = research::find_baseline(arguments.text("NAME"));
+  const OutputRules rules = output_rules(arguments, console);
+  const OutputKind kind = marked_kind("answers of a baseline", "{\"by\":\"stampede baseline\"", "\"dataset\":");
+  check_output(arguments.text("--out"), kind, rules);
   const research::Answers answers = research::answer_by(baseline, arguments.text("DIR"));
-  write_text_file(arguments.text("--out"), research::answers_text(answers));
+  OutputFile file(arguments.text("--out"), kind, rules);
+  file.write(research::answers_text(answers));
+  file.finish();
   const auto rows = static_cast<std::int64_t>(answers.rows.size());
   if (arguments.flag("--json")) {
     JsonText json;
@@ -65,7 +69,7 @@ CommandRow baseline_command() {
       "beat.",
       {{"NAME", "which; see --list", false, false}, {"DIR", "the folder of the given part", false, false}},
       {{"--list", "", "the baselines, and which problems each answers", Takes::flag, "", {}, false},
-       {"--out", "FILE", "where the answers go", Takes::path, "", {}, false}},
+       {"--out", "FILE", "where the answers go", Takes::output, "", {}, false}},
       {"stampede baseline --list", "stampede baseline keyframes given --out answers.json"},
       do_baseline};
 }

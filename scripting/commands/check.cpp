@@ -162,7 +162,7 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   const RunTally tally = run_jobs(library, JobList(*library, request), settings, nullptr);
   progress.finish();
   for (const std::string& failure : failures) console.err << failure << "\n";
-  if (!pictures.empty()) failed_steps.draw(pictures);
+  if (!pictures.empty()) failed_steps.draw(pictures, output_rules(arguments, console));
   if (why) console.err << to_table(failed_steps.table());
   console.out << (arguments.flag("--json") ? to_json(table_of(seen)) : to_table(table_of(seen)));
   return tally.succeeded == tally.total ? kDone : kNo;
@@ -252,7 +252,7 @@ CommandRow check_command() {
        {"--pictures",
         "DIR",
         "with --physics: --why, and pictures of what was turned down into DIR (PNG)",
-        Takes::path,
+        Takes::output,
         "",
         {},
         false},

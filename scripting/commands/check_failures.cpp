@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/file_name.h"
 
 namespace stampede::program {
 namespace {
@@ -71,15 +72,16 @@ void FailedSteps::add(const EpisodeRecord& episode) {
     count("init", episode.reason, episode.detail);
 }
 
-void FailedSteps::draw(const std::filesystem::path& folder) {
+void FailedSteps::draw(const std::filesystem::path& folder, const OutputRules& rules) {
   std::error_code fault;
   std::filesystem::create_directories(folder, fault);
   if (fault) throw Error(folder.string(), "the folder cannot be made: " + fault.message(), "name another one");
+  FileNames names;
   for (auto& [key, step] : steps_) {
     if (!step.first) continue;
     const auto& [task, what, reason] = key;
-    const std::filesystem::path file = folder / (plain(task + " " + what + " " + reason) + ".png");
-    draw_impasse(*step.first, file);
+    const std::filesystem::path file = folder / (names.take(plain(task + " " + what + " " + reason)) + ".png");
+    draw_impasse(*step.first, file, rules);
     step.picture = file.string();
   }
 }

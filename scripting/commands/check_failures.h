@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "db/query.h"
+#include "engine/base/output_file.h"
 #include "engine/episode/impasse.h"
 #include "engine/episode/record.h"
 
@@ -23,7 +24,7 @@ class FailedSteps {
   void add(const EpisodeRecord& episode);
   // One picture a step that found no grasp or place, into the folder, which is made. Throws Error: it cannot be
   // written.
-  void draw(const std::filesystem::path& folder);
+  void draw(const std::filesystem::path& folder, const OutputRules& rules);
   QueryResult table() const;
 
  private:
@@ -45,6 +46,6 @@ class FailedSteps {
 
 // Ghosts of the hand, or of the object, in the scene of that moment, with a legend: red touches something, grey is out
 // of reach, orange fails otherwise, green would do. `file`: PNG. Throws Error.
-void draw_impasse(const Impasse& impasse, const std::filesystem::path& file);
+void draw_impasse(const Impasse& impasse, const std::filesystem::path& file, const OutputRules& rules);
 
 }  // namespace stampede::program

@@ -137,7 +137,7 @@ void write_words(Canvas& canvas, const Impasse& impasse, const std::vector<Legen
 
 }  // namespace
 
-void draw_impasse(const Impasse& impasse, const std::filesystem::path& file) {
+void draw_impasse(const Impasse& impasse, const std::filesystem::path& file, const OutputRules& rules) {
   const bool hands = std::any_of(impasse.looked.begin(), impasse.looked.end(), is_grasp);
   const std::vector<LegendLine> legend = legend_of(impasse.looked);
   const std::vector<Ghost> ghosts = chosen_ghosts(impasse.looked, legend, hands);
@@ -195,7 +195,7 @@ void draw_impasse(const Impasse& impasse, const std::filesystem::path& file) {
   canvas.put(kGap, top, pictures[0]);
   canvas.put(kWide + 2 * kGap, top, pictures[1]);
   write_words(canvas, impasse, legend, ghosts.size(), top + kHigh);
-  write_sheet(file, page);
+  write_sheet(file, page, rules);
 }
 
 }  // namespace stampede::program

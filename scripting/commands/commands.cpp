@@ -26,6 +26,10 @@ Roots roots_of(const Arguments& arguments) {
   return make_roots(arguments.text("--root"), paths);
 }
 
+OutputRules output_rules(const Arguments& arguments, const Console& console) {
+  return {arguments.inputs(), arguments.flag("--force"), console.data};
+}
+
 void make_own_folder(const Arguments& arguments) {
   const std::vector<std::string> paths = arguments.list("--path");
   std::error_code error;  // roots_of says what is wrong

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/output_file.h"
 #include "scripting/library/library.h"
 #include "scripting/program/command.h"
 
@@ -41,6 +42,8 @@ std::shared_ptr<const Library> load_usable_library(const Arguments& arguments);
 // The same, whatever mistakes other files have: for commands that ask only for words of it.
 std::shared_ptr<const Library> words_of(const Arguments& arguments);
 Roots roots_of(const Arguments& arguments);
+// For its outputs: what it reads, and --force.
+OutputRules output_rules(const Arguments& arguments, const Console& console);
 // For commands that write a file: the last --path is made when it is not there.
 void make_own_folder(const Arguments& arguments);
 

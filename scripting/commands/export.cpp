@@ -38,6 +38,8 @@ ExitCode do_export(const Arguments& arguments, Console& console) {
   if (what != "pddl" && arguments.has("--known")) throw UsageError("--known is of export pddl", "leave it out");
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
   const ExportJob job{catalogue, chosen_episodes(arguments, catalogue), arguments.text("--out"), arguments, console};
+  if (is_standard_output(job.folder))
+    throw Error(job.folder, "this is standard output, and a folder is needed", "name a folder");
   const ExportCount count = kind->second(job);
   if (console.stopped()) console.err << "interrupted: what is written stays\n";
   if (arguments.flag("--json")) {
@@ -65,7 +67,7 @@ CommandRow export_command() {
       "the pictures that are stored: one episode in FOLDER itself, several each in FOLDER/episode_000001 and so on; "
       "FOLDER must be new or empty. The exit code is 1 when nothing could be written.",
       {{"WHAT", "pddl, bddl or recording", true, false}, {"FILE", "the catalogue", true, false}},
-      {{"--out", "FOLDER", "where to; made when it is not there", Takes::path, "", {}, false},
+      {{"--out", "FOLDER", "where to; made when it is not there", Takes::output, "", {}, false},
        {"--episode", "N", "only these episodes", Takes::integer, "", {}, true},
        {"--known",
         "",

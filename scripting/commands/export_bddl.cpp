@@ -3,12 +3,12 @@
 #include <ostream>
 #include <set>
 
+#include "engine/base/file_name.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/export_kinds.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/stored_episode.h"
 #include "scripting/session/stored_symbols.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {
@@ -28,9 +28,8 @@ std::vector<BddlMapping> chosen_mappings(const Arguments& arguments) {
 
 class BddlExporter {
  public:
-  explicit BddlExporter(const ExportJob& job) : job_(job), mappings_(chosen_mappings(job.arguments)) {
-    index_.columns = {"file", "dialect", "episode", "task", "variation", "seed", "frame", "refusal", "notes"};
-  }
+  explicit BddlExporter(const ExportJob& job)
+      : job_(job), mappings_(chosen_mappings(job.arguments)), folder_(indexed_folder(job, index_)) {}
 
   ExportCount run() {
     for (const std::int64_t id : job_.episodes) {
@@ -38,7 +37,7 @@ class BddlExporter {
       const StoredEpisode stored = read_stored(job_.catalogue, id);
       for (const BddlMapping& mapping : mappings_) write(stored, mapping);
     }
-    write_index(job_.folder, index_);
+    write_index(folder_, index_);
     return count_;
   }
 
@@ -71,14 +70,14 @@ class BddlExporter {
 
   // As their loaders look for them: LIBERO's by the words of the instruction, BEHAVIOR's by activity and number.
   std::string put(std::int64_t id, const std::string& task, BddlExport& result) {
-    std::string file = fmt::format("libero/e{:05}/{}", id, result.file_name);
+    std::string file = fmt::format("libero/e{:05}/{}", id, file_name(result.file_name));
     if (result.problem.dialect == BddlDialect::behavior) {
       const int number = numbers_[task]++;
       result.problem.name = fmt::format("{}-{}", task, number);
       result.text = to_bddl(result.problem);
-      file = fmt::format("behavior/{}/problem{}.bddl", task, number);
+      file = fmt::format("behavior/{}/problem{}.bddl", file_name(task), number);
     }
-    write_text_file(job_.folder / file, with_notes(result));
+    folder_.write(file, with_notes(result));
     ++count_.files;
     return file;
   }
@@ -86,7 +85,8 @@ class BddlExporter {
   const ExportJob& job_;
   std::vector<BddlMapping> mappings_;
   std::map<std::string, int> numbers_;  // by task
-  QueryResult index_;
+  QueryResult index_{{"file", "dialect", "episode", "task", "variation", "seed", "frame", "refusal", "notes"}, {}};
+  OutputFolder folder_;
   ExportCount count_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "db/catalogue.h"
+#include "engine/base/output_file.h"
 #include "scripting/program/command.h"
 
 namespace stampede::program {
@@ -29,7 +30,8 @@ ExportCount export_pddl(const ExportJob& job);
 ExportCount export_bddl_files(const ExportJob& job);
 ExportCount export_recordings(const ExportJob& job);
 
-// index.csv and index.json.
-void write_index(const std::filesystem::path& folder, const QueryResult& index);
+// With index.csv and index.json in it, by which it is known: they are written when it is opened, and once all is.
+OutputFolder indexed_folder(const ExportJob& job, const QueryResult& index);
+void write_index(const OutputFolder& folder, const QueryResult& index);
 
 }  // namespace stampede::program

@@ -4,26 +4,32 @@
 #include <set>
 
 #include "db/table_text.h"
+#include "engine/base/file_name.h"
 #include "engine/symbolic/pddl.h"
+#include "scripting/commands/commands.h"
 #include "scripting/commands/export_kinds.h"
 #include "scripting/session/stored_symbols.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 
-void write_index(const std::filesystem::path& folder, const QueryResult& index) {
-  write_text_file(folder / "index.csv", to_csv(index));
-  write_text_file(folder / "index.json", to_json(index));
+OutputFolder indexed_folder(const ExportJob& job, const QueryResult& index) {
+  const std::string head = to_csv(index);  // no rows yet: the names of its columns
+  OutputFolder folder(job.folder, "index.csv", marked_kind("exported problems", head.substr(0, head.find(',')), head),
+                      output_rules(job.arguments, job.console));
+  write_index(folder, index);
+  return folder;
+}
+
+void write_index(const OutputFolder& folder, const QueryResult& index) {
+  folder.write("index.csv", to_csv(index));
+  folder.write("index.json", to_json(index));
 }
 
 namespace {
 
 class PddlExporter {
  public:
-  explicit PddlExporter(const ExportJob& job) : job_(job) {
-    index_.columns = {"problem", "domain", "plan",    "kind",   "episode",    "task",  "variation",  "seed",
-                      "frame",   "time_s", "outcome", "reason", "plan_steps", "valid", "beside_goal"};
-  }
+  explicit PddlExporter(const ExportJob& job) : job_(job), folder_(indexed_folder(job, index_)) {}
 
   ExportCount run() {
     for (const std::int64_t id : job_.episodes) {
@@ -36,7 +42,7 @@ class PddlExporter {
         job_.console.err << "episode " << id << " is left out: " << error.message() << "\n";
       }
     }
-    write_index(job_.folder, index_);
+    write_index(folder_, index_);
     return count_;
   }
 
@@ -72,15 +78,16 @@ class PddlExporter {
   }
 
   std::string write_domain(const std::string& name, const std::string& text) {
-    const std::string file = "domains/" + name + ".pddl";
+    const std::string file = "domains/" + file_name(name) + ".pddl";
     if (domains_.insert(file).second) write(file, text);
     return file;
   }
 
   void write_problem(std::int64_t id, const EpisodeRecord& episode, const std::string& kind, const std::string& domain,
                      std::int64_t frame, const std::string& text, const Plan& plan, bool valid) {
-    const std::string stem = kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", episode.task, id)
-                                               : fmt::format("problems/{}_e{:05}_f{:05}", episode.task, id, frame);
+    const std::string task = file_name(episode.task);
+    const std::string stem = kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", task, id)
+                                               : fmt::format("problems/{}_e{:05}_f{:05}", task, id, frame);
     write(stem + ".pddl", text);
     write(stem + ".plan", to_pddl(plan));
     index_.rows.push_back({stem + ".pddl", domain, stem + ".plan", kind, id, episode.task, episode.variation,
@@ -90,13 +97,16 @@ class PddlExporter {
   }
 
   void write(const std::string& file, const std::string& text) {
-    write_text_file(job_.folder / file, text);
+    folder_.write(file, text);
     ++count_.files;
   }
 
   const ExportJob& job_;
   std::set<std::string> domains_;
-  QueryResult index_;
+  QueryResult index_{{"problem", "domain", "plan", "kind", "episode", "task", "variation", "seed", "frame", "time_s",
+                      "outcome", "reason", "plan_steps", "valid", "beside_goal"},
+                     {}};
+  OutputFolder folder_;
   ExportCount count_;
 };
 

@@ -6,6 +6,7 @@
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/object_sheet.h"
+#include "scripting/commands/render_output.h"
 #include "scripting/library/naming.h"
 #include "scripting/session/episode_job.h"
 
@@ -77,7 +78,9 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
     if (const std::string sheet = arguments.text("--sheet"); !sheet.empty()) {
       if (shelf->kind != DefinitionKind::object)
         throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
-      draw_objects(library, sheet);
+      const OutputRules rules = output_rules(arguments, console);
+      check_output(sheet, sheet_kind(), rules);
+      draw_objects(library, sheet, rules);
     }
     const QueryResult table = shelf_table(*library, *shelf);
     console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
@@ -102,7 +105,7 @@ CommandRow list_command() {
       "List tasks, skills, predicates, objects, worlds or robots, or the variations of a task",
       "Without WHAT it lists the tasks. With the name of a task it lists the task's variations.",
       {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, or the name of a task", false, false}},
-      {{"--sheet", "FILE", "objects only: a page of pictures of them all (PNG)", Takes::path, "", {}, false},
+      {{"--sheet", "FILE", "objects only: a page of pictures of them all (PNG)", Takes::output, "", {}, false},
        {"--hash", "", "of a task: the hash of all files that its episodes are made of", Takes::flag, "", {}, false}},
       {"stampede list", "stampede list skills", "stampede list stack_blocks",
        "stampede list objects --sheet objects.png"},

@@ -82,7 +82,7 @@ Picture portrait(Renderer& renderer, Scene& scene, const Bounds& bounds) {
 
 }  // namespace
 
-void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file) {
+void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file, const OutputRules& rules) {
   const std::vector<const ScriptFile*> objects = library->files(DefinitionKind::object);
   const auto renderer = make_renderer();
   const int count = static_cast<int>(objects.size());
@@ -106,7 +106,7 @@ void draw_objects(std::shared_ptr<const Library> library, const std::filesystem:
   }
   std::vector<Canvas> page;
   page.push_back(std::move(canvas));
-  write_sheet(file, page);
+  write_sheet(file, page, rules);
 }
 
 }  // namespace stampede::program

@@ -83,6 +83,7 @@ class Asker {
     const std::filesystem::path path = out_.empty() ? sentence_path_of(*library_, task) : std::filesystem::path(out_);
     SentenceFile file;
     file.task = task;
+    if (!dry_) check_output(path, {"a file of sentences", {}, true}, {});  // ahead of what costs money
     if (!dry_ && std::filesystem::exists(path)) file = read_sentence_file(path, path.string());
     if (file.task != task) throw Error(path.string(), "it is of task '" + file.task + "'", "name another --out");
     const std::vector<OwnSentences> all = sentences_of(library_, task);

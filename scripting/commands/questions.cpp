@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
@@ -50,26 +49,23 @@ class Questioner {
     if (ids.empty())
       for (const EpisodeSummary& episode : catalogue_.episodes()) ids.push_back(episode.id);
     const std::string out = arguments_.text("--out");
-    std::ofstream file(out + ".half", std::ios::binary);
+    OutputFile file(out, marked_kind("a file of questions", "{\"episode\":", "\"answer_type\":"),
+                    output_rules(arguments_, console_));
     for (const std::int64_t id : ids) {
       if (console_.stopped()) break;
       ask_episode(id, file);
     }
-    file.close();
-    std::error_code code;
-    if (file && !console_.stopped()) std::filesystem::rename(out + ".half", out, code);
-    if (!file || code) throw Error(out, "it cannot be written");
     if (console_.stopped()) {
-      std::filesystem::remove(out + ".half", code);
       console_.err << "interrupted: nothing is written\n";
       return kNo;
     }
+    file.finish();
     report(out);
     return count_ > 0 ? kDone : kNo;
   }
 
  private:
-  void ask_episode(std::int64_t id, std::ostream& file) {
+  void ask_episode(std::int64_t id, OutputFile& file) {
     const EpisodeRecord episode = catalogue_.read_episode(id);
     if (episode.scene_document.empty()) return;
     const Scene scene = scene_from_document(episode.scene_document);
@@ -90,7 +86,7 @@ class Questioner {
         line["answer"] = one.answer;
         line["answer_type"] = one.answer_type;
         line["fact"] = one.proof;
-        file << line.dump() << "\n";
+        file.write(line.dump() + "\n");
         ++count_;
         ++by_type_[one.type + (one.answer_type == "yes_no" ? " " + one.answer : "")];
       }
@@ -184,7 +180,7 @@ CommandRow questions_command() {
       "and "
       "what passes the checks of `paraphrase` is taken. The exit code is 1 where nothing can be asked.",
       {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
-      {{"--out", "FILE", "where to", Takes::path, "questions.jsonl", {}, false},
+      {{"--out", "FILE", "where to", Takes::output, "questions.jsonl", {}, false},
        {"--per-frame", "N", "questions a frame, at most", Takes::integer, "8", {}, false},
        {"--frames", "N", "frames an episode, evenly spaced over those with pictures", Takes::integer, "5", {}, false},
        {"--rephrase", "", "a language model words them anew", Takes::flag, "", {}, false}},

@@ -140,7 +140,9 @@ class Rendering {
     };
     request_.lacking = [this](const EpisodeRecord& episode) { return lacking(frames_, episode); };
     request_.stop = console.stop;
-    if (place_ == "--video") film_.emplace(target_);
+    rules_ = output_rules(arguments, console);
+    if (place_ == "--video") film_.emplace(target_, rules_);
+    if (place_ == "--sheet") check_output(target_, sheet_kind(), rules_);
     workers_ = workers_of(arguments);
   }
 
@@ -159,7 +161,7 @@ class Rendering {
         [&](std::size_t, Drawn drawn) { keep(drawn, shelf); });
     const bool interrupted = request_.stopped() && done_ + skipped_ < static_cast<std::int64_t>(wanted.size());
     if (!interrupted && film_) film_->finish();
-    if (!interrupted && place_ == "--sheet" && !blocks_.empty()) write_sheet(target_, blocks_);
+    if (!interrupted && place_ == "--sheet" && !blocks_.empty()) write_sheet(target_, blocks_, rules_);
     shelf.close();
     return answer(static_cast<std::int64_t>(wanted.size()), interrupted);
   }
@@ -180,7 +182,7 @@ class Rendering {
     } else {
       draw_images(renderer, scene, drawn);
     }
-    if (!request_.stopped() && place_ == "--out") write_folder(target_, drawn);
+    if (!request_.stopped() && place_ == "--out") write_folder(target_, drawn, rules_);
     return drawn;
   }
 
@@ -244,6 +246,7 @@ class Rendering {
   bool json_;
   std::string place_;
   fs::path target_;
+  OutputRules rules_;
   FrameChoice frames_;
   Roots roots_;
   RenderRequest request_;
@@ -273,16 +276,16 @@ CommandRow render_command() {
       {{"--out",
         "FOLDER",
         "files: FOLDER/episode_000012/front/rgb/000034.png, masks.csv, cameras.csv",
-        Takes::path,
+        Takes::output,
         "",
         {},
         false},
        {"--into", "FILE", "the catalogue that takes the pictures, usually the same", Takes::path, "", {}, false},
-       {"--video", "FILE", "a film (.mp4) at the rate of the frames", Takes::path, "", {}, false},
+       {"--video", "FILE", "a film (.mp4) at the rate of the frames", Takes::output, "", {}, false},
        {"--sheet",
         "FILE",
         "a contact sheet (PNG): the start, a picture amid each skill, the end",
-        Takes::path,
+        Takes::output,
         "",
         {},
         false},
@@ -291,7 +294,7 @@ CommandRow render_command() {
         "the robot at the recorded joint states, tinted and outlined over the stored pictures, and by how many pixels "
         "its "
         "outline is off in each camera; 20 frames unless --frames says which",
-        Takes::path,
+        Takes::output,
         "",
         {},
         false},

@@ -50,16 +50,19 @@ void write_band(Canvas& canvas, const Layout& layout, int top, const EpisodeReco
 
 struct Film::Impl {
   std::filesystem::path file;
+  OutputRules rules;
   std::optional<VideoWriter> video;
   int width = 0, height = 0, rate = 0;
 };
 
-Film::Film(std::filesystem::path file) : impl_(new Impl{std::move(file), {}, 0, 0, 0}) {
+Film::Film(std::filesystem::path file, OutputRules rules)
+    : impl_(new Impl{std::move(file), std::move(rules), {}, 0, 0, 0}) {
   try {
     VideoWriter::check_name(impl_->file);
   } catch (const Error& error) {
     throw UsageError("--video: " + error.message(), error.hint());
   }
+  check_output(impl_->file, film_kind(), impl_->rules);
 }
 Film::~Film() = default;
 
@@ -70,7 +73,7 @@ void Film::add(Renderer& renderer, const RenderRequest& request, Drawn& drawn) {
   const Layout layout(painter.width());
   const int height = painter.height() + layout.band();
   if (!impl_->video) {
-    impl_->video.emplace(impl_->file, painter.width(), height, episode.frame_hz);
+    impl_->video.emplace(impl_->file, painter.width(), height, episode.frame_hz, impl_->rules);
     impl_->width = painter.width();
     impl_->height = height;
     impl_->rate = episode.frame_hz;

@@ -1,8 +1,8 @@
 // Pictures as files.
 #include <fmt/format.h>
 
-#include <fstream>
-
+#include "engine/base/file_name.h"
+#include "engine/base/output_file.h"
 #include "engine/model/masks.h"
 #include "scripting/commands/render_output.h"
 
@@ -11,22 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whole or not at all.
-void write_file(const fs::path& path, const char* bytes, std::size_t size) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes, static_cast<std::streamsize>(size));
-  file.close();
-  if (file) return;
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  throw Error(path.string(), "it could not be written", "is the disk full, or the folder not yours?");
-}
-
-void make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw Error(path.string(), "the folder cannot be made: " + error.message());
-}
+constexpr const char* kCameraColumns =
+    "frame,time_s,camera,width,height,focal_x,focal_y,centre_x,centre_y,k1,k2,p1,p2,k3,near_m,far_m,x,y,z,qx,qy,qz,qw";
 
 std::string masks_csv(const Scene& scene) {
   std::string text = "instance,name,object,class,semantic\n";
@@ -36,9 +22,7 @@ std::string masks_csv(const Scene& scene) {
 }
 
 std::string cameras_csv(const Drawn& drawn) {
-  std::string text =
-      "frame,time_s,camera,width,height,focal_x,focal_y,centre_x,centre_y,k1,k2,p1,p2,k3,near_m,far_m,x,y,z,qx,qy,qz,"
-      "qw\n";
+  std::string text = std::string(kCameraColumns) + "\n";
   const EpisodeRecord& episode = drawn.stored.episode;
   for (const std::int64_t frame : drawn.rendered.frames) {
     const auto at = static_cast<std::size_t>(frame);
@@ -61,22 +45,22 @@ std::string cameras_csv(const Drawn& drawn) {
 
 }  // namespace
 
-void write_folder(const fs::path& folder, Drawn& drawn) {
-  const fs::path own = folder / fmt::format("episode_{:06}", drawn.stored.id);
-  make_folder(own);
-  const std::string masks = masks_csv(*drawn.stored.scene), cameras = cameras_csv(drawn);
-  write_file(own / "masks.csv", masks.data(), masks.size());
-  write_file(own / "cameras.csv", cameras.data(), cameras.size());
+void write_folder(const fs::path& folder, Drawn& drawn, const OutputRules& rules) {
+  const OutputFolder own(folder / fmt::format("episode_{:06}", drawn.stored.id), "cameras.csv",
+                         marked_kind("rendered pictures", "frame,time_s,camera,", kCameraColumns), rules);
+  own.write("cameras.csv", cameras_csv(drawn));  // first: by it the folder is known
+  own.write("masks.csv", masks_csv(*drawn.stored.scene));
+  FileNames names({"cameras.csv", "masks.csv"});
+  std::vector<std::string> folders;
+  for (const CameraTrack& track : drawn.rendered.cameras) folders.push_back(names.take(track.camera.name));
   const ImageStore& images = *drawn.rendered.images;
   for (std::size_t i = 0; i < images.count(); ++i) {
     const ImageRecord& image = images.record(i);
-    const std::string& camera = drawn.rendered.cameras[static_cast<std::size_t>(image.camera)].camera.name;
-    const fs::path place = own / camera / image.kind;
-    if (!fs::exists(place)) make_folder(place);
     const std::vector<std::uint8_t> bytes = images.read(i);
     const char* ending = image.kind == "points" ? "ply" : "png";
-    write_file(place / fmt::format("{:06}.{}", image.frame, ending), reinterpret_cast<const char*>(bytes.data()),
-               bytes.size());
+    own.write(fs::path(folders[static_cast<std::size_t>(image.camera)]) / file_name(image.kind) /
+                  fmt::format("{:06}.{}", image.frame, ending),
+              {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "db/catalogue.h"
+#include "engine/base/output_file.h"
 #include "engine/render/canvas.h"
 #include "engine/render/renderer.h"
 #include "scripting/commands/render_shots.h"
@@ -38,12 +39,12 @@ struct Drawn {
 };
 
 // masks.csv, cameras.csv and one file a picture: episode_000012/front/rgb/000034.png. Throws Error: disk full.
-void write_folder(const std::filesystem::path& folder, Drawn& drawn);
+void write_folder(const std::filesystem::path& folder, Drawn& drawn, const OutputRules& rules);
 
 // Frames one by one, the instruction and the running skill under each. Lifetime: one thread.
 class Film {
  public:
-  explicit Film(std::filesystem::path file);
+  Film(std::filesystem::path file, OutputRules rules);
   ~Film();
   void add(Renderer& renderer, const RenderRequest& request, Drawn& drawn);
   void finish();
@@ -56,7 +57,8 @@ class Film {
 // One block of a contact sheet: a header, the start, a picture amid each skill, the end.
 Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& drawn);
 // Blocks one below the other. Throws UsageError when there are too many for one picture.
-void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& blocks);
+void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& blocks, const OutputRules& rules);
+OutputKind sheet_kind();  // pictures for people, marked as ours
 
 // What films and sheets share: pictures for people.
 struct Portrait {

@@ -3,16 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <ostream>
 #include <set>
 
+#include "engine/base/file_name.h"
 #include "engine/base/nearest.h"
+#include "engine/base/output_file.h"
 #include "engine/render/png.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/program/json_text.h"
 #include "scripting/recording/overlay.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {
@@ -45,11 +47,27 @@ void name_missing(const Catalogue& catalogue, std::int64_t id, const std::vector
                                  with.empty() ? "it has none" : did_you_mean(camera, {with.begin(), with.end()}));
 }
 
-void save(const fs::path& folder, std::int64_t id, const OverlayPicture& picture) {
-  const Bytes png = png_of(picture.width, picture.height, picture.rgb);
-  write_text_file(folder / fmt::format("episode_{:06}", id) / picture.camera / fmt::format("{:06}.png", picture.frame),
-                  {png.begin(), png.end()});
-}
+// Pictures of one episode; each says that it is ours.
+class Album {
+ public:
+  Album(const fs::path& folder, std::int64_t id, const OutputRules& rules)
+      : folder_(folder / fmt::format("episode_{:06}", id)), rules_(rules) {}
+
+  void save(const OverlayPicture& picture) {
+    std::string& camera = cameras_[picture.camera];
+    if (camera.empty()) camera = names_.take(picture.camera);
+    const Bytes png = marked_png(picture.width, picture.height, picture.rgb);
+    const OutputFolder own(folder_, fs::path(camera) / fmt::format("{:06}.png", picture.frame), sheet_kind(), rules_);
+    own.write(fs::path(camera) / fmt::format("{:06}.png", picture.frame),
+              {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+
+ private:
+  fs::path folder_;
+  const OutputRules& rules_;
+  FileNames names_;
+  std::map<std::string, std::string> cameras_;  // folders
+};
 
 void print(const CameraAlignment& one, Console& console) {
   const Alignment& a = one.alignment;
@@ -74,6 +92,7 @@ void put(const CameraAlignment& one, JsonText& json) {
 
 ExitCode render_overlays(const Arguments& arguments, const RenderRequest& request, Console& console) {
   const fs::path folder = arguments.text("--overlay");
+  const OutputRules rules = output_rules(arguments, console);
   for (const char* option : {"--kinds", "--noise", "--size"})
     if (arguments.has(option))
       throw UsageError(std::string(option) + " is not for --overlay: its pictures are those stored");
@@ -98,8 +117,9 @@ ExitCode render_overlays(const Arguments& arguments, const RenderRequest& reques
     wanted.frames =
         arguments.has("--frames") ? request.frames(stored.episode, WhichFrames::all) : spread(catalogue, id);
     const auto scene = with_cameras(stored, request.further(*stored.scene), request.named());
+    Album album(folder, id, rules);
     const Overlays result = overlays_of(*renderer, catalogue, stored, scene, wanted,
-                                        [&](const OverlayPicture& picture) { save(folder, id, picture); });
+                                        [&](const OverlayPicture& picture) { album.save(picture); });
     if (const std::string frames = request.lacking(stored.episode); !frames.empty())
       console.err << fmt::format("episode {} {}\n", id, frames);
     name_missing(catalogue, id, wanted.cameras, console);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "engine/render/png.h"
 #include "scripting/commands/render_output.h"
@@ -91,7 +90,9 @@ Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& draw
   return canvas;
 }
 
-void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& blocks) {
+OutputKind sheet_kind() { return marked_kind("a picture", "\x89PNG", picture_mark()); }
+
+void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& blocks, const OutputRules& rules) {
   int width = 0, height = 0;
   for (const Canvas& block : blocks) {
     width = std::max(width, block.width);
@@ -109,14 +110,10 @@ void write_sheet(const std::filesystem::path& file, const std::vector<Canvas>& b
       std::copy(from, from + static_cast<std::ptrdiff_t>(block.width) * 3, row);
     }
   }
-  const Bytes png = png_of(sheet.width, sheet.height, sheet.rgb);
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  out.close();
-  if (out) return;
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
-  throw Error(file.string(), "the sheet could not be written", "is the disk full, or the folder not there?");
+  const Bytes png = marked_png(sheet.width, sheet.height, sheet.rgb);
+  OutputFile out(file, sheet_kind(), rules);
+  out.write({reinterpret_cast<const char*>(png.data()), png.size()});
+  out.finish();
 }
 
 }  // namespace stampede::program

@@ -6,7 +6,7 @@
 #include "scripting/program/json_text.h"
 #include "scripting/research/dataset.h"
 #include "scripting/research/scorer.h"
-#include "scripting/session/text_file.h"
+#include "scripting/research/timeline_svg.h"
 
 namespace stampede::program {
 namespace {
@@ -61,10 +61,18 @@ ExitCode do_score(const Arguments& arguments, Console& console) {
   options.workers = workers_of(arguments);
   options.physics = physics;
   options.figure = arguments.text("--figure");
+  const OutputRules rules = options.rules = output_rules(arguments, console);
+  const OutputKind kind = marked_kind("a score", "{\n  \"problem\":", "\"scored\":");
+  if (arguments.has("--out")) check_output(arguments.text("--out"), kind, rules);
+  if (arguments.has("--figure")) check_output(options.figure, research::figure_kind(), rules);
   if (arguments.has("--episode")) options.figure_episode = in_range(arguments, "--episode", 1, kMostEpisodes);
   const research::Scored scored = research::score(answers, hidden, options);
   const std::string json = score_json(scored, answers);
-  if (arguments.has("--out")) write_text_file(arguments.text("--out"), json);
+  if (arguments.has("--out")) {
+    OutputFile file(arguments.text("--out"), kind, rules);
+    file.write(json);
+    file.finish();
+  }
   if (arguments.flag("--json")) {
     console.out << json;
     return kDone;
@@ -88,11 +96,11 @@ CommandRow score_command() {
       {{"PROBLEM", "which; `stampede dataset --list` names all", true, false},
        {"ANSWERS", "the file with answers", true, false}},
       {{"--hidden", "DIR", "the hidden part", Takes::path, "", {}, false},
-       {"--out", "FILE", "write the figures there too, as JSON", Takes::path, "", {}, false},
+       {"--out", "FILE", "write the figures there too, as JSON", Takes::output, "", {}, false},
        {"--figure",
         "FILE",
         "draw an episode's timeline there, as SVG; for segments, segments_supervised, segments_and_conditions",
-        Takes::path,
+        Takes::output,
         "",
         {},
         false},

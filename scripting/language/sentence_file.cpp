@@ -193,12 +193,7 @@ void write_sentence_file(const SentenceFile& file, const std::filesystem::path& 
                             {"prompt", one.prompt},
                             {"checks", one.checks}});
           });
-  std::filesystem::path half = path;
-  half += ".half";
-  write_text_file(half, text + "\n}\n");
-  std::error_code code;
-  std::filesystem::rename(half, path, code);
-  if (code) throw Error(path.string(), "it cannot be written");
+  write_text_file(path, text + "\n}\n");
 }
 
 std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown,

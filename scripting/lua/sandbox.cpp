@@ -209,7 +209,8 @@ int protected_call(lua_State* state, Sandbox::Impl& impl, int arguments, int res
 
 // Globals can be read and not written: a file that forgets `local` would change the next one.
 int refuse_global(lua_State* state) {
-  const char* name = luaL_tolstring(state, 2, nullptr);
+  push_plain_text(state, 2);
+  const char* name = lua_tostring(state, -1);
   return luaL_error(state, "'%s' is assigned without local: write local %s = …", name, name);
 }
 

@@ -15,18 +15,6 @@ constexpr lua_Integer kMostUnpacked = 10'000;
 constexpr std::size_t kLongestNumber = 200;  // bytes; Lua's own limit for what it writes
 constexpr const char* kArithmetic[] = {"__add", "__sub", "__mul", "__mod", "__pow", "__div", "__idiv", "__unm"};
 
-// tostring without addresses: two runs must print the same.
-void push_plain_text(lua_State* state, int index) {
-  const int type = lua_type(state, index);
-  const bool plain = type == LUA_TNIL || type == LUA_TBOOLEAN || type == LUA_TNUMBER || type == LUA_TSTRING;
-  if (plain || luaL_getmetafield(state, index, "__tostring") != LUA_TNIL) {
-    if (!plain) lua_pop(state, 1);
-    luaL_tolstring(state, index, nullptr);
-  } else {
-    lua_pushstring(state, luaL_typename(state, index));
-  }
-}
-
 int plain_tostring(lua_State* state) {
   luaL_checkany(state, 1);
   push_plain_text(state, 1);
@@ -323,10 +311,14 @@ int sorted_pairs(lua_State* state) {
 }
 
 int read_only(lua_State* state) {
-  return luaL_error(state, "'%s' cannot be changed", luaL_tolstring(state, 2, nullptr));
+  push_plain_text(state, 2);
+  return luaL_error(state, "'%s' cannot be changed", lua_tostring(state, -1));
 }
 
-int unknown_word(lua_State* state) { return luaL_error(state, "unknown name '%s'", luaL_tolstring(state, 2, nullptr)); }
+int unknown_word(lua_State* state) {
+  push_plain_text(state, 2);
+  return luaL_error(state, "unknown name '%s'", lua_tostring(state, -1));
+}
 
 // Copies a field of the table on top to the table at `to`, through `wrapper` when there is one.
 void copy_function(lua_State* state, int to, const char* name, lua_CFunction wrapper = nullptr) {
@@ -423,6 +415,17 @@ end
 )lua";
 
 }  // namespace
+
+void push_plain_text(lua_State* state, int index) {
+  const int type = lua_type(state, index);
+  const bool plain = type == LUA_TNIL || type == LUA_TBOOLEAN || type == LUA_TNUMBER || type == LUA_TSTRING;
+  if (plain || luaL_getmetafield(state, index, "__tostring") != LUA_TNIL) {
+    if (!plain) lua_pop(state, 1);
+    luaL_tolstring(state, index, nullptr);
+  } else {
+    lua_pushstring(state, luaL_typename(state, index));
+  }
+}
 
 void install_whitelist(lua_State* state) {
   lua_newtable(state);

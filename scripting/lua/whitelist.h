@@ -15,6 +15,9 @@ constexpr std::size_t kLongestString = 64u << 10;  // bytes
 // not fire inside them.
 void install_whitelist(lua_State* state);
 
+// Pushes what tostring says of a value: never an address, which differs from run to run.
+void push_plain_text(lua_State* state, int index);
+
 // Takes `cost` instructions from the budget of the sandbox that owns the state. Raises a Lua error when it is spent.
 void charge(lua_State* state, std::int64_t cost);
 

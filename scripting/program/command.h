@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ class UsageError : public Error {
   explicit UsageError(std::string message, std::string hint = {}) : Error({}, std::move(message), std::move(hint)) {}
 };
 
-enum class Takes { flag, text, integer, path };
+enum class Takes { flag, text, integer, path, output };  // a path that is read or added to; one that is written anew
 
 struct OptionRow {
   std::string name;   // `--episodes`
@@ -47,7 +48,10 @@ class Arguments {
   std::string text(std::string_view name) const;  // given, initial, or empty
   const std::vector<std::string>& list(std::string_view name) const;
   std::optional<std::int64_t> integer(std::string_view name) const;  // given or initial
+  // Every argument and path that the command may read: all but outputs.
+  const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
   void set(std::string name, std::vector<std::string> values, bool given);
+  void add_input(std::filesystem::path path) { inputs_.push_back(std::move(path)); }
 
  private:
   struct Value {
@@ -55,6 +59,7 @@ class Arguments {
     bool given = false;
   };
   std::map<std::string, Value, std::less<>> values_;
+  std::vector<std::filesystem::path> inputs_;
 };
 
 struct CommandRow {
@@ -69,5 +74,7 @@ struct CommandRow {
 
 // --root, --path, --json, --help: every command has them.
 const std::vector<OptionRow>& common_options();
+// Its own, --force where it writes files, and those.
+std::vector<OptionRow> all_options(const CommandRow& command);
 
 }  // namespace stampede::program

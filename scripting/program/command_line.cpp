@@ -10,11 +10,13 @@
 #include <ostream>
 
 #include "engine/base/error.h"
+#include "engine/base/output_file.h"
 #include "engine/base/stopping.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
+#include "scripting/program/printable_stream.h"
 
 namespace stampede::program {
 
@@ -50,12 +52,6 @@ struct Usage {  // thrown for command lines that make no sense
   std::string message, hint;
 };
 
-std::vector<OptionRow> all_options(const CommandRow& command) {
-  std::vector<OptionRow> options = command.options;
-  options.insert(options.end(), common_options().begin(), common_options().end());
-  return options;
-}
-
 void check_value(const OptionRow& option, const std::string& value) {
   if (option.takes == Takes::integer) {
     std::int64_t number = 0;  // read by from_chars: CLI11 takes a number that is too large for the largest there is
@@ -65,7 +61,8 @@ void check_value(const OptionRow& option, const std::string& value) {
       throw Usage{option.name + " takes a whole number, not '" + value + "'", ""};
     }
   }
-  if (option.takes == Takes::path && value.empty()) throw Usage{option.name + " needs a path", option.help};
+  if ((option.takes == Takes::path || option.takes == Takes::output) && value.empty())
+    throw Usage{option.name + " needs a path", option.help};
   if (!option.choices.empty() &&
       std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
     std::string all;
@@ -98,11 +95,23 @@ void place_positionals(const CommandRow& command, const std::vector<std::string>
   for (const PositionalRow& row : command.positionals) {
     const auto end = row.repeats || next == places.end() ? places.end() : next + 1;
     if (row.required && next == end) throw Usage{"stampede " + command.name + " needs " + row.name, row.help};
+    for (auto place = next; place != end; ++place) arguments.add_input(*place);
     arguments.set(row.name, {next, end}, next != end);
     next = end;
   }
   if (next != places.end()) {
     throw Usage{"too many arguments: '" + *next + "' has no place", "see stampede " + command.name + " --help"};
+  }
+}
+
+// Two outputs of one command in one place: the second would replace the first.
+void refuse_one_output(const CommandRow& command, const Arguments& arguments) {
+  std::map<std::filesystem::path, std::string> places;
+  for (const OptionRow& row : all_options(command)) {
+    if (row.takes != Takes::output || !arguments.has(row.name)) continue;
+    const std::filesystem::path path = std::filesystem::absolute(arguments.text(row.name)).lexically_normal();
+    const auto [there, is_new] = places.emplace(path, row.name);
+    if (!is_new) throw Usage{there->second + " and " + row.name + " are one file", "name two"};
   }
 }
 
@@ -136,16 +145,48 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
     const bool given = options[row.name]->count() > 0;
     for (const std::string& value : values[row.name]) check_value(row, value);
     if (!given && !row.initial.empty()) values[row.name] = {row.initial};
+    if (row.takes == Takes::path)
+      for (const std::string& value : values[row.name]) arguments.add_input(value);
     arguments.set(row.name, values[row.name], given);
   }
-  if (!arguments.has("--help")) place_positionals(command, places, arguments);
+  if (arguments.has("--help")) return arguments;
+  place_positionals(command, places, arguments);
+  refuse_one_output(command, arguments);
   return arguments;
+}
+
+bool takes_standard_output(const CommandRow& command, const Arguments& arguments) {
+  return std::any_of(command.options.begin(), command.options.end(), [&](const OptionRow& row) {
+    return row.takes == Takes::output && arguments.has(row.name) && is_standard_output(arguments.text(row.name));
+  });
 }
 
 ExitCode complain(const std::string& kind, const std::string& message, ExitCode code, Console& console) {
   console.out.flush();
   console.err << kind << message << std::endl;
   return code;
+}
+
+// Machines read these as they are.
+bool answers_exactly(const Arguments& arguments) {
+  const std::string format = arguments.text("--format");
+  return arguments.has("--json") || format == "json" || format == "csv";
+}
+
+// Data that goes to standard output goes alone: what else is told is told on standard error.
+ExitCode run(const CommandRow& command, const Arguments& arguments, Console& console) {
+  const bool alone = takes_standard_output(command, arguments);
+  Console told{alone                        ? console.err
+               : answers_exactly(arguments) ? *console.data
+                                            : console.out,
+               console.err,
+               alone ? console.err_is_terminal : console.out_is_terminal,
+               console.err_is_terminal,
+               console.width,
+               console.stop,
+               console.data,
+               console.bare_err};
+  return command.run(arguments, told);
 }
 
 ExitCode dispatch(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
@@ -168,7 +209,7 @@ ExitCode dispatch(const std::vector<CommandRow>& commands, const std::vector<std
       console.out << command_help(command);
       return kDone;
     }
-    return command.run(arguments, console);
+    return run(command, arguments, console);
   }
   const auto near = nearest(words[0], names);
   throw Usage{"there is no command '" + words[0] + "'", near ? "did you mean '" + *near + "'?" : "see stampede --help"};
@@ -182,13 +223,15 @@ bool reader_has_left() {
 
 }  // namespace
 
-ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& console) {
-  const StopScope scope(console.stop);
+ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<std::string>& words, Console& bare) {
+  const StopScope scope(bare.stop);
+  PrintableStream out(bare.out), err(bare.err);
+  Console console{out, err, bare.out_is_terminal, bare.err_is_terminal, bare.width, bare.stop, &bare.out, &bare.err};
   try {
     const ExitCode code = dispatch(commands, words, console);
-    console.out.flush();
-    if (!console.out && reader_has_left()) return code;  // `| head`: it has what it wanted
-    if (!console.out) return complain("stampede: ", "the answer could not be written", kBadInput, console);
+    bare.out.flush();
+    if (!bare.out && reader_has_left()) return code;  // `| head`: it has what it wanted
+    if (!bare.out) return complain("stampede: ", "the answer could not be written", kBadInput, console);
     return code;
   } catch (const Usage& usage) {
     return complain("stampede: ", usage.message + (usage.hint.empty() ? "" : "\n    " + usage.hint), kUsage, console);

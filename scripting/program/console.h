@@ -15,6 +15,10 @@ struct Console {
   bool err_is_terminal = false;
   int width = 100;                          // columns of the terminal, or what to assume elsewhere
   const std::atomic<bool>* stop = nullptr;  // set by a signal; never null in the program
+  // The streams below those, which run_program makes printable: what an output called `-` goes to, and lines that
+  // change.
+  std::ostream* data = nullptr;
+  std::ostream* bare_err = nullptr;
 
   bool stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 };

@@ -72,6 +72,17 @@ const std::vector<OptionRow>& common_options() {
   return options;
 }
 
+std::vector<OptionRow> all_options(const CommandRow& command) {
+  std::vector<OptionRow> options = command.options;
+  const bool writes =
+      std::any_of(options.begin(), options.end(), [](const auto& o) { return o.takes == Takes::output; });
+  if (writes)
+    options.push_back(
+        {"--force", "", "replace files and links that stampede did not make", Takes::flag, "", {}, false});
+  options.insert(options.end(), common_options().begin(), common_options().end());
+  return options;
+}
+
 std::string program_help(const std::vector<CommandRow>& commands) {
   std::vector<Row> rows;
   for (const CommandRow& command : commands) rows.push_back({command.name, command.summary});
@@ -91,9 +102,7 @@ std::string command_help(const CommandRow& command) {
     for (const PositionalRow& row : command.positionals) rows.push_back({row.name, row.help});
     text += "\nArguments:\n" + two_columns(rows);
   }
-  std::vector<OptionRow> options = command.options;
-  options.insert(options.end(), common_options().begin(), common_options().end());
-  text += "\nOptions:\n" + two_columns(option_rows(options));
+  text += "\nOptions:\n" + two_columns(option_rows(all_options(command)));
   if (!command.examples.empty()) {
     text += "\nExamples:\n";
     for (const std::string& example : command.examples) text += "  " + example + "\n";
@@ -117,8 +126,7 @@ std::string bash_completion(const std::vector<CommandRow>& commands) {
   for (const CommandRow& command : commands) {
     names += (names.empty() ? "" : " ") + command.name;
     std::string words;
-    for (const OptionRow& option : command.options) words += option.name + " ";
-    for (const OptionRow& option : common_options()) words += option.name + " ";
+    for (const OptionRow& option : all_options(command)) words += option.name + " ";
     words.pop_back();
     cases += "    " + command.name + ") words=\"" + words + "\" ;;\n";
   }

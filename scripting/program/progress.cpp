@@ -45,7 +45,8 @@ std::string progress_line(const ProgressState& state, int width) {
 void Progress::update(ProgressState state, const std::string& line) {
   state.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (console_.err_is_terminal) {
-    console_.err << "\r\033[K" << progress_line(state, console_.width - 1) << std::flush;
+    (console_.bare_err == nullptr ? console_.err : *console_.bare_err)
+        << "\r\033[K" << progress_line(state, console_.width - 1) << std::flush;
     drawn_ = true;
     return;
   }

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/output_file.h"
 #include "scripting/program/libav.h"
 
 namespace stampede::program {
@@ -34,6 +36,13 @@ using Format = std::unique_ptr<AVFormatContext, FreeFormat>;
 struct FreeScaler {
   void operator()(SwsContext* scaler) const { av().sws_freeContext(scaler); }
 };
+
+// A box of the kind that players skip, after all others: by it a film is known to be ours.
+const std::string& film_mark() {
+  static const std::string mark = std::string("\0\0\0\x19", 4) + "freedrawn by stampede";
+  return mark;
+}
+
 int even(int size) { return size + size % 2; }
 
 Frame new_frame(int width, int height, AVPixelFormat pixels) {
@@ -59,7 +68,9 @@ void copy_pixels(std::span<const std::uint8_t> rgb, int width, int height, AVFra
 }  // namespace
 
 struct VideoWriter::Impl {
-  fs::path file, part;
+  fs::path file;
+  std::unique_ptr<OutputFile> output;
+  std::string part;  // where libav writes
   int width = 0, height = 0, rate = 0;
   std::int64_t pictures = 0;
   bool finished = false;
@@ -71,9 +82,7 @@ struct VideoWriter::Impl {
 
   ~Impl() {
     if (finished) return;
-    format.reset();
-    std::error_code ignored;
-    fs::remove(part, ignored);
+    format.reset();  // ahead of what it writes to
   }
 
   [[noreturn]] void failed(const std::string& what, int code) const {
@@ -161,9 +170,23 @@ void VideoWriter::Impl::close_file() {
   must(format->pb->error, "the film cannot be written");
   must(av().avio_closep(&format->pb), "the film cannot be written");
   format.reset();
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (error) throw Error(file.string(), "the film cannot be written: " + error.message());
+  std::ofstream end(part, std::ios::binary | std::ios::app);
+  end << film_mark();
+  end.close();
+  if (!end) throw Error(file.string(), "the film cannot be written", "free some space, or write to another disk");
+  output->finish();
+}
+
+OutputKind film_kind() {
+  return {"a film",
+          [](const fs::path& path) {
+            std::ifstream file(path, std::ios::binary);
+            std::string end(film_mark().size(), ' ');
+            file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+            file.read(end.data(), static_cast<std::streamsize>(end.size()));
+            return file && end == film_mark();
+          },
+          true};
 }
 
 void VideoWriter::check_name(const fs::path& file) {
@@ -171,12 +194,14 @@ void VideoWriter::check_name(const fs::path& file) {
   throw Error(file.string(), "a film cannot end in '" + file.extension().string() + "'", "say .mp4");
 }
 
-VideoWriter::VideoWriter(const fs::path& file, int width, int height, int rate_hz) : impl_(std::make_unique<Impl>()) {
+VideoWriter::VideoWriter(const fs::path& file, int width, int height, int rate_hz, const OutputRules& rules)
+    : impl_(std::make_unique<Impl>()) {
   check_name(file);
   if (width < 1 || height < 1 || rate_hz < 1) throw Error(file.string(), "a film needs a size and a rate");
   av().av_log_set_level(AV_LOG_QUIET);  // of the whole process: what it would say is in our errors
   impl_->file = file;
-  impl_->part = file.string() + ".part";
+  impl_->output = std::make_unique<OutputFile>(file, film_kind(), rules);
+  impl_->part = impl_->output->unfinished();
   impl_->width = width;
   impl_->height = height;
   impl_->rate = rate_hz;

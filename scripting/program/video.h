@@ -6,15 +6,17 @@
 #include <memory>
 #include <span>
 
+#include "engine/base/output_file.h"
+
 namespace stampede::program {
 
 // .mp4: H.264, 4:2:0, constant quality; a side that is odd is encoded one pixel longer, its last pixels repeated.
-// What is written lies beside the file, under its name with `.part`, until finish() gives it the name.
+// The file has its name once finish() has returned (engine/base/output_file.h).
 // Lifetime: one thread. Repeatable: the same pictures, the same bytes.
 // Throws Error with the cure for another ending, a missing codec, a folder that is not there and a full disk.
 class VideoWriter {
  public:
-  VideoWriter(const std::filesystem::path& file, int width, int height, int rate_hz);
+  VideoWriter(const std::filesystem::path& file, int width, int height, int rate_hz, const OutputRules& rules = {});
   ~VideoWriter();  // without finish() nothing stays
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
@@ -29,5 +31,7 @@ class VideoWriter {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+OutputKind film_kind();  // ours end in a mark that players skip
 
 }  // namespace stampede::program

@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/file_name.h"
+#include "engine/base/output_file.h"
 #include "engine/model/camera.h"
 #include "engine/render/png.h"
 #include "scripting/recording/robot_track.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {
@@ -32,7 +33,11 @@ constexpr double kPose = 1e12, kStamp = 1e6;
 class Exporter {
  public:
   Exporter(const Catalogue& catalogue, const StoredEpisode& stored, const fs::path& folder)
-      : catalogue_(catalogue), stored_(stored), episode_(stored.episode), robot_(stored.scene->robot), folder_(folder) {
+      : catalogue_(catalogue),
+        stored_(stored),
+        episode_(stored.episode),
+        robot_(stored.scene->robot),
+        folder_(folder, "recording.json", {"a recording", {}, false}, {}) {
     for (const int part : robot_.arm)
       for (std::size_t i = 0; i < episode_.joints.size(); ++i)
         if (episode_.joints[i].part == PartRef{-1, part}) arm_.push_back(i);
@@ -54,7 +59,7 @@ class Exporter {
     return static_cast<double>(episode_.frames[frame].step) / episode_.physics_hz;
   }
   void write(const std::string& name, const std::string& text) {
-    write_text_file(folder_ / name, text);
+    folder_.write(name, text);
     ++files_;
   }
   void add_stream(OrderedJson stream) { streams_.push_back(std::move(stream)); }
@@ -115,31 +120,35 @@ class Exporter {
         text += "\n";
       }
       const int part = sensor == stored_.scene->sensors.end() ? robot_.tip_part : sensor->part;
-      write(channel.name + ".csv", text);
+      const std::string name = names_.take(channel.name) + ".csv";
+      write(name, text);
       add_stream({{"kind", "wrench"},
                   {"name", channel.name},
                   {"link", robot_.body.parts[static_cast<std::size_t>(part)].name},
-                  {"file", channel.name + ".csv"}});
+                  {"file", name}});
     }
   }
 
   void write_pictures() {
     std::map<std::pair<std::string, std::string>, std::string> times;  // camera, kind -> CSV
+    std::map<std::pair<std::string, std::string>, std::string> folders;
     for (const ImageEntry& entry : catalogue_.images(stored_.id)) {
       if (entry.kind != "rgb" && entry.kind != "depth") continue;
       const Camera* camera = camera_of(entry.camera);
       if (camera == nullptr || (!camera->mount_body.empty() && camera->mount_body != robot_.name)) continue;
       const std::vector<std::uint8_t> bytes = catalogue_.read_image(stored_.id, entry.frame, entry.camera, entry.kind);
       const bool jpeg = bytes.size() > 1 && bytes[0] == 0xff && bytes[1] == 0xd8;
+      const auto [place, is_new] = folders.try_emplace({entry.camera, entry.kind});
+      if (is_new) place->second = names_.take(entry.camera + "_" + entry.kind);
       const std::string name = std::to_string(1'000'000 + entry.frame).substr(1) + (jpeg ? ".jpg" : ".png");
-      write(entry.camera + "_" + entry.kind + "/" + name, {bytes.begin(), bytes.end()});
+      write(place->second + "/" + name, {bytes.begin(), bytes.end()});
       std::string& csv = times[{entry.camera, entry.kind}];
       if (csv.empty()) csv = "time_s,file\n";
       csv += number(taken_at(entry)) + "," + name + "\n";
       sizes_[entry.camera] = {entry.width, entry.height};
     }
     for (const auto& [which, csv] : times) {
-      const std::string name = which.first + "_" + which.second;
+      const std::string& name = folders.at(which);
       write(name + ".csv", csv);
       OrderedJson stream = {
           {"kind", which.second}, {"camera", which.first}, {"folder", name}, {"times", name + ".csv"}};
@@ -259,7 +268,8 @@ class Exporter {
   const StoredEpisode& stored_;
   const EpisodeRecord& episode_;
   const Robot& robot_;
-  const fs::path& folder_;
+  const OutputFolder folder_;
+  FileNames names_{{"joints", "gripper", "command", "cameras", "labels", "recording"}};
   std::vector<std::size_t> arm_;  // places of its joints in the episode's
   OrderedJson streams_ = OrderedJson::array();
   std::map<std::string, std::array<int, 2>> sizes_;  // of stored pictures, by camera

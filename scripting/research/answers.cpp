@@ -210,7 +210,7 @@ Answers read_answers(const std::filesystem::path& file, const ResearchProblem& p
 }
 
 std::string answers_text(const Answers& answers) {
-  Json head = {{"dataset", answers.dataset}, {"problem", answers.problem}};
+  Json head = {{"by", "stampede baseline"}, {"dataset", answers.dataset}, {"problem", answers.problem}};
   for (const auto& [name, text] : answers.texts) head[name] = text;
   std::string text = head.dump();
   text.pop_back();

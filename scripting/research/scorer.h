@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "db/plain_file.h"
+#include "engine/base/output_file.h"
 #include "scripting/research/answers.h"
 #include "scripting/research/problem.h"
 #include "scripting/session/roots.h"
@@ -27,6 +28,7 @@ struct ScoreOptions {
   std::int64_t physics = 0;           // plans to run in physics, at most; 0: none
   std::int64_t figure_episode = 0;    // of the data set; 0: the first of the test split
   std::filesystem::path figure = {};  // where to draw one, for scorers that can; empty: nowhere
+  OutputRules rules = {};             // of the figure
 };
 
 // What a scorer reads. The answers fit the problem's columns, name this data set and each test unit of it (checked

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "engine/base/error.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::research {
 namespace {
@@ -36,7 +35,8 @@ class Timeline {
       : frames_(static_cast<double>(std::max<std::int64_t>(frames, 1))), hz_(frame_hz) {
     svg_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-        "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+        "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n<!-- drawn "
+        "by stampede -->\n",
         kLeft + kWidth + kRight, kHeight);
   }
   double x(double frame) const { return kLeft + kWidth * frame / frames_; }
@@ -139,6 +139,8 @@ void draw_signals(Timeline& timeline, const PlainFile& hidden, std::int64_t epis
 
 }  // namespace
 
+OutputKind figure_kind() { return marked_kind("a timeline", "<svg", "<!-- drawn by stampede -->"); }
+
 void draw_timeline(const ScoringJob& job, const Segmentations& truth, const Segmentations& answers) {
   const std::int64_t episode = job.options.figure_episode > 0 ? job.options.figure_episode : truth.begin()->first;
   if (!truth.contains(episode))
@@ -165,7 +167,9 @@ void draw_timeline(const ScoringJob& job, const Segmentations& truth, const Segm
                 fmt::format("{}, episode {}: true skills, and answered boundaries ({}, dashed)", job.problem.name,
                             episode, boundaries_of(answers.at(episode)).size()));
   timeline.seconds();
-  write_text_file(job.options.figure, timeline.finished());
+  OutputFile file(job.options.figure, figure_kind(), job.options.rules);
+  file.write(timeline.finished());
+  file.finish();
 }
 
 }  // namespace stampede::research

@@ -9,4 +9,6 @@ namespace stampede::research {
 // hidden part holds no joints to draw.
 void draw_timeline(const ScoringJob& job, const Segmentations& truth, const Segmentations& answers);
 
+OutputKind figure_kind();
+
 }  // namespace stampede::research

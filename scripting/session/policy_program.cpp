@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -72,31 +72,6 @@ struct Pipe {
   std::array<int, 2> ends{-1, -1};  // to read, to write
 };
 
-// Signals as a program expects them, and a group of its own.
-pid_t start(const std::string& command, int input, int output, int& number) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
-  posix_spawnattr_t how;
-  posix_spawnattr_init(&how);
-  sigset_t usual, none;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  for (const int one : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) sigaddset(&usual, one);
-  posix_spawnattr_setsigdefault(&how, &usual);
-  posix_spawnattr_setsigmask(&how, &none);
-  posix_spawnattr_setpgroup(&how, 0);
-  posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  std::array<std::string, 3> words = {"sh", "-c", command};
-  std::array<char*, 4> list = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-  pid_t process = -1;
-  number = posix_spawn(&process, "/bin/sh", &files, &how, list.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&how);
-  return number == 0 ? process : -1;
-}
-
 std::string seconds(milliseconds time) {
   return time.count() % 1000 == 0 ? std::to_string(time.count() / 1000) + " s" : std::to_string(time.count()) + " ms";
 }
@@ -112,10 +87,11 @@ std::string shown_line(std::string_view line) {
 PolicyProgram::PolicyProgram(std::string command, milliseconds patience, const std::atomic<bool>* stop)
     : command_(std::move(command)), patience_(patience), stop_(stop) {
   Pipe input, output;
-  int number = 0;
-  process_ = start(command_, input.ends[0], output.ends[1], number);
-  if (process_ < 0)
-    fail(std::string("the program could not be started: ") + std::strerror(number), "let this user start processes");
+  try {
+    program_.emplace(command_, input.ends[0], output.ends[1], ShellProgram::Group::own, ShellProgram::Orphans::adopted);
+  } catch (const std::system_error& error) {
+    fail("the program could not be started: " + error.code().message(), "let this user start processes");
+  }
   in_ = input.take(1);
   out_ = output.take(0);
   for (const int end : {in_, out_}) fcntl(end, F_SETFL, fcntl(end, F_GETFL) | O_NONBLOCK);
@@ -124,9 +100,7 @@ PolicyProgram::PolicyProgram(std::string command, milliseconds patience, const s
 PolicyProgram::~PolicyProgram() {
   close_end(in_);
   wait_for_end(kFarewell);
-  kill(-process_, SIGKILL);  // the shell has not been waited for: the number of its group is still its own
-  int status = 0;
-  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
+  program_.reset();
   close_end(out_);
 }
 
@@ -137,7 +111,8 @@ void PolicyProgram::fail(const std::string& what, const std::string& cure) const
 std::optional<int> PolicyProgram::wait_for_end(milliseconds patience) const {
   for (const auto end = Clock::now() + patience;;) {
     siginfo_t about{};
-    if (waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOHANG | WNOWAIT) == 0 && about.si_pid != 0)
+    if (waitid(P_PID, static_cast<id_t>(program_->process()), &about, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+        about.si_pid != 0)
       return about.si_code == CLD_EXITED ? about.si_status : -about.si_status;
     if (Clock::now() >= end) return std::nullopt;
     std::this_thread::sleep_for(milliseconds(5));

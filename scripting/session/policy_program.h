@@ -1,8 +1,6 @@
 // A program that is spoken with line by line, on its standard input and output.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -11,13 +9,15 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/shell_program.h"
+
 namespace stampede {
 
 inline constexpr std::size_t kLongestPolicyLine = 1'000'000;  // bytes
 
 // Lifetime: the program's. It is started by /bin/sh -c in a process group of its own, which a terminal's Ctrl-C does
-// not reach; its standard error is ours. When this object goes its input is closed, and what is left of the group after
-// a second is killed.
+// not reach; its standard error is ours. When this object goes its input is closed, and what is left of it after
+// a second is killed, whatever it has started included. Keys are not in its environment (shell_program.h).
 // Throws Error, with the command's last word and a cure, when it cannot be started, ends while an answer is awaited,
 // says nothing or does not listen for `patience`, writes a line that is too long, or one that nobody asked for.
 class PolicyProgram {
@@ -49,7 +49,7 @@ class PolicyProgram {
   std::string command_, awaited_;
   std::chrono::milliseconds patience_;
   const std::atomic<bool>* stop_;
-  pid_t process_ = -1;
+  std::optional<ShellProgram> program_;
   int in_ = -1, out_ = -1;       // its standard input and output; -1: closed
   std::string unsent_, unread_;  // what is on its way; what has come beyond the last line taken
   std::string line_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/file_name.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/policy_json.h"
 #include "scripting/session/prepared_source.h"
@@ -128,7 +129,7 @@ void PolicyRun::look_at_patience(const StepResult& result) {
 std::string PolicyRun::put_picture(const ChannelValue& picture) {
   if (!pictures_ && access(kMemory, W_OK | X_OK) == 0) pictures_.emplace(kMemory);
   if (!pictures_) pictures_.emplace();
-  const std::filesystem::path path = pictures_->path() / (picture.name + ".raw");
+  const std::filesystem::path path = pictures_->path() / (file_name(picture.name) + ".raw");
   const std::string bytes = bytes_of(picture);
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/base/output_file.h"
 #include "engine/base/read_file.h"
 
 namespace stampede {
@@ -17,10 +18,9 @@ bool holds_text(const std::filesystem::path& path, const std::string& text) {
 void write_text_file(const std::filesystem::path& path, const std::string& text) {
   std::error_code code;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), code);
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string(), "it cannot be written");
+  OutputFile file(path, {"a text", {}, false}, {});
+  file.write(text);
+  file.finish();
 }
 
 }  // namespace stampede

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "convert.h"
+#include "engine/base/printable.h"
 
 namespace stampede::python {
 namespace {
@@ -21,10 +22,11 @@ std::string in_python(const std::string& text) {
 }
 
 void raise(PyObject* type, const Error& error) {
-  const nb::object instance = nb::handle(type)(nb::str(in_python(error.what()).c_str()));
-  instance.attr("where") = nb::cast(in_python(error.where()));
-  instance.attr("message") = nb::cast(in_python(error.message()));
-  instance.attr("hint") = nb::cast(in_python(error.hint()));
+  const auto text = [](const std::string& words) { return nb::cast(printable(in_python(words))); };
+  const nb::object instance = nb::handle(type)(text(error.what()));
+  instance.attr("where") = text(error.where());
+  instance.attr("message") = text(error.message());
+  instance.attr("hint") = text(error.hint());
   PyErr_SetObject(type, instance.ptr());
 }
 
