@@ -104,6 +104,10 @@ OutputRules::OutputRules(const std::vector<fs::path>& inputs, bool force, std::o
     const fs::path name = really(input);
     if (S_ISDIR(status->st_mode)) {
       folders_.push_back(name);
+      std::error_code ignored;  // a hard link to a file of it lies elsewhere
+      for (const auto& entry : fs::directory_iterator(name, ignored))
+        if (const auto one = status_of(entry.path()); one && S_ISREG(one->st_mode))
+          in_folders_.insert({one->st_dev, one->st_ino});
       continue;
     }
     if (takes_streams(status->st_mode)) continue;  // reading and writing a terminal is no harm
@@ -125,6 +129,8 @@ bool OutputRules::reads(const fs::path& path) const {
 
 bool OutputRules::lies_in_input(const fs::path& path) const {
   if (folders_.empty()) return false;
+  if (const auto status = status_of(path); status && in_folders_.contains({status->st_dev, status->st_ino}))
+    return true;
   const fs::path found = really(path);
   return std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), found.begin(), found.end()).first == folder.end();

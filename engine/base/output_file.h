@@ -30,7 +30,7 @@ class OutputRules {
   std::ostream* standard() const { return standard_; }
 
  private:
-  std::set<std::pair<dev_t, ino_t>> files_;
+  std::set<std::pair<dev_t, ino_t>> files_, in_folders_;
   std::set<std::filesystem::path> names_;       // canonical
   std::vector<std::filesystem::path> folders_;  // canonical
   bool force_ = false;

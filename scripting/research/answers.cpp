@@ -85,7 +85,7 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   for (const AnswerColumn& column : problem.answer_texts) known.push_back(column.name);
   require_known_fields(json, known, answers.where);
   for (const auto& [name, value] : json.items()) {
-    if (name == "answers") continue;
+    if (name == "answers" || name == "by") continue;  // who made them is nobody's answer
     if (!value.is_string()) throw Error(answers.where, "'" + shown(name) + "' is a text", kCompare);
     if (name == "dataset")
       answers.dataset = value.get<std::string>();

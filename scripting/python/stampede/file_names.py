@@ -14,8 +14,8 @@ _DEVICES = {"con", "prn", "aux", "nul"} | {f"{port}{number}" for port in ("com",
 def file_name(text: str) -> str:
     """One part of a path, whatever the text is; two texts never have one.
 
-    Separators, control characters, `%`, a dot, dash, tilde or blank at the beginning, a dot or blank at the end, and the
-    first letter of names that some systems keep to themselves are %XX of their bytes. Long ones end in a hash.
+    Separators, control characters, `%`, a dot, dash, tilde or blank at the beginning, a dot or blank at the end, and
+    the first letter of names that some systems keep to themselves are %XX of their bytes. Long ones end in a hash.
     """
     if not text:
         return "%"
@@ -35,7 +35,7 @@ def file_name(text: str) -> str:
 
 
 class FileNames:
-    """The names in one folder: told apart on disks that do not know large letters too, and from what its owner writes."""
+    """The names in one folder, told apart where a disk does not know large letters, and from what its owner writes."""
 
     def __init__(self, *taken: str) -> None:
         self._taken = {name.lower() for name in taken}

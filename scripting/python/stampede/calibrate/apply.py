@@ -3,22 +3,51 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
 from stampede.calibrate.bundle import Result
 from stampede.calibrate.recorded import MEASURED, Recording
+from stampede.faults import fault
 from stampede.recordings.folder import UNPLACED
 
 Json = dict[str, Any]
 
 
 def write_whole(file: Path, document: Any) -> None:
-    """As JSON; the file has its name once all of it is there."""
-    part = file.with_name(file.name + ".part")
-    part.write_text(json.dumps(document, indent=1) + "\n")
-    part.replace(file)
+    """As JSON; the file has its name once all of it is there. Raises Error where something else has that name: a link,
+    a device, a folder, or a file without this document's first key."""
+    check_replaceable(file, next(iter(document)))
+    handle, part = tempfile.mkstemp(prefix=".stampede-", dir=file.parent)
+    try:
+        with open(handle, "w") as stream:
+            stream.write(json.dumps(document, indent=1) + "\n")
+        mask = os.umask(0)
+        os.umask(mask)
+        Path(part).chmod(0o666 & ~mask)
+        Path(part).replace(file)
+    except BaseException:
+        Path(part).unlink(missing_ok=True)
+        raise
+
+
+def check_replaceable(file: Path, key: str) -> None:
+    """Raises Error where a JSON file with this key may not take that name. Call it ahead of long work."""
+    if file.is_symlink():
+        raise fault(str(file), "this is a link", "name the file itself, or remove the link")
+    if not file.exists():
+        return
+    if not file.is_file():
+        raise fault(str(file), "this is a folder or a device, and no file", "name a file")
+    try:
+        known = json.loads(file.read_text() or "{}")
+    except ValueError:
+        known = None
+    if not isinstance(known, dict) or (known and key not in known):
+        raise fault(str(file), f"this file is there already, and holds no '{key}'", "name a new file, or remove it")
 
 
 def apply(recording: Recording, result: Result, report: Json, with_joints: bool) -> None:

@@ -24,6 +24,7 @@ from stampede.export.pieces import Pieces, place
 from stampede.export.steps import ACTIONS, Array, Steps, check_names
 from stampede.export.video import ENCODERS, NAMES, library, write_film
 from stampede.faults import fault
+from stampede.file_names import file_name
 
 _THINGS = "observation.environment_state"
 _SPLITS = ("train", "valid", "test")
@@ -94,7 +95,7 @@ class Writer:
         with self._pieces.making(episode.id) as piece:
             with ThreadPoolExecutor(max(1, len(self._cameras))) as threads:
                 films = [threads.submit(self._film, piece, episode, camera, steps.count) for camera in self._cameras]
-                names_of_films = [f"observation.images.{camera}" for camera in self._cameras]
+                names_of_films = [f"observation.images.{file_name(camera)}" for camera in self._cameras]
                 histograms = {name: film.result() for name, film in zip(names_of_films, films, strict=True)}
             np.savez(piece / "columns.npz", **columns)  # type: ignore[arg-type]
             np.savez(piece / "pictures.npz", **histograms)  # type: ignore[arg-type]
@@ -199,7 +200,7 @@ class Writer:
         pictures = episode.pictures(f"{camera}_rgb", range(count), draw=self._options.draw, threads=1)
         if pictures.shape[1] % 2 or pictures.shape[2] % 2:
             raise fault(f"camera {camera}", "pictures of films have an even height and width", "--cameras NAMES")
-        write_film(piece / f"{camera}.mp4", pictures, self._fps, self._options.encoder)
+        write_film(piece / f"{file_name(camera)}.mp4", pictures, self._fps, self._options.encoder)
         return np.stack([np.bincount(pictures[..., k].ravel(), minlength=256) for k in range(3)])
 
     def _sizes(self, episode: StoredEpisode) -> dict[str, list[int]]:
@@ -216,7 +217,7 @@ class Writer:
         }
         codec = NAMES[self._options.encoder]
         for camera, shape in sizes.items():
-            features[f"observation.images.{camera}"] = {
+            features[f"observation.images.{file_name(camera)}"] = {
                 "dtype": "video",
                 "shape": shape,
                 "names": ["height", "width", "channels"],
@@ -288,9 +289,9 @@ class Writer:
                 **described[number]["about"],
             }
             for camera in self._cameras:
-                key = f"observation.images.{camera}"
+                key = f"observation.images.{file_name(camera)}"
                 chunk, place_in_chunk = number // _CHUNK, number % _CHUNK
-                film = self._pieces.of(episode.id) / f"{camera}.mp4"
+                film = self._pieces.of(episode.id) / f"{file_name(camera)}.mp4"
                 place(film, self._folder / f"videos/{key}/chunk-{chunk:03d}/file-{place_in_chunk:03d}.mp4")
                 row[f"videos/{key}/chunk_index"] = chunk
                 row[f"videos/{key}/file_index"] = place_in_chunk
@@ -330,8 +331,9 @@ class Writer:
             parquet.write_table(self._table(columns[number], []), partial, compression="snappy")
             partial.replace(path)
             for camera in self._cameras:
-                film = self._pieces.of(episode.id) / f"{camera}.mp4"
-                place(film, self._folder / f"videos/{chunk}/observation.images.{camera}/episode_{number:06d}.mp4")
+                film = self._pieces.of(episode.id) / f"{file_name(camera)}.mp4"
+                key = f"observation.images.{file_name(camera)}"
+                place(film, self._folder / f"videos/{chunk}/{key}/episode_{number:06d}.mp4")
             length = len(columns[number]["index"])
             frames += length
             about = {"episode_index": number, "tasks": [_task(episode)], "length": length}

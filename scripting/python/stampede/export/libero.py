@@ -32,6 +32,7 @@ from stampede.export.hdf5 import (
     scale_of,
 )
 from stampede.export.steps import Steps, rotation_vectors
+from stampede.file_names import file_name
 
 # LIBERO's names of the two cameras that its policies look through.
 _CAMERAS = {"front": "agentview_rgb", "wrist": "eye_in_hand_rgb"}
@@ -149,4 +150,4 @@ def _file_names(episodes: Sequence[StoredEpisode]) -> list[str]:
             taken = set(names.values())
             candidates = [words, *(f"{words}_{number}" for number in range(2, len(taken) + 3))]
             names[kind] = next(name for name in candidates if name not in taken)
-    return [f"{names[episode.task, episode.variation]}_demo.hdf5" for episode in episodes]
+    return [f"{file_name(names[episode.task, episode.variation])}_demo.hdf5" for episode in episodes]

@@ -21,6 +21,7 @@ from stampede.export import common_cameras
 from stampede.export.hdf5 import Demo, DemoFiles, Facts, add_action_argument, put_pictures, scale_of
 from stampede.export.scene import robot_base
 from stampede.export.steps import Array, Steps, bodies_of, is_real, known
+from stampede.file_names import file_name
 
 # ManiSkill's names of our action spaces.
 _CONTROL = {"joint_position": "pd_joint_pos", "joint_delta": "pd_joint_delta_pos", "tool_delta": "pd_ee_delta_pose"}
@@ -69,7 +70,7 @@ class Writer:
 
     def _file_name(self, task: str) -> str:
         observations = "rgb" if self._cameras[task] else "state_dict"
-        return f"{task}/trajectory.{observations}.{_CONTROL[self._options.action]}.bullet_cpu.h5"
+        return f"{file_name(task)}/trajectory.{observations}.{_CONTROL[self._options.action]}.bullet_cpu.h5"
 
     def _put_steps(self, trajectory: Any, steps: Steps) -> None:
         ended = np.zeros(steps.count, dtype=bool)

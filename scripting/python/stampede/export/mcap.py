@@ -35,6 +35,7 @@ from stampede.export import cameras_of
 from stampede.export.pictures import is_png
 from stampede.export.scene import Part, parts_of, pose_of, quaternion
 from stampede.export.steps import Array, channels_of, matrices
+from stampede.file_names import file_name
 
 Message = dict[str, Any]
 
@@ -152,7 +153,7 @@ class Writer:
         """No file is open between two episodes."""
 
     def _path(self, episode: StoredEpisode) -> Path:
-        return self._folder / f"{episode.task}_{episode.id:06d}.mcap"
+        return self._folder / f"{file_name(episode.task)}_{episode.id:06d}.mcap"
 
 
 class _EpisodeFile:

@@ -23,6 +23,7 @@ from stampede.catalogue import StoredEpisode
 from stampede.export import cameras_of
 from stampede.export.steps import is_real
 from stampede.faults import fault
+from stampede.file_names import file_name
 from stampede.rlbench.backend.const import (
     EPISODE_FOLDER,
     EPISODES_FOLDER,
@@ -144,7 +145,7 @@ class Writer:
 
     def _variation_folder(self, episode: StoredEpisode) -> Path:
         variation, _ = self._places[episode.id]
-        return self._folder / episode.task / (
+        return self._folder / file_name(episode.task) / (
             VARIATIONS_ALL_FOLDER if self._options.all_variations else VARIATIONS_FOLDER % variation
         )
 
@@ -214,7 +215,7 @@ class Writer:
         size = (0, 0)
         with ThreadPoolExecutor(2) as pool:
             for kind in _KINDS:
-                pngs = folder / f"{camera}_{kind}"
+                pngs = folder / file_name(f"{camera}_{kind}")
                 pngs.mkdir()
                 for first in range(0, len(frames), _FRAMES_AT_ONCE):
                     pictures = self._read(episode, pngs.name, frames[first : first + _FRAMES_AT_ONCE])

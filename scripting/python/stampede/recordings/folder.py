@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import IO, Any
 
 from stampede.faults import fault
+from stampede.file_names import FileNames
 
 FORM = 1  # `stampede_recording` of recording.json
 UNPLACED = "unplaced.json"  # streams of cameras of which nobody knows where they are
@@ -113,6 +114,7 @@ class FolderWriter:
         self._files: list[IO[str]] = []
         self.streams: list[Stream] = []
         self._unplaced: list[str] = []
+        self._names = FileNames("recording.json", "labels.json", "cameras.json", "lenses.json", UNPLACED)
         self._finished = False
 
     def __enter__(self) -> FolderWriter:
@@ -135,12 +137,13 @@ class FolderWriter:
     def series(self, kind: str, columns: Sequence[str], clock: str, place: str = "", **fields: Any) -> Stream:
         """A stream of numbers, in a file of its name or kind."""
         name = str(fields.get("name", kind))
-        file = self._open(f"{name}.csv", columns)
-        return self._add(file, {"kind": kind, **fields, "file": f"{name}.csv", "clock": clock}, place or name)
+        own = self._names.take(name)
+        file = self._open(f"{own}.csv", columns)
+        return self._add(file, {"kind": kind, **fields, "file": f"{own}.csv", "clock": clock}, place or name)
 
     def pictures(self, kind: str, camera: str, clock: str, place: str = "", **fields: Any) -> tuple[Stream, Path]:
         """A stream of pictures, kind rgb or depth, and the folder for Stream.picture."""
-        name = f"{camera}_{kind}"
+        name = self._names.take(f"{camera}_{kind}")
         folder = self._part / name
         folder.mkdir()
         described = {"kind": kind, "camera": camera, "folder": name, "times": f"{name}.csv", "clock": clock, **fields}
