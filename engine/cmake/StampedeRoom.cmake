@@ -10,6 +10,9 @@ if(LLD)
   add_link_options(-fuse-ld=lld)
 endif()
 
+# All that is linked is bound when it is loaded, and its tables are read-only from then on.
+add_link_options(-Wl,-z,relro,-z,now)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
