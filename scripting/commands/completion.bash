@@ -2,8 +2,8 @@
 _stampede() {
   local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import paraphrase questions dataset baseline score replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
-    list) words="--sheet --hash --root --path --json --help" ;;
-    check) words="--physics --why --pictures --episodes --seed --randomise --workers --root --path --json --help" ;;
+    list) words="--sheet --hash --force --root --path --json --help" ;;
+    check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
     run) words="--episodes --variation --seed --split --workers --out --shard --on-failure --controller --sentences --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     evaluate) words="--perturb --episodes --variation --seed --split --workers --out --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
@@ -11,15 +11,15 @@ _stampede() {
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --hash --root --path --json --help" ;;
     merge) words="--root --path --json --help" ;;
-    export) words="--out --episode --known --dialect --mapping --frame --leave-out --root --path --json --help" ;;
+    export) words="--out --episode --known --dialect --mapping --frame --leave-out --force --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
     paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
-    questions) words="--out --per-frame --frames --rephrase --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
+    questions) words="--out --per-frame --frames --rephrase --url --model --timeout --retries --rate --price-in --price-out --force --root --path --json --help" ;;
     dataset) words="--list --out --hidden --split --root --path --json --help" ;;
-    baseline) words="--list --out --root --path --json --help" ;;
-    score) words="--hidden --out --figure --episode --physics --workers --root --path --json --help" ;;
+    baseline) words="--list --out --force --root --path --json --help" ;;
+    score) words="--hidden --out --figure --episode --physics --workers --force --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;
-    render) words="--out --into --video --sheet --overlay --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --root --path --json --help" ;;
+    render) words="--out --into --video --sheet --overlay --frames --camera --size --kinds --noise --shadows --camera-file --add-camera --workers --force --root --path --json --help" ;;
     new) words="--root --path --json --help" ;;
     doc) words="--check --root --path --json --help" ;;
   esac
