@@ -38,8 +38,6 @@ ExitCode do_export(const Arguments& arguments, Console& console) {
   if (what != "pddl" && arguments.has("--known")) throw UsageError("--known is of export pddl", "leave it out");
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));
   const ExportJob job{catalogue, chosen_episodes(arguments, catalogue), arguments.text("--out"), arguments, console};
-  if (is_standard_output(job.folder))
-    throw Error(job.folder, "this is standard output, and a folder is needed", "name a folder");
   const ExportCount count = kind->second(job);
   if (console.stopped()) console.err << "interrupted: what is written stays\n";
   if (arguments.flag("--json")) {

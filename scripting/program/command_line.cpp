@@ -104,11 +104,14 @@ void place_positionals(const CommandRow& command, const std::vector<std::string>
   }
 }
 
-// Two outputs of one command in one place: the second would replace the first.
-void refuse_one_output(const CommandRow& command, const Arguments& arguments) {
+// A folder is not standard output. Two outputs of one command in one place: the second would replace the first.
+void check_outputs(const CommandRow& command, const Arguments& arguments) {
   std::map<std::filesystem::path, std::string> places;
   for (const OptionRow& row : all_options(command)) {
     if (row.takes != Takes::output || !arguments.has(row.name)) continue;
+    const bool folder = row.value == "FOLDER" || row.value == "DIR";
+    if (folder && is_standard_output(arguments.text(row.name)))
+      throw Usage{row.name + " is a folder, and standard output is none", "name a folder"};
     const std::filesystem::path path = std::filesystem::absolute(arguments.text(row.name)).lexically_normal();
     const auto [there, is_new] = places.emplace(path, row.name);
     if (!is_new) throw Usage{there->second + " and " + row.name + " are one file", "name two"};
@@ -151,7 +154,7 @@ Arguments parse(const CommandRow& command, std::vector<std::string> words) {
   }
   if (arguments.has("--help")) return arguments;
   place_positionals(command, places, arguments);
-  refuse_one_output(command, arguments);
+  check_outputs(command, arguments);
   return arguments;
 }
 

@@ -210,7 +210,7 @@ TEST_CASE("a folder's files are replaced where it is one of ours, and files of o
     put(folder, "plain", "a letter");
     CHECK(asked(output, folder / "plain", {"--force"}).code == kBadInput);
     CHECK(file_text(folder / "plain") == "a letter");
-    CHECK(asked(output, "-").code == kBadInput);
+    CHECK(asked(output, "-").code == kUsage);
     if (!output.input.empty()) CHECK(file_text(output.input) == before);
   }
   CHECK_FALSE(fs::exists("-"));
