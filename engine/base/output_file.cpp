@@ -54,7 +54,7 @@ std::optional<int> descriptor_of(const fs::path& path) {
 
 bool takes_streams(mode_t mode) { return S_ISFIFO(mode) || S_ISCHR(mode); }
 
-std::string beginning_of(const fs::path& path) {
+std::string first_bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(512, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -139,7 +139,7 @@ bool OutputRules::lies_in_input(const fs::path& path) const {
 
 OutputKind marked_kind(std::string name, std::string begins, std::string holds) {
   return {std::move(name), [begins = std::move(begins), holds = std::move(holds)](const fs::path& file) {
-            const std::string text = beginning_of(file);
+            const std::string text = first_bytes_of(file);
             return text.starts_with(begins) && text.find(holds) != std::string::npos;
           }};
 }

@@ -64,7 +64,7 @@ struct CloseFolder {
   void operator()(DIR* folder) const { closedir(folder); }
 };
 
-constexpr const char* kMark = "STAMPEDE_STARTED";
+constexpr const char* kStartedBy = "STAMPEDE_STARTED";
 
 // Signals as a program expects them.
 pid_t start(const std::string& command, int input, int output, bool own_group, const std::string& mark) {
@@ -86,7 +86,7 @@ pid_t start(const std::string& command, int input, int output, bool own_group, c
   std::array<std::string, 3> words = {"sh", "-c", command};
   std::array<char*, 4> list = {words[0].data(), words[1].data(), words[2].data(), nullptr};
   std::vector<std::string> variables = environment_without_keys();
-  variables.push_back(std::string(kMark) + "=" + mark);
+  variables.push_back(std::string(kStartedBy) + "=" + mark);
   std::vector<char*> environment;
   for (std::string& one : variables) environment.push_back(one.data());
   environment.push_back(nullptr);
@@ -179,7 +179,7 @@ int ShellProgram::wait() const {
 std::vector<ShellProgram::Process> ShellProgram::victims() const {
   const std::vector<Process> all = all_processes<Process>();
   const std::multiset<pid_t>& own = household().own;
-  const std::string mark = std::string(kMark) + "=" + mark_;
+  const std::string mark = std::string(kStartedBy) + "=" + mark_;
   const auto belongs = [&](const Process& one) {
     if (one.number == process_ || (group_ == Group::own && one.group == process_)) return true;
     if (one.number == getpid() || own.contains(one.number)) return false;
