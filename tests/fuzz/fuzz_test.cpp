@@ -87,3 +87,16 @@ TEST_CASE("each reader survives sound files, cut ones, and those that once did h
     CHECK(read > 0);
   }
 }
+
+TEST_CASE("no schema of a catalogue runs, whatever it says") {
+  const char* asked = std::getenv("STAMPEDE_SCHEMAS");  // how many; `.ci/soak schema` asks for a million
+  const std::int64_t count = asked ? std::atoll(asked) : 60;
+  const Target& schema = target("schema");
+  for (std::int64_t i = 0; i < count; ++i) {
+    Random random(RandomKey("schema").with(i));
+    std::string bytes(static_cast<std::size_t>(6 + random.below(40)), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random.below(256));
+    INFO("schema " << i);
+    REQUIRE_NOTHROW(schema.read(bytes));
+  }
+}

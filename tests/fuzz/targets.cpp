@@ -22,6 +22,7 @@
 #include "scripting/lua/sandbox.h"
 #include "scripting/research/answers.h"
 #include "tests/fuzz/catalogue.h"
+#include "tests/fuzz/schema.h"
 
 namespace stampede::fuzz {
 namespace fs = std::filesystem;
@@ -157,6 +158,11 @@ const std::vector<Target>& targets() {
       of_file("png", "fuzzed.png", [](const fs::path& file) { return load_image(file); }),
       {"sql", ask},
       {"catalogue", read_catalogue},
+      {"schema",
+       [](std::string_view bytes) {
+         fs::create_directories(scratch().path() / "schema");
+         use_altered_schema(scratch().path() / "schema", bytes);
+       }},
       of_file("ply", "fuzzed.ply", [](const fs::path& file) { return load_hulls(file); }),
       of_file("stl", "fuzzed.stl", [](const fs::path& file) { return load_hulls(file); }),
       of_file("dae", "fuzzed.dae", [](const fs::path& file) { return load_hulls(file); }),
