@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/episode/call_follow.h"
+#include "engine/motion/tool_line.h"
 
 namespace stampede {
 namespace {
@@ -40,17 +41,22 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
   const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
   LineOptions line;
   line.tool_speed = call.speed;
+  const auto moving = [&](double reach) {  // the part goes with the hand, the first `reach` of its way
+    return [&way, reach](CollisionState& space, double share) {
+      if (way.part.body >= 0) space.move_part(way.part, way.moved(reach * share));
+    };
+  };
   options.kind = "move_part";
   options.most_force = call.most_force;
   options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
   if (const std::optional<ArmWay> found = way_with_part(state, start, way, key)) {
     LineOptions guided = line;
     guided.near = found->arm;
-    PlannedMotion motion = plan_tool_path(state, start, found->world_from_tip, guided, {}, key);
+    PlannedMotion motion = plan_tool_path_with(state, start, found->world_from_tip, guided, moving(1), {}, key);
     if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
   }
   const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
-  PlannedMotion whole = plan_tool_path(state, start, rigid, line, {}, key);
+  PlannedMotion whole = plan_tool_path_with(state, start, rigid, line, moving(1), {}, key);
   const bool good =  // the arm goes on from there
       whole.reason == Reason::none && free_at_end(state, start, way, whole.trajectory.knots.back().position);
   if (!good && call.as_far_as_it_goes)
@@ -58,7 +64,7 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
       LineOptions guided = line;
       guided.near = found->arm;
       guided.least_share = 0;
-      whole = plan_tool_path(state, start, found->world_from_tip, guided, {}, key);
+      whole = plan_tool_path_with(state, start, found->world_from_tip, guided, moving(found->reach), {}, key);
     }
   return from(std::move(whole), std::move(options));
 }

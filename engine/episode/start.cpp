@@ -2,6 +2,7 @@
 #include "engine/episode/start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "engine/base/error.h"
@@ -10,6 +11,8 @@
 #include "engine/episode/fact_tracker.h"
 #include "engine/episode/joint_placement.h"
 #include "engine/model/camera.h"
+#include "engine/motion/looked.h"
+#include "engine/sim/overlap.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -127,7 +130,16 @@ double spare_room(const WorldView& view, const std::vector<std::string>& clutter
   return least;
 }
 
+bool joints_at_rest(const World& world) {
+  constexpr double kStill = 0.005;  // m/s or rad/s
+  for (std::size_t b = 0; b < world.scene().bodies.size(); ++b)
+    for (std::size_t p = 1; p < world.scene().bodies[b].parts.size(); ++p)
+      if (std::abs(world.joint_velocity({static_cast<int>(b), static_cast<int>(p)})) > kStill) return false;
+  return true;
+}
+
 bool all_at_rest(const WorldView& view) {
+  if (!joints_at_rest(view.world())) return false;
   for (const Object& thing : view.scene().objects)
     if (thing.kind == ObjectKind::body && !view.at_rest(thing.name)) {
       const int body = view.scene().body_index(thing.body);
@@ -148,6 +160,57 @@ Scene settled(const WorldView& view) {
         body.parts[part].joint.initial = view.world().joint_position({index, static_cast<int>(part)});
   }
   return scene;
+}
+
+// What keeps a draw from being a start: two things that lie in each other, or an arm that touches.
+struct Blocked {
+  std::string what;    // as it is told: `cabinet standing clear of table`
+  double depth = 0;    // m
+  std::string cure;    // empty: draw again
+  std::string moment;  // what would have to vary for it to go away: the same text, the same contact
+};
+
+// All that a body's parts are placed by, to the last bit.
+std::string placing_of(const Body& body) {
+  std::string bytes;
+  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (int i = 0; i < 16; ++i) add(body.world_from_body.matrix().data()[i]);
+  for (const Part& part : body.parts) add(part.joint.initial);
+  return bytes;
+}
+
+// The arm where it starts: against itself, and against all that stands or lies about.
+std::optional<Blocked> blocked_arm(const CollisionState& state, const Robot& robot) {
+  const JointVector start = arm_at_start(robot);
+  const std::optional<Overlap> deepest = deepest_overlap(state, start);
+  if (!deepest) return std::nullopt;
+  const std::string one = name_of_part(state.scene(), deepest->one),
+                    other = name_of_part(state.scene(), deepest->other);
+  Blocked blocked{"the arm being free where it starts: " + one + " touches " + other,
+                  deepest->depth,
+                  {},
+                  one + other + placing_of(robot.body)};
+  const auto link = [&](PartRef part) { return robot.body.parts[static_cast<std::size_t>(part.part)].name; };
+  if (deepest->other.on_robot() && deepest->one.on_robot())
+    blocked.cure = "where only their shapes say so: allowed = { { \"" + link(deepest->one) + "\", \"" +
+                   link(deepest->other) + "\" } } in worlds/robots/" + robot.name + ".lua; else another home or shape";
+  else
+    blocked.moment += placing_of(state.scene().body_at(deepest->other.body));
+  return blocked;
+}
+
+// Nothing lies in anything else: furniture in the table, things in each other.
+std::optional<Blocked> blocked_bodies(const CollisionState& state) {
+  constexpr double kMost_m = 0.001;
+  const std::vector<Overlap> all = overlapping_bodies(state, kMost_m);
+  if (all.empty()) return std::nullopt;
+  const Overlap& worst = all.front();
+  const Scene& scene = state.scene();
+  const std::string one = name_of_part(scene, worst.one), other = name_of_part(scene, worst.other);
+  return Blocked{other + " being clear of " + one,
+                 worst.depth,
+                 {},
+                 one + other + placing_of(scene.body_at(worst.one.body)) + placing_of(scene.body_at(worst.other.body))};
 }
 
 constexpr const char* kGoalHolds = "the goal not holding at the start";
@@ -171,7 +234,7 @@ class StartMaker {
         start.task = std::move(task_);
         return start;
       }
-      if (nothing_to_do()) break;
+      if (nothing_to_do() || nothing_varies()) break;
     }
     start.reason = Reason::init_impossible;
     say_why(start);
@@ -186,8 +249,15 @@ class StartMaker {
                      " draws: init, or the goal, must leave something to do";
       return;
     }
-    for (const auto& [text, count] : failures_)
-      start.detail += (start.detail.empty() ? "" : "; ") + text + " failed " + std::to_string(count) + " times";
+    for (const auto& [text, count] : failures_) {
+      start.detail += (start.detail.empty() ? "" : "; ") + text;
+      if (const auto blocked = blocked_.find(text); blocked != blocked_.end())
+        start.detail += blocked_text(blocked->second);
+      start.detail += " failed " + std::to_string(count) + (count == 1 ? " time" : " times");
+    }
+    if (nothing_varies()) start.detail += ": in each draw it is the same";
+    for (const auto& [text, blocked] : blocked_)
+      if (!blocked.cure.empty()) start.detail += "; " + blocked.cure;
     for (auto& [text, impasse] : impasses_) tell(text, std::move(impasse), start.detail);
   }
 
@@ -196,6 +266,17 @@ class StartMaker {
     constexpr int kEnough = 10;
     const auto goal = failures_.find(kGoalHolds);
     return goal != failures_.end() && failures_.size() == 1 && goal->second >= std::min(kEnough, options_.draws);
+  }
+
+  // Where what is in the way is the same each time, further draws are no use.
+  bool nothing_varies() const {
+    constexpr int kEnough = 3;
+    return same_moment_ >= std::min(kEnough, options_.draws);
+  }
+
+  static std::string blocked_text(const Blocked& blocked) {
+    const long depth_mm = std::max(1L, std::lround(1000 * blocked.depth));
+    return " (" + std::to_string(depth_mm) + " mm deep)";
   }
 
   void tell(const std::string& literal, Impasse impasse, const std::string& detail) const {
@@ -229,6 +310,14 @@ class StartMaker {
     return false;
   }
 
+  bool refuse(const Blocked& blocked) {
+    same_moment_ = blocked.moment == last_moment_ ? same_moment_ + 1 : 1;
+    last_moment_ = blocked.moment;
+    const auto [known, first] = blocked_.try_emplace(blocked.what, blocked);
+    known->second.depth = std::min(known->second.depth, blocked.depth);
+    return refuse(blocked.what);
+  }
+
   bool try_draw(int draw, PreparedStart& start) {
     Scene scene = task_.scene;
     dress(scene, draw);
@@ -236,8 +325,8 @@ class StartMaker {
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
     if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
-    if (!draft.collision_state().free(arm_at_start(draft.scene().robot)))
-      return refuse("the arm being free where it starts");
+    if (const auto blocked = blocked_arm(draft.collision_state(), draft.scene().robot)) return refuse(*blocked);
+    if (const auto blocked = blocked_bodies(draft.collision_state())) return refuse(*blocked);
 
     World world(std::make_shared<const Scene>(draft.scene()));
     WorldView view(world);
@@ -249,6 +338,8 @@ class StartMaker {
       view.close_frame();
     }
     if (!all_at_rest(view)) return refuse(moving(view));
+    if (const auto blocked = blocked_arm(world.collision_state(), world.scene().robot)) return refuse(*blocked);
+    if (const auto blocked = blocked_bodies(world.collision_state())) return refuse(*blocked);
     return accept(view, start);
   }
 
@@ -464,6 +555,9 @@ class StartMaker {
   std::vector<std::string> replaced_;  // things with a place of their own, which `where` gives another
   std::optional<Formula> where_;
   std::map<std::string, int> failures_;
+  std::map<std::string, Blocked> blocked_;   // by what is told of it: the shallowest
+  std::string last_moment_;                  // of the last draw that was blocked
+  int same_moment_ = 0;                      // so many were blocked in the same way, one after the other
   std::map<std::string, Impasse> impasses_;  // of literals, where somebody asks
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/motion/looked.h"
+#include "engine/sim/overlap.h"
 
 namespace stampede {
 namespace {
@@ -12,9 +13,15 @@ namespace {
 constexpr double kExcusedRadius = 0.25;  // rad around an end that touches the padding
 
 std::string contact_text(const CollisionState& state, const JointVector& q, double padding_m) {
+  const auto text = [&](PartRef one, PartRef other) {
+    return name_of_part(state.scene(), one) + " touches " + name_of_part(state.scene(), other);
+  };
+  if (const std::optional<Overlap> pair = deepest_overlap(state, q)) {
+    const long depth_mm = std::lround(1000 * pair->depth);
+    return text(pair->one, pair->other) + (depth_mm > 0 ? ", " + std::to_string(depth_mm) + " mm deep" : "");
+  }
   const std::optional<CollisionPair> pair = state.first_contact(q, padding_m);
-  if (!pair) return {};
-  return name_of_part(state.scene(), pair->robot_part) + " touches " + name_of_part(state.scene(), pair->other);
+  return pair ? text(pair->robot_part, pair->other) : std::string();
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/motion/checker.h"
-
 namespace stampede {
 namespace {
 
@@ -97,9 +95,9 @@ std::string name_of_part(const Scene& scene, PartRef ref) {
 std::string touched_in_all(const CollisionState& state, const std::vector<JointVector>& configurations) {
   std::string first;
   for (const JointVector& q : configurations) {
-    const std::string contact = describe_contact(state, q);
-    if (contact.empty()) return {};
-    if (first.empty()) first = contact.substr(contact.rfind(' ') + 1);
+    const std::optional<CollisionPair> contact = state.first_contact(q);
+    if (!contact) return {};
+    if (first.empty()) first = name_of_part(state.scene(), contact->other);
   }
   return first;
 }

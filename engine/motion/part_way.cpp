@@ -41,10 +41,17 @@ std::function<Transform(double)> tip_way(const PartWay& way, const Transform& he
   };
 }
 
-bool can_retreat(const Arm& arm, const JointVector& from, double way, RandomKey key) {
-  const Transform tip = arm.world_from_tip(from);
+// All the way back in reach, and half of it without touching anything: the elbow, and who retreats, see to the rest.
+bool can_retreat(const CollisionState& there, const JointVector& from, double way, RandomKey key) {
+  if (way <= 0) return true;
+  const Transform tip = there.arm().world_from_tip(from);
   const auto back = [&](double share) { return Transform(tip * translation(0, 0, -share * way)); };
-  return way <= 0 || follow_tool(arm, from, back, samples_between(tip, back(1)), key).reason == Reason::none;
+  const ToolPath path = follow_tool(there.arm(), from, back, samples_between(tip, back(1)), key);
+  if (path.reason != Reason::none) return false;
+  std::vector<JointVector> waypoints{from};
+  waypoints.insert(waypoints.end(), path.waypoints.begin(),
+                   path.waypoints.begin() + static_cast<std::ptrdiff_t>((path.waypoints.size() + 1) / 2));
+  return !first_touch_of_line(space_of_line(there, false), waypoints, certified_step({}));
 }
 
 // Corners of the turning become round; where it begins stays.
@@ -114,7 +121,9 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
       return std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
     };
     auto best = best_end();
-    for (; best->from >= 0 && !can_retreat(arm, best->q, way.retreat, key.with("retreat")); best = best_end())
+    CollisionState there = holding;
+    if (way.part.body >= 0) there.move_part(way.part, way.moved(static_cast<double>(end) / static_cast<double>(count)));
+    for (; best->from >= 0 && !can_retreat(there, best->q, way.retreat, key.with("retreat")); best = best_end())
       *best = {};
     if (best->from < 0) {
       if (whole) break;

@@ -154,7 +154,7 @@ PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start,
     failed.detail = std::move(detail);
     return failed;
   };
-  CollisionState space = state;
+  CollisionState space = space_of_line(state, options.keep_clear);
   if (options.keep_clear)
     if (const std::string contact = describe_contact(space, start); !contact.empty())
       return fail(Reason::start_in_collision, "at the start " + contact);
@@ -174,11 +174,8 @@ PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start,
     }
     std::vector<JointVector> waypoints{last};
     waypoints.insert(waypoints.end(), path.waypoints.begin(), path.waypoints.end());
-    if (options.keep_clear) {
-      Checker checker(space, 0, {});
-      if (const auto touch = first_touch(checker, waypoints, certified_step(limits)))
-        return fail(Reason::no_path, name_of(pieces, i) + ": " + checker.contact(*touch));
-    }
+    if (const auto touch = first_touch_of_line(space, waypoints, certified_step(limits)))
+      return fail(Reason::no_path, name_of(pieces, i) + ": " + describe_contact(space, *touch));
     waypoints = decimate(waypoints, kPathError);
     last = waypoints.back();
     stretch.waypoints.push_back(std::move(waypoints));
@@ -187,7 +184,7 @@ PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start,
     std::vector<JointVector> all;
     for (const std::vector<JointVector>& piece : stretch.waypoints) all.insert(all.end(), piece.begin(), piece.end());
     const PlannedMotion part =
-        certify(space, all, limits, options.keep_clear ? 0.0 : -1.0, limit_of(state.arm(), pieces, stretch));
+        certify(space, all, limits, space.free(all.front()) ? 0.0 : -1.0, limit_of(state.arm(), pieces, stretch));
     if (part.reason != Reason::none)
       return fail(part.reason, "on to the end of " + name_of(pieces, i) + " " + part.detail);
     std::int64_t begin = motion.trajectory.steps();

@@ -1,6 +1,7 @@
 // Steps shared by the planners. Room-internal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,13 @@ struct ToolPath {
 };
 ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
                      int samples, RandomKey key, const std::vector<JointVector>& near = {});
+
+// What counts on a way of the tool: everything, or of one whose hand may meet things the arm alone.
+CollisionState space_of_line(const CollisionState& state, bool keep_clear);
+// Where the polyline, sampled at most `step_rad` apart, touches something, but for where an arm that touches already
+// comes away.
+std::optional<JointVector> first_touch_of_line(const CollisionState& space, const std::vector<JointVector>& waypoints,
+                                               double step_rad);
 
 // The path speed at a point at which the tool goes no faster than `speed` (m/s) and turns no faster than `turn_speed`
 // (rad/s).

@@ -11,12 +11,18 @@ namespace {
 
 constexpr double kMostJump = 0.3;    // rad between samples
 constexpr double kLineError = 2e-3;  // rad, of decimated approach lines
-constexpr double kToolError = 3e-4;  // rad, of decimated tool paths
 constexpr int kSolutions = 6;        // joint solutions tried for the first target
 constexpr int kMoreSolutions = 24;   // and after these
 
 void check_pose(const Transform& pose) {
   if (!pose.matrix().allFinite()) throw Error("motion planning", "a tool target must be finite");
+}
+
+JointVector guide_at(const std::vector<JointVector>& all, double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(all.size() - 1);
+  const std::size_t i = std::min(all.size() - 1, static_cast<std::size_t>(place));
+  const JointVector& next = all[std::min(all.size() - 1, i + 1)];
+  return all[i] + (place - static_cast<double>(i)) * (next - all[i]);
 }
 
 std::string percent(double share) { return std::to_string(static_cast<int>(std::lround(100 * share))) + " %"; }
@@ -140,13 +146,6 @@ JointPath search_way(const CollisionState& state, const JointVector& start, cons
   return search_path(untouched, start, tail.waypoints.front(), limits, key, care);
 }
 
-JointVector between(const std::vector<JointVector>& all, double share) {
-  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(all.size() - 1);
-  const std::size_t i = std::min(all.size() - 1, static_cast<std::size_t>(place));
-  const JointVector& next = all[std::min(all.size() - 1, i + 1)];
-  return all[i] + (place - static_cast<double>(i)) * (next - all[i]);
-}
-
 // Free motion to the tail's start, then the tail.
 PlannedMotion plan_to_tail(const CollisionState& state, const JointVector& start, const Tail& tail,
                            const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
@@ -199,11 +198,6 @@ PlannedMotion plan_through_from(const CollisionState& state, const JointVector& 
   return motion;
 }
 
-// The path speed at which the tool keeps its own limits.
-PathSpeedLimit line_limit(const Arm& arm, const LineOptions& line) {
-  return [&arm, line](const PathPoint& point) { return tool_limit(arm, point, line.tool_speed, line.tool_turn); };
-}
-
 }  // namespace
 
 std::vector<JointVector> decimate(const std::vector<JointVector>& waypoints, double tolerance_rad) {
@@ -233,7 +227,7 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::functi
     const double share = static_cast<double>(i) / samples;
     const Transform target = world_from_tip(share);
     check_pose(target);
-    const std::optional<JointVector> q = arm.solve(target, near.empty() ? last : between(near, share), key.with(i), 0);
+    const std::optional<JointVector> q = arm.solve(target, near.empty() ? last : guide_at(near, share), key.with(i), 0);
     if (!q || joint_gap(*q, last) > kMostJump) {
       path.reason = Reason::unreachable;
       path.detail = "the arm cannot follow beyond " + percent(static_cast<double>(i - 1) / samples) + " of the line";
@@ -253,55 +247,6 @@ PlannedMotion plan_through(const CollisionState& state, const JointVector& start
   return plan_after_way_out(state, start, limits, [&](const JointVector& from) {
     return plan_through_from(state, from, targets, limits, key, then);
   });
-}
-
-PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,
-                             const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
-                             const MotionLimits& limits, RandomKey key) {
-  if (!(line.tool_speed > 0) || !(line.tool_turn > 0))
-    throw Error("motion planning", "the tool's speed limits must be positive");
-  int samples = line.samples;
-  if (samples <= 0) {
-    constexpr int kProbes = 32;  // the path may bend: its length is measured along a few chords
-    for (int i = 0; i < kProbes; ++i) {
-      const Transform from = world_from_tip(static_cast<double>(i) / kProbes);
-      samples += samples_between(from, world_from_tip(static_cast<double>(i + 1) / kProbes));
-    }
-  }
-  PlannedMotion motion;
-  std::vector<JointVector> waypoints{start};
-  // Where the tip is may differ a little from the path's start.
-  const ToolPath first = follow_tool(
-      state.arm(), start, [&](double) { return world_from_tip(0); }, 1, key.with("first"));
-  const JointVector from = first.reason == Reason::none ? first.waypoints.back() : start;
-  ToolPath path = follow_tool(state.arm(), from, world_from_tip, samples, key.with("path"), line.near);
-  if (path.reason != Reason::none && !path.waypoints.empty() &&
-      static_cast<double>(path.waypoints.size()) >= line.least_share * samples)
-    path.reason = Reason::none;
-  motion.reason = first.reason == Reason::none ? path.reason : first.reason;
-  motion.detail = first.reason == Reason::none ? path.detail : "the path's start is out of reach";
-  if (motion.reason != Reason::none) return motion;
-  if (joint_gap(from, start) > 1e-4) waypoints.push_back(from);
-  waypoints.insert(waypoints.end(), path.waypoints.begin(), path.waypoints.end());
-  if (line.keep_clear) {
-    if (const std::string contact = describe_contact(state, start); !contact.empty()) {
-      motion.reason = Reason::start_in_collision;
-      motion.detail = "at the start " + contact;
-      return motion;
-    }
-  }
-  return certify(state, decimate(waypoints, kToolError), limits, line.keep_clear ? 0.0 : -1.0,
-                 line_limit(state.arm(), line));
-}
-
-PlannedMotion plan_line(const CollisionState& state, const JointVector& start, const Transform& world_from_tip,
-                        const LineOptions& line, const MotionLimits& limits, RandomKey key) {
-  check_pose(world_from_tip);
-  const Transform from = state.arm().world_from_tip(start);
-  LineOptions options = line;
-  if (options.samples <= 0) options.samples = samples_between(from, world_from_tip);
-  return plan_tool_path(
-      state, start, [&](double s) { return between(from, world_from_tip, s); }, options, limits, key);
 }
 
 }  // namespace stampede

@@ -166,11 +166,13 @@ Assembly assemble(const Body& body) {  // of a free one its first part moves
 bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
   const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
   const auto* two = static_cast<const btCollisionObject*>(b->m_clientObject);
-  if (one->getUserIndex() == two->getUserIndex()) return false;
+  if (one->getUserIndex() == two->getUserIndex())
+    return one->getUserIndex() == kRobot && links.contains(std::minmax({one->getUserIndex2(), two->getUserIndex2()}));
   return !(one->isStaticObject() && two->isStaticObject());
 }
 
 void World::Impl::build() {
+  filter.links = {scene->robot.checked_pairs.begin(), scene->robot.checked_pairs.end()};
   bodies.resize(scene->bodies.size() + 1);
   for (int index = kRobot; index < static_cast<int>(scene->bodies.size()); ++index) {
     const Body& description = body(index);
@@ -181,8 +183,40 @@ void World::Impl::build() {
     else
       build_jointed(index);
   }
+  let_links_meet();
   build_robot_motors();
   build_mechanisms();
+}
+
+void World::Impl::let_links_meet() {
+  for (std::size_t p = 0; p < scene->robot.body.parts.size(); ++p) {
+    std::vector<Dispatcher::Piece>& pieces = dispatcher.links.emplace_back();
+    for (const Shape& shape : scene->robot.body.parts[p].shapes)
+      if (shape.collides) pieces.push_back({Convex(shape), bodies[0].parts[p].link_from_part * shape.part_from_shape});
+  }
+}
+
+bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& other) const {
+  constexpr double kNear_m = 0.015;  // more than two links go towards each other in a step
+  const Transform at_one = from_bullet(one.getWorldTransform()), at_other = from_bullet(other.getWorldTransform());
+  for (const Piece& a : links[static_cast<std::size_t>(one.getUserIndex2())]) {
+    const Transform at_a = product(at_one, a.object_from_shape);
+    for (const Piece& b : links[static_cast<std::size_t>(other.getUserIndex2())])
+      if (closer_than(a.convex, at_a, b.convex, product(at_other, b.object_from_shape), kNear_m)) return false;
+  }
+  return true;
+}
+
+void Dispatcher::look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
+  const auto& one = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+  const auto& other = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const bool links = one.getUserIndex() == kRobot && other.getUserIndex() == kRobot;
+  if (!links || !static_cast<const Dispatcher&>(dispatcher).apart(one, other))
+    return defaultNearCallback(pair, dispatcher, info);
+  if (pair.m_algorithm == nullptr) return;
+  btManifoldArray manifolds;  // what they touched at when they were near must not outlive that
+  pair.m_algorithm->getAllContactManifolds(manifolds);
+  for (int i = 0; i < manifolds.size(); ++i) dispatcher.clearManifold(manifolds[i]);
 }
 
 void World::Impl::build_free(int index) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/sim/depth.h"
+
 namespace stampede {
 namespace {
 
@@ -22,6 +24,7 @@ CollisionQuery::CollisionQuery(const CollisionState& state, double padding_m)
     : state_(state),
       model_(*state.model_),
       padding_(padding_m),
+      arm_alone_(arm_alone(state)),
       positions_(state.robot_positions_),
       robot_(model_.robot.size()) {
   const Robot& robot = model_.scene->robot;
@@ -132,6 +135,30 @@ bool CollisionQuery::meets_body(std::size_t piece, bool held, std::size_t body_p
 bool CollisionQuery::meets_itself(std::size_t piece, bool held, std::size_t other, bool other_held) {
   return near(held ? model_.bodies[piece] : model_.robot[piece], placed(piece, held),
               other_held ? model_.bodies[other] : model_.robot[other], placed(other, other_held), 0);
+}
+
+double CollisionQuery::depth(const CollisionPair& pair) const {
+  struct Shown {
+    const Piece* piece;
+    Transform pose;
+  };
+  const auto shapes = [&](PartRef part) {
+    std::vector<Shown> shown;
+    for (std::size_t i = 0; i < robot_.size(); ++i)
+      if (model_.robot[i].part == part) shown.push_back({&model_.robot[i], robot_[i].world_from_shape});
+    for (std::size_t i = 0; i < state_.pieces_.size(); ++i) {
+      const bool carried = i >= held_begin_ && i < held_end_;
+      if (model_.bodies[i].part == part)
+        shown.push_back(
+            {&model_.bodies[i], (carried ? carried_[i - held_begin_] : state_.pieces_[i]).world_from_shape});
+    }
+    return shown;
+  };
+  double most = 0;
+  for (const Shown& one : shapes(pair.robot_part))
+    for (const Shown& other : shapes(pair.other))
+      most = std::max(most, depth_between(one.piece->convex, one.pose, other.piece->convex, other.pose));
+  return most;
 }
 
 bool CollisionQuery::hand_free(const Transform& world_from_tip) {

@@ -1,10 +1,16 @@
 // One thread's working memory for questions to one CollisionState. Room-internal.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/sim/collision_model.h"
 #include "engine/sim/collision_state.h"
+#include "engine/sim/depth.h"
 
 namespace stampede {
+
+// Allowed of a state in which the arm alone counts: no part that there is.
+constexpr PartRef kWhateverTheHandMeets{1 << 30, 0};
 
 // Lifetime: borrows the state, which must not change meanwhile.
 class CollisionQuery {
@@ -23,6 +29,13 @@ class CollisionQuery {
   template <typename Visitor>
   bool visit(const JointVector& q, const Visitor& visitor);
 
+  double depth(const CollisionPair& pair) const;  // of a pair that visit() has just shown, m
+  static bool arm_alone(const CollisionState& state) {
+    return std::find(state.allowed_.begin(), state.allowed_.end(), kWhateverTheHandMeets) != state.allowed_.end();
+  }
+  // Calls visitor(a, b, depth_of) for pieces of two bodies whose boxes share more than `most_m` along each axis.
+  template <typename Visitor>
+  static void visit_bodies(const CollisionState& state, double most_m, const Visitor& visitor);
   bool hand_free(const Transform& world_from_tip);
   void arm_as_it_was();  // before body_contact
   std::optional<PartRef> body_contact(int body, const Transform& world_from_body);
@@ -50,6 +63,7 @@ class CollisionQuery {
   const CollisionState& state_;
   const CollisionModel& model_;
   double padding_;
+  bool arm_alone_;
   std::vector<double> positions_;  // of all robot parts
   std::vector<Transform> poses_;
   std::vector<Placed> robot_, carried_;
@@ -95,6 +109,7 @@ bool CollisionQuery::visit_placed(const Visitor& visitor) const {
   const bool holding = state_.held_.has_value();
   for (std::size_t i = 0; i < robot_.size(); ++i) {
     const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
+    if (arm_alone_ && model_.hand[part]) continue;
     if (model_.moved[part] && meets_bodies(model_.robot[i], robot_[i], model_.grips[part] && !holding, visitor))
       return true;
   }
@@ -105,11 +120,25 @@ bool CollisionQuery::visit_placed(const Visitor& visitor) const {
   }
   for (std::size_t i = held_begin_; i < held_end_; ++i) {
     const Placed& placed = carried_[i - held_begin_];
-    if (meets_bodies(model_.bodies[i], placed, true, visitor)) return true;
+    if (!arm_alone_ && meets_bodies(model_.bodies[i], placed, true, visitor)) return true;
     for (const int part : model_.held_partners)
       if (meets_part(model_.bodies[i], placed, part, visitor)) return true;
   }
   return false;
+}
+
+template <typename Visitor>
+void CollisionQuery::visit_bodies(const CollisionState& state, double most_m, const Visitor& visitor) {
+  const std::vector<Piece>& pieces = state.model_->bodies;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t k = i + 1; k < pieces.size(); ++k) {
+      const Placed &one = state.pieces_[i], &other = state.pieces_[k];
+      if (pieces[i].part.body == pieces[k].part.body) continue;
+      if ((one.upper.cwiseMin(other.upper) - one.lower.cwiseMax(other.lower)).minCoeff() <= most_m) continue;
+      visitor(pieces[i].part, pieces[k].part, [&] {
+        return depth_between(pieces[i].convex, one.world_from_shape, pieces[k].convex, other.world_from_shape);
+      });
+    }
 }
 
 }  // namespace stampede

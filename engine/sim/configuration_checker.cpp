@@ -174,7 +174,7 @@ void ConfigurationChecker::Impl::add_lumps() {
     lump_of_part[p] = static_cast<int>(lumps.size());
     const auto frame = static_cast<std::size_t>(model.joints[p]);
     add_lump(model.robot_parts[p], false, model.joints[p], frames[frame].inverse() * poses[p],
-             model.grips[p] && !state.held_);
+             CollisionQuery::arm_alone(state) ? model.hand[p] : model.grips[p] && !state.held_);
   }
 }
 
@@ -229,7 +229,8 @@ void ConfigurationChecker::Impl::add_obstacles() {
     ScreenShape shape = screen_shape(piece.convex, base_from_shape);
     const Vector3 local = base_from_shape.inverse() * Vector3::Zero() - piece.convex.box_centre;
     if ((local.cwiseAbs() - piece.convex.box_half).cwiseMax(0.0).norm() > reach + kBeyond) continue;
-    shape.excused = std::find(state.allowed_.begin(), state.allowed_.end(), piece.part) != state.allowed_.end();
+    shape.excused = CollisionQuery::arm_alone(state) ||
+                    std::find(state.allowed_.begin(), state.allowed_.end(), piece.part) != state.allowed_.end();
     largest = std::max(largest, base_from_shape.translation().norm() + piece.convex.box_half.norm());
     add_box(base_from_shape * piece.convex.box_centre, base_from_shape.linear().cwiseAbs() * piece.convex.box_half);
     obstacles.push_back(shape);

@@ -32,7 +32,7 @@ Wrench World::contact_wrench(int robot_part) const {
   const Transform& world_from_part = w.world_from_part({kRobot, robot_part});
   const btVector3 origin = to_bullet(Vector3(world_from_part.translation()));
   btVector3 force(0, 0, 0), torque(0, 0, 0);
-  auto& dispatcher = const_cast<btCollisionDispatcher&>(w.dispatcher);  // Bullet's readers are not const
+  auto& dispatcher = const_cast<Dispatcher&>(w.dispatcher);  // Bullet's readers are not const
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const bool first = beyond(*manifold.getBody0()), second = beyond(*manifold.getBody1());

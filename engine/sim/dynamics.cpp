@@ -432,6 +432,15 @@ double* Dynamics::add_side(SolverRow& row, const Mover& mover) {
   return numbers_[begin].v;
 }
 
+// A new side, or where two links of one tree meet, that of the first: the second adds to it, and its response is made
+// anew.
+double* Dynamics::tree_side(SolverRow& row, const Mover& mover) {
+  if (row.quads[0] == 0 || row.at[0] != mover.at) return add_side(row, mover);
+  const auto side = numbers_.begin() + row.numbers;
+  std::fill(side + mover.quads, side + 2 * static_cast<std::ptrdiff_t>(mover.quads), Quad{});
+  return side->v;
+}
+
 void Dynamics::respond(const Articulation& tree, double* jacobian) {
   const int count = tree.width();
   double* response = jacobian + count;
@@ -463,9 +472,9 @@ void Dynamics::add_point(SolverRow& row, const Node& node, const Vector3& point,
     add_free_side(row, mover, direction, arm.cross(direction));
     return;
   }
-  double* jacobian = add_side(row, mover);
+  double* jacobian = tree_side(row, mover);
   mover.tree->jacobian(node.link, point,
-                       [&](int dof, const Vector3& linear, const Vector3&) { jacobian[dof] = linear.dot(direction); });
+                       [&](int dof, const Vector3& linear, const Vector3&) { jacobian[dof] += linear.dot(direction); });
   respond(*mover.tree, jacobian);
 }
 
@@ -483,9 +492,9 @@ void Dynamics::add_screw(SolverRow& row, const Node& node, const Vector3& point,
     add_free_side(row, mover, linear, arm.cross(linear) + angular);
     return;
   }
-  double* jacobian = add_side(row, mover);
+  double* jacobian = tree_side(row, mover);
   mover.tree->jacobian(node.link, point, [&](int dof, const Vector3& speed, const Vector3& spin) {
-    jacobian[dof] = speed.dot(linear) + spin.dot(angular);
+    jacobian[dof] += speed.dot(linear) + spin.dot(angular);
   });
   respond(*mover.tree, jacobian);
 }

@@ -178,6 +178,7 @@ class Dynamics {
   void start_motors(const Mover& mover, std::size_t first);
   SolverRow& begin_row(std::vector<SolverRow>& rows);
   double* add_side(SolverRow& row, const Mover& mover);
+  double* tree_side(SolverRow& row, const Mover& mover);
   void add_free_side(SolverRow& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
   void add_point(SolverRow& row, const Node& node, const Vector3& point, const Vector3& direction);
   void add_turn(SolverRow& row, const Node& node, const Vector3& direction);

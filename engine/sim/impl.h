@@ -3,6 +3,8 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include <set>
+
 #include "engine/sim/anchors.h"
 #include "engine/sim/arm_dynamics.h"
 #include "engine/sim/bullet_convert.h"
@@ -53,9 +55,24 @@ struct Mechanism {
   double torque = 0;  // given in this step
 };
 
-// Pairs that Bullet need not look at: parts of one body, static with static.
+// Pairs that Bullet need not look at: parts of one body, but for links of a robot that can meet; static with static.
 struct PairFilter final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+  std::set<std::pair<int, int>> links;  // of the robot
+};
+
+// Links are near each other all the time, in the eyes of boxes along the axes: most are told apart here, cheaply.
+struct Dispatcher final : btCollisionDispatcher {
+  explicit Dispatcher(btCollisionConfiguration* configuration) : btCollisionDispatcher(configuration) {
+    setNearCallback(look_at);
+  }
+  static void look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
+  bool apart(const btCollisionObject& one, const btCollisionObject& other) const;
+  struct Piece {
+    Convex convex;
+    Transform object_from_shape;
+  };
+  std::vector<std::vector<Piece>> links;  // per part of the robot
 };
 
 // The arm's reference: a trajectory since the step at which it was given, what a servo makes of it, or a set-point.
@@ -78,6 +95,7 @@ struct World::Impl {
   void join(int body, const Transform& part_from_link);
   btCollisionObject& add_object(PartRef ref, const Transform& link_from_part, Role role);
   void build_robot_motors();
+  void let_links_meet();
   void build_mechanisms();
 
   // controllers.cpp
@@ -134,7 +152,7 @@ struct World::Impl {
   ShapeStore shapes;
   PairFilter filter;
   btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher;
+  Dispatcher dispatcher;
   btDbvtBroadphase broadphase;
   btCollisionWorld world;
   std::vector<std::unique_ptr<btCollisionObject>> objects;  // in creation order: Bullet sorts pairs by it

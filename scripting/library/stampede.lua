@@ -125,8 +125,8 @@
 ---@field checked_pairs? string[][]  the same as checked
 ---@field allowed_pairs? string[][]  the same as allowed
 ---@field pad? table  surface of the pads: friction, rolling, spinning, anchor (default {})
----@field allowed? string[][]  pairs of links that never meet (default {})
----@field checked? string[][]  pairs of links that are tested for collision; instead of allowed
+---@field allowed? string[][]  pairs of links that may touch; pairs are found by looking at the arm all over its range (default {})
+---@field checked? string[][]  pairs of links that are tested for collision beside those that are found
 ---@field opening? number  both fingers together [m] (default 0.08)
 ---@field grip_force? number  of the fingers [N] (default 20)
 ---@field finger_speed? number  of each finger [m/s] (default 0.1)

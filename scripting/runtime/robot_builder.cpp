@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/base/nearest.h"
+#include "engine/sim/self_pairs.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/scene_builder.h"
 
@@ -117,23 +118,12 @@ void read_pairs(const Value& fields, Robot& robot) {
     const int a = part_named(robot.body, pair.items[0]), b = part_named(robot.body, pair.items[1]);
     return std::pair(std::min(a, b), std::max(a, b));
   };
-  const Value& checked = either(fields, "checked", "checked_pairs");
-  if (checked.present()) {
-    for (const Value& pair : checked.items) robot.checked_pairs.push_back(ends(pair));
-  } else {
-    std::vector<std::pair<int, int>> allowed;
-    for (const Value& pair : either(fields, "allowed", "allowed_pairs").items) allowed.push_back(ends(pair));
-    // Without a list of pairs to check, neighbours may touch, and so may the pairs that are allowed to.
-    const int count = static_cast<int>(robot.body.parts.size());
-    for (int a = 0; a < count; ++a) {
-      for (int b = a + 1; b < count; ++b) {
-        const bool neighbours = robot.body.parts[static_cast<std::size_t>(b)].parent == a;
-        const bool listed = std::find(allowed.begin(), allowed.end(), std::pair(a, b)) != allowed.end();
-        const auto shapes = [&](int part) { return robot.body.parts[static_cast<std::size_t>(part)].shapes.size(); };
-        if (!neighbours && !listed && shapes(a) * shapes(b) > 0) robot.checked_pairs.emplace_back(a, b);
-      }
-    }
-  }
+  // Found by looking at the arm all over its range, unless the file says that a pair may touch; or is to be checked
+  // too.
+  robot.checked_pairs = pairs_that_meet(robot);
+  for (const Value& pair : either(fields, "checked", "checked_pairs").items) robot.checked_pairs.push_back(ends(pair));
+  for (const Value& pair : either(fields, "allowed", "allowed_pairs").items)
+    std::erase(robot.checked_pairs, ends(pair));
   std::sort(robot.checked_pairs.begin(), robot.checked_pairs.end());
   robot.checked_pairs.erase(std::unique(robot.checked_pairs.begin(), robot.checked_pairs.end()),
                             robot.checked_pairs.end());

@@ -10,12 +10,6 @@ return robot {
     acceleration = { 15, 7.5, 10, 12.5, 15, 20, 20 }, -- rad/s^2
     jerk = { 7500, 3750, 5000, 6250, 7500, 10000, 10000 }, -- rad/s^3
   },
-  checked = { -- the other links never meet
-    { "link0", "link5" }, { "link0", "link6" }, { "link0", "link7" }, { "link0", "hand" }, { "link0", "left_finger" }, { "link0", "right_finger" },
-    { "link1", "link5" }, { "link1", "link6" }, { "link1", "link7" }, { "link1", "hand" }, { "link1", "left_finger" }, { "link1", "right_finger" },
-    { "link2", "link5" }, { "link2", "link7" }, { "link2", "hand" }, { "link2", "left_finger" }, { "link2", "right_finger" },
-    { "link5", "link7" }, { "link5", "hand" }, { "link5", "left_finger" }, { "link5", "right_finger" },
-  },
   opening = 0.08,
   grip_force = 20,
   finger_speed = 0.1,

@@ -148,5 +148,5 @@ TEST_CASE("lines ahead are to be free: nothing is grasped that cannot be taken a
   CHECK(plan(0.03).reason == Reason::none);
   const PlannedMotion into_post = plan(0.18);
   CHECK(into_post.reason == Reason::no_path);
-  CHECK_THAT(into_post.detail, Catch::StartsWith("on from grasp: ") && Catch::EndsWith(" touches post"));
+  CHECK_THAT(into_post.detail, Catch::StartsWith("on from grasp: ") && Catch::Contains(" touches post"));
 }
