@@ -199,13 +199,18 @@ std::optional<Blocked> blocked_arm(const CollisionState& state, const Robot& rob
   return blocked;
 }
 
-// Nothing lies in anything else: furniture in the table, things in each other.
-std::optional<Blocked> blocked_bodies(const CollisionState& state) {
+// Nothing lies in anything else: furniture in the table, things in each other. Before they have settled, free things
+// may: a cup is filled with beads in one place.
+std::optional<Blocked> blocked_bodies(const CollisionState& state, bool settled) {
   constexpr double kMost_m = 0.001;
-  const std::vector<Overlap> all = overlapping_bodies(state, kMost_m);
+  const Scene& scene = state.scene();
+  std::vector<Overlap> all = overlapping_bodies(state, kMost_m);
+  if (!settled)
+    std::erase_if(all, [&](const Overlap& pair) {
+      return scene.body_at(pair.one.body).free && scene.body_at(pair.other.body).free;
+    });
   if (all.empty()) return std::nullopt;
   const Overlap& worst = all.front();
-  const Scene& scene = state.scene();
   const std::string one = name_of_part(scene, worst.one), other = name_of_part(scene, worst.other);
   return Blocked{other + " being clear of " + one,
                  worst.depth,
@@ -326,7 +331,7 @@ class StartMaker {
     if (!place_all(draft, draw)) return false;
     if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
     if (const auto blocked = blocked_arm(draft.collision_state(), draft.scene().robot)) return refuse(*blocked);
-    if (const auto blocked = blocked_bodies(draft.collision_state())) return refuse(*blocked);
+    if (const auto blocked = blocked_bodies(draft.collision_state(), false)) return refuse(*blocked);
 
     World world(std::make_shared<const Scene>(draft.scene()));
     WorldView view(world);
@@ -339,7 +344,7 @@ class StartMaker {
     }
     if (!all_at_rest(view)) return refuse(moving(view));
     if (const auto blocked = blocked_arm(world.collision_state(), world.scene().robot)) return refuse(*blocked);
-    if (const auto blocked = blocked_bodies(world.collision_state())) return refuse(*blocked);
+    if (const auto blocked = blocked_bodies(world.collision_state(), true)) return refuse(*blocked);
     return accept(view, start);
   }
 

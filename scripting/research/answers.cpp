@@ -81,7 +81,7 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   limits.depth = 16;  // answers need three
   const nlohmann::json json = json_from_text(text, answers.where, kCompare, limits);
   if (!json.is_object()) throw Error(answers.where, "answers are one JSON object", kCompare);
-  std::vector<std::string> known = {"answers", "dataset", "problem"};
+  std::vector<std::string> known = {"answers", "by", "dataset", "problem"};
   for (const AnswerColumn& column : problem.answer_texts) known.push_back(column.name);
   require_known_fields(json, known, answers.where);
   for (const auto& [name, value] : json.items()) {

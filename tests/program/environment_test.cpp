@@ -528,10 +528,10 @@ TEST_CASE("the dense reward rises along a demonstration, and is 1 where the goal
   for (const std::string task : {"reach_target", "close_drawer", "stack_blocks", "pick_up_cup",
                                  "take_toilet_roll_off_stand", "take_usb_out_of_computer"}) {
     CAPTURE(task);
-    const Episode run = session()->run(task, {.seed = 7, .on_failure = OnFailure::stop});
+    const Episode run = session()->run(task, {.seed = 3, .on_failure = OnFailure::stop});
     REQUIRE(run.outcome == Outcome::success);
     Environment world = environment(task, {.channels = {"progress"}, .reward = RewardKind::dense});
-    world.reset({.seed = 7});
+    world.reset({.seed = 3});
     double best = -1;
     StepResult now;
     for (const TaskPlanStep& step : calls_of(*run.record)) {

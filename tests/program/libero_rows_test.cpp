@@ -9,11 +9,11 @@
 namespace stampede::program {
 namespace {
 
-struct Problem {
+struct LiberoProblem {
   std::string table = "kitchen_table", fixtures, objects, regions, init, goal;
 };
 
-std::string text_of(const Problem& one) {
+std::string text_of(const LiberoProblem& one) {
   return "(define (problem LIBERO_Kitchen_Tabletop_Manipulation)\n  (:domain robosuite)\n  (:language do it)\n  "
          "(:regions "
          "(a (:target " +
@@ -26,7 +26,8 @@ std::string text_of(const Problem& one) {
 }
 
 // Imports the problem and runs an episode. Result: what was said where it is no task here or does not start.
-std::string fault(const Folder& mine, const std::string& name, const Problem& problem, const char* episodes = "1") {
+std::string fault(const Folder& mine, const std::string& name, const LiberoProblem& problem,
+                  const char* episodes = "1") {
   put(mine, name + ".bddl", text_of(problem));
   const Said said = say({"import", mine / (name + ".bddl"), "--task", "t_" + name, "--root", kRoot, "--path",
                          mine.text(), "--episodes", episodes, "--out", mine / (name + ".db")});
@@ -58,18 +59,19 @@ TEST_CASE("each category that LIBERO's mapping has stands for a thing of ours, a
                                         "study_table", "coffee_table"};
   const std::set<std::string> jointed = {"flat_stove", "wooden_tray", "floor"};  // above; what every arena has
   const Folder mine;
-  Problem carried;
+  LiberoProblem carried;
   carried.goal = "(On thing0 kitchen_table_b)";
   int things = 0;
   for (const BddlPair& pair : mapping.categories) {
     CAPTURE(pair.theirs, pair.ours);
     CHECK(library->file(DefinitionKind::object, pair.ours) != nullptr);
     if (tables.contains(pair.theirs)) {
-      Problem one{pair.theirs, "", "m_1 - porcelain_mug", "", "(On m_1 " + pair.theirs + "_a)", ""};
+      LiberoProblem one{pair.theirs, "", "m_1 - porcelain_mug", "", "(On m_1 " + pair.theirs + "_a)", ""};
       one.goal = "(On m_1 " + pair.theirs + "_b)";
       CHECK(fault(mine, pair.theirs, one, "0") == "");
     } else if (pair.ours == "chest") {
-      Problem one{"kitchen_table", "c_1 - " + pair.theirs, "m_1 - porcelain_mug", "", "(On m_1 kitchen_table_a)", ""};
+      LiberoProblem one{
+          "kitchen_table", "c_1 - " + pair.theirs, "m_1 - porcelain_mug", "", "(On m_1 kitchen_table_a)", ""};
       for (const char* site : {"top_region", "middle_region", "bottom_region"})
         one.regions += std::string("    (") + site + " (:target c_1))\n";
       one.goal = "(Open c_1_top_region) (Close c_1_middle_region) (Close c_1_bottom_region)";

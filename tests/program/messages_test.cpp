@@ -68,7 +68,7 @@ TEST_CASE("a message shows what a terminal would obey as an escape, in every com
   }
 }
 
-TEST_CASE("tables for people are printable; JSON and CSV stay exact") {
+TEST_CASE("tables for people are printable, JSON and CSV stay exact") {
   const Folder folder;
   const std::string db = folder / "d.db";
   REQUIRE(say({"run", "reach_target", "--root", kRoot, "--out", db}).code == kDone);

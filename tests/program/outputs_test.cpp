@@ -120,7 +120,7 @@ TEST_CASE("every option that writes is tried here") {
   CHECK(written == tried);
 }
 
-TEST_CASE("a file that is read, or that others made, is not replaced; our own is, and with --force the others' too") {
+TEST_CASE("a file that is read, or that others made, is not replaced, our own is, and with --force the others' too") {
   for (const Output& output : made().outputs()) {
     if (output.form == Form::folder) continue;
     INFO(output.command << " " << output.option);

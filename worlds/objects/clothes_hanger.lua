@@ -16,7 +16,7 @@ for _, side in ipairs { 1, -1 } do
   shapes[#shapes + 1] = box { thick, long, bar, at = { 0, side * half / 2, neck - drop / 2 }, rpy = { -side * slope, 0, 0 }, colour = wood }
   for _, y in ipairs { 0.050, 0.062, 0.074 } do -- a shoulder between the fingers, from above beside the rod
     for _, yaw in ipairs { math.pi / 2, -math.pi / 2 } do
-      grasps[#grasps + 1] = { at = { 0, side * y, neck - drop * y / half }, rpy = { math.pi, 0, yaw }, width = thick, approach = 0.07, force = 25 }
+      grasps[#grasps + 1] = { at = { 0, side * y, neck - drop * y / half }, rpy = { math.pi, 0, yaw }, width = thick, approach = 0.07, force = 32 }
     end
   end
 end

@@ -5,7 +5,6 @@
 #include <regex>
 
 #include "convert.h"
-#include "engine/base/printable.h"
 
 namespace stampede::python {
 namespace {
@@ -21,8 +20,23 @@ std::string in_python(const std::string& text) {
   return std::regex_replace(std::regex_replace(text, argument, "$1="), member, "$1.$2");
 }
 
+// Without what a terminal would obey, and whatever its bytes are.
+nb::object shown(const std::string& text) {
+  std::string plain;
+  for (const char one : text) {
+    const auto byte = static_cast<unsigned char>(one);
+    if ((byte < 0x20 && one != '\n' && one != '\t') || byte == 0x7f) {
+      constexpr char kDigits[] = "0123456789abcdef";
+      plain += {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
+    } else {
+      plain += one;
+    }
+  }
+  return nb::steal(PyUnicode_DecodeUTF8(plain.data(), static_cast<Py_ssize_t>(plain.size()), "backslashreplace"));
+}
+
 void raise(PyObject* type, const Error& error) {
-  const auto text = [](const std::string& words) { return nb::cast(printable(in_python(words))); };
+  const auto text = [](const std::string& words) { return shown(in_python(words)); };
   const nb::object instance = nb::handle(type)(text(error.what()));
   instance.attr("where") = text(error.where());
   instance.attr("message") = text(error.message());

@@ -136,12 +136,14 @@ void Turn::refuse(const char* use) const {
 
 Using::Using(Turn& turn, const char* use) : turn_(turn) {
   begin_call();
-  try {
-    turn_.take(use);
-  } catch (...) {
-    end_call();
-    throw;
-  }
+  struct Begun {
+    bool taken = false;
+    ~Begun() {
+      if (!taken) end_call();
+    }
+  } begun;
+  turn_.take(use);
+  begun.taken = true;
 }
 // Under the GIL. What the call gave is of no use to a thread that may not go on.
 Using::~Using() {

@@ -49,7 +49,7 @@ using Catch::Contains;
 
 }  // namespace
 
-TEST_CASE("a file has its name once it is whole; without that nothing is there, and what was there stays") {
+TEST_CASE("a file has its name once it is whole, without that nothing is there, and what was there stays") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a";
   {
@@ -70,7 +70,7 @@ TEST_CASE("a file has its name once it is whole; without that nothing is there, 
   CHECK(files_in(folder.path()) == 1);
 }
 
-TEST_CASE("what is not of the kind is replaced with force alone; what is empty may be") {
+TEST_CASE("what is not of the kind is replaced with force alone, what is empty may be") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a";
   put(path, "a letter");
@@ -170,7 +170,7 @@ TEST_CASE("folders, sockets and places that are not there are refused") {
   close(server);
 }
 
-TEST_CASE("a folder's files are replaced where it is ours; elsewhere only new ones are written") {
+TEST_CASE("a folder's files are replaced where it is ours, elsewhere only new ones are written") {
   const TemporaryFolder folder;
   const fs::path own = folder.path() / "out";
   {

@@ -22,7 +22,7 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-void put(const fs::path& file, const std::string& text) {
+void put_text(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << text;
 }
@@ -68,16 +68,16 @@ TEST_CASE("what a killed program left behind is swept by the next for the same o
 TEST_CASE("what somebody else made is never swept") {
   const TemporaryFolder folder;
   const fs::path output = folder.path() / "a.db";
-  put(folder.path() / "a.db.schema5", "a user's own copy");
-  put(folder.path() / "a.db.unfinished", "a user's own text");
-  put(folder.path() / "a.db.stampede-abcdef/notes", "a user's own folder");
-  put(folder.path() / "a.db.stampede-ghijkl/made-by-stampede", "other words");
-  put(folder.path() / "a.db.stampede-ghijkl/unfinished", "mine");
-  put(folder.path() / "a.db.stampede-mnopqr", "a file");
+  put_text(folder.path() / "a.db.schema5", "a user's own copy");
+  put_text(folder.path() / "a.db.unfinished", "a user's own text");
+  put_text(folder.path() / "a.db.stampede-abcdef/notes", "a user's own folder");
+  put_text(folder.path() / "a.db.stampede-ghijkl/made-by-stampede", "other words");
+  put_text(folder.path() / "a.db.stampede-ghijkl/unfinished", "mine");
+  put_text(folder.path() / "a.db.stampede-mnopqr", "a file");
   fs::create_directory_symlink("/tmp", folder.path() / "a.db.stampede-stuvwx");
   leave_one(output);
   for (const auto& entry : fs::directory_iterator(folder.path()))
-    if (ScratchFolder::is_one(entry.path(), output)) put(entry.path() / "notes", "put there since");
+    if (ScratchFolder::is_one(entry.path(), output)) put_text(entry.path() / "notes", "put there since");
   const std::set<std::string> before = names_in(folder.path());
   { const ScratchFolder scratch(output); }
   CHECK(names_in(folder.path()) == before);

@@ -56,7 +56,7 @@ TEST_CASE("a line that would lead the arm into itself is not taken, and says wha
   CHECK(refused < 6);
 }
 
-TEST_CASE("a link that would meet furniture on a line keeps off it; the hand may meet it") {
+TEST_CASE("a link that would meet furniture on a line keeps off it, the hand may meet it") {
   auto scene = arm_only();
   Part part;
   part.name = "post";

@@ -1,7 +1,7 @@
 -- Open the top drawer of everything that has one.
 return task {
   world = "tabletop",
-  objects = { chest = { "chest", at = { 0.35, 0, 0.75 } } },
+  objects = { chest = { "chest", at = { 0.52, 0, 0.75 } } },
   goal = {
     forall("?f: furniture", is.open("?f.top_drawer")),
     forall("?f: furniture", is_not.open("?f.middle_drawer")),
