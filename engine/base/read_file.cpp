@@ -31,13 +31,17 @@ std::string size_text(std::uintmax_t bytes) {
 
 std::string read_file(const std::filesystem::path& path, std::uintmax_t most_bytes) {
   const std::string where = path.string();
+  const auto unreadable = [&] { return Error(where, "it cannot be read", "check its permissions"); };
+  const auto no_file = [&] { return Error(where, "it is no file", "name a plain file"); };
   struct stat about {};  // asked before it is opened: opening a device may do something
-  if (stat(path.c_str(), &about) != 0)
-    throw Error(where, errno == ENOENT || errno == ENOTDIR ? "there is no such file" : "it cannot be read");
-  if (!S_ISREG(about.st_mode)) throw Error(where, "it is no file");
+  if (stat(path.c_str(), &about) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) throw Error(where, "there is no such file", "check its name");
+    throw unreadable();
+  }
+  if (!S_ISREG(about.st_mode)) throw no_file();
   const OpenFile file(path);
-  if (file.handle < 0 || fstat(file.handle, &about) != 0) throw Error(where, "it cannot be read");
-  if (!S_ISREG(about.st_mode)) throw Error(where, "it is no file");
+  if (file.handle < 0 || fstat(file.handle, &about) != 0) throw unreadable();
+  if (!S_ISREG(about.st_mode)) throw no_file();
   const auto too_large = [&] {
     return Error(where, "it is larger than " + size_text(most_bytes) + ", the most that is read of such a file",
                  "make it smaller, or split it");
@@ -48,7 +52,7 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t most_byt
   for (;;) {
     const ssize_t count = read(file.handle, text.data() + size, text.size() - size);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw Error(where, "it cannot be read");
+    if (count < 0) throw unreadable();
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
     if (size > most_bytes) throw too_large();

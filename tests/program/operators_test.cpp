@@ -203,7 +203,7 @@ TEST_CASE("another's predicates are recognised by what holds") {
   CHECK(says(about(said, "action_draw"), "stands for open"));
 }
 
-TEST_CASE("to leave out what one is unsure of is no way to agree the more", "[!mayfail]") {
+TEST_CASE("to leave out what one is unsure of is no way to agree the more") {
   const Json all = disguised_rows();
   const auto some = [&](auto kept) {
     Json rows = Json::array();
@@ -212,7 +212,9 @@ TEST_CASE("to leave out what one is unsure of is no way to agree the more", "[!m
     return operators().score("inventions", operators().answers("inventions", kMine, rows));
   };
   check_refused(some([&](std::size_t i, const Json&) { return i < all.size() / 2; }), "frames that are asked about");
-  check_refused(some([](std::size_t i, const Json&) { return i % 2 == 0; }), "atoms at these frames");
+  // Here and there: an atom that is left out at all frames of an episode is none of its atoms.
+  check_refused(some([](std::size_t i, const Json&) { return i * 2654435761U / 65536 % 2 == 0; }),
+                "atoms at these frames");
   check_refused(some([&](std::size_t, const Json& row) {
                   return row.at("frame") != all.front().at("frame") || row.at("episode") != all.front().at("episode");
                 }),
