@@ -2,6 +2,8 @@
 
 #include <exception>
 #include <lua.hpp>
+#include <optional>
+#include <string_view>
 
 #include "scripting/lua/binding.h"
 #include "scripting/runtime/pose_binding.h"
@@ -11,12 +13,18 @@ namespace {
 
 struct Work {
   const std::function<void(lua_State*)>* run;
+  std::optional<Error> error;  // that it threw: Lua keeps its text alone
 };
 
 int perform(lua_State* state) {
-  const auto* work = static_cast<const Work*>(lua_touserdata(state, 1));
+  auto* work = static_cast<Work*>(lua_touserdata(state, 1));
   lua_settop(state, 0);
-  (*work->run)(state);
+  try {
+    (*work->run)(state);
+  } catch (const Error& error) {
+    work->error = error;
+    throw;
+  }
   return 0;
 }
 
@@ -48,10 +56,15 @@ ScriptState::~ScriptState() = default;
 
 void ScriptState::protect(const std::function<void(lua_State*)>& work) {
   lua_State* state = lua();
-  Work handed{&work};
+  Work handed{&work, {}};
   lua_pushcfunction(state, lua_function<perform>);
   lua_pushlightuserdata(state, &handed);
-  sandbox().call(1, 0);
+  try {
+    sandbox().call(1, 0);
+  } catch (const Error& error) {
+    if (handed.error && std::string_view(handed.error->what()) == error.what()) throw *handed.error;
+    throw;
+  }
 }
 
 int ScriptState::keep() { return luaL_ref(lua(), LUA_REGISTRYINDEX); }

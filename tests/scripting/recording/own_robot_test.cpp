@@ -146,7 +146,7 @@ TEST_CASE("a URDF that is another robot's than the recording is refused, with wh
         lab.replace("joints.csv", "shoulder_position_rad", "shoulder_position_m");
         lab.replace("joints.csv", "shoulder_effort_nm", "shoulder_effort_n");
       },
-      "crane", "joint 'shoulder' of the arm is not a hinge", "");
+      "crane", "joint 'shoulder' of the arm is not a hinge", "only turning joints");
   refuse([](const Lab& lab) { lab.replace("crane.urdf", "joint name=\"wrist\"", "joint name=\"roll\""); },
          "recording.json", "wrist", "");
   refuse([](const Lab& lab) { lab.change([](auto& json) {
