@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <fstream>
 #include <optional>
 #include <vector>
@@ -16,20 +15,9 @@ namespace {
 constexpr const char* kNameCure =
     "name it by a path relative to the URDF, package://NAME/PATH or file://PATH, inside the roots";
 
-std::string decoded(const std::string& name) {
-  std::string result;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    int code = 0;
-    const char* const digits = name.data() + i + 1;
-    if (name[i] == '%' && i + 2 < name.size() && std::isxdigit(static_cast<unsigned char>(digits[0])) != 0 &&
-        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2 && code > 0) {
-      result += static_cast<char>(code);
-      i += 2;
-    } else {
-      result += name[i] == '\\' ? '/' : name[i];  // written on Windows
-    }
-  }
-  return result;
+std::string without_backslashes(std::string name) {  // written on Windows
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
 }
 
 bool is_file(const fs::path& path) {
@@ -40,7 +28,7 @@ bool is_file(const fs::path& path) {
 // As written, where that is there; else as it was meant.
 fs::path read_as(const fs::path& folder, const std::string& name) {
   const fs::path written = folder / name;
-  return is_file(written) ? written : folder / decoded(name);
+  return is_file(written) ? written : folder / without_backslashes(name);
 }
 
 // `<name>arm</name>` of a package's own description.
@@ -89,7 +77,7 @@ fs::path in_package(const std::string& package, const std::string& path, const f
       return place == above.front() ? read_as(urdf.parent_path(), path) : file;
     }
   // Where it would lie, if it is one of a folder that there is: who reads it says that it is missing, or outside.
-  const fs::path beside = urdf.parent_path() / decoded(path);
+  const fs::path beside = urdf.parent_path() / without_backslashes(path);
   scope.check(beside);
   throw Error(beside.string(),
               "there is no such file, and none in a package '" + package + "': looked for '" + path + "' in " +

@@ -26,8 +26,8 @@ std::string place_in(const ScriptFile& file, const std::string& field) {
 
 // The field as its own file has it: `objects.stick.tip` of a task's stick is `tip` of stick.lua.
 std::string field_in(const ScriptFile& file, std::string field) {
-  if (field.starts_with(file.name + ".")) field.erase(0, file.name.size() + 1);  // an object by itself
   if (file.kind != DefinitionKind::object) return field;
+  if (field.starts_with(file.name + ".")) field.erase(0, file.name.size() + 1);  // an object by itself
   for (const char* list : {"objects.", "fixtures."})
     if (const std::size_t dot = field.find('.', std::string_view(list).size());
         field.starts_with(list) && dot != std::string::npos)
@@ -35,13 +35,13 @@ std::string field_in(const ScriptFile& file, std::string field) {
   return field;
 }
 
-// `worlds/objects/stick.lua: tip: …` with its line. What has gone through Lua is all message. What has no place of a
-// file that can be opened is said to be of `otherwise`.
+// `worlds/objects/stick.lua: tip: …` with its line. What has no place of a file that can be opened is said to be of
+// `otherwise`.
 Error with_line(const Library& library, const Error& error, const ScriptFile* otherwise) {
   const std::string text = error.where().empty() ? error.message() : error.where() + ": " + error.message();
   for (const ScriptFile* file : library.all_files()) {
-    if (is_about(error, *file) && error.where() != file->shown_path) return error;
     const std::string start = file->shown_path + ": ";
+    if (is_about(error, *file) && error.where() != file->shown_path && !error.where().starts_with(start)) return error;
     const std::size_t end = text.find(": ", start.size());
     if (!text.starts_with(start) || end == std::string::npos) continue;
     const std::string field = field_in(*file, text.substr(start.size(), end - start.size()));
