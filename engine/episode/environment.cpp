@@ -11,7 +11,6 @@
 #include "engine/episode/altered_task.h"
 #include "engine/episode/dense_reward.h"
 #include "engine/symbolic/pddl.h"
-#include "stampede/interruption.h"
 
 namespace stampede {
 namespace {

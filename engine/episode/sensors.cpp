@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/episode/recorder.h"
-#include "stampede/interruption.h"
+#include "stampede/environment.h"
 
 namespace stampede {
 namespace {

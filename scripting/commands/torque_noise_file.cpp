@@ -52,7 +52,7 @@ TorqueNoise load_torque_noise(const std::filesystem::path& file) {
   const std::string place = file.string();
   if (!json.is_object() || !json.contains(kVersion) || json[kVersion] != 1)
     throw Error(place, std::string("it is no torque noise: '") + kVersion + "' is not 1", kRefit);
-  require_known_fields(json, {kVersion, "drift_time_s", "recorded_s", "joints"}, place);
+  require_known_fields(json, {kVersion, "drift_time_s", "fitted_to", "recorded_s", "joints"}, place);
   TorqueNoise noise;
   noise.drift_time_s = number_in(json, place, "drift_time_s", Range::positive);
   noise.recorded_s = number_in(json, place, "recorded_s", Range::not_negative);

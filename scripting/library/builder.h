@@ -34,10 +34,14 @@ struct SceneObject {
 };
 using SceneObjects = std::map<std::string, SceneObject>;
 
+struct BuilderOptions {
+  std::size_t most_variations;            // of a task that are tried: the first, and others at equal distances
+  std::vector<ScriptFile> left_out = {};  // files that are read as if they were not there
+};
+
 class LibraryBuilder {
  public:
-  // `left_out`: files that are read as if they were not there.
-  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, const std::vector<ScriptFile>& left_out = {});
+  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, const BuilderOptions& options);
   std::shared_ptr<Library> build();
 
  private:
@@ -146,6 +150,7 @@ class LibraryBuilder {
   void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 
   std::vector<Error>& complaints_;
+  std::size_t most_variations_;        // of a task that are tried
   std::vector<std::string> left_out_;  // as shown
   std::shared_ptr<Library> library_;
   std::map<DefinitionKind, Definitions> definitions_;

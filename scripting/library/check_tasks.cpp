@@ -9,7 +9,6 @@
 namespace stampede {
 namespace {
 
-constexpr std::size_t kMostChecked = 240;  // variations whose functions are called by a check
 constexpr SandboxLimits kLimits{5'000'000, 32u << 20};
 
 std::string with_context(const std::string& what, const std::string& text, std::size_t count) {
@@ -77,7 +76,7 @@ void LibraryBuilder::read_task(const Definition& definition) {
   if (texts.is_text()) info.instructions.push_back(texts.text);
   for (const Value& text : texts.items) info.instructions.push_back(text.text);
   const bool world_known = worlds.contains(info.world);  // otherwise every name of its fixtures would be a complaint
-  const std::size_t stride = variations.size() / kMostChecked + 1;
+  const std::size_t stride = variations.size() / most_variations_ + 1;
   for (std::size_t i = 0; world_known && i < variations.size(); i += stride) {
     const std::size_t before = complaints_.size();
     check_variation(definition, state, variations[i], variations.size() > 1 ? info.variation_texts[i] : std::string());

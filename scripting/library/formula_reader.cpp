@@ -460,7 +460,7 @@ class Reader {
       std::vector<Formula> parts;
       const std::string name = trimmed(text.substr(0, colon));
       for (const std::string& member : group_members(trimmed(text.substr(colon + 1)))) {
-        parts.push_back(quantified_over(replaced(rest, name, member), exists));
+        parts.push_back(quantified_over(replaced(rest, {{name, member}}), exists));
       }
       return exists ? disjunction(std::move(parts)) : conjunction(std::move(parts));
     }
@@ -480,12 +480,21 @@ class Reader {
     return result;
   }
 
-  static Value replaced(Value node, const std::string& name, const std::string& by) {
-    if (node.is_text() && node.text == name) node.text = by;
-    for (Value& item : node.items) item = replaced(std::move(item), name, by);
-    for (auto& [key, field] : node.fields) {
-      if (key != "predicate" && key != "tag") field = replaced(std::move(field), name, by);
+  using StandIns = std::vector<std::pair<std::string, std::string>>;  // a variable, and what it stands for
+
+  static void replace(Value& node, const StandIns& stand_ins) {
+    if (node.is_text()) {
+      const auto same = [&](const auto& one) { return one.first == node.text; };
+      const auto found = std::find_if(stand_ins.begin(), stand_ins.end(), same);
+      if (found != stand_ins.end()) node.text = found->second;
     }
+    for (Value& item : node.items) replace(item, stand_ins);
+    for (auto& [key, field] : node.fields)
+      if (key != "predicate" && key != "tag") replace(field, stand_ins);
+  }
+
+  static Value replaced(Value node, const StandIns& stand_ins) {
+    replace(node, stand_ins);
     return node;
   }
 
@@ -512,12 +521,10 @@ class Reader {
   void choose(const Value& node, const std::vector<std::string>& names, std::size_t count,
               std::vector<std::size_t>& chosen, std::vector<Formula>& parts) {
     if (chosen.size() == count) {
-      Value part = one_item(node);
-      for (std::size_t i = 0; i < count; ++i) {
-        part = replaced(std::move(part), node["variables"].items[i].text, names[chosen[i]]);
-      }
+      StandIns stand_ins;
+      for (std::size_t i = 0; i < count; ++i) stand_ins.emplace_back(node["variables"].items[i].text, names[chosen[i]]);
       ++narrow_;
-      parts.push_back(formula(part));
+      parts.push_back(formula(replaced(one_item(node), stand_ins)));
       --narrow_;
       return;
     }
@@ -546,7 +553,7 @@ class Reader {
     ++narrow_;
     std::vector<Formula> single;
     for (const std::string& name : names)
-      single.push_back(formula(replaced(one_item(node), node["variables"].items[0].text, name)));
+      single.push_back(formula(replaced(one_item(node), {{node["variables"].items[0].text, name}})));
     --narrow_;
     std::vector<Formula> parts;
     std::vector<bool> chosen(names.size());

@@ -53,9 +53,11 @@ struct Roots {
 // Immutable after load and shared by all workers.
 class Library {
  public:
-  // Throws LibraryError with all complaints.
+  // Throws LibraryError with all complaints. Of each task's variations a few are tried; a run says what is wrong with
+  // those that it meets.
   static std::shared_ptr<const Library> load(const Roots& roots);
-  // As load, but complaints are returned and the sound files kept (for `stampede check`).
+  // As load, but complaints are returned and the sound files kept, and up to 240 variations of each task are tried (for
+  // `stampede check`).
   static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints);
 
   // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see

@@ -9,7 +9,7 @@
 #include "engine/episode/perturbation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/prepared_source.h"
-#include "stampede/interruption.h"
+#include "stampede/environment.h"
 
 namespace stampede {
 namespace {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -139,6 +140,13 @@ struct PolicyCall {
   std::string skill = {};                                      // empty: a whole episode
   std::map<std::string, std::string> arguments = {};           // parameter -> object
   std::map<std::string, std::vector<double>> parameters = {};  // continuous ones, and `with` of robot:policy
+};
+
+// What a Policy, a sensor or another function of a program throws when not its skill has failed, but the run is to end,
+// as Ctrl-C in it asks for: no episode counts what it was in the midst of, those that are finished are kept, and who
+// began the run gets it thrown. It is no std::exception, as nothing between there and here may take it for a failure.
+struct STAMPEDE_EXPORT Interruption {
+  std::exception_ptr cause;
 };
 
 // A controller, such as a learned one, as the body of a skill, or as what acts in whole episodes

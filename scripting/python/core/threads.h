@@ -6,7 +6,7 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
-#include <stampede/interruption.h>
+#include <stampede/environment.h>
 #include <unistd.h>
 
 #include <condition_variable>
