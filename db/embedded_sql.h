@@ -1,4 +1,4 @@
-// The .sql files of this room, put into the library when it is built.
+// The .sql files of this room and its README, put into the library when it is built.
 #pragma once
 
 #include <string>
@@ -19,6 +19,8 @@ const std::vector<SqlFile>& embedded_migrations();
 const std::vector<SqlFile>& embedded_derived();  // what is worked out when an episode is stored
 const std::vector<SqlFile>& embedded_views();    // by name; each makes the view of its name
 const std::vector<SqlFile>& embedded_queries();  // by name; the first line is a comment that describes it
+
+const std::string& embedded_readme();  // which describes the views
 
 const std::vector<SqlFile>& embedded_datasets();  // by name; each one SELECT, its first line describes the table
 

@@ -148,6 +148,19 @@ std::string text_of(std::string_view question) {
   throw Error("query", "there is no query named '" + std::string(question) + "'", names);
 }
 
+// A column is found by its name: of two that are called the same the later is `episode_2`.
+void make_unique(std::vector<std::string>& names) {
+  std::set<std::string> taken(names.begin(), names.end()), seen;
+  for (std::string& name : names) {
+    if (seen.insert(name).second) continue;
+    std::string other;
+    for (int n = 2; taken.contains(other = name + "_" + std::to_string(n)); ++n) {
+    }
+    taken.insert(other);
+    seen.insert(name = other);
+  }
+}
+
 struct RowKeeper : RowReceiver {
   void columns(const std::vector<std::string>& names) override { result.columns = names; }
   bool row(const std::vector<SqlValue>& values) override {
@@ -188,7 +201,11 @@ void read_only_query(const sql::Database& database, const std::string& text, Row
   bind(handle, statement.get(), options.parameters);
   const int columns = sqlite3_column_count(statement.get());
   std::vector<std::string> names;
-  for (int i = 0; i < columns; ++i) names.emplace_back(sqlite3_column_name(statement.get(), i));
+  for (int i = 0; i < columns; ++i) {
+    const char* name = sqlite3_column_name(statement.get(), i);
+    names.emplace_back(name ? name : "");
+  }
+  make_unique(names);
   receiver.columns(names);
   std::vector<SqlValue> values(names.size());
   int code = SQLITE_OK;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include "db/functions.h"
 #include "engine/base/stopping.h"
 
 namespace stampede::sql {
@@ -76,6 +77,7 @@ Database::Database(const std::string& path, int flags, const std::string& shown_
   sqlite3_extended_result_codes(handle, 1);
   const bool writes = (flags & SQLITE_OPEN_READWRITE) != 0;
   permissions_ = std::make_unique<Permissions>(Permissions{writes ? Purpose::write : Purpose::read});
+  add_functions(handle);
   restrict_to(handle, permissions_.get());
   sqlite3_busy_handler(handle, wait_a_little, nullptr);
   sqlite3_progress_handler(handle, kInstructionsPerGlance, is_stopped, nullptr);

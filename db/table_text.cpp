@@ -45,11 +45,15 @@ std::size_t width_of(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+constexpr const char* kNull = "NULL";  // in tables
+
 struct TableCell {
-  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(std::monostate) const { return kNull; }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return rounded(value); }
-  std::string operator()(const std::string& value) const { return printable_line(value); }
+  std::string operator()(const std::string& value) const {
+    return value == kNull ? "'" + value + "'" : printable_line(value);
+  }
   std::string operator()(const SqlBlob& value) const { return "<" + std::to_string(value.bytes.size()) + " bytes>"; }
 };
 

@@ -18,7 +18,7 @@ class RowWriter : public RowReceiver {
 };
 std::unique_ptr<RowWriter> row_writer(TextFormat format, std::ostream& out);
 
-// Numbers right, texts left, real numbers with six digits, NULL as nothing; a last line says when rows were cut.
+// Numbers right, texts left, real numbers with six digits, NULL as such; a last line says when rows were cut.
 std::string to_table(const QueryResult& result);
 
 // Lines end with LF alone, as other tools of the shell want them; a header; texts quoted where they must be. NULL is

@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ source that holds the text of every .sql file of the folders below under FOLDER.
+# Writes OUTPUT, a C++ source that holds the text of FOLDER/README.md and of every .sql file of the folders below.
 set(text "// Made by db/cmake/embed_sql.cmake from the .sql files of db.\n#include \"db/embedded_sql.h\"\n\nnamespace stampede {\n")
 foreach(list schema indexes releases migrations derived views queries datasets)
   file(GLOB files ${FOLDER}/${list}/*.sql)
@@ -11,6 +11,8 @@ foreach(list schema indexes releases migrations derived views queries datasets)
   endforeach()
   string(APPEND text "  };\n  return files;\n}\n")
 endforeach()
+file(READ ${FOLDER}/README.md body)
+string(APPEND text "\nconst std::string& embedded_readme() {\n  static const std::string text = R\"sql~(${body})sql~\";\n  return text;\n}\n")
 string(APPEND text "\n}  // namespace stampede\n")
 file(WRITE ${OUTPUT}.new "${text}")
 file(COPY_FILE ${OUTPUT}.new ${OUTPUT} ONLY_IF_DIFFERENT)

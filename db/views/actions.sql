@@ -1,5 +1,5 @@
 CREATE VIEW actions AS
-SELECT episode, frame, time_s, space, component, name, unit, value
+SELECT episode, (SELECT k.task FROM episode k WHERE k.id = episode) AS task, frame, time_s, space, component, name, unit, value
 FROM (SELECT s.episode, s.frame, f.time_s, c.space, c.component, c.name, c.unit,
              CASE c.ordinal % 16 WHEN 0 THEN s.value_0 WHEN 1 THEN s.value_1 WHEN 2 THEN s.value_2
                WHEN 3 THEN s.value_3 WHEN 4 THEN s.value_4 WHEN 5 THEN s.value_5 WHEN 6 THEN s.value_6

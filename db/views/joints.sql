@@ -1,5 +1,6 @@
 CREATE VIEW joints AS
-SELECT s.episode, s.frame, f.time_s, j.name AS joint, j.kind, j.unit,
+SELECT s.episode, (SELECT k.task FROM episode k WHERE k.id = s.episode) AS task,
+       s.frame, f.time_s, j.name AS joint, j.kind, j.unit,
        CASE j.ordinal % 12 WHEN 0 THEN s.position_0 WHEN 1 THEN s.position_1 WHEN 2 THEN s.position_2
          WHEN 3 THEN s.position_3 WHEN 4 THEN s.position_4 WHEN 5 THEN s.position_5 WHEN 6 THEN s.position_6
          WHEN 7 THEN s.position_7 WHEN 8 THEN s.position_8 WHEN 9 THEN s.position_9 WHEN 10 THEN s.position_10

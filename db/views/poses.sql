@@ -1,5 +1,6 @@
 CREATE VIEW poses AS  -- dense: the last stored pose is carried forward; CROSS keeps the order of loops
-SELECT f.episode, f.frame, f.time_s, p.name AS object, s.x, s.y, s.z, s.qx, s.qy, s.qz, s.qw,
+SELECT f.episode, (SELECT k.task FROM episode k WHERE k.id = f.episode) AS task,
+       f.frame, f.time_s, p.name AS object, s.x, s.y, s.z, s.qx, s.qy, s.qz, s.qw,
        s.frame = f.frame AS changed
 FROM frame f
 CROSS JOIN posed p

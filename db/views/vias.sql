@@ -1,5 +1,5 @@
 CREATE VIEW vias AS
-SELECT v.episode, v.ordinal, v.segment, s.parent AS skill_segment, k.skill, v.name, v.x, v.y, v.z, v.qx, v.qy, v.qz,
+SELECT v.episode, e.task, v.ordinal, v.segment, s.parent AS skill_segment, k.skill, v.name, v.x, v.y, v.z, v.qx, v.qy, v.qz,
        v.qw,
        v.passed_x, v.passed_y, v.passed_z, v.passed_qx, v.passed_qy, v.passed_qz, v.passed_qw, v.step,
        v.step * 1.0 / e.physics_hz AS time_s,

@@ -1,5 +1,6 @@
 CREATE VIEW visible AS  -- a row for each instance mask and each thing that has a number, seen or not
-SELECT i.episode, i.frame, f.time_s, c.name AS camera, m.instance, m.name, m.object, m.class,
+SELECT i.episode, (SELECT k.task FROM episode k WHERE k.id = i.episode) AS task,
+       i.frame, f.time_s, c.name AS camera, m.instance, m.name, m.object, m.class,
        coalesce(p.pixels, 0) AS pixels, coalesce(p.pixels, 0) * 1.0 / (i.width * i.height) AS part
 FROM image i
 JOIN frame f ON f.episode = i.episode AND f.frame = i.frame

@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/episode/account.h"
 #include "engine/episode/acting.h"
+#include "engine/episode/agent_action.h"
 #include "engine/episode/altered_task.h"
 #include "engine/episode/dense_reward.h"
 #include "engine/symbolic/pddl.h"
@@ -26,10 +27,33 @@ std::vector<StateFact> difference(const Facts& before, const Facts& now) {
   return changes;
 }
 
+std::vector<SkillDescription> described_skills(const EpisodeSource::Opened& opened) {
+  constexpr const char* kSources[] = {"value", "grasps", "sample"};
+  std::vector<SkillDescription> list;
+  for (const Action& action : opened.symbols->domain().actions) {
+    const SkillInfo* info = opened.skills->skill(action.skill);
+    if (info == nullptr) continue;
+    SkillDescription& one = list.emplace_back();
+    one.skill = action.name;
+    one.controller = to_string(info->controller);
+    for (const Parameter& parameter : action.parameters) {
+      one.parameters.push_back(parameter.name);
+      one.types.push_back(parameter.type.empty() ? "object" : parameter.type);
+    }
+    for (const ContinuousInfo& parameter : info->continuous)
+      one.continuous.push_back({parameter.name, parameter.unit, parameter.frame, parameter.initial, parameter.lower,
+                                parameter.upper, kSources[static_cast<std::size_t>(parameter.source)]});
+  }
+  return list;
+}
+
 }  // namespace
 
 struct SavedState::Data {
+  std::string task;
+  ResetRequest request;  // that made its start
   std::string identity;  // of task, variation, seed and rates
+  bool recorded = false;
   Rollout::Branch branch;
   SkillTrack::State track;
   ActingPlace place;
@@ -40,8 +64,19 @@ struct Environment::Impl {
   Impl(std::shared_ptr<EpisodeSource> source_in, EnvironmentSettings settings_in)
       : source(std::move(source_in)), settings(std::move(settings_in)) {}
 
+  // What can be said of a task before it has begun.
+  struct Outline {
+    std::string task;
+    double frame_hz = 0, horizon_s = 0;
+    std::vector<ActionSpace> spaces;
+    std::vector<SkillDescription> skills;
+  };
+
   Acting& acting() const;
+  const Outline& outline() const;
+  EpisodeSource::Opened opened(const ResetRequest& request) const;
   void begin(const ResetRequest& request);
+  void begin(const SavedState::Data& state);
   void go_to_frame(const EpisodeRecord& episode, std::int64_t frame);
   EnvironmentObservation observe();
 
@@ -51,8 +86,10 @@ struct Environment::Impl {
   std::shared_ptr<EpisodeSource> source;
   EnvironmentSettings settings;
   EnvironmentSettings present;  // of the episode that is under way: its perturbation may add noise
+  ResetRequest request;         // likewise
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<Acting> now;
+  mutable std::optional<Outline> drawn;
 };
 
 Acting& Environment::Impl::acting() const {
@@ -65,13 +102,29 @@ EnvironmentObservation Environment::Impl::observe() {
   return own.last ? *own.last : own.observer.observe();
 }
 
-void Environment::Impl::begin(const ResetRequest& request) {
+EpisodeSource::Opened Environment::Impl::opened(const ResetRequest& asked) const {
+  EpisodeSource::Opened opened = source->open(asked);
+  opened.options.physics_hz = static_cast<int>(std::lround(settings.physics_hz));
+  opened.options.frame_hz = static_cast<int>(std::lround(settings.frame_hz));
+  opened.options.horizon_s = settings.horizon_s;
+  return opened;
+}
+
+// Of the first variation, without a start: nothing is simulated.
+const Environment::Impl::Outline& Environment::Impl::outline() const {
+  if (!drawn) {
+    const EpisodeSource::Opened first = opened({});
+    const Task task = altered(first.draw(0), *first.symbols, first.options);
+    drawn = Outline{task.name, static_cast<double>(task.scene.frame_hz), task.horizon_s, action_spaces(task.scene),
+                    described_skills(first)};
+  }
+  return *drawn;
+}
+
+void Environment::Impl::begin(const ResetRequest& asked) {
   now.reset();
-  EpisodeSource::Opened opened = source->open(request);
+  EpisodeSource::Opened opened = this->opened(asked);
   RunOptions& options = opened.options;
-  options.physics_hz = static_cast<int>(std::lround(settings.physics_hz));
-  options.frame_hz = static_cast<int>(std::lround(settings.frame_hz));
-  options.horizon_s = settings.horizon_s;
   if (settings.torque_noise > 0) options.observation.torque_noise = settings.torque_noise;
   if (!settings.torque_model.empty()) options.observation.torque_model = torque_noise_from(settings.torque_model);
   const PreparedStart start = prepare_start(altered(opened.draw, *opened.symbols, options), *opened.symbols, options);
@@ -88,13 +141,23 @@ void Environment::Impl::begin(const ResetRequest& request) {
   now->identity =
       content_hash(now->record.task + "\n" + now->record.variation + "\n" + std::to_string(now->record.seed) + "\n" +
                    std::to_string(start.scene->physics_hz) + "\n" + std::to_string(start.scene->frame_hz) + "\n" +
-                   to_pddl(start.task.goal) + "\n" + request.where + "\n" + request.perturb);
+                   to_pddl(start.task.goal) + "\n" + asked.where + "\n" + asked.perturb);
+  request = asked;
   if (settings.record) {
     describe_beginning(now->rollout, now->record);
     now->record.documents.push_back({DocumentKind::plan, {}});
   }
   if (settings.reward == RewardKind::dense)
     now->dense.emplace(now->rollout, *now->opened.symbols, draw_key("plan", now->record));
+}
+
+// The start that a state was saved from.
+void Environment::Impl::begin(const SavedState::Data& state) {
+  const std::string& task = now ? now->record.task : outline().task;
+  if (state.task != task)
+    throw Error("Environment", "the state is of task '" + state.task + "', not of '" + task + "'",
+                "restore it into an environment of that task");
+  begin(state.request);
 }
 
 // The same start again, and all that was commanded up to that frame: facts and what is known come about as they did.
@@ -186,12 +249,17 @@ EnvironmentObservation Environment::reset(const ResetRequest& request) {
   same.goal = option("goal");
   same.randomise = !option("randomise").empty();
   same.perturb = option("perturb");
+  same.episode.reset();
   impl_->begin(same);
   impl_->go_to_frame(*record, request.frame);
   return impl_->observe();
 }
 
-EnvironmentObservation Environment::reset(const SavedState& state) { return restore(state); }
+EnvironmentObservation Environment::reset_to(const SavedState& state) {
+  const std::unique_ptr<Acting>& now = impl_->now;
+  if (state.data && (!now || now->ended || now->identity != state.data->identity)) impl_->begin(*state.data);
+  return restore(state);
+}
 
 StepResult Environment::step(const AgentAction& action) {
   try {
@@ -202,10 +270,13 @@ StepResult Environment::step(const AgentAction& action) {
   }
 }
 
-double Environment::frame_hz() const { return impl_->acting().rollout.view().scene().frame_hz; }
+double Environment::frame_hz() const {
+  return impl_->now ? impl_->now->rollout.view().scene().frame_hz : impl_->outline().frame_hz;
+}
 
 double Environment::horizon_s() const {
-  const Rollout& rollout = impl_->acting().rollout;
+  if (!impl_->now) return impl_->outline().horizon_s;
+  const Rollout& rollout = impl_->now->rollout;
   return static_cast<double>(rollout.horizon_steps()) / rollout.view().scene().physics_hz;
 }
 
@@ -216,7 +287,9 @@ std::vector<std::string> Environment::instructions() const {
   return sentences;
 }
 
-std::vector<ActionSpace> Environment::spaces() const { return impl_->acting().spaces; }
+std::vector<ActionSpace> Environment::spaces() const {
+  return impl_->now ? impl_->now->spaces : impl_->outline().spaces;
+}
 
 std::vector<SkillChoice> Environment::skills() const {
   Observer& observer = impl_->acting().observer;
@@ -228,24 +301,7 @@ std::vector<SkillChoice> Environment::skills() const {
 }
 
 std::vector<SkillDescription> Environment::skill_descriptions() const {
-  constexpr const char* kSources[] = {"value", "grasps", "sample"};
-  const Acting& own = impl_->acting();
-  std::vector<SkillDescription> list;
-  for (const Action& action : own.rollout.domain().actions) {
-    const SkillInfo* info = own.opened.skills->skill(action.skill);
-    if (info == nullptr) continue;
-    SkillDescription& one = list.emplace_back();
-    one.skill = action.name;
-    one.controller = to_string(info->controller);
-    for (const Parameter& parameter : action.parameters) {
-      one.parameters.push_back(parameter.name);
-      one.types.push_back(parameter.type.empty() ? "object" : parameter.type);
-    }
-    for (const ContinuousInfo& parameter : info->continuous)
-      one.continuous.push_back({parameter.name, parameter.unit, parameter.frame, parameter.initial, parameter.lower,
-                                parameter.upper, kSources[static_cast<std::size_t>(parameter.source)]});
-  }
-  return list;
+  return impl_->now ? described_skills(impl_->now->opened) : impl_->outline().skills;
 }
 
 EnvironmentObservation Environment::observe() const { return impl_->observe(); }
@@ -265,17 +321,21 @@ SavedState Environment::save() {
   if (own.running.what != Running::What::nothing)
     throw Error("Environment::save", own.running.name + " is under way", "let it go_on to its end, or act otherwise");
   auto data = std::make_shared<SavedState::Data>(
-      SavedState::Data{own.identity, own.rollout.branch(), own.track.state(), own,
-                       own.dense ? std::optional(own.dense->state()) : std::nullopt});
+      SavedState::Data{own.record.task, impl_->request, own.identity, impl_->settings.record, own.rollout.branch(),
+                       own.track.state(), own, own.dense ? std::optional(own.dense->state()) : std::nullopt});
   return {std::move(data)};
 }
 
 EnvironmentObservation Environment::restore(const SavedState& state) {
-  Acting& own = impl_->acting();
   if (!state.data) throw Error("Environment::restore", "an empty state", "take it with save()");
+  if (!impl_->now) impl_->begin(*state.data);
+  Acting& own = impl_->acting();
   if (state.data->identity != own.identity)
     throw Error("Environment::restore", "the state is of another task, variation, seed or rate",
                 "reset the environment to what it was when the state was saved");
+  if (impl_->settings.record && !state.data->recorded)
+    throw Error("Environment::restore", "the state was saved without a record, and this environment keeps one",
+                "set EnvironmentSettings::record in both or in neither");
   if (own.ended) throw Error("Environment::restore", "the episode was ended by episode()", "call reset() first");
   StepResult ignored;
   own.end_running(ignored, "another state was restored");

@@ -327,10 +327,11 @@ bool SkillExecution::start_policy(const robot_call::Policy& call) {
     told.arguments[context_.info->parameters[i].name] = context_.arguments[i];
   for (const ContinuousValue& value : call_.continuous)
     told.parameters.try_emplace(value.record.name, value.record.values);
+  policy_ =
+      std::make_unique<SkillPolicy>(rollout_, options_, call.name, call.seconds, controller_.kind, context_.segment,
+                                    [this, until = call.until_effect] { return until && missing_effects().empty(); });
   try {
-    policy_ = std::make_unique<SkillPolicy>(
-        rollout_, options_, call.name, std::move(told), call.seconds, controller_.kind, context_.segment,
-        [this, until = call.until_effect] { return until && missing_effects().empty(); });
+    policy_->begin(told);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {

@@ -11,19 +11,6 @@
 namespace stampede {
 namespace {
 
-const PolicyEntry& entry_of(const RunOptions& options, const std::string& name) {
-  std::vector<std::string> names;
-  const auto find = [&](const std::map<std::string, PolicyEntry>& entries) -> const PolicyEntry* {
-    for (const auto& [own, entry] : entries) names.push_back(own);
-    const auto found = entries.find(name);
-    return found == entries.end() ? nullptr : &found->second;
-  };
-  if (options.policies)
-    if (const PolicyEntry* entry = find(*options.policies)) return *entry;
-  if (const PolicyEntry* entry = find(shipped_policies())) return *entry;
-  throw Error("policy '" + name + "'", "nobody has registered it", did_you_mean(name, names));
-}
-
 MotionResult failed(std::string detail) { return {MotionStatus::failed, Reason::policy_error, std::move(detail)}; }
 
 void stop(World& world) {
@@ -35,6 +22,22 @@ void stop(World& world) {
 const std::map<std::string, PolicyEntry>& shipped_policies() {
   static const std::map<std::string, PolicyEntry> entries = {{"keep_tool", keep_tool_policy()}};
   return entries;
+}
+
+const PolicyEntry& policy_entry(const RunOptions& options, const std::string& name) {
+  std::vector<std::string> names;
+  const auto find = [&](const std::map<std::string, PolicyEntry>& entries) -> const PolicyEntry* {
+    for (const auto& [own, entry] : entries) names.push_back(own);
+    const auto found = entries.find(name);
+    return found == entries.end() ? nullptr : &found->second;
+  };
+  if (options.policies)
+    if (const PolicyEntry* entry = find(*options.policies)) return *entry;
+  if (const PolicyEntry* entry = find(shipped_policies())) return *entry;
+  std::string cure = did_you_mean(name, names);
+  if (!cure.empty()) cure += cure.back() == '?' ? " " : "; ";
+  throw Error("policy '" + name + "'", "nobody has registered it",
+              cure + "a program registers its own with Session::add_policy, in Python with add_policy");
 }
 
 Policy::~Policy() = default;
@@ -54,16 +57,15 @@ class SkillPolicy::Acting final : public Motion {
   SkillPolicy& run_;
 };
 
-SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, PolicyCall call,
-                         double seconds, ControllerKind controller, std::int64_t segment,
-                         std::function<bool()> finished)
+SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, double seconds,
+                         ControllerKind controller, std::int64_t segment, std::function<bool()> finished)
     : rollout_(rollout),
       spaces_(action_spaces(rollout.view().scene())),
       controller_(controller),
       segment_(segment),
       finished_(std::move(finished)),
       until_(rollout.step() + std::llround(seconds * rollout.view().scene().physics_hz)) {
-  const PolicyEntry& entry = entry_of(options, name);
+  const PolicyEntry& entry = policy_entry(options, name);
   settings_.channels = entry.channels;
   settings_.hidden = entry.hidden;
   settings_.width = entry.width;
@@ -73,7 +75,11 @@ SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std:
   episode.variation = rollout.task().variation;
   episode.seed = options.seed;
   observer_.emplace(rollout, rollout.scene(), options, settings_, episode, renderer_);
-  policy_ = entry.make();
+  make_ = entry.make;
+}
+
+void SkillPolicy::begin(const PolicyCall& call) {
+  policy_ = make_();
   policy_->begin(call);
 }
 

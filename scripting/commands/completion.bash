@@ -9,7 +9,7 @@ _stampede() {
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;
-    query) words="--format --list --hash --root --path --json --help" ;;
+    query) words="--format --list --views --datasette --hash --root --path --json --help" ;;
     merge) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --force --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;

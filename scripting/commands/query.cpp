@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "db/catalogue.h"
+#include "db/reference.h"
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
 
@@ -39,6 +40,20 @@ QueryResult names() {
   return table;
 }
 
+QueryResult views() {
+  QueryResult table;
+  table.columns = {"view", "column", "meaning", "unit", "frame", "null"};
+  for (const ViewReference& view : view_reference()) {
+    table.rows.push_back(
+        {view.name, std::monostate{}, view.description, std::monostate{}, std::monostate{}, std::monostate{}});
+    const auto known = [](const std::string& cell) { return cell.empty() ? SqlValue{} : SqlValue{cell}; };
+    for (const ViewColumn& column : view.columns)
+      table.rows.push_back(
+          {view.name, column.name, column.meaning, known(column.unit), known(column.frame), column.null});
+  }
+  return table;
+}
+
 TextFormat format_of(const Arguments& arguments) {
   const std::string name = arguments.flag("--json") ? "json" : arguments.text("--format");
   return name == "json" ? TextFormat::json : name == "csv" ? TextFormat::csv : TextFormat::table;
@@ -67,6 +82,12 @@ ExitCode do_query(const Arguments& arguments, Console& console) {
     return kDone;
   };
   if (arguments.flag("--list")) return write(names());
+  if (arguments.flag("--views")) return write(views());
+  if (arguments.flag("--datasette")) {
+    if (!arguments.has("FILE")) throw UsageError("stampede query --datasette needs FILE", "name a catalogue");
+    console.out << datasette_metadata(std::filesystem::path(arguments.text("FILE")).stem().string());
+    return kDone;
+  }
   if (arguments.flag("--hash")) {
     if (!arguments.has("FILE")) throw UsageError("stampede query --hash needs FILE", "name a catalogue");
     QueryResult hash;
@@ -85,10 +106,18 @@ CommandRow query_command() {
   return {"query",
           "Ask a catalogue in SQL, or by the name of a ready question",
           "The catalogue is opened read-only: a question that would write is refused. The views that SQL may use are "
-          "described in db/README.md; --list names the ready questions.",
+          "described in db/README.md, and by --views; --list names the ready questions.",
           {{"FILE", "the catalogue", false, false}, {"QUESTION", "SQL, or a name", false, false}},
           {{"--format", "NAME", "how to print", Takes::text, "table", {"table", "csv", "json"}, false},
            {"--list", "", "name the ready questions", Takes::flag, "", {}, false},
+           {"--views", "", "say what the views and their columns mean", Takes::flag, "", {}, false},
+           {"--datasette",
+            "",
+            "print the same of FILE as metadata.json, which `datasette FILE -m metadata.json` shows beside the data",
+            Takes::flag,
+            "",
+            {},
+            false},
            {"--hash",
             "",
             "print the hash of all that is in FILE but host times: equal data, equal hash",

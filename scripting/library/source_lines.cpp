@@ -34,7 +34,7 @@ class Scanner {
     const std::string close = "]" + std::string(level, '=') + "]";
     const std::size_t end = source_.find(close, at_);
     const std::size_t stop = end == std::string_view::npos ? source_.size() : end + close.size();
-    if (!comment_) mentions_.texts.emplace(source_.substr(at_ + close.size(), end - at_ - close.size()));
+    if (!comment_) note_text(source_.substr(at_ + close.size(), end - at_ - close.size()));
     while (at_ < stop) advance();
     return true;
   }
@@ -46,8 +46,14 @@ class Scanner {
       if (peek() == '\\') advance();
       advance();
     }
-    mentions_.texts.emplace(source_.substr(start, at_ - start));
+    note_text(source_.substr(start, at_ - start));
     advance();
+  }
+
+  void note_text(std::string_view text) {
+    mentions_.texts.emplace(text);
+    if (policy_) mentions_.policies.emplace(text);
+    policy_ = false;
   }
 
   void word() {
@@ -58,6 +64,7 @@ class Scanner {
     if (before_dot_ == "is" || before_dot_ == "is_not") mentions_.after_is.emplace(last_word_);
     if (before_dot_ == "act") mentions_.after_act.emplace(last_word_);
     before_dot_ = {};
+    policy_ = last_word_ == "policy";
     if (last_word_ == "return" && depth_ == 0) lines_[""] = line_;
   }
 
@@ -106,6 +113,7 @@ class Scanner {
       return;  // `name =` has space between
     } else {
       before_dot_ = c == '.' ? last_word_ : std::string_view{};
+      policy_ = policy_ && c == '(';
       advance();
     }
     last_word_ = {};
@@ -114,7 +122,7 @@ class Scanner {
   std::string_view source_;
   std::size_t at_ = 0;
   int line_ = 1, word_line_ = 1, depth_ = 0;
-  bool comment_ = false;
+  bool comment_ = false, policy_ = false;  // policy_: a text that follows is a policy's name
   std::string_view last_word_, before_dot_;
   std::string pending_;            // the key whose value begins
   std::vector<std::string> keys_;  // of the tables around

@@ -25,6 +25,7 @@ struct Mentions {
   std::set<std::string> after_is, after_act;  // is.NAME and is_not.NAME; act.NAME
   std::set<std::string> texts;                // all texts, without their quotes
   std::set<std::string> fields;               // paths, as of field_lines
+  std::set<std::string> policies;             // policy("NAME") and robot:policy("NAME")
 };
 Mentions mentions_in(std::string_view source);
 

@@ -11,6 +11,7 @@
 #include "engine/render/renderer.h"
 #include "scripting/runtime/assets.h"
 #include "scripting/session/made_sentences.h"
+#include "scripting/session/policies_fit.h"
 
 namespace stampede {
 namespace {
@@ -107,6 +108,8 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
       options.sentences = sentences_for(found->second, job.variation);
     return options;
   };
+  if (!settings.act)
+    for (const EpisodeJob& job : jobs.first_of_each_task()) check_policies(library, job, settings.options, stop);
   std::mutex mutex;
   std::set<std::string> remarked;
   const auto pass_on = [&](const std::vector<Error>& remarks) {

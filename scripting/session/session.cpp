@@ -74,7 +74,9 @@ EpisodeArrays Session::arrays(std::int64_t episode, const ArrayRequest& request)
   return impl_->core->arrays({.id = episode}, request);
 }
 
-Rows Session::query(std::string_view question) const { return impl_->core->query(question); }
+Rows Session::query(std::string_view question, const std::vector<SqlValue>& parameters) const {
+  return impl_->core->query(question, parameters);
+}
 
 TaskPlan plan_pddl(const std::string& domain, const std::string& problem) { return plan_of_texts(domain, problem); }
 

@@ -15,6 +15,8 @@
 #include "scripting/session/episode_job.h"
 #include "scripting/session/evaluation.h"
 #include "scripting/session/numerics.h"
+#include "scripting/session/own_words.h"
+#include "scripting/session/policies_fit.h"
 #include "scripting/session/roots.h"
 #include "scripting/session/run_job.h"
 #include "scripting/session/settings_fit.h"
@@ -93,7 +95,11 @@ JobList jobs_of(const std::shared_ptr<const Library>& library, const std::string
   if (asked.tasks.empty()) throw Error(where + "::tasks", "no task is named", "name one of Session::tasks()");
   if (asked.episodes < 1) throw Error(where + "::episodes", "it is at least 1");
   if (asked.workers < 1) throw Error(where + "::workers", "it is at least 1");
-  check_split(options.split, asked.each.seed, asked.each.seed + asked.episodes - 1);
+  if (options.split == Split::train && asked.each.seed + asked.episodes > kFirstTestSeed)
+    throw Error(
+        where,
+        "seeds from " + std::to_string(kFirstTestSeed) + " up belong to the test split, those below to the other",
+        "ask for the episodes of each split by themselves");
   JobRequest request{asked.tasks, asked.episodes, asked.each.seed, asked.each.variation};
   if (options.where || options.goal) {
     request.variations.emplace();
@@ -118,7 +124,8 @@ TaskPlan told(const PlanOutcome& outcome) {
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
                          std::filesystem::path catalogue)
-    : library_(Library::load_usable(make_roots(root, paths))), path_(std::move(catalogue)) {
+    : library_(in_own_words([&] { return Library::load_usable(make_roots(root, paths)); })),
+      path_(std::move(catalogue)) {
   if (path_ == ":memory:")
     throw Error("SessionOptions::catalogue", "a catalogue is a file",
                 "leave it empty: what `run` gives then holds the whole episode");
@@ -154,16 +161,19 @@ RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
 
 PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeRequest& request,
                                      const Perturbation& perturb, std::shared_ptr<Assets> assets) const {
-  RunOptions options = options_for(request);
-  options.perturb = perturb;
-  const std::vector<std::string> variations = fitting_variations(
-      library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
-  return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options, std::move(assets)};
+  return in_own_words([&]() -> PreparedEpisode {
+    RunOptions options = options_for(request);
+    options.perturb = perturb;
+    const std::vector<std::string> variations = fitting_variations(
+        library_, task, matching_variations(task_info(*library_, task), request.variation), request.seed, options);
+    return {library_, {task, variations.empty() ? "" : variations.front(), request.seed}, options, std::move(assets)};
+  });
 }
 
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
   PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
+  check_policies(library_, prepared.job(), prepared.options(), nullptr);
   return keep(prepared.run(nullptr));
 }
 
@@ -194,10 +204,10 @@ Episode SessionCore::keep_for(const RunRequest& request, EpisodeRecord made) {
 // Workers run the episodes; this thread keeps them and calls the program's functions.
 RunTally SessionCore::run_all(const RunRequest& request) {
   RunSettings settings;
-  settings.options = options_for(request.each);
+  settings.options = in_own_words([&] { return options_for(request.each); });
   settings.workers = request.workers;
   settings.stop = request.stop;
-  const JobList jobs = jobs_of(library_, "RunRequest", request, settings.options);
+  const JobList jobs = in_own_words([&] { return jobs_of(library_, "RunRequest", request, settings.options); });
   EpisodeQueue queue(queue_bytes(settings));
   if (!request.sink) {
     if (path_.empty())
@@ -319,11 +329,12 @@ Evaluation SessionCore::evaluate(const std::vector<std::string>& tasks, const Ev
   asked.each.variation = request.variation;
   EvaluationSettings settings;
   settings.perturb = request.perturb;
-  settings.run.options = options_for(asked.each);
+  settings.run.options = in_own_words([&] { return options_for(asked.each); });
   settings.run.workers = request.workers;
   settings.run.stop = request.stop;
   if (request.policy) settings.run.act = [&](PreparedEpisode& prepared) { return act_as(prepared, request); };
-  const JobList jobs = jobs_of(library_, "EvaluationRequest", asked, settings.run.options);
+  const JobList jobs =
+      in_own_words([&] { return jobs_of(library_, "EvaluationRequest", asked, settings.run.options); });
   if (path_.empty()) return stampede::evaluate(library_, jobs, settings, nullptr);
   catalogue_.reset();  // one writer at a time
   writable_ = false;
@@ -378,7 +389,9 @@ Catalogue& SessionCore::catalogue_to_write() {
   return *catalogue_;
 }
 
-Rows SessionCore::query(std::string_view question) { return catalogue().query(question); }
+Rows SessionCore::query(std::string_view question, const std::vector<SqlValue>& parameters) {
+  return catalogue().query(question, {parameters, 0});
+}
 
 std::shared_ptr<const EpisodeRecord> SessionCore::record_of(const Episode& episode) {
   if (episode.record) return episode.record;

@@ -36,7 +36,7 @@ class SessionCore : public std::enable_shared_from_this<SessionCore> {
   void add_sensor(const std::string& name, SensorEntry entry);
   Environment environment(const std::string& task, const EnvironmentSettings& settings);
   TaskPlan plan(const std::string& task, const EpisodeRequest& request) const;
-  Rows query(std::string_view question);
+  Rows query(std::string_view question, const std::vector<SqlValue>& parameters = {});
   CameraPicture picture(const Episode& episode, std::int64_t frame, const PictureRequest& request);
   CameraPoints points(const Episode& episode, std::int64_t frame, const PictureRequest& request);
   WorldState state(const Episode& episode, std::int64_t frame);

@@ -41,7 +41,7 @@ TEST_CASE("merged parts are what one run would have made") {
   CHECK(hash_of(folder / "sum.db") == hash_of(folder / "all.db"));
   const Catalogue sum = Catalogue::open(folder / "sum.db"), all = Catalogue::open(folder / "all.db");
   const std::string visible =
-      "SELECT task, seed, name, pixels FROM visible JOIN episodes USING (episode) ORDER BY 1, 2, "
+      "SELECT task, seed, name, pixels FROM visible JOIN episodes USING (episode, task) ORDER BY 1, 2, "
       "frame, camera, instance";
   CHECK(!sum.query(visible).rows.empty());
   CHECK(sum.query(visible).rows == all.query(visible).rows);

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <thread>
 
 #include "db/table_text.h"
@@ -199,6 +200,84 @@ TEST_CASE("named queries answer what they promise") {
   CHECK(filled.catalogue.query("keyframes_without_vias").rows.empty());
 }
 
+TEST_CASE("SQL knows median, percentile, standard deviation and regular expressions") {
+  const Filled filled;
+  const auto number = [&](const std::string& what, const std::string& values) {
+    const QueryResult rows =
+        filled.catalogue.query("WITH v(x) AS (VALUES " + values + ") SELECT 1.0 * " + what + " AS y FROM v");
+    return rows.is_null(0, "y") ? -1 : rows.real(0, "y");
+  };
+  CHECK(number("median(x)", "(3), (1), (2)") == 2);
+  CHECK(number("median(x)", "(4), (1), (NULL), (2), (3.5)") == 2.75);
+  CHECK(number("median(x)", "(7)") == 7);
+  CHECK(number("median(x)", "(NULL)") == -1);
+  CHECK(number("percentile(x, 0)", "(5), (1), (3)") == 1);
+  CHECK(number("percentile(x, 100)", "(5), (1), (3)") == 5);
+  CHECK(number("percentile(x, 90)", "(0), (10), (20), (30)") == Approx(27));
+  CHECK(number("stddev(x)", "(2), (4), (4), (4), (5), (5), (7), (9)") == Approx(std::sqrt(32.0 / 7)));
+  CHECK(number("stddev_pop(x)", "(2), (4), (4), (4), (5), (5), (7), (9)") == Approx(2));
+  CHECK(number("stddev(x)", "(2)") == -1);
+  CHECK(number("stddev_pop(x)", "(2)") == 0);
+  CHECK(to_csv(filled.catalogue.query("SELECT group_concat(m) FROM (WITH v(x) AS (VALUES (1), (9), (2), (8)) SELECT "
+                                      "median(x) OVER (ROWS 1 PRECEDING) AS m FROM v)")) ==
+        "group_concat(m)\n\"1.0,5.0,5.5,5.0\"\n");
+  CHECK(only(filled.catalogue,
+             "SELECT group_concat(fact, ' ') FROM (SELECT DISTINCT fact FROM facts WHERE fact REGEXP "
+             "'^\\(on block[0-9] table\\)$' ORDER BY fact)") == "(on block1 table) (on block2 table)");
+  CHECK(number("sum(x REGEXP 'a.c')", "('abc'), ('xaxcx'), ('ac'), (NULL)") == 2);
+  for (const std::string wrong : {"SELECT median('a')", "SELECT percentile(1, 101)", "SELECT percentile(1, NULL)",
+                                  "SELECT percentile(x, x) FROM (SELECT 1 AS x UNION SELECT 2)",
+                                  "SELECT 'a' REGEXP '('", "SELECT stddev(x'00')"}) {
+    INFO(wrong);
+    CHECK_THROWS_AS(filled.catalogue.query(wrong), Error);
+  }
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 'a' REGEXP '('"), Contains("regexp: ("));
+}
+
+TEST_CASE("two columns of one name are two in every form of an answer") {
+  const Filled filled;
+  const QueryResult rows = filled.catalogue.query(
+      "SELECT a.episode, b.episode, a.seed + 1 AS episode_2, a.episode FROM episodes a JOIN episodes b USING (task)");
+  CHECK(rows.columns == std::vector<std::string>{"episode", "episode_3", "episode_2", "episode_4"});
+  CHECK(to_json(rows) == "[\n {\"episode\": 1, \"episode_3\": 1, \"episode_2\": 2, \"episode_4\": 1}\n]\n");
+  CHECK(filled.catalogue.query("SELECT 1 AS a, 2 AS a").columns == std::vector<std::string>{"a", "a_2"});
+}
+
+TEST_CASE("a sensor's unit is that of each component") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  const std::vector<std::string> six = {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"};
+  episode.channels = {{"wrench", "N, N m", six, 120, {0}, {1, 2, 3, 4, 5, 6}},
+                      {"odd", "a, \"b\"", {"u", "v", "w"}, 120, {0}, {1, 2, 3}},
+                      {"pair", "\"b\", c", {"u", "v"}, 120, {0}, {1, 2}}};
+  catalogue.add(episode, kEngine);
+  const auto units = [&](const std::string& sensor) {
+    return to_csv(catalogue.query("SELECT name, unit FROM sensors WHERE sensor = '" + sensor + "' ORDER BY component"));
+  };
+  CHECK(units("wrench") == "name,unit\nforce_x,N\nforce_y,N\nforce_z,N\ntorque_x,N m\ntorque_y,N m\ntorque_z,N m\n");
+  CHECK(units("odd") == "name,unit\nu,\"a, \"\"b\"\"\"\nv,\"a, \"\"b\"\"\"\nw,\"a, \"\"b\"\"\"\n");
+  CHECK(units("pair") == "name,unit\nu,\"\"\"b\"\"\"\nv,c\n");
+}
+
+TEST_CASE("a grasp says whence the hand came, in the object's frame and in the world's") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
+  const double half = std::sqrt(0.5);
+  episode.grasps[0].object_from_tip.quaternion = {1, 0, 0, 0};  // z of the tip is down
+  for (FrameRecord& frame : episode.frames) frame.hands.at(0).tip.quaternion = {0, half, 0, half};  // along x
+  catalogue.add(episode, kEngine);
+  const QueryResult rows = catalogue.query("SELECT * FROM grasps");
+  const auto direction = [&](const std::string& head) {
+    return std::vector<double>{rows.real(0, head + "_x"), rows.real(0, head + "_y"), rows.real(0, head + "_z")};
+  };
+  CHECK(direction("approach") == std::vector<double>{0, 0, -1});
+  CHECK(direction("world_approach")[0] == Approx(1));
+  CHECK(direction("world_approach")[1] == Approx(0));
+  CHECK(direction("world_approach")[2] == Approx(0).margin(1e-12));
+}
+
 TEST_CASE("a query cannot write") {
   const Filled filled;
   const std::string before = filled.catalogue.content_hash();
@@ -267,8 +346,14 @@ TEST_CASE("answers as table, CSV and JSON") {
         "\"Infinity\"}\n]\n");
   QueryResult small;
   small.columns = {"skill", "n"};
-  small.rows = {{std::string("öffnen"), std::int64_t{5}}, {std::string("a\tb"), std::int64_t{123}}};
+  small.rows = {{std::string("öffnen"), std::int64_t{5}},
+                {std::string("a\tb"), std::int64_t{123}},
+                {std::monostate{}, std::monostate{}},
+                {std::string(), std::int64_t{0}},
+                {std::string("NULL"), std::int64_t{0}}};
   small.cut = true;
-  CHECK(to_table(small) == "skill     n\n------  ---\nöffnen    5\na\\tb    123\n… and more rows\n");
+  CHECK(to_table(small) ==
+        "skill      n\n------  ----\nöffnen     5\na\\tb     123\nNULL    NULL\n           0\n'NULL'     0\n… and more "
+        "rows\n");
   CHECK(to_json({{"a"}, {}, false}) == "[]\n");
 }

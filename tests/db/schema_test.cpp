@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "db/embedded_sql.h"
+#include "db/reference.h"
 #include "engine/base/reason.h"
 #include "sample_episode.h"
 
@@ -112,6 +113,38 @@ TEST_CASE("the README documents every column of every view, and no other") {
     CHECK(found->second == catalogue.query("SELECT * FROM " + view.name).columns);
   }
   for (const auto& [view, columns] : documented) CHECK(names.contains(view));
+}
+
+TEST_CASE("a view with episodes says of which task they are") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  catalogue.add(sample_episode("lift", "colour=red", 1), kEngine);
+  for (const SqlFile& view : embedded_views()) {
+    INFO(view.name);
+    const std::vector<std::string> columns = catalogue.query("SELECT * FROM " + view.name).columns;
+    if (std::find(columns.begin(), columns.end(), "episode") == columns.end()) continue;
+    CHECK(std::find(columns.begin(), columns.end(), "task") != columns.end());
+    for (const auto& row : catalogue.query("SELECT task FROM " + view.name).rows)
+      CHECK(std::get<std::string>(row[0]) == "lift");
+  }
+}
+
+TEST_CASE("the reference tells of every view and column what the README does") {
+  const auto documented = documented_columns();
+  REQUIRE(view_reference().size() == documented.size());
+  for (const ViewReference& view : view_reference()) {
+    INFO(view.name);
+    CHECK(view.description.size() > 10);
+    CHECK(view.description.find('|') == std::string::npos);
+    REQUIRE(view.columns.size() == documented.at(view.name).size());
+    for (const ViewColumn& column : view.columns) CHECK_FALSE((column.meaning.empty() || column.null.empty()));
+  }
+  const std::string metadata = datasette_metadata("my \"demos\"");
+  CHECK_THAT(metadata,
+             Catch::Contains(R"({"databases": {"my \"demos\"": {"tables": {)") &&
+                 Catch::Contains(R"("grasps": {"description": "Each time the hand closed on an object)") &&
+                 Catch::Contains(R"("width": "opening measured when held; m")") &&
+                 Catch::Contains(R"("world_approach_x": "direction in which the hand came, x; 1; frame of )"));
 }
 
 TEST_CASE("the promised views are there") {

@@ -386,11 +386,54 @@ TEST_CASE("a saved state branches: the same future, bit for bit, here and in ano
   two.restore(later);  // from another branch to a later moment
   const Episode episode = two.episode();
   CHECK(replay_episode(*episode.record).empty());
-  CHECK_THROWS_WITH(environment("stack_blocks", settings).restore(saved), Catch::Contains("call reset()"));
+  Environment fresh = environment("stack_blocks", settings), begun = environment("stack_blocks", settings);
+  fresh.reset(saved);  // the start is made for it
+  CHECK(future(fresh) == first);
+  CHECK(replay_episode(*fresh.episode().record).empty());
+  fresh.reset(saved);  // and anew, once the episode was taken
+  CHECK(future(fresh) == first);
+  begun.restore(saved);
+  CHECK(future(begun) == first);
+  begun.reset({.seed = 7});
+  CHECK_THROWS_WITH(begun.restore(saved), Catch::Contains("of another task"));
+  begun.reset(saved);
+  CHECK(future(begun) == first);
   Environment other = environment("reach_target");
+  CHECK_THROWS_WITH(other.restore(saved),
+                    Catch::Contains("the state is of task 'stack_blocks', not of 'reach_target'"));
   other.reset();
   CHECK_THROWS_WITH(other.restore(saved), Catch::Contains("of another task"));
+  Environment unrecorded = environment("reach_target"), recorded = environment("reach_target", {.record = true});
+  unrecorded.reset({});
+  CHECK_THROWS_WITH(recorded.restore(unrecorded.save()), Catch::Contains("saved without a record"));
   CHECK_THROWS_WITH(one.restore({}), Catch::Contains("empty state"));
+}
+
+TEST_CASE("a request in braces is the default start, and what a task offers is known before it") {
+  Environment world = environment("stack_blocks", {.frame_hz = 10, .horizon_s = 7});
+  const std::vector<ActionSpace> spaces = world.spaces();
+  const auto skills = world.skill_descriptions();
+  CHECK(space_of(spaces, "joint_position").components.size() == 7);
+  CHECK(world.frame_hz() == 10);
+  CHECK(world.horizon_s() == 7);
+  CHECK_FALSE(skills.empty());
+  const std::vector<double> braces = numbers(world.reset({})), nothing = numbers(world.reset());
+  CHECK(braces == nothing);
+  CHECK(world.frame_hz() == 10);
+  CHECK(world.horizon_s() == 7);
+  REQUIRE(world.spaces().size() == spaces.size());
+  for (std::size_t i = 0; i < spaces.size(); ++i) {
+    const ActionSpace now = world.spaces()[i];
+    CHECK(now.name == spaces[i].name);
+    REQUIRE(now.components.size() == spaces[i].components.size());
+    for (std::size_t k = 0; k < now.components.size(); ++k) {
+      CHECK(now.components[k].name == spaces[i].components[k].name);
+      CHECK(now.components[k].lower == spaces[i].components[k].lower);
+      CHECK(now.components[k].upper == spaces[i].components[k].upper);
+    }
+  }
+  REQUIRE(world.skill_descriptions().size() == skills.size());
+  for (std::size_t i = 0; i < skills.size(); ++i) CHECK(world.skill_descriptions()[i].skill == skills[i].skill);
 }
 
 TEST_CASE("cameras have sizes of their own, and are drawn when asked") {

@@ -4,6 +4,7 @@
 
 #include "engine/episode/arrays.h"
 #include "engine/symbolic/pddl.h"
+#include "scripting/session/own_words.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 
@@ -98,6 +99,8 @@ TEST_CASE("a session keeps one catalogue open, answers are typed, and others may
   const Rows rows = session.query("SELECT task, seed, duration_s, NULL AS missing, x'0041' AS bytes FROM episodes");
   REQUIRE(rows.size() == 2);
   CHECK(rows.text(0, "task") == "reach_target");
+  CHECK(session.query("SELECT episode FROM episodes WHERE seed = ?1 AND task = ?2", {std::int64_t{8}, "reach_target"})
+            .size() == 1);
   CHECK(rows.integer(1, "seed") == 8);
   CHECK(rows.real(0, "duration_s") == first.duration_s);
   CHECK(rows.real(0, "seed") == 7);
@@ -106,6 +109,46 @@ TEST_CASE("a session keeps one catalogue open, answers are typed, and others may
   CHECK_THROWS_WITH(rows.integer(0, "task"), Catch::Contains("text, not an integer"));
   CHECK_THROWS_WITH(rows.text(0, "tsk"), Catch::Contains("did you mean 'task'"));
   CHECK_THROWS_WITH(rows.text(2, "task"), Catch::Contains("2 rows"));
+}
+
+TEST_CASE("a program's mistakes are told in words of its own, not in the program's flags") {
+  const Folder folder;
+  SessionCore session(STAMPEDE_SOURCE_DIR, {}, folder / "d.db");
+  const auto environments =
+      std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector<std::filesystem::path>{}, "");
+  const auto refused = [](const auto& call, const std::string& words) {
+    CAPTURE(words);
+    try {
+      call();
+      FAIL("no complaint");
+    } catch (const Error& error) {
+      CHECK_THAT(error.what(), Catch::Contains(words));
+      CHECK_THAT(error.what(), !Catch::Contains(" --") && !Catch::StartsWith("--"));
+    }
+  };
+  for (const auto& [request, words] : std::vector<std::pair<EpisodeRequest, std::string>>{
+           {{.variation = "colour=plaid"}, "variation: task 'stack_blocks' has no variation 'colour=plaid'"},
+           {{.seed = -1}, "seed: a seed is 0 or more"},
+           {{.where = "(on block1 nothing)"}, "nothing"},
+           {{.where = "(and (clear block1) (block block1 table))"}, "where"},
+           {{.goal = "(on nothing block1)"}, "goal"}}) {
+    refused([&] { session.run("stack_blocks", request); }, words);
+    refused([&] { session.plan("stack_blocks", request); }, words);
+    RunRequest many{.tasks = {"stack_blocks"}, .each = request};
+    refused([&] { session.run_all(many); }, words);
+    ResetRequest reset{.variation = request.variation, .seed = request.seed, .where = request.where};
+    reset.goal = request.goal;
+    refused([&] { environments->environment("stack_blocks", {}).reset(reset); }, words);
+  }
+  RunRequest both{.tasks = {"stack_blocks"}, .episodes = 2};
+  both.each.seed = 999'999;
+  refused([&] { session.run_all(both); }, "seeds from 1000000 up belong to the test split");
+  refused([&] { session.evaluate({"stack_blocks"}, {.variation = "colour=plaid"}); }, "variation: task");
+  refused([&] { SessionCore("/nowhere", {}, ""); }, "root: '/nowhere' is not a folder");
+  refused([&] { SessionCore(STAMPEDE_SOURCE_DIR, {"/nowhere"}, ""); }, "paths: '/nowhere' is not a folder");
+  CHECK(without_flags("--on-failure: say --split test, or `stampede run --split test`") ==
+        "on_failure: say split test, or `stampede run --split test`");
+  CHECK(without_flags("chest--top_drawer -- no (--where)") == "chest--top_drawer -- no (where)");
 }
 
 TEST_CASE("a program asks for the plan of a start without executing it, and gets what the run then does") {

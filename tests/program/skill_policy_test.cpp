@@ -121,10 +121,7 @@ TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it
     CHECK_THAT(episode.detail, Catch::Contains(what));
     CHECK(episode.record->agent_actions.empty());
   }
-  const auto core = session(folder, R"(policy("nobody"),)");
-  const Episode episode = core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
-  CHECK_THAT(episode.detail, Catch::Contains("nobody has registered it"));
-  CHECK_THROWS_WITH(core->add_policy("", {}), Catch::Contains("has a name"));
+  CHECK_THROWS_WITH(session(folder, "policy(\"bad\"),")->add_policy("", {}), Catch::Contains("has a name"));
 
   // Time is up, or it says that it is done: the effect is tested.
   for (const bool waits : {true, false}) {
@@ -138,6 +135,37 @@ TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it
     const std::int64_t frames = waits ? 10 : 0;
     CHECK(idle.frames > frames);
   }
+}
+
+TEST_CASE("a policy that nobody registered is an error before anything runs") {
+  const Folder folder, files;
+  const std::string refused =
+      "skills/reach.lua: policy 'severo': nobody has registered it\n    did you mean 'servo'? a program registers";
+  for (const std::string run : {R"(policy("severo"),)", R"(function(robot) robot:policy 'severo' end,)"}) {
+    CAPTURE(run);
+    const auto made = std::make_shared<int>(0);
+    const auto core =
+        std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector{own_reach(folder, run)}, files / "none.db");
+    core->add_policy("servo", {.make = [made] { return ++*made, std::make_unique<Servo>(); }});
+    CHECK_THROWS_WITH(core->run("reach_target", {.seed = 4}), Catch::StartsWith(refused));
+    RunRequest request{.tasks = {"close_drawer", "reach_target"}, .workers = 2};
+    CHECK_THROWS_WITH(core->run_all(request), Catch::StartsWith(refused));
+    CHECK(core->query("SELECT count(*) AS n FROM episodes").integer(0, "n") == 0);
+    request.tasks = {"close_drawer"};  // which does without the skill
+    CHECK(core->run_all(request).finished == 1);
+    CHECK(*made == 0);
+    std::filesystem::remove(files / "none.db");
+  }
+  // A name that is told by nothing but the run itself: no episode comes of it either.
+  const auto core = session(folder, R"(function(robot) robot:policy("se" .. "vero") end,)");
+  CHECK_THROWS_WITH(core->run("reach_target", {.seed = 4}), Catch::Contains("nobody has registered it"));
+}
+
+TEST_CASE("a channel that there is not is an error of the program that registered the policy") {
+  const Folder folder;
+  const auto core = session(folder, R"(policy("servo"),)");
+  core->add_policy("servo", {.make = [] { return std::make_unique<Servo>(); }, .channels = {"griper_pose"}});
+  CHECK_THROWS_WITH(core->run("reach_target", {.seed = 4}), Catch::Contains("griper_pose"));
 }
 
 TEST_CASE("a policy may ask for paths and skills, between set-points") {

@@ -280,6 +280,13 @@ def test_save_and_restore_branch():
     assert info["seed"] == 1
     second = env.step(env.action_space.low)
     assert equal(first[0], second[0])
+    fresh = Env("reach_target")
+    now, info = fresh.restore(saved)
+    assert info["seed"] == 1 and info["instruction"]
+    assert equal(first[0], fresh.step(fresh.action_space.low)[0])
+    fresh.reset(seed=2)
+    fresh.restore(saved)  # whatever start is under way
+    assert equal(first[0], fresh.step(fresh.action_space.low)[0])
 
 
 def test_recorded_episodes_reach_the_catalogue(tmp_path):

@@ -208,6 +208,23 @@ def test_saved_states_branch_bit_for_bit() -> None:
         stampede.Action("joint_delta", "text")
 
 
+def test_a_saved_state_begins_a_fresh_environment() -> None:
+    session = stampede.Session()
+    first = session.environment("pick_and_lift", channels=["joint_positions"])
+    spaces = [space.name for space in first.spaces()]
+    assert "joint_delta" in spaces and first.frame_hz == 20 and first.skill_descriptions()
+    first.reset(stampede.Reset(seed=1))
+    assert [space.name for space in first.spaces()] == spaces
+    first.step(stampede.Action("joint_delta", np.full(7, 0.02)))
+    saved = first.save()
+    wanted = first.step(stampede.Action("joint_delta", np.full(7, 0.02))).observation["joint_positions"]
+    for begin in ("reset", "restore"):
+        fresh = session.environment("pick_and_lift", channels=["joint_positions"])
+        getattr(fresh, begin)(saved)
+        now = fresh.step(stampede.Action("joint_delta", np.full(7, 0.02))).observation["joint_positions"]
+        assert np.array_equal(now, wanted)
+
+
 def test_what_an_environment_says_of_itself() -> None:
     channels = ["joint_positions", "front_rgb", "front_camera_intrinsics"]
     world = stampede.Session().environment("pick_and_lift", channels=channels, width=40, height=30, horizon_s=7)

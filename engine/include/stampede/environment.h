@@ -9,6 +9,7 @@
 //   }
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -84,7 +85,7 @@ struct EnvironmentSettings {
 };
 
 // A moment to which an environment can go back. Lifetime: a value; it outlives the environment, and restores into any
-// environment of the same task at the same variation, seed and settings.
+// environment of the same task and settings: one that stands at the same start, or at none yet.
 class STAMPEDE_EXPORT SavedState {
  public:
   struct Data;
@@ -180,19 +181,25 @@ class STAMPEDE_EXPORT Environment {
   Environment& operator=(Environment&&) noexcept;
 
   EnvironmentObservation reset(const ResetRequest& request = {});
-  EnvironmentObservation reset(const SavedState& state);  // as restore
+  // As restore; where another start is under way, or its episode has been taken, that of the state is made first. For
+  // a SavedState alone, so that `reset({})` means the request.
+  template <std::same_as<SavedState> State>
+  EnvironmentObservation reset(const State& state) {
+    return reset_to(state);
+  }
 
   // After the end, and for what cannot be done, the result holds a refusal and nothing has changed.
   StepResult step(const AgentAction& action);
 
-  double frame_hz() const;                        // steps of set-points a second
-  double horizon_s() const;                       // simulated; the episode is truncated then
-  std::vector<std::string> instructions() const;  // what the task is called in words, for this start
-
+  // Known from the beginning; before the first reset they are those of the first variation.
+  double frame_hz() const;   // steps of set-points a second
+  double horizon_s() const;  // simulated; the episode is truncated then
   std::vector<ActionSpace> spaces() const;
+  std::vector<SkillDescription> skill_descriptions() const;
+
+  std::vector<std::string> instructions() const;  // what the task is called in words, for this start
   // Every ground skill of the scene, in a fixed order, with what can be done now: an action mask.
   std::vector<SkillChoice> skills() const;
-  std::vector<SkillDescription> skill_descriptions() const;
 
   EnvironmentObservation observe() const;
   // What a camera sees now, without noise: colours, height x width x 3. Only this is drawn, whatever the channels are.
@@ -210,6 +217,8 @@ class STAMPEDE_EXPORT Environment {
   Episode episode();
 
  private:
+  EnvironmentObservation reset_to(const SavedState& state);
+
   std::unique_ptr<Impl> impl_;
 };
 

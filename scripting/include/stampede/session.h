@@ -85,8 +85,8 @@ class STAMPEDE_EXPORT Session {
   // Of the request only variation, seed, where and goal matter. Repeatable.
   TaskPlan plan(const std::string& task, const EpisodeRequest& request = {}) const;
 
-  // One SELECT, or the name of a ready question, over the catalogue's views.
-  Rows query(std::string_view question) const;
+  // One SELECT, or the name of a ready question, over the catalogue's views. `parameters`: for ?1, ?2 …
+  Rows query(std::string_view question, const std::vector<SqlValue>& parameters = {}) const;
 
   // An episode is named by what `run` gave, or by its number in the catalogue.
 

@@ -380,6 +380,18 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
           },
           "request"_a = ResetRequest{}, "A start. Raises Error for one that cannot be made.")
       .def(
+          "reset",
+          [](PyEnvironment& self, const SavedState& state) {
+            const Using use(self.turn, "Environment.reset");
+            EnvironmentObservation now;
+            {
+              const Released free;
+              now = self->reset(state);
+            }
+            return to_python(std::move(now));
+          },
+          "state"_a, "A saved state, whatever start is under way.")
+      .def(
           "step",
           [](PyEnvironment& self, const AgentAction& action) {
             const Using use(self.turn, "Environment.step");
@@ -415,7 +427,8 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
           "Steps of set-points a second.")
       .def_prop_ro(
           "horizon_s", [](const PyEnvironment& self) { return asked(self, "horizon_s", &Environment::horizon_s); },
-          "Simulated; the episode is truncated then.")
+          "Simulated; the episode is truncated then. Before the first reset: of the first variation, as frame_hz, "
+          "spaces and skill_descriptions.")
       .def(
           "instructions",
           [](const PyEnvironment& self) { return asked(self, "instructions", &Environment::instructions); },

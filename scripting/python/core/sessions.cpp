@@ -408,16 +408,18 @@ torque_model: see EnvironmentSettings of stampede/environment.h.)")
           "task"_a, "request"_a, "The plan for the start that `run` would make. variation, seed, where, goal matter.")
       .def(
           "query",
-          [](const PySession& self, const std::string& question) {
+          [](const PySession& self, const std::string& question, const nb::sequence& parameters) {
             const Using use(self.turn, "Session.query");
+            std::vector<SqlValue> values;
+            for (const nb::handle one : parameters) values.push_back(sql_value(one));
             Rows rows;
             {
               const Released free;
-              rows = self->query(question);
+              rows = self->query(question, values);
             }
             return nb::make_tuple(rows.columns, rows_of(rows));
           },
-          "question"_a)
+          "question"_a, "parameters"_a = nb::tuple(), "Names of columns, and rows. parameters: for ?1, ?2 …")
       .def(
           "arrays",
           [](const PySession& self, const Episode& episode, std::vector<std::string> columns) {

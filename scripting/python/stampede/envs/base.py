@@ -146,6 +146,10 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         """Frames a second; a set-point lasts one."""
         return self.metadata["render_fps"]
 
+    @property
+    def _horizon(self) -> int:
+        return round(self._environment.horizon_s * self.frame_hz)
+
     @alone
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
@@ -162,8 +166,7 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         self._kept = False
         self._start, raw = self._starts.begin(self.np_random, seed, options or {}, self._environment.reset)
         self._codec.check(raw)
-        horizon = round(self._environment.horizon_s * self.frame_hz)
-        info = self._account.begin(self._start, raw, horizon, self._environment.instructions())
+        info = self._account.begin(self._start, raw, self._horizon, self._environment.instructions())
         return self._codec(raw), info
 
     @alone
@@ -196,9 +199,14 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
 
     @alone
     def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
-        """Goes back to a moment of an episode of the same start; gives what reset gives, at that moment."""
-        self._check_begun("restore")
-        raw = self._environment.restore(saved.state)
+        """Goes to a moment of an episode of the same task, whatever start is under way; gives what reset gives, there."""
+        self._check_open("restore")
+        if self._account.begun and self._start == saved.start and not self._kept:
+            raw = self._environment.restore(saved.state)
+            return self._codec(raw), self._account.go_back(raw, saved.motionless)
+        raw = self._environment.reset(saved.state)
+        self._start, self._kept = saved.start, False
+        self._account.begin(saved.start, raw, self._horizon, self._environment.instructions())
         return self._codec(raw), self._account.go_back(raw, saved.motionless)
 
     @alone

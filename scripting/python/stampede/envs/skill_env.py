@@ -10,7 +10,7 @@ from stampede import _core
 
 from .account import skill_text
 from .alone import alone
-from .base import EpisodeEnv, Result, Settings
+from .base import EpisodeEnv, Result, SavedEpisode, Settings
 from stampede.faults import fault
 from .sessions import PathLike
 from .spaces import Observation, box_within
@@ -123,16 +123,22 @@ class SkillEnv(EpisodeEnv):
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        observation, info = super().reset(seed=seed, options=options)
+        return self._of_same_skills(super().reset(seed=seed, options=options))
+
+    @alone
+    def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
+        return self._of_same_skills(super().restore(saved))
+
+    def _of_same_skills(self, begun: tuple[Observation, dict[str, Any]]) -> tuple[Observation, dict[str, Any]]:
         now = [(choice.skill, list(choice.arguments)) for choice in self._environment.skills()]
         if now != self._choices:
             self._account.end()
             raise fault(
                 f"task '{self.task}'",
-                f"variation '{info['variation']}' has other ground skills than the first",
+                f"variation '{begun[1]['variation']}' has other ground skills than the first",
                 "fix the variation with variation=",
             )
-        return observation, info
+        return begun
 
     def action_masks(self) -> np.ndarray:
         """Which actions can be done now: bool, one an entry of `skill_names`, at least one of them True.
