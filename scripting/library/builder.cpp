@@ -19,10 +19,10 @@ std::pair<std::string, int> place_of(const Error& error) {
 
 }  // namespace
 
-LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, const BuilderOptions& options)
-    : complaints_(complaints), most_variations_(options.most_variations), library_(std::make_shared<Library>()) {
+LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, BuilderOptions options)
+    : options_(std::move(options)), complaints_(complaints), library_(std::make_shared<Library>()) {
   library_->roots_ = roots;
-  for (const ScriptFile& file : options.left_out) left_out_.push_back(file.shown_path);
+  for (const ScriptFile& file : options_.left_out) left_out_.push_back(file.shown_path);
 }
 
 std::shared_ptr<Library> LibraryBuilder::build() {

@@ -34,14 +34,18 @@ struct SceneObject {
 };
 using SceneObjects = std::map<std::string, SceneObject>;
 
+// Of which tasks many variations are tried, not a few.
+enum class Thorough { none, named, all };
+
 struct BuilderOptions {
-  std::size_t most_variations;            // of a task that are tried: the first, and others at equal distances
+  Thorough thorough = Thorough::none;
+  std::vector<std::string> named = {};
   std::vector<ScriptFile> left_out = {};  // files that are read as if they were not there
 };
 
 class LibraryBuilder {
  public:
-  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, const BuilderOptions& options);
+  LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, BuilderOptions options);
   std::shared_ptr<Library> build();
 
  private:
@@ -138,6 +142,8 @@ class LibraryBuilder {
 
   // check_tasks.cpp, variations.cpp
   void read_tasks();
+  std::size_t most_variations(
+      const std::string& task) const;  // that are tried: the first, and others at equal distances
   void read_task(const Definition& definition);
   std::vector<Value> variations_of(const Definition& definition, DefinitionState& state);
   void check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
@@ -149,8 +155,8 @@ class LibraryBuilder {
   void check_instructions(const Definition& definition, const Value& texts, const Value& variation);
   void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 
+  BuilderOptions options_;
   std::vector<Error>& complaints_;
-  std::size_t most_variations_;        // of a task that are tried
   std::vector<std::string> left_out_;  // as shown
   std::shared_ptr<Library> library_;
   std::map<DefinitionKind, Definitions> definitions_;

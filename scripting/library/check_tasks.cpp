@@ -9,6 +9,7 @@
 namespace stampede {
 namespace {
 
+constexpr std::size_t kManyVariations = 240, kFewVariations = 3;
 constexpr SandboxLimits kLimits{5'000'000, 32u << 20};
 
 std::string with_context(const std::string& what, const std::string& text, std::size_t count) {
@@ -45,6 +46,14 @@ void LibraryBuilder::read_tasks() {
   }
 }
 
+std::size_t LibraryBuilder::most_variations(const std::string& task) const {
+  const auto& named = options_.named;
+  const bool thorough =
+      options_.thorough == Thorough::all ||
+      (options_.thorough == Thorough::named && std::find(named.begin(), named.end(), task) != named.end());
+  return thorough ? kManyVariations : kFewVariations;
+}
+
 void LibraryBuilder::read_task(const Definition& definition) {
   DefinitionState state(library_, kLimits);
   Library::TaskInfo info;
@@ -76,7 +85,7 @@ void LibraryBuilder::read_task(const Definition& definition) {
   if (texts.is_text()) info.instructions.push_back(texts.text);
   for (const Value& text : texts.items) info.instructions.push_back(text.text);
   const bool world_known = worlds.contains(info.world);  // otherwise every name of its fixtures would be a complaint
-  const std::size_t stride = variations.size() / most_variations_ + 1;
+  const std::size_t stride = variations.size() / most_variations(info.name) + 1;
   for (std::size_t i = 0; world_known && i < variations.size(); i += stride) {
     const std::size_t before = complaints_.size();
     check_variation(definition, state, variations[i], variations.size() > 1 ? info.variation_texts[i] : std::string());

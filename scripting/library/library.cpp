@@ -14,8 +14,6 @@ std::string all_texts(const std::vector<Error>& errors) {
   return text;
 }
 
-constexpr std::size_t kFewVariations = 3, kManyVariations = 240;  // of a task
-
 }  // namespace
 
 bool is_about(const Error& error, const ScriptFile& file) {
@@ -27,13 +25,14 @@ LibraryError::LibraryError(std::vector<Error> errors) : Error({}, all_texts(erro
 
 std::shared_ptr<const Library> Library::load(const Roots& roots) {
   std::vector<Error> complaints;
-  std::shared_ptr<const Library> library = LibraryBuilder(roots, complaints, {kFewVariations}).build();
+  std::shared_ptr<const Library> library = LibraryBuilder(roots, complaints, {}).build();
   if (!complaints.empty()) throw LibraryError(std::move(complaints));
   return library;
 }
 
-std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints) {
-  return LibraryBuilder(roots, complaints, {kManyVariations}).build();
+std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints,
+                                             const std::vector<std::string>& tasks) {
+  return LibraryBuilder(roots, complaints, {tasks.empty() ? Thorough::all : Thorough::named, tasks}).build();
 }
 
 namespace {
@@ -51,7 +50,7 @@ std::shared_ptr<const Library> Library::load_usable(const Roots& roots) {
   std::vector<std::vector<Error>> rounds;
   for (;;) {
     std::vector<Error> complaints;
-    const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints, {kFewVariations, left_out}).build();
+    const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints, {.left_out = left_out}).build();
     const std::size_t before = left_out.size();
     std::vector<Error> shared;
     for (const Error& error : complaints) {

@@ -56,9 +56,10 @@ class Library {
   // Throws LibraryError with all complaints. Of each task's variations a few are tried; a run says what is wrong with
   // those that it meets.
   static std::shared_ptr<const Library> load(const Roots& roots);
-  // As load, but complaints are returned and the sound files kept, and up to 240 variations of each task are tried (for
-  // `stampede check`).
-  static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints);
+  // As load, but complaints are returned and the sound files kept, and up to 240 variations are tried (for `stampede
+  // check`) of each task, or of these alone.
+  static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints,
+                                             const std::vector<std::string>& tasks = {});
 
   // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see
   // require_sound. What every task shares must be right: types, colours, and what replaces a file of an earlier root.

@@ -69,7 +69,7 @@ TEST_CASE("a mesh is found inside the roots, and nowhere else") {
   const std::string up = "../../../" + std::filesystem::path(elsewhere.text()).filename().string() + "/m.obj";
   for (const std::string& name : {elsewhere / "m.obj", up, std::string("gone.obj")}) {
     put(mine, "worlds/objects/thing.lua", object_with("shape = mesh { \"" + name + "\" }"));
-    for (const Said& said : {checked(mine), ran(mine)}) {
+    for (const Said& said : {checked(mine, {"t"}), ran(mine)}) {
       INFO(name << "\n" << told(said));
       CHECK(said.code == kBadInput);
       CHECK(says(told(said), "worlds/objects/thing.lua:"));
@@ -77,10 +77,10 @@ TEST_CASE("a mesh is found inside the roots, and nowhere else") {
     }
   }
   put(mine, "worlds/objects/thing.lua", object_with("shape = mesh { \"m.obj\" }"));
-  CHECK(checked(mine).code == kDone);
+  CHECK(checked(mine, {"t"}).code == kDone);
   std::filesystem::create_symlink(elsewhere / "m.obj", mine / "worlds/objects/link.obj");
   put(mine, "worlds/objects/thing.lua", object_with("shape = mesh { \"link.obj\" }"));
-  CHECK(says(told(checked(mine)), "outside the roots"));
+  CHECK(says(told(checked(mine, {"t"})), "outside the roots"));
 }
 
 TEST_CASE("what would cost too much is said before it costs anything") {
@@ -90,13 +90,13 @@ TEST_CASE("what would cost too much is said before it costs anything") {
   for (int i = 0; i < 5000; ++i) rings += " { 0.02, " + std::to_string(0.00001 * i) + " },";
   put(mine, "tasks/t.lua", task_with(""));
   put(mine, "worlds/objects/thing.lua", object_with(boxes + " }"));
-  CHECK(says(told(checked(mine)), "2000 shapes"));
+  CHECK(says(told(checked(mine, {"t"})), "2000 shapes"));
   put(mine, "worlds/objects/thing.lua", object_with(rings + " }"));
-  CHECK(says(told(checked(mine)), "lathe of 5000 rings"));
+  CHECK(says(told(checked(mine, {"t"})), "lathe of 5000 rings"));
   put(mine, "worlds/objects/thing.lua", object_with("shape = box { 0.04, 0.04, 0.04 }"));
-  CHECK(checked(mine).code == kDone);
+  CHECK(checked(mine, {"t"}).code == kDone);
   put(mine, "worlds/fast.lua", "-- A world.\nreturn world { robot = { \"panda\" }, physics_hz = 240000 }\n");
-  CHECK(says(told(checked(mine)), "240000 Hz is beyond what is simulated"));
+  CHECK(says(told(checked(mine, {"fast"})), "240000 Hz is beyond what is simulated"));
 }
 
 TEST_CASE("a skill that runs itself ends the skill, not the program") {

@@ -53,8 +53,12 @@ inline void put(const Folder& folder, const std::string& name, const std::string
   std::ofstream(folder / name, std::ios::binary) << text;
 }
 
-// `stampede check` of scripts of one's own beside what ships.
-inline Said checked(const Folder& mine) { return say({"check", "--root", kRoot, "--path", mine.text()}); }
+// What `check` says of these files, or of all, where this folder is added to those that ship.
+inline Said checked(const Folder& mine, const std::vector<std::string>& names = {}) {
+  std::vector<std::string> words = {"check", "--root", kRoot, "--path", mine.text()};
+  words.insert(words.end(), names.begin(), names.end());
+  return say(words);
+}
 
 inline std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
