@@ -1,8 +1,11 @@
 -- Switch the table lamp, which is lit, off by the button on its foot.
+local lamps = require "worlds.lib.lamps"
+
 return task {
   world = "tabletop",
   objects = {
-    lamp = { "lit_table_lamp", at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 }, yaw = between(-math.pi, math.pi) },
+    lamp = { "table_lamp", shapes = lamps.shapes(true), at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 },
+      yaw = between(-math.pi, math.pi) },
   },
   init = { is_not.pressed("lamp.button") },
   goal = is.pressed("lamp.button"),

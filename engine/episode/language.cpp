@@ -29,8 +29,38 @@ std::string place_words(const Scene& scene, const Object& region) {
   const auto number = static_cast<std::size_t>(std::stoi(name.substr(digits)));
   if (number < 1 || number > kOrdinals.size()) return spaced(name);
   const bool several = scene.object(owner + stem + (number == 1 ? "2" : "1")) != nullptr;
-  if (!several) return spaced(name);
-  return std::string(kOrdinals[number - 1]) + " " + spaced(stem) + (region.type == "region" ? " place" : "");
+  if (!several && number > 1) return spaced(name);
+  const std::string place = spaced(stem) + (region.type == "region" ? " place" : "");
+  return several ? std::string(kOrdinals[number - 1]) + " " + place : place;
+}
+
+// `wide_block`: wide red block; `numbered_block_1`: numbered block one.
+std::string class_words(const std::string& class_name, const std::string& colour) {
+  static const std::set<std::string> kBeforeColours{"small", "large", "big",   "little", "wide",  "narrow", "tall",
+                                                    "long",  "short", "thick", "thin",   "round", "square", "flat"};
+  constexpr std::array kCardinals = {"one",   "two",   "three", "four", "five",   "six",
+                                     "seven", "eight", "nine",  "ten",  "eleven", "twelve"};
+  std::string text = spaced(class_name);
+  const std::size_t digits = text.find_last_not_of("0123456789") + 1;
+  if (digits > 1 && digits < text.size() && text.size() - digits <= 2 && text[digits - 1] == ' ') {
+    const auto number = static_cast<std::size_t>(std::stoi(text.substr(digits)));
+    if (number >= 1 && number <= kCardinals.size()) text = text.substr(0, digits) + kCardinals[number - 1];
+  }
+  if (colour.empty()) return text;
+  const std::size_t space = text.find(' ');
+  if (space == std::string::npos || !kBeforeColours.contains(text.substr(0, space))) return spaced(colour) + " " + text;
+  return text.substr(0, space + 1) + spaced(colour) + text.substr(space);
+}
+
+std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
+
+// The left tap of a basin tap is the left tap of the basin, and the peg of a square peg the square peg itself.
+std::string part_of_whole(const std::string& part, const std::string& whole, bool region) {
+  if (last_word(part) != last_word(whole)) return part + " of the " + whole;
+  if (region && part == last_word(whole)) return whole;
+  const std::size_t space = whole.rfind(' ');
+  return space == std::string::npos || part == last_word(whole) ? part + " of the " + whole
+                                                                : part + " of the " + whole.substr(0, space);
 }
 
 std::string words(const Scene& scene, const Object& thing) {
@@ -40,11 +70,11 @@ std::string words(const Scene& scene, const Object& thing) {
     const Object* whole = scene.object(thing.name.substr(0, dot));
     const std::string part =
         thing.kind == ObjectKind::region ? place_words(scene, thing) : spaced(thing.name.substr(dot + 1));
-    return whole == nullptr ? part : part + " of the " + words(scene, *whole);
+    return whole == nullptr ? part : part_of_whole(part, words(scene, *whole), thing.kind == ObjectKind::region);
   }
   const auto colour = thing.attributes.find("colour");
-  const std::string name = spaced(thing.class_name.empty() ? thing.name : thing.class_name);
-  return colour == thing.attributes.end() ? name : spaced(colour->second) + " " + name;
+  return class_words(thing.class_name.empty() ? thing.name : thing.class_name,
+                     colour == thing.attributes.end() ? "" : colour->second);
 }
 
 constexpr double kHigher_m = 0.03;  // by so much one of them is above another
@@ -138,12 +168,19 @@ std::string fill(const std::string& text, const std::vector<Parameter>& paramete
 
 namespace {
 
-// A region of a body, and that body or another of its parts: how it is made, and nobody's news.
+// Regions and parts of one body: how it is made, and nobody's news.
 bool of_one_body(const Scene& scene, const Fact& fact) {
   if (fact.arguments.size() != 2) return false;
-  const Object &first = *scene.object(fact.arguments[0]), &second = *scene.object(fact.arguments[1]);
-  return (first.kind == ObjectKind::region || second.kind == ObjectKind::region) && !first.body.empty() &&
-         first.body == second.body;
+  const Object *first = scene.object(fact.arguments[0]), *second = scene.object(fact.arguments[1]);
+  return first != nullptr && second != nullptr && !first->body.empty() && first->body == second->body;
+}
+
+// What follows of a place from how its body is made and which of its doors are shut: that something is before a shelf.
+bool follows_from_make(const Facts& facts, const Predicate& predicate, const Scene& scene, const Fact& fact) {
+  return predicate.kind == PredicateKind::derived && fact.arguments.size() == 1 &&
+         std::any_of(facts.begin(), facts.end(), [&](const Fact& other) {
+           return of_one_body(scene, other) && other.arguments[0] == fact.arguments[0];
+         });
 }
 
 }  // namespace
@@ -173,7 +210,7 @@ std::vector<std::string> describe_world(const Facts& facts, const Domain& domain
     if (predicate == nullptr || predicate->label.empty()) continue;
     const bool known = std::all_of(fact.arguments.begin(), fact.arguments.end(),
                                    [&](const std::string& name) { return scene.object(name) != nullptr; });
-    if (known && !of_one_body(scene, fact))
+    if (known && !of_one_body(scene, fact) && !follows_from_make(facts, *predicate, scene, fact))
       sentences.push_back(fill(predicate->label, predicate->parameters, fact.arguments, scene));
   }
   return sentences;

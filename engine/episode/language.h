@@ -25,8 +25,8 @@ std::string fill(const std::string& text, const std::vector<Parameter>& paramete
 // shut drawer nothing is said, not even that it is on the drawer's floor.
 Facts mentionable(const Facts& holds, const Facts& known, const Domain& domain, const Scene& scene);
 
-// One sentence a fact that a person would mention: basic and derived facts with a label; nothing on where a region of a
-// thing is seen from that thing.
+// One sentence a fact that a person would mention: basic and derived facts with a label; nothing on where a region or a
+// part of a thing is seen from that thing, nor of what follows from that.
 std::vector<std::string> describe_world(const Facts& facts, const Domain& domain, const Scene& scene);
 
 }  // namespace stampede

@@ -299,7 +299,6 @@
 ---| "knife_block"
 ---| "laptop"
 ---| "lidded_box"
----| "lit_table_lamp"
 ---| "microwave"
 ---| "money"
 ---| "mug"

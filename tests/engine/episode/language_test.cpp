@@ -86,6 +86,29 @@ TEST_CASE("numbered places of a thing are called as a person would") {
   CHECK(phrase(scene, "table.d7") == "square d7 of the table");
   CHECK(phrase(scene, "table.slot") == "slot of the table");
   CHECK(phrase(scene, "table.row12") == "row 12 of the table");  // the only one
+  add_region(scene, "table.top1");
+  CHECK(phrase(scene, "table.top1") == "top place of the table");
+}
+
+TEST_CASE("sizes stand before colours, numbers of kinds are words, and no word is said twice") {
+  Scene scene = table_scene(1);
+  const auto called = [&](const char* class_name, const char* colour, const std::string& part = {}) {
+    Scene named = scene;
+    for (Object& object : named.objects)
+      if (object.name == "cube1") {
+        object.class_name = class_name;
+        object.attributes.clear();
+        if (*colour != 0) object.attributes["colour"] = colour;
+      }
+    if (!part.empty()) add_region(named, "cube1." + part);
+    return phrase(named, part.empty() ? "cube1" : "cube1." + part);
+  };
+  CHECK(called("wide_block", "red") == "wide red block");
+  CHECK(called("push_button", "red") == "red push button");
+  CHECK(called("numbered_block_2", "") == "numbered block two");
+  CHECK(called("square_peg", "olive", "peg") == "square olive peg");
+  CHECK(called("basin_tap", "", "left_tap") == "left tap of the basin");
+  CHECK(called("chest", "", "drawer") == "drawer of the chest");
 }
 
 TEST_CASE("nothing is said of what is hidden, nor of a thing's own regions") {
@@ -104,6 +127,12 @@ TEST_CASE("nothing is said of what is hidden, nor of a thing's own regions") {
   declare("behind", "the {a} is behind the {b}");
   const Fact hides{"inside", {"cube1", "table.inside"}}, lies{"on", {"cube1", "table"}};
   const Fact open{"on", {"cube2", "table"}}, own{"behind", {"table.inside", "table"}};
+  Predicate blocked;
+  blocked.name = "blocked", blocked.label = "something is before the {a}", blocked.kind = PredicateKind::derived;
+  blocked.parameters = {{"a", "", {}}};
+  domain.predicates.push_back(blocked);
+  const Facts made = {own, {"blocked", {"table.inside"}}, {"blocked", {"cube1"}}};
+  CHECK(describe_world(made, domain, scene) == std::vector<std::string>{"something is before the right cube"});
   const Facts holds = {hides, lies, open, own};
   CHECK(mentionable(holds, {lies, open, own}, domain, scene) == Facts{open, own});
   CHECK(mentionable(holds, holds, domain, scene) == holds);  // seen, or told
