@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
+#include "engine/episode/said.h"
 #include "engine/model/randomise.h"
 
 namespace stampede {
@@ -113,12 +114,8 @@ void move_joints(Robot& robot, double reach_rad, RandomKey key) {
 std::vector<std::string> some_things(const Scene& scene, double share, RandomKey key) {
   if (share >= 1) return {"*"};
   std::vector<std::string> names;
-  for (const Body& body : scene.bodies) {
-    const bool told_by_colour = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-      return object.body == body.name && object.attributes.contains("colour");
-    });
-    if (!told_by_colour && Random(key.with(body.name)).uniform() < share) names.push_back(body.name);
-  }
+  for (const Body& body : scene.bodies)
+    if (Random(key.with(body.name)).uniform() < share) names.push_back(body.name);
   if (Random(key.with("robot")).uniform() < share) names.emplace_back("robot");
   return names;
 }
@@ -164,10 +161,12 @@ std::string to_text(const Perturbation& perturbation) {
   return text;
 }
 
-void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key) {
+void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key) { perturb(scene, perturbation, key, {}); }
+
+void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key, const Said& said) {
   const auto strength = [&](PerturbationAxis axis) { return strength_of(perturbation, axis); };
   const auto draw = [&](PerturbationAxis axis, const Randomisation& ranges) {
-    if (strength(axis) > 0) randomise(scene, ranges, key.with(to_string(axis)));
+    if (strength(axis) > 0) randomise(scene, ranges, key.with(to_string(axis)), said);
   };
   Randomisation camera;
   camera.camera_position_m = kCamera_m * strength(PerturbationAxis::camera);

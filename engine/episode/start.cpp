@@ -10,6 +10,7 @@
 #include "engine/episode/constraints.h"
 #include "engine/episode/fact_tracker.h"
 #include "engine/episode/joint_placement.h"
+#include "engine/episode/said.h"
 #include "engine/model/camera.h"
 #include "engine/motion/looked.h"
 #include "engine/sim/overlap.h"
@@ -353,8 +354,11 @@ class StartMaker {
     put_cameras(scene, options_.cameras);
     const RandomKey key = RandomKey("dress").with(task_.name).with(task_.variation).with(options_.seed);
     const std::optional<Randomisation> own = task_.randomisation;
-    if (const auto& ranges = own ? own : options_.randomise) randomise(scene, *ranges, key.with("looks").with(draw));
-    perturb(scene, options_.perturb, key.with("perturb").with(draw));
+    Said said = task_.instructions;
+    for (const Subgoal& subgoal : task_.subgoals) said.push_back(subgoal.sentence);
+    if (const auto& ranges = own ? own : options_.randomise)
+      randomise(scene, *ranges, key.with("looks").with(draw), said);
+    perturb(scene, options_.perturb, key.with("perturb").with(draw), said);
     number_masks(scene, key.with("masks"));
   }
 

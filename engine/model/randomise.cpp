@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/model/telling.h"
 
 namespace stampede {
 namespace {
@@ -27,14 +29,6 @@ const Object* whole_object(const Scene& scene, const std::string& body) {
 bool is_of_class(const Scene& scene, const std::string& body, const std::string& class_name) {
   const Object* object = whole_object(scene, body);
   return object != nullptr && object->class_name == class_name;
-}
-
-// Its colour tells it from others: instructions name it.
-bool has_telling_colour(const Scene& scene, const std::string& body, int part) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-    const bool meant = object.kind == ObjectKind::body || (object.kind == ObjectKind::part && object.part == part);
-    return meant && object.body == body && object.attributes.contains("colour");
-  });
 }
 
 // Which things a list of names means. `all` is set by `*`.
@@ -125,51 +119,107 @@ std::string free_name(const Scene& scene, const std::string& wish) {
   return name;
 }
 
-// One draw for each part, so that a drawer can still be told from its chest.
-void draw_looks(Scene& scene, Part& part, const std::string& wish, const Randomisation& ranges, RandomKey key) {
-  const auto visible = [](const Shape& shape) { return shape.visible; };
-  if (std::none_of(part.shapes.begin(), part.shapes.end(), visible)) return;
+struct Look {
+  std::string texture;  // a name of the scene's, of one of the procedural kinds, or plain
+  std::array<Colour, 2> colours;
+  double size_m = 0;
+  int seed = 0;
+};
+
+bool is_procedural(const std::string& texture) {
+  return std::find(kProcedural.begin(), kProcedural.end(), texture) != kProcedural.end();
+}
+
+Look drawn_look(const Randomisation& ranges, RandomKey key) {
   Random random(key);
-  const std::array<Colour, 2> colours = two_colours(ranges.colours, random);
-  std::string texture = ranges.textures.empty() ? kPlain : ranges.textures[index_below(ranges.textures.size(), random)];
-  const bool plain = texture == kPlain;
+  Look look;
+  look.colours = two_colours(ranges.colours, random);
+  look.texture = ranges.textures.empty() ? kPlain : ranges.textures[index_below(ranges.textures.size(), random)];
+  if (!is_procedural(look.texture)) return look;
+  look.size_m = random.between(kRepeat[0], kRepeat[1]);
+  look.seed = static_cast<int>(random.below(1 << 30));
+  return look;
+}
+
+std::vector<Colour> shown(const Look& look) {
+  if (look.texture == kPlain) return {look.colours[0]};
+  return is_procedural(look.texture) ? std::vector<Colour>{look.colours[0], look.colours[1]} : std::vector<Colour>{};
+}
+
+// By how much it stands out from all of these.
+double clearance(const Look& look, const std::vector<Colour>& standing) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Colour& own : shown(look))
+    for (const Colour& other : standing) least = std::min(least, difference(own, other));
+  return least;
+}
+
+// The first that stands out enough, or else the one of many that does most.
+Look look_apart(const std::vector<Colour>& standing, const Randomisation& ranges, RandomKey key) {
+  constexpr double kEnough = 25;
+  constexpr int kTries = 64;
+  Look best = drawn_look(ranges, key);
+  double most = clearance(best, standing);
+  for (int i = 1; i < kTries && most < kEnough; ++i) {
+    Look look = drawn_look(ranges, key.with(i));
+    const double apart = clearance(look, standing);
+    if (apart > most) best = std::move(look), most = apart;
+  }
+  return best;
+}
+
+void wear(Scene& scene, Part& part, const std::vector<std::size_t>& shapes, const Look& look, const std::string& wish) {
+  const bool plain = look.texture == kPlain;
+  std::string texture = look.texture;
   const auto kind = std::find(kProcedural.begin(), kProcedural.end(), texture);
   if (kind != kProcedural.end()) {
     Texture drawn;
     drawn.kind = std::array{TextureKind::checker, TextureKind::stripes, TextureKind::noise}.at(
         static_cast<std::size_t>(kind - kProcedural.begin()));
-    drawn.first = colours[0], drawn.second = colours[1];
-    drawn.size_m = random.between(kRepeat[0], kRepeat[1]);
-    drawn.seed = static_cast<int>(random.below(1 << 30));
+    drawn.first = look.colours[0], drawn.second = look.colours[1];
+    drawn.size_m = look.size_m, drawn.seed = look.seed;
     texture = free_name(scene, wish);
     scene.textures[texture] = drawn;
   }
-  for (Shape& shape : part.shapes) {
-    if (!shape.visible) continue;
+  for (const std::size_t i : shapes) {
+    Shape& shape = part.shapes[i];
     const double alpha = shape.colour.alpha;
-    shape.colour = plain ? colours[0] : Colour{1, 1, 1, 1};
+    shape.colour = plain ? look.colours[0] : Colour{1, 1, 1, 1};
     shape.colour.alpha = alpha;
     shape.texture = plain ? "" : texture;
   }
 }
 
-void draw_body_looks(Scene& scene, Body& body, const std::string& name, bool all_only, const Randomisation& ranges,
-                     RandomKey key) {
+// One draw for each part, so that a drawer can still be told from its chest.
+void draw_body_looks(Scene& scene, Body& body, const Body& before, const std::string& name, const Telling& telling,
+                     const Randomisation& ranges, RandomKey key) {
+  const std::vector<Colour> standing = telling.standing(before);
+  std::vector<std::vector<Colour>> worn(body.parts.size());
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    if (all_only && has_telling_colour(scene, name, static_cast<int>(i))) continue;
     Part& part = body.parts[i];
-    const std::string wish = "random_" + name + (i == 0 ? "" : "_" + part.name);
-    draw_looks(scene, part, wish, ranges, key.with(name).with(part.name));
+    const std::vector<std::size_t> shapes = telling.ground(before, i);
+    if (shapes.empty()) continue;
+    std::vector<Colour> others = standing;
+    if (i > 0) {
+      const std::vector<Colour>& parent = worn[static_cast<std::size_t>(std::max(part.parent, 0))];
+      others.insert(others.end(), parent.begin(), parent.end());
+    }
+    const Look look = look_apart(others, ranges, key.with(name).with(part.name));
+    worn[i] = shown(look);
+    wear(scene, part, shapes, look, "random_" + name + (i == 0 ? "" : "_" + part.name));
   }
 }
 
-void randomise_looks(Scene& scene, const Randomisation& ranges, RandomKey key) {
+void randomise_looks(Scene& scene, const Randomisation& ranges, RandomKey key, const Said& said) {
   const Meant meant = meant_by(scene, ranges.looks, "looks");
-  for (Body& body : scene.bodies)
-    if (const bool named = meant.bodies.contains(body.name); named || meant.all)
-      draw_body_looks(scene, body, body.name, !named, ranges, key);
+  if (ranges.looks.empty()) return;
+  const Scene before = scene;
+  const Telling telling(before, said);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (Body& body = scene.bodies[i]; meant.all || meant.bodies.contains(body.name))
+      draw_body_looks(scene, body, before.bodies[i], body.name, telling, ranges, key);
   if (meant.robot || meant.all)
-    draw_body_looks(scene, scene.robot.body, scene.robot.name, !meant.robot, ranges, key.with(kRobot));
+    draw_body_looks(scene, scene.robot.body, before.robot.body, scene.robot.name, telling, ranges, key.with(kRobot));
 }
 
 // --- light and cameras
@@ -242,10 +292,12 @@ Randomisation default_randomisation() {
   return ranges;
 }
 
-void randomise(Scene& scene, const Randomisation& ranges, RandomKey key) {
+void randomise(Scene& scene, const Randomisation& ranges, RandomKey key) { randomise(scene, ranges, key, {}); }
+
+void randomise(Scene& scene, const Randomisation& ranges, RandomKey key, const Said& said) {
   check(scene, ranges);
   Scene drawn = scene;  // an error leaves the scene as it was
-  randomise_looks(drawn, ranges, key.with("looks"));
+  randomise_looks(drawn, ranges, key.with("looks"), said);
   randomise_light(drawn.light, ranges, key.with("light"));
   for (Camera& camera : drawn.cameras) jitter(camera, ranges, key.with("camera"));
   randomise_dynamics(drawn, ranges, key.with("dynamics"));

@@ -14,8 +14,8 @@ namespace stampede {
 using Range = std::array<double, 2>;  // lower, upper
 
 struct Randomisation {
-  // Things whose looks are drawn: names of bodies, groups of them by class (`work_table`), `robot`, or `*` (all but
-  // what has the attribute colour, because instructions speak of it).
+  // Things whose looks are drawn: names of bodies, groups of them by class (`work_table`), `robot`, or `*` (all). What
+  // tells something by its look keeps it (see telling.h), and what is drawn stands out from that.
   std::vector<std::string> looks;
   std::vector<Colour> colours;                 // drawn from these; empty: any
   std::vector<std::string> textures;           // checker stripes noise plain, or names of Scene::textures; empty: plain
