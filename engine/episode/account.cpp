@@ -83,7 +83,7 @@ void close_record(Rollout& rollout, const SkillResult& verdict, const std::strin
   const bool success = verdict.ok();
   Recorder& recorder = rollout.recorder();
   if (recorder.frames.size() > 1) {
-    FrameRecord& last = recorder.frames[recorder.frames.size() - 2];
+    FrameRecord& last = recorder.frames.edit(recorder.frames.size() - 2);
     last.done = true;
     if (success) last.reward += 1;
   }

@@ -301,7 +301,7 @@ void Acting::finish(const SkillResult& verdict) {
   track.close(verdict);
   track.place_attempts();
   record.options["behaviour"] = "agent";
-  close_record(rollout, verdict, to_pddl(done), record);
+  close_record(rollout, verdict, to_pddl(done.copy()), record);
   ended = true;
 }
 

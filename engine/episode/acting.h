@@ -25,11 +25,11 @@ struct Running {
 
 // Where an episode stands beside its rollout: what a saved state holds of it.
 struct ActingPlace {
-  std::size_t skills = 0;      // begun so far: the place of the next one
-  std::int64_t held = -1;      // frames for which the goal has held without a skill; -1: it does not
-  bool controlled = false;     // low-level actions since the last skill: the hand may hold something else
-  int control_segment = -1;    // open; -1: none
-  std::vector<PlanStep> done;  // skills, for the episode's plan
+  std::size_t skills = 0;     // begun so far: the place of the next one
+  std::int64_t held = -1;     // frames for which the goal has held without a skill; -1: it does not
+  bool controlled = false;    // low-level actions since the last skill: the hand may hold something else
+  int control_segment = -1;   // open; -1: none
+  SharedList<PlanStep> done;  // skills, for the episode's plan
 };
 
 // Lifetime: refers to settings and renderer.

@@ -413,7 +413,7 @@ bool FactTracker::pending(const Fact& fact) const {
 }
 
 std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_per_frame) const {
-  std::vector<FactRecord> records = state_.closed;
+  std::vector<FactRecord> records = state_.closed.copy();
   const auto open = [&](const Fact& fact, std::int64_t start, std::optional<double> margin) {
     FactRecord record;
     record.fact = fact;
@@ -441,7 +441,7 @@ std::vector<FactRecord> FactTracker::intervals(std::int64_t end_step, int steps_
 }
 
 std::vector<FactRecord> FactTracker::observed_intervals(std::int64_t end_step, int steps_per_frame) const {
-  std::vector<FactRecord> records = state_.closed_known;
+  std::vector<FactRecord> records = state_.closed_known.copy();
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!state_.atoms[i].known) continue;
     FactRecord record;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/shared_list.h"
 #include "engine/episode/interfaces.h"
 
 namespace stampede {
@@ -75,8 +76,8 @@ class FactTracker {
     std::vector<Atom> atoms;
     Facts facts;
     std::map<Fact, std::int64_t> derived_since;
-    std::vector<FactRecord> closed;        // finished intervals, in the order in which they ended
-    std::vector<FactRecord> closed_known;  // the same of what was known
+    SharedList<FactRecord> closed;        // finished intervals, in the order in which they ended
+    SharedList<FactRecord> closed_known;  // the same of what was known
   };
   State save() const { return state_; }
   void restore(State state) {

@@ -230,7 +230,7 @@ void Observer::forget() {
 
 void Observer::choose(const std::vector<std::string>& channels) {
   now_->frames = {rollout_.recorder().frames.back()};
-  now_->channels = rollout_.sensors().channels();
+  now_->channels = rollout_.sensors().last_readings();
   const EpisodeArrays all = columns({});
   std::vector<std::string> known(std::begin(kAbstract), std::end(kAbstract)), raw, abstract;
   std::vector<PictureChannel> pictures;
@@ -297,13 +297,7 @@ void Observer::add_raw(EnvironmentObservation& observation) {
   ArrayRequest request;
   request.columns = raw_;
   if (std::any_of(raw_.begin(), raw_.end(), [](const auto& name) { return name.starts_with("sensor"); }))
-    now_->channels = rollout_.sensors().channels();
-  for (ChannelRecord& channel : now_->channels)  // the last sample of each, however many are kept
-    if (channel.steps.size() > 1) {
-      channel.steps = {channel.steps.back()};
-      channel.values.erase(channel.values.begin(),
-                           channel.values.end() - static_cast<std::ptrdiff_t>(channel.components.size()));
-    }
+    now_->channels = rollout_.sensors().last_readings();
   for (ArrayColumn& column : columns(request).columns) {
     observation.channels.push_back(value_of(std::move(column)));
     if (!hidden_.empty()) hide(observation.channels.back());

@@ -97,8 +97,9 @@ Recorder::Recorder(const WorldView& view)
 void Recorder::first_frame(const WorldView& view) { frames.push_back(reader_.read(view)); }
 
 void Recorder::frame(const WorldView& view, double reward) {
-  frames.back().action = reader_.action(view.world());
-  frames.back().reward = reward;
+  FrameRecord& last = frames.edit_back();
+  last.action = reader_.action(view.world());
+  last.reward = reward;
   frames.push_back(reader_.read(view));
 }
 
@@ -138,10 +139,15 @@ void Recorder::close_segment(int ordinal, std::int64_t step, Outcome outcome, Re
   record.detail = std::move(detail);
 }
 
+std::optional<std::size_t> Recorder::place_of_last(std::int64_t segment) const {
+  for (std::size_t i = agent_actions.size(); i-- > 0;)
+    if (agent_actions[i].segment == segment) return i;
+  return std::nullopt;
+}
+
 AskedAction* Recorder::last_asked(std::int64_t segment) {
-  const auto found = std::find_if(agent_actions.rbegin(), agent_actions.rend(),
-                                  [&](const AskedAction& one) { return one.segment == segment; });
-  return found == agent_actions.rend() ? nullptr : &*found;
+  const std::optional<std::size_t> last = place_of_last(segment);
+  return last ? &agent_actions.edit(*last) : nullptr;
 }
 
 void Recorder::end_asked(std::int64_t segment, std::int64_t step) {
@@ -149,8 +155,7 @@ void Recorder::end_asked(std::int64_t segment, std::int64_t step) {
 }
 
 void Recorder::refuse_asked(std::int64_t segment) {
-  if (const AskedAction* last = last_asked(segment))
-    agent_actions.erase(agent_actions.begin() + (last - agent_actions.data()));
+  if (const std::optional<std::size_t> last = place_of_last(segment)) agent_actions.erase(*last);
 }
 
 Recorder::Mark Recorder::mark() const {
@@ -159,24 +164,25 @@ Recorder::Mark Recorder::mark() const {
 }
 
 void Recorder::cut(const Mark& mark) {
-  frames.resize(mark.frames);
-  frames.back().action.reset();
-  frames.back().reward = 0;
-  segments.resize(mark.segments);
-  vias.resize(mark.vias);
-  grasps.resize(mark.grasps);
-  contacts_closed_.resize(mark.contacts_closed);
-  agent_actions.resize(mark.agent_actions);
+  frames.shorten(mark.frames);
+  FrameRecord& last = frames.edit_back();
+  last.action.reset();
+  last.reward = 0;
+  segments.shorten(mark.segments);
+  vias.shorten(mark.vias);
+  grasps.shorten(mark.grasps);
+  contacts_closed_.shorten(mark.contacts_closed);
+  agent_actions.shorten(mark.agent_actions);
   contacts_open_ = mark.contacts_open;
 }
 
 void Recorder::forget_frames() {
-  if (frames.size() > 1) frames.erase(frames.begin(), frames.end() - 1);
+  frames.keep_last(1);
   contacts_closed_.clear();
 }
 
 void Recorder::forget_segments(std::size_t first_segment) {
-  segments.resize(std::min(first_segment, segments.size()));
+  segments.shorten(first_segment);
   attempts.clear();
   vias.clear();
   grasps.clear();
@@ -184,22 +190,22 @@ void Recorder::forget_segments(std::size_t first_segment) {
 
 void Recorder::finish(EpisodeRecord& episode, std::int64_t end_step) {
   for (const auto& [pair, record] : contacts_open_) contacts_closed_.push_back(record);
-  std::sort(contacts_closed_.begin(), contacts_closed_.end(), [](const ContactRecord& a, const ContactRecord& b) {
+  episode.contacts = contacts_closed_.take();
+  std::sort(episode.contacts.begin(), episode.contacts.end(), [](const ContactRecord& a, const ContactRecord& b) {
     return std::tie(a.first_frame, a.object_a, a.part_a, a.object_b, a.part_b) <
            std::tie(b.first_frame, b.object_a, b.part_a, b.object_b, b.part_b);
   });
   const auto count = static_cast<std::int64_t>(frames.size());
-  for (SegmentRecord& record : segments)
+  episode.segments = segments.take();
+  for (SegmentRecord& record : episode.segments)
     if (record.span.end_step == end_step) record.span.end_frame = count;  // the last frame belongs to what ended there
   episode.joints = reader_.joints();
   episode.posed = reader_.posed();
-  episode.frames = std::move(frames);
-  episode.segments = std::move(segments);
-  episode.attempts = std::move(attempts);
-  episode.vias = std::move(vias);
-  episode.grasps = std::move(grasps);
-  episode.contacts = std::move(contacts_closed_);
-  episode.agent_actions = std::move(agent_actions);
+  episode.frames = frames.take();
+  episode.attempts = attempts.take();
+  episode.vias = vias.take();
+  episode.grasps = grasps.take();
+  episode.agent_actions = agent_actions.take();
 }
 
 }  // namespace stampede

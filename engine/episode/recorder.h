@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <tuple>
 
+#include "engine/base/shared_list.h"
 #include "engine/episode/record.h"
 #include "engine/episode/world_view.h"
 
@@ -27,7 +29,7 @@ class FrameReader {
   std::vector<std::string> posed_;
 };
 
-// Where a checkpoint cuts the record off again. Copyable.
+// Where a checkpoint cuts the record off again. Copies share what was recorded before them.
 class Recorder {
  public:
   explicit Recorder(const WorldView& view);
@@ -38,7 +40,7 @@ class Recorder {
 
   int open_segment(SegmentRecord segment, std::int64_t step);  // its ordinal
   void close_segment(int ordinal, std::int64_t step, Outcome outcome, Reason reason, std::string detail);
-  SegmentRecord& segment(int ordinal) { return segments[static_cast<std::size_t>(ordinal)]; }
+  SegmentRecord& segment(int ordinal) { return segments.edit(static_cast<std::size_t>(ordinal)); }
   std::int64_t frame_at(std::int64_t step) const { return (step + steps_per_frame_ - 1) / steps_per_frame_; }
 
   struct Mark {
@@ -58,17 +60,19 @@ class Recorder {
   void forget_segments(std::size_t first_segment);
   void finish(EpisodeRecord& episode, std::int64_t end_step);  // moves all into the episode
 
-  std::vector<FrameRecord> frames;
-  std::vector<SegmentRecord> segments;
-  std::vector<AttemptRecord> attempts;  // never cut
-  std::vector<ViaRecord> vias;
-  std::vector<GraspRecord> grasps;
-  std::vector<AskedAction> agent_actions;
+  SharedList<FrameRecord> frames;
+  SharedList<SegmentRecord, 4> segments;
+  SharedList<AttemptRecord, 4> attempts;  // never cut
+  SharedList<ViaRecord> vias;
+  SharedList<GraspRecord> grasps;
+  SharedList<AskedAction> agent_actions;
 
  private:
+  std::optional<std::size_t> place_of_last(std::int64_t segment) const;  // of agent_actions
+
   FrameReader reader_;
   int steps_per_frame_;
-  std::vector<ContactRecord> contacts_closed_;
+  SharedList<ContactRecord> contacts_closed_;
   std::map<std::pair<std::string, std::string>, ContactRecord> contacts_open_;
 };
 

@@ -104,11 +104,12 @@ void Rollout::keep_record(bool wanted) {
 
 void Rollout::note_asked(const AgentAction& action, std::int64_t segment) {
   if (!keeps_record_) return;
-  AskedAction& noted = recorder_.agent_actions.emplace_back();
+  AskedAction noted;
   noted.asked = action;
   if (!is_of_tool(action.space)) noted.asked.frame = AgentAction{}.frame;
   noted.first_frame = noted.end_frame = recorder_.frame_at(step());
   noted.segment = segment;
+  recorder_.agent_actions.push_back(std::move(noted));
 }
 
 Rollout::Branch Rollout::branch() { return {checkpoint(), recorder_, sensors_, ended_}; }

@@ -100,9 +100,9 @@ SensorReader::SensorReader(const Scene& scene, const Observation& observation, R
   warm_up_s_ = warm_up_s(torque_model_, key_);
   for (const Sensor& sensor : scene.sensors) {
     if (!wanted(observation, sensor.name)) continue;
-    channels_.push_back(channel_of(sensor, scene.robot));
+    channels_.push_back({channel_of(sensor, scene.robot), {}, {}});
     sources_.push_back(
-        {sensor, scene.physics_hz / sensor.rate_hz, std::vector<double>(channels_.back().components.size(), 0.0)});
+        {sensor, scene.physics_hz / sensor.rate_hz, std::vector<double>(channels_.back().head.components.size(), 0.0)});
   }
 }
 
@@ -114,7 +114,7 @@ void SensorReader::add(const Scene& scene, const std::string& name, const Sensor
     throw Error(where, "world " + scene.world + " cannot be read " + std::to_string(entry.rate_hz) + " times a second",
                 "choose a rate that divides its " + std::to_string(scene.physics_hz) + " steps a second");
   own_.push_back({entry, scene.physics_hz / entry.rate_hz, channels_.size()});
-  ChannelRecord& channel = channels_.emplace_back();
+  ChannelRecord& channel = channels_.emplace_back().head;
   channel.name = name;
   channel.unit = entry.unit;
   channel.components = entry.components;
@@ -122,7 +122,7 @@ void SensorReader::add(const Scene& scene, const std::string& name, const Sensor
 }
 
 void SensorReader::read_own(const Own& own, const WorldView& view) {
-  ChannelRecord& channel = channels_[own.channel];
+  const ChannelRecord& channel = channels_[own.channel].head;
   const auto fail = [&](const std::string& what) {
     failure_ = "sensor '" + channel.name + "' at " + std::to_string(view.time_s()) + " s: " + what;
   };
@@ -133,8 +133,7 @@ void SensorReader::read_own(const Own& own, const WorldView& view) {
                   std::to_string(channel.components.size()) + " components");
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!std::isfinite(values[i])) return fail(channel.components[i] + " is not a finite number");
-    channel.steps.push_back(view.world().step_count());
-    channel.values.insert(channel.values.end(), values.begin(), values.end());
+    channels_[own.channel].add(view.world().step_count(), values);
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (const Interruption&) {
@@ -159,7 +158,7 @@ std::vector<double> SensorReader::read(const Source& source, const World& world)
 void SensorReader::add_noise(std::size_t index, const World& world, std::vector<double>& values) const {
   if (sources_[index].sensor.kind == kForceTorque) return;
   const std::int64_t step = world.step_count();
-  Random random(key_.with(channels_[index].name).with(step));
+  Random random(key_.with(channels_[index].head.name).with(step));
   if (torque_noise_ > 0)
     for (double& value : values) value += torque_noise_ * random.normal();
   if (torque_model_.empty()) return;
@@ -185,34 +184,57 @@ void SensorReader::step(const WorldView& view) {
       for (double& value : values) value /= source.period;
     source.sums.assign(source.sums.size(), 0.0);
     add_noise(i, world, values);
-    channels_[i].steps.push_back(world.step_count());
-    channels_[i].values.insert(channels_[i].values.end(), values.begin(), values.end());
+    channels_[i].add(world.step_count(), values);
   }
 }
 
 SensorReader::Mark SensorReader::mark() const {
   Mark mark;
-  for (const ChannelRecord& channel : channels_) mark.samples.push_back(channel.steps.size());
+  for (const Channel& channel : channels_) mark.samples.push_back(channel.steps.size());
   for (const Source& source : sources_) mark.sums.push_back(source.sums);
   return mark;
 }
 
 void SensorReader::cut(const Mark& mark) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    channels_[i].steps.resize(mark.samples[i]);
-    channels_[i].values.resize(mark.samples[i] * channels_[i].components.size());
+    channels_[i].steps.shorten(mark.samples[i]);
+    channels_[i].values.shorten(mark.samples[i] * channels_[i].head.components.size());
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) sources_[i].sums = mark.sums[i];
   failure_.clear();
 }
 
 void SensorReader::forget() {
-  for (ChannelRecord& channel : channels_) {
-    if (channel.steps.size() < 2) continue;
-    channel.steps.erase(channel.steps.begin(), channel.steps.end() - 1);
-    channel.values.erase(channel.values.begin(),
-                         channel.values.end() - static_cast<std::ptrdiff_t>(channel.components.size()));
+  for (Channel& channel : channels_) {
+    channel.steps.keep_last(1);
+    channel.values.keep_last(channel.head.components.size());
   }
+}
+
+void SensorReader::Channel::add(std::int64_t step, const std::vector<double>& reading) {
+  steps.push_back(step);
+  for (const double value : reading) values.push_back(value);
+}
+
+ChannelRecord SensorReader::Channel::last(std::size_t count) const {
+  ChannelRecord record = head;
+  for (std::size_t i = steps.size() - std::min(count, steps.size()); i < steps.size(); ++i)
+    record.steps.push_back(steps[i]);
+  for (std::size_t i = values.size() - record.steps.size() * head.components.size(); i < values.size(); ++i)
+    record.values.push_back(values[i]);
+  return record;
+}
+
+std::vector<ChannelRecord> SensorReader::channels() const {
+  std::vector<ChannelRecord> records;
+  for (const Channel& channel : channels_) records.push_back(channel.last(channel.steps.size()));
+  return records;
+}
+
+std::vector<ChannelRecord> SensorReader::last_readings() const {
+  std::vector<ChannelRecord> records;
+  for (const Channel& channel : channels_) records.push_back(channel.last(1));
+  return records;
 }
 
 SensorReader sensors_of(const Scene& scene, const EpisodeRecord& episode, const SensorEntries& own) {

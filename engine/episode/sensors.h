@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/shared_list.h"
 #include "engine/episode/observation.h"
 #include "engine/episode/world_view.h"
 #include "stampede/world_state.h"
@@ -37,8 +38,9 @@ class SensorReader {
   void cut(const Mark& mark);  // everything after the mark never happened
   void forget();               // all samples but the last of each channel
 
-  // The scene's, in its order, then the program's.
-  const std::vector<ChannelRecord>& channels() const { return channels_; }
+  // The scene's, in its order, then the program's: all that was read, and the last reading alone of each.
+  std::vector<ChannelRecord> channels() const;
+  std::vector<ChannelRecord> last_readings() const;
 
  private:
   struct Source {
@@ -51,6 +53,13 @@ class SensorReader {
     int period = 1;           // steps
     std::size_t channel = 0;  // place in channels_
   };
+  struct Channel {
+    ChannelRecord head;  // without readings
+    SharedList<std::int64_t, 256> steps;
+    SharedList<double, 1024> values;
+    void add(std::int64_t step, const std::vector<double>& reading);
+    ChannelRecord last(std::size_t count) const;
+  };
   std::vector<double> read(const Source& source, const World& world) const;
   void read_own(const Own& own, const WorldView& view);
   void add_noise(std::size_t index, const World& world, std::vector<double>& values) const;
@@ -61,7 +70,7 @@ class SensorReader {
   RandomKey key_;
   double warm_up_s_ = 0;  // of the arm, at the first step
   std::vector<Source> sources_;
-  std::vector<ChannelRecord> channels_;
+  std::vector<Channel> channels_;
   std::vector<Own> own_;
   std::string failure_;
 };

@@ -134,7 +134,8 @@ void SkillTrack::back_to(const Place& place) {
 // Until here an attempt knows its place in the plan; now it learns the segment that took its place in the end.
 void SkillTrack::place_attempts() {
   Recorder& recorder = rollout_.recorder();
-  for (AttemptRecord& attempt : recorder.attempts) {
+  for (std::size_t i = 0; i < recorder.attempts.size(); ++i) {
+    AttemptRecord& attempt = recorder.attempts.edit(i);
     const auto position = static_cast<std::size_t>(attempt.before_segment);
     attempt.before_segment = static_cast<int>(recorder.segments.size());
     for (const auto& [segment, slot] : slots_)

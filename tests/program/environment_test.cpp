@@ -1,4 +1,6 @@
 // Acting in a task: every space, every channel, rewards, and going back.
+#include <malloc.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -408,6 +410,38 @@ TEST_CASE("a saved state branches: the same future, bit for bit, here and in ano
   CHECK_THROWS_WITH(recorded.restore(unrecorded.save()), Catch::Contains("saved without a record"));
   CHECK_THROWS_WITH(one.restore({}), Catch::Contains("empty state"));
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their allocators count nothing here
+TEST_CASE("a saved state shares what was recorded before it: it costs the same however long that is") {
+  Environment world = environment("reach_target", {.channels = {"joint_positions"}, .horizon_s = 200, .record = true});
+  world.reset({.seed = 3});
+  const auto act = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      const double turn = i % 40 < 20 ? 0.01 : -0.01;
+      REQUIRE_FALSE(world.step({.space = "joint_delta", .values = std::vector<double>(7, turn)}).terminated);
+    }
+  };
+  const auto cost = [&] {  // bytes a state, of many with some frames between them
+    constexpr int kStates = 32;
+    std::vector<SavedState> states(kStates);
+    const std::size_t frames = ::mallinfo2().uordblks;
+    act(kStates);
+    const std::size_t before = ::mallinfo2().uordblks;
+    for (SavedState& state : states) state = world.save(), act(1);
+    return (static_cast<double>(::mallinfo2().uordblks - before) - static_cast<double>(before - frames)) / kStates;
+  };
+  act(100);
+  const double early = cost();
+  act(1200);
+  const double late = cost();
+  CAPTURE(early, late);
+  CHECK(late < 100'000);
+  CHECK(late < 1.2 * early + 4'000);
+  const Episode episode = world.episode();
+  CHECK(replay_episode(*episode.record).empty());
+  CHECK(episode.record->agent_actions.size() == 1428);
+}
+#endif
 
 TEST_CASE("a request in braces is the default start, and what a task offers is known before it") {
   Environment world = environment("stack_blocks", {.frame_hz = 10, .horizon_s = 7});
