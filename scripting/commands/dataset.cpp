@@ -68,12 +68,16 @@ ExitCode do_dataset(const Arguments& arguments, Console& console) {
     json.object().field("dataset", report.id).field("problem", problem.name).field("out", out);
     if (!hidden.empty()) json.field("hidden", hidden);
     json.field("train", report.train).field("validation", report.validation).field("test", report.test);
-    console.out << json.field("given_rows", report.given_rows).field("hidden_rows", report.hidden_rows).end().text();
+    json.field("given_rows", report.given_rows).field("hidden_rows", report.hidden_rows);
+    console.out << json.field("leaks", report.leaks).end().text();
   } else {
     console.out << fmt::format("{}: {} {}, {} train, {} validation, {} test, {} rows given, {} hidden{}\n", out,
                                problem.name, report.id, report.train, report.validation, report.test, report.given_rows,
                                report.hidden_rows, hidden.empty() ? " (not written)" : "");
   }
+  if (!report.leaks.empty())
+    console.err << "remark: what is held out shows in training: " << report.leaks << "\n    " << out
+                << "/README.md counts it\n";
   return kDone;
 }
 

@@ -9,6 +9,7 @@
 #include "scripting/research/answers.h"
 #include "scripting/research/computed_tables.h"
 #include "scripting/research/datasheet.h"
+#include "scripting/research/leaks.h"
 #include "scripting/session/text_file.h"
 
 namespace stampede::research {
@@ -290,7 +291,10 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
   }
   given.finish();
   // After the files, by which a folder is known to be ours.
-  const DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
+  DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
+  const Leaks leaks = leaks_of(catalogue, episodes, split, rule);
+  facts.leaks = leaks_text(leaks, rule);
+  report.leaks = leaks_line(leaks);
   write_text_file(request.given / "answers.example.json", example_answers(problem, report.id, tests));
   write_text_file(request.given / "README.md", given_sheet(problem, facts, report));
   if (hidden) write_text_file(request.hidden / "README.md", hidden_sheet(problem, facts, report));

@@ -21,6 +21,7 @@ struct DatasetReport {
   std::string id;  // hash of all that is in both parts
   std::int64_t train = 0, validation = 0, test = 0;
   std::int64_t given_rows = 0, hidden_rows = 0;
+  std::string leaks;  // what training shows of what is held out, on one line; empty: nothing
 };
 
 // Writes given.db, README.md and answers.example.json into `given`, hidden.db and README.md into `hidden`. Episodes are

@@ -162,8 +162,8 @@ std::string given_sheet(const ResearchProblem& problem, const DatasheetFacts& fa
   if (acts) text += fmt::format("Tasks: {}.\n\n", listed(facts.tasks));  // policies are tried in them
   text += fmt::format(
       "## Splits\nRule: `{}`. The column `split` says which: learn from train, choose with validation; what is "
-      "scored is test.\n\n",
-      facts.split);
+      "scored is test.\n\n{}\n",
+      facts.split, facts.leaks);
   text += "## How it was made\n" + origin_text(facts) + "\n\n";
   text += fmt::format(
       "## Answers\n{}\n## How it is scored\n{}\n\n`stampede score {} answers.json --hidden DIR`\n\n"
@@ -186,6 +186,7 @@ std::string hidden_sheet(const ResearchProblem& problem, const DatasheetFacts& f
       text += fmt::format("| {} | {} | {} |\n", one.kind, one.first, one.second);
     text += "\n";
   }
+  text += "## What training shows of it\n" + facts.leaks + "\n";
   text += fmt::format("## How it is scored\n{}\n\n`stampede score {} ANSWERS --hidden DIR`: the folder of this page.\n",
                       problem.scoring, problem.name);
   return text;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "db/catalogue.h"
 #include "db/plain_file.h"
 #include "engine/base/scratch_folder.h"
 #include "scripting/research/baseline.h"
@@ -321,6 +322,41 @@ TEST_CASE("data sets for research problems") {
     const auto scores = nlohmann::json::parse(said.out);
     for (const auto& figure : scores["figures"])
       if (figure["name"] == "recall" || figure["name"] == "f1") CHECK(figure["value"] == 0);
+  }
+  SECTION("both pages count what training still shows of what is held out") {
+    const Catalogue demos = Catalogue::open(made().path("demos.db"));
+    const std::string value =
+        demos.query("SELECT value FROM axes JOIN demos USING (episode) WHERE axis = 'colour' ORDER BY 1")
+            .text(0, "value");
+    const Said said = made().dataset("concepts", made().path("demos.db"), "leaky", "colour=" + value);
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    const Rows train = demos.query(
+        "SELECT episode FROM demos e WHERE frames > 0 AND NOT EXISTS (SELECT 1 FROM axes a WHERE a.episode = "
+        "e.episode AND axis = 'colour' AND value = ?1)",
+        {.parameters = {value}});
+    std::int64_t things = 0, words = 0, sentences = 0, any = 0;
+    for (std::size_t i = 0; i < train.size(); ++i) {
+      const SqlValue episode = train.integer(i, "episode");
+      const Rows seen = demos.query("SELECT count(*) AS n FROM objects WHERE episode = ?1 AND colour = ?2",
+                                    {.parameters = {episode, value}});
+      const Rows told = demos.query("SELECT text FROM instructions WHERE episode = ?1", {.parameters = {episode}});
+      std::int64_t own = 0;
+      for (std::size_t k = 0; k < told.size(); ++k)
+        own += (" " + told.text(k, "text") + " ").find(" " + value + " ") == std::string::npos ? 0 : 1;
+      sentences += own;
+      things += seen.integer(0, "n") > 0 ? 1 : 0, words += own > 0 ? 1 : 0;
+      any += seen.integer(0, "n") > 0 || own > 0 ? 1 : 0;
+    }
+    CHECK(things > 0);  // blocks that are in the way
+    const std::string row = "| " + value + " | 0 | " + std::to_string(things) + " | " + std::to_string(words) + " | " +
+                            std::to_string(sentences) + " | " + std::to_string(any) + " |\n";
+    INFO(row);
+    for (const std::string part : {"leaky/given", "leaky/hidden"})
+      CHECK(says(file_text(made().path(part + "/README.md")), row));
+    CHECK(says(said.err, "remark: what is held out shows in training: " + value + ": " + std::to_string(any) + " of " +
+                             std::to_string(train.size())));
+    CHECK(says(file_text(made().given("segments") + "/README.md"), "is that of a training episode: "));
   }
   SECTION("data sets that cannot be made say why") {
     const std::string demos = made().path("demos.db");
