@@ -12,6 +12,7 @@
 #include "db/catalogue_impl.h"
 #include "db/declared.h"
 #include "db/episode_writer.h"
+#include "db/frame_labels.h"
 #include "db/migrations.h"
 #include "db/schema.h"
 #include "engine/base/reason.h"
@@ -223,6 +224,7 @@ Catalogue Catalogue::open(const fs::path& path) {
   impl->database = std::move(file.database);
   impl->database.run("PRAGMA cache_size = -65536");  // 64 MiB: joins come back to the same pages
   impl->database.run(temporary_views_script());
+  add_frame_labels(impl->database);
   return Catalogue(std::move(impl));
 }
 
@@ -238,6 +240,7 @@ Catalogue Catalogue::write(const fs::path& path, Journal journal) {
   if (journal == Journal::in_place) use_undo_file(database);
   database.run("PRAGMA foreign_keys = ON");
   database.run(temporary_views_script());
+  add_frame_labels(database);
   impl->writable = true;
   return Catalogue(std::move(impl));
 }

@@ -6,6 +6,7 @@
 
 #include "db/check_numbers.h"
 #include "db/episode_reader.h"
+#include "db/frame_labels.h"
 #include "engine/episode/arrays.h"
 
 namespace stampede {
@@ -196,8 +197,12 @@ EpisodeArrays ArrayReader::read(const ArrayRequest& request) {
 
 }  // namespace
 
+EpisodeArrays read_arrays(const sql::Database& database, std::int64_t id, const ArrayRequest& request) {
+  return ArrayReader(database, id).read(request);
+}
+
 EpisodeArrays Catalogue::read_arrays(std::int64_t id, const ArrayRequest& request) const {
-  return ArrayReader(impl_->database, id).read(request);
+  return stampede::read_arrays(impl_->database, id, request);
 }
 
 }  // namespace stampede

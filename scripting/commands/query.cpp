@@ -113,7 +113,7 @@ CommandRow query_command() {
            {"--views", "", "say what the views and their columns mean", Takes::flag, "", {}, false},
            {"--datasette",
             "",
-            "print the same of FILE as metadata.json, which `datasette FILE -m metadata.json` shows beside the data",
+            "print the same of FILE for `datasette FILE -m metadata.json --setting suggest_facets off`",
             Takes::flag,
             "",
             {},

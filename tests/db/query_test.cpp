@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "db/table_text.h"
@@ -232,6 +233,45 @@ TEST_CASE("SQL knows median, percentile, standard deviation and regular expressi
     CHECK_THROWS_AS(filled.catalogue.query(wrong), Error);
   }
   CHECK_THROWS_WITH(filled.catalogue.query("SELECT 'a' REGEXP '('"), Contains("regexp: ("));
+}
+
+TEST_CASE("progress and applicable skills of each frame are tables, and say what arrays say") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  for (const int seed : {1, 2}) {
+    EpisodeRecord episode = sample_episode("lift", "colour=red", seed);
+    episode.documents = {
+        {DocumentKind::pddl_domain,
+         "(define (domain d) (:requirements :typing) (:types thing)\n(:predicates (hand_empty) (on ?a - "
+         "thing ?b - thing))\n(:action pick :parameters (?a - thing) :precondition (and (hand_empty) (on "
+         "?a table)) :effect (not (hand_empty)))\n(:constants table - thing))"},
+        {DocumentKind::pddl_problem,
+         "(define (problem p) (:domain d) (:objects block1 block2 - thing) (:init (hand_empty))\n(:goal "
+         "(and (on block2 table) (hand_empty))))"}};
+    catalogue.add(episode, kEngine);
+  }
+  const EpisodeArrays arrays = catalogue.read_arrays(2, {{"progress", "applicable"}});
+  const auto shares = arrays.column("progress").reals();
+  const QueryResult progress = catalogue.query("SELECT * FROM progress WHERE episode = 2 ORDER BY frame");
+  CHECK(progress.columns == std::vector<std::string>{"episode", "task", "frame", "time_s", "progress"});
+  REQUIRE(progress.size() == shares.size());
+  for (std::size_t i = 0; i < shares.size(); ++i) CHECK(progress.real(i, "progress") == shares[i]);
+  CHECK(std::set<double>(shares.begin(), shares.end()) == std::set<double>{0.5, 1});
+  CHECK(progress.text(3, "task") == "lift");
+  CHECK(progress.real(3, "time_s") == Approx(0.15));
+  const auto values = arrays.column("applicable").booleans();
+  const QueryResult able = catalogue.query("SELECT frame, skill, arguments FROM applicable WHERE episode = 2");
+  CHECK(able.size() == static_cast<std::size_t>(std::count(values.begin(), values.end(), 1)));
+  REQUIRE(able.size() > 0);
+  CHECK(able.text(0, "skill") == "pick");
+  CHECK_THAT(able.text(0, "arguments"), Contains("\"block"));
+  const auto count = [&](const std::string& sql) { return catalogue.query(sql).integer(0, "n"); };
+  CHECK(count("SELECT count(*) AS n FROM progress") == 2 * arrays.frames);
+  CHECK(count("SELECT count(*) AS n FROM episodes JOIN applicable USING (episode) WHERE seed = 1") ==
+        static_cast<std::int64_t>(able.size()));
+  CHECK(count("SELECT count(*) AS n FROM progress WHERE episode = 9") == 0);
+  CHECK_THROWS_AS(catalogue.query("CREATE VIRTUAL TABLE temp.x USING progress"), Error);
+  CHECK_THROWS_AS(catalogue.query("DELETE FROM progress"), Error);
 }
 
 TEST_CASE("two columns of one name are two in every form of an answer") {
