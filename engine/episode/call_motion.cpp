@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/episode/call_follow.h"
+#include "engine/motion/stops.h"
 #include "engine/motion/tool_line.h"
 
 namespace stampede {
@@ -27,15 +28,33 @@ int robot_of(const RobotCall& call) {
       call);
 }
 
-PlannedCall from(PlannedMotion planned, FollowOptions options) {
-  if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
-  options.vias = std::move(planned.vias);
-  for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
-  return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
+// From where on a motion follows lines.
+std::int64_t lines_from(const PlannedMotion& planned, const std::string& kind) {
+  if (kind == "move_to" || kind == "move_joints") return planned.trajectory.steps();
+  return kind == "move_through" && !planned.vias.empty() ? planned.vias.front().step : 0;
 }
 
+// A motion as planned: where it is asked for, with stops.
+class Planned {
+ public:
+  Planned(const World& world, bool stop) : world_(world), stop_(stop) {}
+  PlannedCall operator()(PlannedMotion planned, FollowOptions options) const {
+    if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
+    if (stop_)
+      stop_at_vias(world_.arm(options.robot), {}, world_.scene().physics_hz, lines_from(planned, options.kind),
+                   planned);
+    options.vias = std::move(planned.vias);
+    for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
+    return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
+  }
+
+ private:
+  const World& world_;
+  bool stop_;
+};
+
 PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
-                           const JointVector& start, FollowOptions options, RandomKey key) {
+                           const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
   PartWay way = way_of_part(rollout, call.object, call.position, call.pivot);
   way.retreat = call.retreat;
   const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
@@ -79,7 +98,7 @@ void set_contact(const Rollout& rollout, double most_force, double press, const 
 }
 
 PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, const CollisionState& state,
-                           const JointVector& start, FollowOptions options, RandomKey key) {
+                           const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
   options.kind = call.kind;
   options.stop_on_contact = call.stop_on_contact;
   options.contact_force = call.force;
@@ -98,7 +117,7 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
 }
 
 PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const CollisionState& state,
-                        const JointVector& start, FollowOptions options, RandomKey key) {
+                        const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
   options.kind = "follow";
   options.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
   set_contact(rollout, call.most_force, call.press, call.press_along, options);
@@ -192,8 +211,10 @@ bool moves_fingers(const RobotCall& call) {
                                           [](const robot_call::Piece& piece) { return piece.opening.has_value(); });
 }
 
-PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
+PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
+                      bool stop_at_vias) {
   World& world = rollout.world();
+  const Planned from(world, stop_at_vias);
   const int robot = robot_of(call);
   const JointVector start = planning_start(world, robot);
   FollowOptions options;
@@ -205,34 +226,36 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
     return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
   };
   return std::visit(
-      Overloaded{
-          [&](const robot_call::MoveThrough& move) {
-            options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
-            if (move.then_part.empty()) return from(plan_through(*free_space(), start, move.targets, {}, key), options);
-            PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
-            then.opening = move.opening;
-            then.retreat = move.retreat;
-            return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
-          },
-          [&](const robot_call::MoveLine& move) {
-            return plan_move_line(rollout, move, *space(), start, options, key);
-          },
-          [&](const robot_call::Follow& follow) { return plan_follow(rollout, follow, *space(), start, options, key); },
-          [&](const robot_call::MoveJoints& move) {
-            options.kind = "move_joints";
-            return from(plan_joints(*space(), start, move.target, {}, key), options);
-          },
-          [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
-          [&](const robot_call::MovePart& move) {
-            return plan_move_part(rollout, move, *space(), start, options, key);
-          },
-          [&](const robot_call::Wait& wait) {
-            return PlannedCall{
-                make_wait(std::max<std::int64_t>(1, std::llround(wait.seconds / world.dt()))), Reason::none, {}};
-          },
-          [&](const auto&) {
-            return PlannedCall{nullptr, Reason::script_error, "not a motion"};
-          }},
+      Overloaded{[&](const robot_call::MoveThrough& move) {
+                   options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
+                   if (move.then_part.empty())
+                     return from(plan_through(*free_space(), start, move.targets, {}, key), options);
+                   PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
+                   then.opening = move.opening;
+                   then.retreat = move.retreat;
+                   return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
+                 },
+                 [&](const robot_call::MoveLine& move) {
+                   return plan_move_line(rollout, move, *space(), start, options, key, from);
+                 },
+                 [&](const robot_call::Follow& follow) {
+                   return plan_follow(rollout, follow, *space(), start, options, key, from);
+                 },
+                 [&](const robot_call::MoveJoints& move) {
+                   options.kind = "move_joints";
+                   return from(plan_joints(*space(), start, move.target, {}, key), options);
+                 },
+                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
+                 [&](const robot_call::MovePart& move) {
+                   return plan_move_part(rollout, move, *space(), start, options, key, from);
+                 },
+                 [&](const robot_call::Wait& wait) {
+                   return PlannedCall{
+                       make_wait(std::max<std::int64_t>(1, std::llround(wait.seconds / world.dt()))), Reason::none, {}};
+                 },
+                 [&](const auto&) {
+                   return PlannedCall{nullptr, Reason::script_error, "not a motion"};
+                 }},
       call);
 }
 

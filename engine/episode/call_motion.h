@@ -20,7 +20,9 @@ struct PlannedCall {
 // Plans one robot call from where the reference is. `touchable`: parts that hand and held object may touch near the
 // targets. Repeatable: a pure function of its arguments. RunSkill, Done, Fail and questions are not
 // motions.
-PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key);
+// `stop_at_vias`: see call_settings.h.
+PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
+                      bool stop_at_vias = false);
 
 // Is it made on Cartesian impedance, whatever the skill's controller, or where that is stiff?
 enum class Yielding { no, where_stiff, always };

@@ -12,6 +12,8 @@
 namespace stampede {
 namespace {
 
+constexpr const char* kStopAtVias = "stop_at_vias";
+
 template <typename Number>
 std::optional<Number> whole_number(std::string_view text) {
   Number value{};
@@ -125,6 +127,23 @@ void add_skill_setting(std::string_view text, std::map<std::string, CallSettings
                 "write SKILL.PARAMETER=VALUE, such as pick.height=0.2 or pick.controller=joint_impedance");
   add_setting(text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1), set[std::string(text.substr(0, dot))],
               place);
+}
+
+void check_motion_settings(const CallSettings& set, const std::string& place) {
+  if (set.controller)
+    throw Error(place, "motions have no controller of their own", "set it of a skill: pick.controller=…");
+  for (const CallSettings::Value& value : set.values) {
+    if (value.parameter != kStopAtVias)
+      throw Error(place, "motions have no parameter '" + value.parameter + "'",
+                  did_you_mean(value.parameter, {kStopAtVias}));
+    if (value.component > 0 || value.values.size() != 1 || (value.values[0] != 0 && value.values[0] != 1))
+      throw Error(place, std::string(kOfMotions) + "." + kStopAtVias + " is 0 or 1");
+  }
+}
+
+bool stops_at_vias(const std::map<std::string, CallSettings>& all) {
+  const auto found = all.find(kOfMotions);
+  return found != all.end() && !found->second.values.empty() && found->second.values.back().values[0] == 1;
 }
 
 std::string to_text(const std::map<std::string, CallSettings>& set) {

@@ -27,4 +27,10 @@ std::string to_text(const std::map<std::string, CallSettings>& set);
 
 std::vector<std::string> controller_names();
 
+// `motion.stop_at_vias=1`: the arm stands at each via-point and where its way bends, so that readers who find keyframes
+// by stops find them all. Set like a skill's parameters, of every motion.
+inline constexpr const char* kOfMotions = "motion";
+void check_motion_settings(const CallSettings& set, const std::string& place);
+bool stops_at_vias(const std::map<std::string, CallSettings>& all);
+
 }  // namespace stampede

@@ -43,6 +43,10 @@ void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const Run
 
 void check_all_settings(const std::map<std::string, CallSettings>& all, const SkillLibrary& skills) {
   for (const auto& [name, set] : all) {
+    if (name == kOfMotions) {
+      check_motion_settings(set, "set");
+      continue;
+    }
     const SkillInfo* skill = skills.skill(name);
     if (skill == nullptr) throw Error("set", "there is no skill '" + name + "'");
     check_settings(*skill, set, "set");

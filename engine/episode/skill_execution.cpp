@@ -397,7 +397,9 @@ bool SkillExecution::start_child(const AskedCall& call, RandomKey key) {
 }
 
 bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
-  const auto plan = [&] { return plan_call(rollout_, call, touchable(rollout_, context_), key); };
+  const auto plan = [&] {
+    return plan_call(rollout_, call, touchable(rollout_, context_), key, stops_at_vias(options_.set));
+  };
   PlannedCall planned = plan();
   if (!planned.motion) {
     const bool of_draw = planned.reason == Reason::no_path || planned.reason == Reason::unreachable;

@@ -9,6 +9,10 @@ std::map<std::string, CallSettings> settings_from(const std::vector<std::string>
   std::map<std::string, CallSettings> all;
   for (const std::string& text : texts) add_skill_setting(text, all, place);
   for (const auto& [name, set] : all) {
+    if (name == kOfMotions) {
+      check_motion_settings(set, place);
+      continue;
+    }
     if (const SkillInfo* skill = library.skill(name)) {
       check_settings(*skill, set, place);
       continue;

@@ -37,6 +37,7 @@ from stampede.rlbench.backend.utils import (
     task_file_to_task_class,
 )
 from stampede.rlbench.environment import SUPPORTED_ROBOTS
+from stampede.rlbench.backend.scene import Start
 from stampede.rlbench.noise_model import GaussianNoise
 from stampede.rlbench.observation_config import CAMERAS, RenderMode
 from stampede.rlbench.utils import get_stored_demos, name_to_task_class
@@ -510,6 +511,48 @@ def test_a_demo_played_back_by_its_poses_does_the_task(name: str) -> None:
     assert demo[-1].gripper_open == 1.0 and demo[-1].misc["joint_position_action"][-1] == 1.0
 
 
+def stops(demo) -> list[int]:
+    """PerAct's rule: the hand changes, the arm has stopped, or it is the last frame."""
+    found, buffer = [], 0
+    for i, seen in enumerate(demo):
+        near = [demo[k].gripper_open for k in (i - 2, i - 1, i, min(i + 1, len(demo) - 1))]
+        steady = i < len(demo) - 2 and len(set(near)) == 1
+        stopped = buffer <= 0 and steady and np.allclose(seen.joint_velocities, 0, atol=0.1)
+        buffer = 4 if stopped else buffer - 1
+        if i > 0 and (seen.gripper_open != demo[i - 1].gripper_open or i == len(demo) - 1 or stopped):
+            found.append(i)
+    return found
+
+
+@pytest.mark.parametrize("name", ["pick_and_lift", "open_drawer"])
+def test_demos_that_stop_at_via_points_are_done_again_by_their_keyframes(name: str) -> None:
+    task = task_for(EndEffectorPoseViaPlanning(), task=tasks.task_of(name))
+    start = np.random.get_state()
+    (plain,) = task.get_demos(1, live_demos=True)
+    np.random.set_state(start)
+    (demo,) = task.get_demos(1, live_demos=True, stop_at_vias=True)
+    assert demo.seed == plain.seed
+    closing = [next(i for i, seen in enumerate(one) if seen.gripper_open == 0.0) for one in (plain, demo)]
+    before = [[i for i in stops(one) if i < shut - 6] for one, shut in zip((plain, demo), closing, strict=True)]
+    assert not [i for i in before[0] if i > 6] and before[1], "the approach is a keyframe only where the arm stands there"
+    held = demo[-1].misc["frame"] - demo[-4].misc["frame"]
+    assert held == 3 and not np.allclose(demo[-8].joint_positions, demo[-1].joint_positions, atol=1e-3)
+    task.reset_to_demo(demo)
+    for i in stops(demo):
+        _, reward, terminate = task.step(np.append(demo[i].gripper_pose, demo[i].gripper_open))
+        if terminate:
+            break
+    assert reward == 1.0
+
+
+def test_joint_positions_of_demos_do_the_task_again() -> None:
+    task = task_for(JointPosition())
+    for demo in task.get_demos(5, live_demos=True):
+        task.reset_to_demo(demo)
+        rewards = [task.step(seen.misc["joint_position_action"])[1] for seen in demo[1:]]
+        assert rewards[-1] == 1.0
+
+
 def test_paths_around_obstacles_are_not_into_them() -> None:
     free, checked = EndEffectorPoseViaPlanning(), EndEffectorPoseViaPlanning(collision_checking=True)
     into_the_table = np.array([0.2, 0.0, 0.70, 1, 0, 0, 0, OPEN])
@@ -757,6 +800,20 @@ def test_export_and_catalogue_give_the_same_demos(catalogue: Path, dataset: Path
             assert seen.misc.keys() == expected.misc.keys()
             for key, value in seen.misc.items():
                 assert np.allclose(value, expected.misc[key]), key
+
+
+def test_exported_pictures_are_those_of_live_demos(catalogue: Path, tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    export(["rlbench", str(catalogue), "--out", str(tmp_path), "--where", "task = 'pick_and_lift'", "--draw"])
+    config = ObservationConfig()
+    task = task_for(JointVelocity(), config, tasks.PickAndLift, dataset_root=str(tmp_path), static_positions=True)
+    task.set_variation(black())
+    (stored,) = task.get_demos(1)
+    seen = task._scene  # noqa: SLF001
+    seen.reset(Start("colour=black", 1), black())
+    live = seen.observation()
+    for camera in CAMERAS:
+        assert np.array_equal(getattr(stored[0], f"{camera}_rgb"), getattr(live, f"{camera}_rgb")), camera
 
 
 def test_exported_demos_can_be_gone_back_to(dataset: Path) -> None:

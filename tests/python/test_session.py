@@ -235,3 +235,23 @@ def test_what_an_environment_says_of_itself() -> None:
     assert now["front_rgb"].shape == (30, 40, 3)
     assert now["front_camera_intrinsics"][:2, 2].tolist() == [20, 15]  # of the pictures, not of the camera's own size
     assert stampede.Action("hold") == stampede.Action("hold") and stampede.Action("hold") != 3
+
+
+def test_motions_stop_at_their_via_points_where_that_is_set() -> None:
+    """A stop: the arm stands for a frame or more, and moves before and after."""
+
+    def stops(**settings: list[str]) -> int:
+        session = stampede.Session()
+        arrays = session.arrays(session.run("pick_and_lift", seed=3, **settings))
+        still = np.abs(arrays["joint_velocities"]).max(axis=1) < 0.1
+        return int((still[1:] & ~still[:-1]).sum())
+
+    assert stops(set=["motion.stop_at_vias=1"]) > stops()
+    assert stops(set=["motion.stop_at_vias=0"]) == stops()
+    for setting, message in (
+        ("motion.stop_at_vias=2", "motion.stop_at_vias is 0 or 1"),
+        ("motion.stop_at_via=1", "motions have no parameter 'stop_at_via'"),
+        ("motion.controller=joint_impedance", "motions have no controller"),
+    ):
+        with pytest.raises(stampede.Error, match=message):
+            stampede.Session().run("pick_and_lift", seed=3, set=[setting])

@@ -32,7 +32,7 @@ class CameraConfig:
         point_cloud: bool = True,
         mask: bool = True,
         image_size: tuple[int, int] = (128, 128),
-        render_mode: object = RenderMode.OPENGL3,
+        render_mode: object = RenderMode.OPENGL,
         masks_as_one_channel: bool = True,
         depth_in_meters: bool = False,
     ) -> None:

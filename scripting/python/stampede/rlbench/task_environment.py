@@ -12,7 +12,7 @@ from stampede._core import Error
 from stampede.rlbench.action_modes.action_mode import ActionMode
 from stampede.rlbench.backend.exceptions import DemoError, InvalidActionError
 from stampede.rlbench.backend.observation import Observation
-from stampede.rlbench.backend.recorded import columns, demo_observations
+from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_observations
 from stampede.rlbench.backend.scene import Scene, Start
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import ObservationConfig
@@ -112,8 +112,7 @@ class TaskEnvironment:
         if not self._was_reset:
             raise Error("there is no start yet\n    call reset() before step()")
         self._action_mode.action(self._scene, action)
-        if self._action_mode.whole_motions:
-            self._scene.wait_for_verdict()
+        self._scene.wait_for_verdict()
         return self._scene.observation(), self._scene.reward, self._scene.over
 
     def get_observation(self) -> Observation:
@@ -131,18 +130,21 @@ class TaskEnvironment:
         max_attempts: int = 10,
         random_selection: bool = True,
         from_episode_number: int = 0,
+        stop_at_vias: bool = False,
     ) -> list[Demo]:
         """
         Demos of the variation that is set: made now by the planner, or stored in the environment's `dataset_root`.
 
         amount: of stored ones -1 is all. image_paths: pictures of stored ones are paths of files. callable_each_step:
         gets each observation of a live demo. max_attempts: starts that are drawn for one live demo. random_selection:
-        which stored ones; else those from `from_episode_number` on. Raises DemoError where that is not to be had.
+        which stored ones; else those from `from_episode_number` on. stop_at_vias: in live demos the arm stands at each
+        via-point and where its way bends, and they end without the wait for the verdict: rules that find keyframes by
+        stops then find all that is needed to do the task. Raises DemoError where that is not to be had.
         """
         if live_demos:
             if amount < 1:
                 raise Error(f"{amount} live demos cannot be made\n    ask for at least one")
-            return [self._live_demo(callable_each_step, max_attempts) for _ in range(amount)]
+            return [self._live_demo(callable_each_step, max_attempts, stop_at_vias) for _ in range(amount)]
         return stored_demos(
             check_dataset_root(self._dataset_root),
             self._task,
@@ -155,14 +157,22 @@ class TaskEnvironment:
             from_episode_number,
         )
 
-    def _live_demo(self, callable_each_step: Callable[[Observation], None] | None, max_attempts: int) -> Demo:
+    def _live_demo(
+        self, callable_each_step: Callable[[Observation], None] | None, max_attempts: int, stop_at_vias: bool
+    ) -> Demo:
         session = self._environment.session
         before = np.random.get_state()
         reason = ""
         for attempt in range(max_attempts):
             start = self._draw_start(attempt)
             try:
-                episode = session.run(self._task, variation=start.variation, seed=start.seed, randomise=start.randomise)
+                episode = session.run(
+                    self._task,
+                    variation=start.variation,
+                    seed=start.seed,
+                    randomise=start.randomise,
+                    set=[STOP_AT_VIAS] if stop_at_vias else [],
+                )
             except Error as error:
                 reason = str(error)
                 continue
@@ -172,7 +182,7 @@ class TaskEnvironment:
             arrays = session.arrays(episode, columns(self._config.cameras_on))
             observations = []
             draw = partial(session.picture, episode)
-            for seen in demo_observations(self._config, arrays, draw, self._variation):
+            for seen in demo_observations(self._config, arrays, draw, self._variation, stop_at_vias):
                 observations.append(seen)
                 if callable_each_step is not None:
                     callable_each_step(seen)

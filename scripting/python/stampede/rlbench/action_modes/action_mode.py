@@ -15,18 +15,15 @@ class ActionMode(ABC):
     How `TaskEnvironment.step` moves the robot.
 
     A mode of your own overrides `action` and calls `scene.act(stampede.Action(…))`, and `action_shape`. `channels`:
-    what it reads of `scene.numbers` beyond the fields of an Observation. `whole_motions`: an action is a motion to its
-    end, and the verdict on the goal is waited for.
+    what it reads of `scene.numbers` beyond the fields of an Observation.
     """
 
     channels: tuple[str, ...] = ()
-    whole_motions: bool = False
 
     def __init__(self, arm_action_mode: ArmActionMode, gripper_action_mode: GripperActionMode) -> None:
         self.arm_action_mode = arm_action_mode
         self.gripper_action_mode = gripper_action_mode
         self.channels = (*arm_action_mode.channels, *gripper_action_mode.channels)
-        self.whole_motions = arm_action_mode.whole_motions
 
     @abstractmethod
     def action(self, scene: Scene, action: np.ndarray) -> None:

@@ -14,6 +14,11 @@ from stampede.rlbench.backend.scene import Scene
 
 _UNIT_TOLERANCE = 1e-3  # of a quaternion's length
 _STANDS_RAD = 0.001  # a frame
+_TOUCHES_AT_START = "the arm touches something at the start"
+_LEVER_PER_M = 6.0  # rad: a line that turns more is about an axis near the hand
+_SHUT_M = 0.002  # less wide, the hand is a fist
+_OFF_M, _OFF_RAD = 0.005, 0.05
+_PRESSES_FRAMES = 8  # standing short of the pose
 _MOST_FRAMES = 200  # ten seconds for one action by inverse kinematics
 
 
@@ -35,10 +40,9 @@ def checked_shape(action: Sequence[float] | np.ndarray, shape: tuple[int, ...]) 
 
 
 class ArmActionMode(ABC):
-    """The arm's part of an ActionMode; see there for `channels` and `whole_motions`."""
+    """The arm's part of an ActionMode; see there for `channels`."""
 
     channels: tuple[str, ...] = ()
-    whole_motions: bool = False
 
     @abstractmethod
     def action(self, scene: Scene, action: np.ndarray) -> None:
@@ -68,7 +72,8 @@ class JointPosition(ArmActionMode):
     def action(self, scene: Scene, action: np.ndarray) -> None:
         action = checked_shape(action, self.action_shape(scene))
         target = action if self._absolute_mode else scene.numbers["joint_positions"] + action
-        scene.act(_core.Action("joint_position", scene.within_bounds("joint_position", target)))
+        bounded = scene.within_bounds("joint_position", target)
+        scene.act(_core.Action("joint_position", bounded, controller=_controller(scene)))
 
     def action_shape(self, scene: Scene | type[Scene]) -> tuple[int, ...]:
         return (scene.joint_count,)
@@ -93,8 +98,6 @@ class _EndEffectorPose(ArmActionMode):
     frame EE: the pose is in the present frame of the hand, absolute_mode or not. collision_checking: see
     EndEffectorPoseViaPlanning; inverse kinematics alone never minds obstacles.
     """
-
-    whole_motions = True
 
     def __init__(
         self,
@@ -141,14 +144,19 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
     planned after all.
     """
 
-    _LINE_M = 0.02  # a frame
-    _LINE_RAD = 0.1
+    _LINE_M = 0.01  # a frame
+    _LINE_RAD = 0.05
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
         target = self._target(scene, checked_shape(action, self.action_shape(scene)))
         if scene.over or (not self._collision_checking and self._follows_line(scene, target)):
             return
-        scene.act(_core.Action("tool_path", target))
+        try:
+            scene.act(_core.Action("tool_path", target))
+        except InvalidActionError as error:
+            # What the arm touches already is no obstacle on its way off it, as in RLBench; else there is no way.
+            if _TOUCHES_AT_START not in str(error) or not self._follows_line(scene, target):
+                raise
 
     def _follows_line(self, scene: Scene, target: np.ndarray) -> bool:
         """False, with everything as it was, where the arm cannot."""
@@ -156,12 +164,16 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
         turn = float(np.linalg.norm(rotation_vector(begin[3:], target[3:])))
         parts = max(1, int(np.ceil(max(np.linalg.norm(target[:3] - begin[:3]) / self._LINE_M, turn / self._LINE_RAD))))
         start = scene.save()
+        turns = turn > _LEVER_PER_M * np.linalg.norm(target[:3] - begin[:3])  # a tap or a lid: by the whole force
+        controller = "" if turns else _controller(scene)
         try:
             for part in range(1, parts):
-                scene.act(_core.Action("tool_pose", interpolated(begin, target, part / parts)))
+                scene.act(_core.Action("tool_pose", interpolated(begin, target, part / parts), controller=controller))
                 if scene.over:
                     return True
-            _go_straight(scene, target)
+            _go_straight(scene, target, controller)
+            if controller and _is_off(scene, target):  # what it moves resists: with the motors' whole force
+                _go_straight(scene, target)
         except InvalidActionError:
             scene.restore(start)
             return False
@@ -175,18 +187,32 @@ class EndEffectorPoseViaIK(_EndEffectorPose):
         _go_straight(scene, self._target(scene, checked_shape(action, self.action_shape(scene))))
 
 
-def _go_straight(scene: Scene, target: np.ndarray) -> None:
+def _controller(scene: Scene) -> str:
+    """What a hand has hold of may be a handle, which leads it: the arm then gives way, as in demos. A fist pushes."""
+    opening = float(scene.numbers["gripper_opening"])
+    return "joint_impedance" if _SHUT_M < opening and float(scene.numbers["gripper_open"]) < 0.5 else ""
+
+
+def _is_off(scene: Scene, target: np.ndarray) -> bool:
+    now = scene.numbers["gripper_pose"]
+    turn = float(np.linalg.norm(rotation_vector(now[3:], target[3:])))
+    return float(np.linalg.norm(target[:3] - now[:3])) > _OFF_M or turn > _OFF_RAD
+
+
+def _go_straight(scene: Scene, target: np.ndarray, controller: str = "") -> None:
     """To a pose by inverse kinematics, until the arm stands. Raises InvalidActionError where there is no solution."""
+    still = 0
     for frame in range(_MOST_FRAMES):
         before = scene.numbers["joint_positions"]
         try:
-            scene.act(_core.Action("tool_pose", target))
+            scene.act(_core.Action("tool_pose", target, controller=controller))
         except InvalidActionError:
             if frame == 0:
                 raise
             return  # the joints have gone where the solver finds nothing better
-        # The arm starts from rest: its first frame may be slower than one in which it stands.
-        if scene.over or (frame > 1 and _moved(scene, before) < _STANDS_RAD):
+        # The arm starts from rest, and what it presses on gives way only after a while.
+        still = still + 1 if _moved(scene, before) < _STANDS_RAD else 0
+        if scene.over or still >= (_PRESSES_FRAMES if _is_off(scene, target) else 2):
             return
 
 

@@ -11,8 +11,11 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
+STOP_AT_VIAS = "motion.stop_at_vias=1"  # setting of a run
+
 # Motions that are planned, or in which the arm stands still.
 _AROUND_OBSTACLES = ("move_to", "move_through", "open_hand", "close_hand", "hold", "wait")
+_FRAMES_OF_VERDICT = 3  # that a trimmed demo keeps: whoever replays it arrives a little later
 _SHUT_M = 1e-3  # a hand that was told to open less wide than that was told to close
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
@@ -25,9 +28,16 @@ def columns(cameras: Iterable[str]) -> list[str]:
     return [*NUMBERS, "action/joint_position", "action/gripper", "motion", *about_cameras]
 
 
-def kept_frames(arrays: EpisodeArrays, gripper_frames: bool) -> list[int]:
-    """Frames that a demo has. gripper_frames: also those while the fingers open or close and the arm waits."""
+def kept_frames(arrays: EpisodeArrays, gripper_frames: bool, trimmed: bool = False) -> list[int]:
+    """
+    Frames that a demo has. gripper_frames: also those while the fingers open or close and the arm waits. trimmed: without
+    most of those of the wait for the verdict, in which nothing moves any more.
+    """
     dropped: set[int] = set()
+    if trimmed:
+        for segment in arrays.segments:
+            if segment.kind == "motion" and segment.name == "hold" and segment.end_frame >= arrays.frames - 1:
+                dropped.update(range(segment.first_frame + _FRAMES_OF_VERDICT + 1, arrays.frames))
     if not gripper_frames:
         for segment in arrays.segments:
             if segment.kind == "motion" and segment.name in ("open_hand", "close_hand"):
@@ -71,11 +81,11 @@ def _told_to_open(arrays: EpisodeArrays, frame: int) -> bool:
 
 
 def demo_observations(
-    config: ObservationConfig, arrays: EpisodeArrays, draw: Draw, variation_index: int
+    config: ObservationConfig, arrays: EpisodeArrays, draw: Draw, variation_index: int, trimmed: bool = False
 ) -> Iterator[Observation]:
     """The observations of a demo in their order, each with its pictures drawn as `config` has them."""
     cameras = config.cameras_on
-    frames = kept_frames(arrays, config.record_gripper_closing)
+    frames = kept_frames(arrays, config.record_gripper_closing, trimmed)
     ignoring = ignoring_frames(arrays)
     for frame, misc in zip(frames, demo_misc(arrays, frames, variation_index), strict=True):
         views = {name: _drawn_view(arrays, draw, frame, name, camera) for name, camera in cameras.items()}
