@@ -3,6 +3,7 @@
 
 #include "engine/base/error.h"
 #include "engine/motion/blended_path.h"
+#include "engine/motion/stops.h"
 #include "tests/engine/motion/cluttered.h"
 
 using namespace stampede;
@@ -153,4 +154,36 @@ TEST_CASE("a robot with low jerk limits is slowed down to them") {
   const Arm arm(robot);
   JointVector goal = arm.home() + joints({0.5, 0.3, -0.4, 0.3, 0.2, -0.3, 0.9});
   require_within_limits(time_path(arm, {arm.home(), goal}, {}, kHz), arm, {});
+}
+
+TEST_CASE("a motion that stops at its via-points goes the same way, stands at each and keeps the limits") {
+  const Arm arm(panda_robot());
+  JointVector corner = arm.home(), goal;
+  corner[0] += 0.6;
+  goal = corner;
+  goal[1] += 0.5;
+  const Trajectory plain = time_path(arm, {arm.home(), corner, goal}, {}, kHz);
+  PlannedMotion motion;
+  motion.trajectory = plain;
+  motion.vias = {{"corner", arm.world_from_tip(corner), plain.steps() / 2}};
+  const JointVector passed = evaluate(plain, static_cast<double>(motion.vias[0].step), kHz).position;
+  stop_at_vias(arm, {}, kHz, plain.steps(), motion);
+
+  require_within_limits(motion.trajectory, arm, {});
+  CHECK(motion.trajectory.knots.front().position == plain.knots.front().position);
+  CHECK(motion.trajectory.knots.back().position == plain.knots.back().position);
+  CHECK(motion.trajectory.knots.back().velocity.norm() == 0);
+  int still = 0;
+  for (std::int64_t step = 1; step < motion.trajectory.steps(); ++step) {
+    const JointState now = evaluate(motion.trajectory, static_cast<double>(step), kHz);
+    if (now.velocity.cwiseAbs().maxCoeff() < 1e-3 && (now.position - passed).norm() < 1e-3) ++still;
+    double nearest = 1e9;
+    for (std::int64_t old = 0; old <= 10 * plain.steps(); ++old)
+      nearest =
+          std::min(nearest, (evaluate(plain, 0.1 * static_cast<double>(old), kHz).position - now.position).norm());
+    CHECK(nearest < 2e-3);
+  }
+  CHECK(still >= 0.15 * kHz);
+  const JointState there = evaluate(motion.trajectory, static_cast<double>(motion.vias[0].step), kHz);
+  CHECK((there.position - passed).norm() < 1e-3);
 }
