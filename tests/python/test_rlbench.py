@@ -816,6 +816,21 @@ def test_exported_pictures_are_those_of_live_demos(catalogue: Path, tmp_path: Pa
         assert np.array_equal(getattr(stored[0], f"{camera}_rgb"), getattr(live, f"{camera}_rgb")), camera
 
 
+def test_stored_demos_of_runs_that_stop_end_soon_after_the_last_motion(tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    file = tmp_path / "demos.db"
+    session = Session(catalogue=file)
+    session.run("pick_and_lift", variation="colour=black", seed=1, set=["motion.stop_at_vias=1"])
+    session.run("pick_and_lift", variation="colour=black", seed=1)
+    export(["rlbench", str(file), "--out", str(tmp_path / "out"), "--cameras", ""])
+    last = []
+    for root in (file, tmp_path / "out"):
+        demos = get_stored_demos(2, False, root, black(), "pick_and_lift", config_with(), random_selection=False)
+        last.append([np.abs(demo[-6].joint_positions - demo[-1].joint_positions).max() for demo in demos])
+    assert last[0] == last[1]
+    assert last[0][0] > 1e-3 > last[0][1], "without the setting the arm stands for longer"
+
+
 def test_exported_demos_can_be_gone_back_to(dataset: Path) -> None:
     task = task_for(JointVelocity(), dataset_root=str(dataset))
     task.set_variation(red())

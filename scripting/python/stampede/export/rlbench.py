@@ -38,7 +38,7 @@ from stampede.rlbench.backend.observation import Observation
 from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pickles import demo_bytes
 from stampede.rlbench.backend.pictures import CameraView, camera_misc, depth_to_unit
-from stampede.rlbench.backend.recorded import columns, demo_misc, ignoring_frames, kept_frames, numbers_at
+from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_misc, ignoring_frames, kept_frames, numbers_at
 from stampede.rlbench.backend.utils import float_array_to_rgb, mask_to_rgb_handles, pillow
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CAMERAS, ObservationConfig
@@ -166,7 +166,7 @@ class Writer:
     def _write_into(self, folder: Path, episode: StoredEpisode) -> None:
         cameras = self._cameras_of(episode)
         arrays = episode.arrays(*columns(cameras))
-        frames = kept_frames(arrays, self._options.gripper_frames)
+        frames = kept_frames(arrays, self._options.gripper_frames, self._stops_at_vias(episode))
         intrinsics = {camera: self._write_pictures(folder, episode, arrays, camera, frames) for camera in cameras}
         demo = Demo(
             self._observations(arrays, frames, intrinsics, self._places[episode.id][0]),
@@ -184,6 +184,13 @@ class Writer:
             "SELECT options ->> 'randomise' AS randomise FROM episodes WHERE episode = ?1", episode.id
         )
         return options.values("randomise") != [None]
+
+    @staticmethod
+    def _stops_at_vias(episode: StoredEpisode) -> bool:
+        options = episode.catalogue.query(
+            "SELECT options ->> 'set' AS settings FROM episodes WHERE episode = ?1", episode.id
+        )
+        return STOP_AT_VIAS in (options.values("settings")[0] or "").split()
 
     @staticmethod
     def _observations(

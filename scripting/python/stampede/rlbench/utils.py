@@ -14,7 +14,7 @@ from stampede._core import Error
 from stampede.faults import reading
 from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.folders import demo_folders, load_demo
-from stampede.rlbench.backend.recorded import columns, demo_observations
+from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_observations
 from stampede.rlbench.backend.task import Task
 from stampede.rlbench.backend.utils import task_file_to_task_class
 from stampede.rlbench.demo import Demo
@@ -124,8 +124,10 @@ def _choice(there: int, amount: int, random_selection: bool, first: int, of_what
 
 def _catalogue_demo(reader: _core.CatalogueReader, episode: int, variation: int, config: ObservationConfig) -> Demo:
     arrays = reader.arrays(episode, columns(config.cameras_on))
-    _, ((randomise,),) = reader.query("SELECT options ->> 'randomise' FROM episodes WHERE episode = ?1", (episode,))
-    observations = demo_observations(config, arrays, partial(reader.picture, episode), variation)
+    told = "SELECT options ->> 'randomise', options ->> 'set' FROM episodes WHERE episode = ?1"
+    _, ((randomise, settings),) = reader.query(told, (episode,))
+    trimmed = STOP_AT_VIAS in (settings or "").split()
+    observations = demo_observations(config, arrays, partial(reader.picture, episode), variation, trimmed)
     demo = Demo(list(observations), None, 1, arrays.variation, arrays.seed, randomise is not None)
     demo.variation_number = variation
     return demo
