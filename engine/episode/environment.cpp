@@ -153,7 +153,7 @@ void Environment::Impl::begin(const ResetRequest& asked) {
 
 // The start that a state was saved from.
 void Environment::Impl::begin(const SavedState::Data& state) {
-  const std::string& task = now ? now->record.task : outline().task;
+  const std::string& task = now ? now->rollout.task().name : outline().task;  // the record may be given away
   if (state.task != task)
     throw Error("Environment", "the state is of task '" + state.task + "', not of '" + task + "'",
                 "restore it into an environment of that task");
@@ -320,9 +320,9 @@ SavedState Environment::save() {
   Acting& own = impl_->acting();
   if (own.running.what != Running::What::nothing)
     throw Error("Environment::save", own.running.name + " is under way", "let it go_on to its end, or act otherwise");
-  auto data = std::make_shared<SavedState::Data>(
-      SavedState::Data{own.record.task, impl_->request, own.identity, impl_->settings.record, own.rollout.branch(),
-                       own.track.state(), own, own.dense ? std::optional(own.dense->state()) : std::nullopt});
+  auto data = std::make_shared<SavedState::Data>(SavedState::Data{
+      own.rollout.task().name, impl_->request, own.identity, impl_->settings.record, own.rollout.branch(),
+      own.track.state(), own, own.dense ? std::optional(own.dense->state()) : std::nullopt});
   return {std::move(data)};
 }
 

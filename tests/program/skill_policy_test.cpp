@@ -140,8 +140,8 @@ TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it
 TEST_CASE("a policy that nobody registered is an error before anything runs") {
   const Folder folder, files;
   const std::string refused =
-      "skills/reach.lua: policy 'severo': nobody has registered it\n    did you mean 'servo'? a program registers";
-  for (const std::string run : {R"(policy("severo"),)", R"(function(robot) robot:policy 'severo' end,)"}) {
+      "skills/reach.lua: policy 'servoo': nobody has registered it\n    did you mean 'servo'? a program registers";
+  for (const std::string run : {R"(policy("servoo"),)", R"(function(robot) robot:policy 'servoo' end,)"}) {
     CAPTURE(run);
     const auto made = std::make_shared<int>(0);
     const auto core =
@@ -157,7 +157,7 @@ TEST_CASE("a policy that nobody registered is an error before anything runs") {
     std::filesystem::remove(files / "none.db");
   }
   // A name that is told by nothing but the run itself: no episode comes of it either.
-  const auto core = session(folder, R"(function(robot) robot:policy("se" .. "vero") end,)");
+  const auto core = session(folder, R"(function(robot) robot:policy("ser" .. "voo") end,)");
   CHECK_THROWS_WITH(core->run("reach_target", {.seed = 4}), Catch::Contains("nobody has registered it"));
 }
 
