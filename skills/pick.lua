@@ -1,4 +1,6 @@
--- Grasp a movable object where it rests and lift it clear.
+-- Grasp a movable object where it rests and lift it clear; what is beside it stays where it is.
+local neighbours = require "worlds.lib.neighbours"
+
 return skill {
   params = { "obj: movable & graspable", "from: support" },
   moves = { "obj" },
@@ -11,11 +13,13 @@ return skill {
   },
   label = "pick up the {obj}",
   run = function(robot, p, c)
+    local beside = neighbours.of(robot:view(), p.obj)
     robot:open_hand(c.grasp.opening)
     robot:move_through { -- planned, blended: does not stop at the approach
       approach = c.grasp.approach, grasp = c.grasp.pose, ahead = c.grasp.pose:offset(0, 0, c.height),
     }
     robot:close_hand(p.obj, { force = c.grasp.force })
     robot:lift(c.height) -- world z
+    neighbours.stayed(robot, p.obj, beside)
   end,
 }

@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   objects = { box = { "lidded_box", at = { between(0.12, 0.28), between(-0.20, 0.20), 0.75 }, yaw = between(deg(-22), deg(22)),
     joints = { lid = between(deg(92), deg(108)) } } },
-  init = { is_not.closed("box.lid") },
+  init = { is_not.closed("box.lid"), is.workable("box.lid") },
   goal = { is.closed("box.lid"), is.hand_empty() },
   instructions = {
     "close the box",

@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   objects = { doorway = { "doorway", place = places.beside_the_table(0.06, deg(45), 0.75, 0, 0.15, 0.44),
     joints = { door = between(deg(26), deg(60)) } } },
-  init = { is_not.closed("doorway.door") },
+  init = { is_not.closed("doorway.door"), is.workable("doorway.door") },
   goal = { is.closed("doorway.door"), is.hand_empty() },
   instructions = {
     "close the door",

@@ -10,7 +10,7 @@ return task {
         joints = { [v.level .. "_drawer"] = between(0.08, 0.14) } },
     }
   end,
-  init = function(v) return { is_not.closed("chest." .. v.level .. "_drawer") } end,
+  init = function(v) return { is_not.closed("chest." .. v.level .. "_drawer"), is.workable("chest." .. v.level .. "_drawer") } end,
   goal = function(v) return { is.closed("chest." .. v.level .. "_drawer") } end,
   instructions = {
     "push the {level} drawer back into the chest",

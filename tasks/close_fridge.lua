@@ -7,7 +7,7 @@ return task {
     fridge = { "fridge", place = places.round_the_table(0.13, deg(45), 0.75, 0, 0.32),
       joints = { door = between(math.rad(32), math.rad(50)) } },
   },
-  init = { is_not.closed("fridge.door"), is.closed("fridge.freezer_door") },
+  init = { is_not.closed("fridge.door"), is.closed("fridge.freezer_door"), is.workable("fridge.door") },
   goal = { is.closed("fridge.door"), is.closed("fridge.freezer_door"), is.hand_empty() },
   instructions = {
     "close the fridge",

@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   objects = { grill = { "barbecue", at = { between(0.14, 0.26), between(-0.18, 0.18), 0.75 }, yaw = between(deg(-90), deg(90)),
     joints = { lid = between(deg(55), deg(90)) } } },
-  init = { is_not.closed("grill.lid") },
+  init = { is_not.closed("grill.lid"), is.workable("grill.lid") },
   goal = { is.closed("grill.lid"), is.hand_empty() },
   instructions = {
     "close the barbecue",

@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   objects = { laptop = { "laptop", at = { between(0.04, 0.20), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi, math.pi),
     joints = { lid = between(deg(100), deg(112)) } } },
-  init = { is_not.closed("laptop.lid") },
+  init = { is_not.closed("laptop.lid"), is.workable("laptop.lid") },
   goal = { is.closed("laptop.lid"), is.hand_empty() },
   instructions = {
     "close the laptop",

@@ -7,7 +7,7 @@ return task {
     microwave = { "microwave", place = places.round_the_table(0.13, deg(22), 0.75, 0, 0.36),
       joints = { door = between(math.rad(30), math.rad(50)) } },
   },
-  init = { is_not.closed("microwave.door") },
+  init = { is_not.closed("microwave.door"), is.workable("microwave.door") },
   goal = { is.closed("microwave.door"), is.hand_empty() },
   instructions = {
     "close the microwave",

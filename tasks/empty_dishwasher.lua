@@ -4,7 +4,8 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { dishwasher = { "dishwasher", place = places.round_the_table(0.15, deg(45), 0.75, 0, 0.34) }, plate = { "plate" } },
-  init = { is.closed("dishwasher.door"), is.closed("dishwasher.rack"), is.in_slot("plate", "dishwasher.rack.slot") },
+  init = { is.closed("dishwasher.door"), is.closed("dishwasher.rack"),
+    is.workable("dishwasher.door"), is.workable_behind("dishwasher.rack", "dishwasher.door"), is.in_slot("plate", "dishwasher.rack.slot") },
   goal = { is.on("plate", "table"), is.hand_empty() },
   instructions = {
     "empty the dishwasher",

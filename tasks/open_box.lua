@@ -2,7 +2,7 @@
 return task {
   world = "tabletop",
   objects = { box = { "lidded_box", at = { between(0.12, 0.28), between(-0.20, 0.20), 0.75 }, yaw = between(deg(-22), deg(22)) } },
-  init = { is.closed("box.lid") },
+  init = { is.closed("box.lid"), is.workable("box.lid") },
   goal = { is.open("box.lid"), is.hand_empty() },
   instructions = {
     "open the box",

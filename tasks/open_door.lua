@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { doorway = { "doorway", place = places.beside_the_table(0.06, deg(45), 0.75, -0.10, nil, 0.44) } },
-  init = { is.closed("doorway.door") },
+  init = { is.closed("doorway.door"), is.workable("doorway.door") },
   goal = { is.open("doorway.door"), is.hand_empty() },
   instructions = {
     "open the door",

@@ -5,7 +5,10 @@ return task {
   world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = { chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26) } },
-  init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") },
+  init = function(v)
+    return { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),
+      is.workable("chest." .. v.level .. "_drawer") }
+  end,
   goal = function(v)
     local goal = { is.open("chest." .. v.level .. "_drawer"), is.hand_empty() }
     for _, level in ipairs { "bottom", "middle", "top" } do

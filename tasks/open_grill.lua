@@ -2,7 +2,7 @@
 return task {
   world = "tabletop",
   objects = { grill = { "barbecue", at = { between(0.14, 0.26), between(-0.18, 0.18), 0.75 }, yaw = between(deg(-90), deg(90)) } },
-  init = { is.closed("grill.lid") },
+  init = { is.closed("grill.lid"), is.workable("grill.lid") },
   goal = { is.open("grill.lid"), is.hand_empty() },
   instructions = {
     "open the barbecue",

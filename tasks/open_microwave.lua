@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { microwave = { "microwave", place = places.round_the_table(0.13, deg(22), 0.75, -0.14, 0.36) } },
-  init = { is.closed("microwave.door") },
+  init = { is.closed("microwave.door"), is.workable("microwave.door") },
   goal = { is.open("microwave.door"), is.hand_empty() },
   instructions = {
     "open the microwave",

@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { oven = { "oven", place = places.round_the_table(0.14, deg(45), 0.75, 0, 0.38) } },
-  init = { is.closed("oven.door") },
+  init = { is.closed("oven.door"), is.workable("oven.door") },
   goal = { is.open("oven.door"), is.hand_empty() },
   instructions = {
     "open the oven",

@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { window = { "window", place = places.beside_the_table(0.06, deg(25), 0.75, 0.14, 0.16, 0.44) } },
-  init = { is.closed("window.leaf") },
+  init = { is.closed("window.leaf"), is.workable("window.leaf") },
   goal = { is.open("window.leaf"), is.hand_empty() },
   instructions = {
     "open the window",

@@ -7,7 +7,7 @@ return task {
     fridge = { "fridge", place = places.left_or_behind(0.13, deg(16), 0.75, -0.16) },
     bottle = { "water_bottle" },
   },
-  init = { is.closed("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },
+  init = { is.closed("fridge.door"), is.workable("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },
   goal = { is.inside("bottle", "fridge.shelf"), is.hand_empty() },
   instructions = {
     "put the bottle in the fridge",

@@ -8,8 +8,10 @@ return task {
     chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26) },
     item = { "cube", colour = one_of(colours.names) },
   },
-  init = { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),
-    is.on("item", "table"), is.outside("item", "chest.front") },
+  init = function(v)
+    return { is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer"),
+      is.workable("chest." .. v.level .. "_drawer"), is.on("item", "table"), is.outside("item", "chest.front") }
+  end,
   goal = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer"), is.hand_empty() } end,
   instructions = {
     "store the cube in the {level} drawer of the chest",

@@ -5,7 +5,9 @@ return task {
   world = "tabletop",
   variations = { side = { "left", "right" } },
   objects = { cabinet = { "sliding_cabinet", place = places.round_the_table(0.13, deg(16), 0.75) } },
-  init = { is.closed("cabinet.left_door"), is.closed("cabinet.right_door") },
+  init = function(v)
+    return { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.workable("cabinet." .. v.side .. "_door") }
+  end,
   goal = function(v)
     return { is.open("cabinet." .. v.side .. "_door"), is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),
       is.hand_empty() }

@@ -8,7 +8,10 @@ return task {
     cabinet = { "sliding_cabinet", place = places.round_the_table(0.13, deg(16), 0.75) },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
-  init = { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.on("cup", "table") },
+  init = function(v)
+    return { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.workable("cabinet." .. v.side .. "_door"),
+      is.on("cup", "table") }
+  end,
   goal = function(v)
     return { is.inside("cup", "cabinet." .. v.side .. "_shelf"), is.open("cabinet." .. v.side .. "_door"),
       is.closed("cabinet." .. (v.side == "left" and "right" or "left") .. "_door"),

@@ -9,7 +9,8 @@ return task {
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = function(v)
-    return { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.inside("cup", "cabinet." .. v.side .. "_shelf") }
+    return { is.closed("cabinet.left_door"), is.closed("cabinet.right_door"), is.workable("cabinet." .. v.side .. "_door"),
+      is.inside("cup", "cabinet." .. v.side .. "_shelf") }
   end,
   told = function(v) return { is.inside("cup", "cabinet." .. v.side .. "_shelf") } end,
   goal = function(v)

@@ -9,7 +9,7 @@ return task {
     item = { "cube", colour = one_of(colours.names) },
   },
   init = function(v)
-    return { is.inside("item", "chest." .. v.level .. "_drawer"),
+    return { is.inside("item", "chest." .. v.level .. "_drawer"), is.workable("chest." .. v.level .. "_drawer"),
       is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") }
   end,
   told = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer") } end,

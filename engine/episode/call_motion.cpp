@@ -55,7 +55,7 @@ class Planned {
 
 PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
                            const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
-  PartWay way = way_of_part(rollout, call.object, call.position, call.pivot);
+  PartWay way = way_of_part(rollout.view(), call.object, call.position, call.pivot);
   way.retreat = call.retreat;
   const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
   LineOptions line;
@@ -147,16 +147,15 @@ JointVector planning_start(const World& world, int robot) {
   return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
 }
 
-PartWay way_of_part(const Rollout& rollout, const std::string& name, double position, double pivot) {
-  const WorldView& view = rollout.view();
+PartWay way_of_part(const WorldView& view, const std::string& name, double position, double pivot) {
   const PartRef part = view.part_of(name);
   const Joint& joint = view.scene().body_at(part.body).parts[static_cast<std::size_t>(part.part)].joint;
-  const double here = rollout.world().joint_position(part);
+  const double here = view.world().joint_position(part);
   const Transform part_from_world = view.world_from(name).inverse();
   PartWay way;
   way.part = part;
   way.pivot = pivot;
-  way.opening = rollout.world().opening();
+  way.opening = view.world().opening();
   way.moved = [&view, name, here, position, part_from_world](double share) {
     return Transform(view.part_at(name, here + share * (position - here)) * part_from_world);
   };
@@ -230,7 +229,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                    options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
                    if (move.then_part.empty())
                      return from(plan_through(*free_space(), start, move.targets, {}, key), options);
-                   PartWay then = way_of_part(rollout, move.then_part, move.position, move.pivot);
+                   PartWay then = way_of_part(rollout.view(), move.then_part, move.position, move.pivot);
                    then.opening = move.opening;
                    then.retreat = move.retreat;
                    return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);

@@ -35,7 +35,7 @@ bool moves_fingers(const RobotCall& call);
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
 
 // How a part goes from where its joint is to `position`, its handle free to turn in the hand by `pivot` rad.
-PartWay way_of_part(const Rollout& rollout, const std::string& name, double position, double pivot);
+PartWay way_of_part(const WorldView& view, const std::string& name, double position, double pivot);
 
 // Where plans start: the reference, or the arm itself where contact keeps it away from its reference.
 JointVector planning_start(const World& world, int robot = 0);

@@ -1,15 +1,15 @@
 #include "engine/episode/part_questions.h"
 
+#include "engine/base/error.h"
 #include "engine/episode/call_motion.h"
 
 namespace stampede {
 
-std::vector<GraspCandidate> grasps_to_go(const Rollout& rollout, const CollisionState& space, const std::string& object,
+std::vector<GraspCandidate> grasps_to_go(const WorldView& view, const CollisionState& space, const std::string& object,
                                          const std::optional<PartWay>& follow, double from, double to, RandomKey key,
                                          int most) {
   const auto grasps = [&](const std::optional<PartWay>& way) {
-    return grasp_candidates(space, rollout.world(), rollout.view().object(object), planning_start(rollout.world()), key,
-                            most, way);
+    return grasp_candidates(space, view.world(), view.object(object), planning_start(view.world()), key, most, way);
   };
   if (!follow) return grasps({});
   for (const double share : {1.0, 0.75, 0.5, 0.25, 0.125}) {
@@ -22,10 +22,38 @@ std::vector<GraspCandidate> grasps_to_go(const Rollout& rollout, const Collision
   return {};
 }
 
+std::optional<PartWay> way_to(const WorldView& view, const std::string& name, const std::string& to) {
+  const auto& numbers = view.object(name).numbers;
+  const auto found = numbers.find(to);
+  if (found == numbers.end()) return std::nullopt;
+  const auto pivot = numbers.find("pivot");
+  PartWay way = way_of_part(view, name, found->second, pivot == numbers.end() ? 0 : pivot->second);
+  way.retreat = 0.08;  // m: what is let go is then left
+  return way;
+}
+
+bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before) const {
+  constexpr int kEnough = 2;             // not by a hair
+  constexpr double kWithOneGrip = 0.25;  // of the way of what turns: it may be gripped again
+  CollisionState space = world_->collision_state();
+  if (!before.empty()) {
+    const auto& numbers = object(before).numbers;
+    const double open = numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second;
+    space.move_part(part_of(before), part_at(before, open) * world_from(before).inverse());
+  }
+  for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
+  const std::optional<PartWay> way = way_to(*this, part, to);
+  if (!way) throw Error("can_move", "'" + part + "' has no number '" + to + "'");
+  const PartWay first = way->turn == 0 ? *way : first_of(*way, kWithOneGrip);
+  const auto grasps =
+      grasp_candidates(space, *world_, object(part), world_->arm_position(), RandomKey("can_move"), kEnough, first);
+  return grasps.size() == kEnough;
+}
+
 std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable,
                                      RandomKey key) {
   if (const auto* asked = std::get_if<robot_call::ReachOfPart>(&call)) {
-    PartWay way = way_of_part(rollout, asked->object, asked->position, asked->pivot);
+    PartWay way = way_of_part(rollout.view(), asked->object, asked->position, asked->pivot);
     way.retreat = asked->retreat;
     const double here = rollout.view().joint(asked->object);
     const auto found =
@@ -34,9 +62,9 @@ std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, co
     return RobotAnswer{found->reach == 1 ? asked->position : here + found->reach * (asked->position - here), {}};
   }
   if (const auto* asked = std::get_if<robot_call::FindGrasp>(&call)) {
-    PartWay way = way_of_part(rollout, asked->object, asked->position, asked->pivot);
+    PartWay way = way_of_part(rollout.view(), asked->object, asked->position, asked->pivot);
     way.retreat = asked->retreat;
-    const auto found = grasps_to_go(rollout, *planning_space(rollout, touchable), asked->object, way,
+    const auto found = grasps_to_go(rollout.view(), *planning_space(rollout, touchable), asked->object, way,
                                     rollout.view().joint(asked->object), asked->position, key, 1);
     return RobotAnswer{{}, found.empty() ? std::nullopt : std::optional(found.front())};
   }

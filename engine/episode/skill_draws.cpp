@@ -36,26 +36,15 @@ void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& rec
   }
 }
 
-// How a part moves from where its joint is to where its number `to` says.
-std::optional<PartWay> way_to(const Rollout& rollout, const std::string& name, const std::string& to) {
-  const auto& numbers = rollout.view().object(name).numbers;
-  const auto found = numbers.find(to);
-  if (found == numbers.end()) return std::nullopt;
-  const auto pivot = numbers.find("pivot");
-  PartWay way = way_of_part(rollout, name, found->second, pivot == numbers.end() ? 0 : pivot->second);
-  way.retreat = 0.08;  // m: what is let go is then left
-  return way;
-}
-
 Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
                   std::string& detail, Impasse* impasse) {
   const std::string name = argument(context.info->parameters, context.arguments, info.object);
   const auto space = planning_space(rollout, touchable(rollout, context));
   const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
   const auto grasps = [&](const std::optional<PartWay>& follow, double from, double to) {
-    return grasps_to_go(rollout, *space, name, follow, from, to, context.key.with(info.name), wanted + 1);
+    return grasps_to_go(rollout.view(), *space, name, follow, from, to, context.key.with(info.name), wanted + 1);
   };
-  const std::optional<PartWay> way = way_to(rollout, name, info.to);
+  const std::optional<PartWay> way = way_to(rollout.view(), name, info.to);
   auto candidates =
       way ? grasps(way, rollout.view().joint(name), rollout.view().object(name).numbers.at(info.to)) : grasps({}, 0, 0);
   if (candidates.empty() && way) candidates = grasps({}, 0, 0);  // perhaps it moves a little all the same

@@ -60,6 +60,10 @@ class WorldView {
   // Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way? As
   // costly as looking for a grasp: a few milliseconds.
   bool can_grasp(std::string_view object) const;
+  // Could the arm, from where it is, take the part with two of its grasps at least and go with it to where its number
+  // `to` says, or with more than one grip a part of the way, nothing in its way? With `before`, a part that the way is
+  // behind, open. As costly as looking for such a grasp: up to a second where there is none.
+  bool can_move(const std::string& part, const std::string& to, const std::string& before = {}) const;
   std::string grasped_object() const;  // or empty
   double opening() const;              // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?

@@ -81,7 +81,10 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
   const Arm& arm = state.arm();
   // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
   if (!state.hand_free(grasp.world_from_tip, kHair_m) || !state.hand_free(grasp.world_from_approach)) return false;
-  for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, 3, 12)) {
+  // Who has to slide a part needs the right one of them; a handle that turns in the hand leaves more of a choice.
+  const bool slides = follow && follow->turn == 0;
+  const int most = slides ? 6 : 3, restarts = slides ? 24 : 12;
+  for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, most, restarts)) {
     if (!state.free(q)) continue;
     const auto approach = [&](double way) {
       Transform tip = grasp.world_from_approach;

@@ -1,5 +1,6 @@
 #include "engine/motion/part_way.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,9 +19,12 @@ constexpr double kMostJump = 0.5;    // rad of a joint from one to the next
 constexpr int kMostTurns = 2;        // steps of the handle in the hand from one to the next
 constexpr double kLeastStep = 0.05;  // rad, of those
 constexpr double kPivotCost = 0.3;   // of a rad that the handle turns in the hand, beside one of a joint
+constexpr int kMostElbows = 4;       // steps of an elbow either way from where it would come to be by itself
+constexpr double kElbowStep = 0.15;  // rad of all joints together, of those
 
 struct Node {
   JointVector q;
+  JointVector elbow;  // how the joints go together while the tip stands still, a unit vector; empty: unknown
   double cost = std::numeric_limits<double>::infinity();
   int from = -1;  // index in the layer before
 };
@@ -69,17 +73,36 @@ CollisionState with_part_held(const CollisionState& state, const JointVector& st
   return holding;
 }
 
+// How the joints of an arm with one more than it needs go together while the tip stands still, towards `like`.
+JointVector elbow_of(const Arm& arm, const JointVector& q, const JointVector& like) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(arm.jacobian(q), Eigen::ComputeFullV);
+  const JointVector elbow = svd.matrixV().col(q.size() - 1);
+  return like.size() == elbow.size() && elbow.dot(like) < 0 ? JointVector(-elbow) : elbow;
+}
+
+std::size_t layers_of(const PartWay& way) {
+  return static_cast<std::size_t>(std::max(kLayers, static_cast<int>(std::ceil(std::abs(way.turn) / kLayerTurn))));
+}
+
+double turn_step(const PartWay& way) {
+  return std::max(kLeastStep, std::abs(way.turn) / static_cast<double>(layers_of(way)));
+}
+
+// Steps that the handle may turn in the hand, either way.
+int most_turns(const PartWay& way) { return way.turn == 0 ? 0 : static_cast<int>(way.pivot / turn_step(way)); }
+
+// `elbows`: steps either way that the elbow may be turned, where the handle does not turn in the hand.
 std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
-                             bool whole) {
+                             bool whole, int elbows) {
   const Arm& arm = state.arm();
   const Transform held = arm.world_from_tip(start);
-  const std::size_t count =
-      static_cast<std::size_t>(std::max(kLayers, static_cast<int>(std::ceil(std::abs(way.turn) / kLayerTurn))));
-  const double step = std::max(kLeastStep, std::abs(way.turn) / static_cast<double>(count));
-  const int most = way.turn == 0 ? 0 : static_cast<int>(way.pivot / step);
+  const std::size_t count = layers_of(way);
+  const double step = turn_step(way);
+  const bool elbow_turns = elbows > 0;
+  const int most = elbow_turns ? elbows : most_turns(way), next = elbow_turns ? 1 : kMostTurns;
   const std::size_t width = static_cast<std::size_t>(2 * most) + 1;
   std::vector<std::vector<Node>> layers(count + 1, std::vector<Node>(width));
-  layers[0][static_cast<std::size_t>(most)] = {start, 0, -1};
+  layers[0][static_cast<std::size_t>(most)] = {start, elbow_turns ? elbow_of(arm, start, {}) : JointVector{}, 0, -1};
   const CollisionState holding = with_part_held(state, start, way);
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count);
@@ -100,15 +123,17 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
     bool any = false;
     for (int j = -most; j <= most; ++j) {
       Node& node = layers[k][static_cast<std::size_t>(j + most)];
-      const Transform tip = turned(moved * held, way.axis, j * step);
-      for (int i = std::max(-most, j - kMostTurns); i <= std::min(most, j + kMostTurns); ++i) {
+      const Transform tip = elbow_turns ? Transform(moved * held) : turned(moved * held, way.axis, j * step);
+      for (int i = std::max(-most, j - next); i <= std::min(most, j + next); ++i) {
         const Node& from = before[static_cast<std::size_t>(i + most)];
-        const double bend = kPivotCost * step * (j - i);
+        const double bend = elbow_turns ? 0 : kPivotCost * step * (j - i);
         if (from.cost + bend * bend >= node.cost) continue;
-        const auto q = arm.solve(tip, from.q, key.with(static_cast<std::int64_t>(k)), 0);
+        const JointVector guess = elbow_turns ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
+        const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost < node.cost && (share > way.stop || free(from.q, *q))) node = {*q, cost, i + most};
+        if (cost >= node.cost || !(share > way.stop || free(from.q, *q))) continue;
+        node = {*q, elbow_turns ? elbow_of(arm, *q, from.elbow) : JointVector{}, cost, i + most};
       }
       any = any || node.from >= 0;
     }
@@ -134,7 +159,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
     int at = static_cast<int>(best - ends.begin());
     for (std::size_t k = end; k > 0; --k) {
       const Node& node = layers[k][static_cast<std::size_t>(at)];
-      turns[k] = (at - most) * step;
+      turns[k] = elbow_turns ? 0 : (at - most) * step;
       arm_at[k] = node.q;
       at = node.from;
     }
@@ -144,6 +169,9 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
   }
   return std::nullopt;
 }
+
+// Where the handle cannot turn in the hand, the elbow is all that an arm can choose.
+bool elbow_may_turn(const Arm& arm, const PartWay& way) { return arm.joints() > 6 && most_turns(way) == 0; }
 
 }  // namespace
 
@@ -176,12 +204,16 @@ PartWay first_of(const PartWay& way, double share) {
 
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key) {
-  return search(state, start, way, key, true);
+  if (auto found = search(state, start, way, key, true, 0); found || !elbow_may_turn(state.arm(), way)) return found;
+  return search(state, start, way, key, true, kMostElbows);
 }
 
 std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                          RandomKey key) {
-  return search(state, start, way, key, false);
+  auto found = search(state, start, way, key, false, 0);
+  if ((found && found->reach == 1) || !elbow_may_turn(state.arm(), way)) return found;
+  auto other = search(state, start, way, key, false, kMostElbows);
+  return other && (!found || other->reach > found->reach) ? other : found;
 }
 
 }  // namespace stampede

@@ -31,8 +31,8 @@ struct ArmWay {
 // A way that the arm can follow from `start`, where the hand holds the part, without a jump and with nothing touched
 // but what `state` allows and the shapes of the part that are in the hand; the part is where it is by then. What is
 // touched beyond the part's stop does not count. Dynamic
-// programming over the turn of the handle in the hand: the least motion of the joints. Result: nothing when there is
-// none. Repeatable.
+// programming over the turn of the handle in the hand, or, where it cannot turn, of the elbow: the least motion of the
+// joints. Result: nothing when there is none. Repeatable.
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key);
 // The same as far as it goes: to the end, or to where the arm cannot follow. Nothing: not even a little.

@@ -36,6 +36,8 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
+---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
 
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
@@ -72,6 +74,8 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
+---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
@@ -135,6 +139,8 @@
 ---| "switched_on"
 ---| "turned"
 ---| "under"
+---| "workable"
+---| "workable_behind"
 
 ---@alias stampede.type_name
 ---| "area"

@@ -308,6 +308,13 @@ function stampede_world_view:carried(thing) end
 ---@param thing string
 ---@return boolean
 function stampede_world_view:can_grasp(thing) end
+-- Could the arm, from where it is, take the part with two of its grasps at least and go with it towards its number `to`,
+-- nothing in the way; with `before`, a part that it is behind, open?
+---@param part string
+---@param to string
+---@param before? string
+---@return boolean
+function stampede_world_view:can_move(part, to, before) end
 ---@return string|nil
 function stampede_world_view:grasped_object() end
 -- Of the hand

@@ -73,6 +73,13 @@ int single_test(lua_State* state) {
   return 1;
 }
 
+int can_move(lua_State* state) {
+  const std::string part(check_text(state, 2)), to(check_text(state, 3));
+  const std::string before = lua_isnoneornil(state, 4) ? std::string() : std::string(check_text(state, 4));
+  lua_pushboolean(state, view_of(state).can_move(part, to, before) ? 1 : 0);
+  return 1;
+}
+
 int supports(lua_State* state) {
   return push_judged(state, view_of(state).supports(check_text(state, 2), check_text(state, 3)));
 }
@@ -323,6 +330,7 @@ constexpr luaL_Reg kMethods[] = {
     {"grasped", lua_function<judged<&WorldView::grasped>>},
     {"carried", lua_function<judged<&WorldView::carried>>},
     {"can_grasp", lua_function<single_test<&WorldView::can_grasp>>},
+    {"can_move", lua_function<can_move>},
     {"grasped_object", lua_function<grasped_object>},
     {"opening", lua_function<opening>},
     {"inside", lua_function<inside>},

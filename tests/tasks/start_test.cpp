@@ -42,3 +42,45 @@ TEST_CASE("a start that asks for a place on a surface and in a region is found, 
       CHECK(start.draws <= 5);
     }
 }
+
+TEST_CASE("what a task opens or shuts stands where the arm can move it") {
+  struct Case {
+    std::string task, variation;
+    std::int64_t seed;
+  };
+  const std::vector<Case> once_out_of_reach = {{"slide_cabinet_open", "side=right", 7310000},
+                                               {"slide_cabinet_open", "side=right", 7310002},
+                                               {"close_door", "", 7310000},
+                                               {"take_tray_out_of_oven", "", 7310000},
+                                               {"empty_dishwasher", "", 7310001},
+                                               {"close_drawer", "level=bottom", 7},
+                                               {"close_drawer", "level=bottom", 8}};
+  for (const auto& [task, variation, seed] : once_out_of_reach) {
+    RunOptions options;
+    options.seed = seed;
+    options.split = seed >= 1000000 ? Split::test : Split::train;
+    const EpisodeRecord episode = run_task(task, variation, options);
+    INFO(task << " " << seed << ": " << verdict(episode));
+    CHECK(episode.outcome == Outcome::success);
+  }
+}
+
+TEST_CASE("a part can be moved where the arm can take it and go with it, not far away, and not behind what is shut") {
+  const auto settled_scene = [](const std::string& task) {
+    EpisodeScripts scripts(all_tasks(), task, first_variation(task), 1);
+    return *make_start(scripts.task(), scripts.symbols(), {}).scene;
+  };
+  Scene chest = settled_scene("open_drawer");
+  const auto can_move = [](const Scene& scene, const std::string& part, const std::string& before) {
+    World world(std::make_shared<const Scene>(scene));
+    return WorldView(world).can_move(part, "pull", before);
+  };
+  CHECK(can_move(chest, "chest.top_drawer", ""));
+  const Body& body = chest.bodies[static_cast<std::size_t>(chest.body_index("chest"))];
+  chest.bodies[static_cast<std::size_t>(chest.body_index("chest"))].world_from_body =
+      translation(1, 0, 0) * body.world_from_body;
+  CHECK_FALSE(can_move(chest, "chest.top_drawer", ""));
+  const Scene dishwasher = settled_scene("empty_dishwasher");
+  CHECK_FALSE(can_move(dishwasher, "dishwasher.rack", ""));
+  CHECK(can_move(dishwasher, "dishwasher.rack", "dishwasher.door"));
+}

@@ -1,0 +1,8 @@
+-- The arm can open the drawer, door or lid, which is shut where it starts, or shut it, which is open: two of its grasps at
+-- least are in reach, and the arm can go with the part from there. A condition on starts.
+return predicate {
+  params = { "part: openable" },
+  label = "the {part} is where the arm can move it",
+  start_only = true,
+  holds = function(w, part) return w:can_move(part, w:joint(part) > w:number(part, "closed_at") and "closed_at" or "pull") end,
+}
