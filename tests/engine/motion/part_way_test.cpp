@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/motion/route.h"
 #include "tests/engine/motion/cluttered.h"
 
 using namespace stampede;
@@ -49,6 +50,31 @@ TEST_CASE("a wrist turns with what it holds as far as its last joint goes, and s
     CHECK(angle_between(Quaternion(arm.world_from_tip(end).linear()), Quaternion(expected.linear())) < 2e-3);
     CHECK(free_at_end(state, start, first_of(rounds, found->reach), end));
   }
+}
+
+TEST_CASE("the elbow turns where an arm could not slide something on with it as it is") {
+  const World world(cluttered_scene());
+  const CollisionState state = world.collision_state();
+  const Arm& arm = state.arm();
+  Random random(RandomKey("starts"));
+  int as_it_is = 0, with_elbow = 0;
+  for (int i = 0; i < 200; ++i) {
+    const JointVector start = random_free(state, random);
+    PartWay slide = turning(arm.world_from_tip(start), 0);
+    slide.moved = [](double share) { return translation(0, 0, share * 0.25); };
+    const ToolPath rigid = follow_tool(
+        arm, start, [&](double share) { return Transform(slide.moved(share) * arm.world_from_tip(start)); }, 50,
+        RandomKey("rigid"));
+    if (rigid.reason == Reason::none && !first_touch_of_line(state, rigid.waypoints, 0.01)) ++as_it_is;
+    const auto found = way_with_part(state, start, slide, RandomKey("way"));
+    if (!found) continue;
+    ++with_elbow;
+    const Transform end = slide.moved(1) * arm.world_from_tip(start);
+    CHECK((arm.world_from_tip(found->arm.back()).translation() - end.translation()).norm() < 1e-3);
+    for (const JointVector& q : found->arm) CHECK(state.free(q));
+  }
+  INFO(as_it_is << ", then " << with_elbow);
+  CHECK(with_elbow > as_it_is);
 }
 
 TEST_CASE("a part that cannot be followed at all is no way") {
