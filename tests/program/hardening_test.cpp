@@ -20,6 +20,17 @@ class Elf {
   }
   bool moves() const { return header_.e_type == ET_DYN; }  // it may be loaded anywhere
   bool has(std::uint32_t type) const { return segment(type).p_type == type; }
+  // The name is among those that the file gives or takes when it is loaded.
+  bool names(const std::string& symbol) const {
+    const std::uint64_t address = dynamic(DT_STRTAB);
+    for (int i = 0; i < header_.e_phnum; ++i)
+      if (const Elf64_Phdr one = nth(i);
+          one.p_type == PT_LOAD && address >= one.p_vaddr && address - one.p_vaddr < one.p_filesz) {
+        const std::string all = bytes_.substr(one.p_offset + (address - one.p_vaddr), dynamic(DT_STRSZ));
+        return all.find('\0' + symbol + '\0') != std::string::npos;
+      }
+    return false;
+  }
   bool runs_stack() const { return !has(PT_GNU_STACK) || (segment(PT_GNU_STACK).p_flags & PF_X) != 0; }
   bool writes_code() const {
     for (int i = 0; i < header_.e_phnum; ++i)
@@ -68,6 +79,9 @@ TEST_CASE(
     CHECK_FALSE(elf.runs_stack());
     CHECK_FALSE(elf.writes_code());
     CHECK(elf.dynamic(DT_TEXTREL) == 0);
+    CHECK(elf.names("__stack_chk_fail"));
+    CHECK(elf.names("__snprintf_chk"));
+    CHECK_FALSE(elf.names("snprintf"));
   }
   CHECK((Elf(STAMPEDE_PROGRAM).dynamic(DT_FLAGS_1) & DF_1_PIE) != 0);
 }
