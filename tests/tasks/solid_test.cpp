@@ -16,6 +16,7 @@ void check_solid(const std::string& task, int seed) {
   options.seed = seed;
   const EpisodeRecord episode = run_task(task, first_variation(task), options);
   INFO(task << " " << seed << ": " << verdict(episode));
+  CHECK_FALSE(episode.frames.empty());
   for (const Overlap& overlap : overlaps_of(episode)) {
     // What is pinched, jammed into a hole or dropped may be deeper for a frame: grasp and landing tests look at that.
     if (overlap.kind == OverlapKind::things || overlap.kind == OverlapKind::thing) continue;
