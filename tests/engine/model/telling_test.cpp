@@ -84,7 +84,8 @@ TEST_CASE("things of one type that only their looks tell apart keep them") {
   for (const char* name : {"cube1", "cube2"}) CHECK(keeps(tins, name));
 }
 
-TEST_CASE("what a sentence gives a look keeps it, and where nobody knows what is meant, all that the task brings does") {
+TEST_CASE(
+    "what a sentence gives a look keeps it, and where nobody knows what is meant, all that the task brings does") {
   Scene before = cubes(2);
   body(before, "table").fixture = true;
   object(before, "cube1").class_name = "die", object(before, "cube1").type = "toy";
