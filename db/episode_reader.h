@@ -115,4 +115,7 @@ class EpisodeReader {
   std::map<std::int64_t, std::size_t> segment_at_;  // ordinal -> index in record_.segments
 };
 
+// See Catalogue::read_arrays.
+EpisodeArrays read_arrays(const sql::Database& database, std::int64_t id, const ArrayRequest& request);
+
 }  // namespace stampede

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "db/catalogue_impl.h"
+#include "db/episode_reader.h"
 
 namespace stampede {
 namespace {

@@ -2,16 +2,11 @@
 // this room only.
 #pragma once
 
-#include <cstdint>
-
 #include "db/sqlite.h"
-#include "stampede/arrays.h"
 
 namespace stampede {
 
 // `progress` and `applicable`, for statements of this connection. Lifetime: the database stays where it is.
 void add_frame_labels(const sql::Database& database);
-
-EpisodeArrays read_arrays(const sql::Database& database, std::int64_t id, const ArrayRequest& request);
 
 }  // namespace stampede

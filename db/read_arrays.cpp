@@ -6,7 +6,6 @@
 
 #include "db/check_numbers.h"
 #include "db/episode_reader.h"
-#include "db/frame_labels.h"
 #include "engine/episode/arrays.h"
 
 namespace stampede {

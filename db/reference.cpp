@@ -5,14 +5,10 @@
 
 #include "db/embedded_sql.h"
 #include "db/table_text.h"
+#include "engine/base/text.h"
 
 namespace stampede {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
 
 // `| `episode` | number of the episode | – | – | never |`
 ViewColumn column_of(const std::string& line) {

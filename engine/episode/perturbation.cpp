@@ -8,7 +8,6 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
-#include "engine/episode/said.h"
 #include "engine/model/randomise.h"
 
 namespace stampede {
@@ -161,9 +160,7 @@ std::string to_text(const Perturbation& perturbation) {
   return text;
 }
 
-void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key) { perturb(scene, perturbation, key, {}); }
-
-void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key, const Said& said) {
+void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key, const std::vector<std::string>& said) {
   const auto strength = [&](PerturbationAxis axis) { return strength_of(perturbation, axis); };
   const auto draw = [&](PerturbationAxis axis, const Randomisation& ranges) {
     if (strength(axis) > 0) randomise(scene, ranges, key.with(to_string(axis)), said);

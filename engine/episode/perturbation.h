@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/random.h"
+#include "engine/model/randomise.h"
 #include "engine/model/scene.h"
 
 namespace stampede {
@@ -28,8 +29,9 @@ using Perturbation = std::map<PerturbationAxis, double>;  // strength of each ax
 Perturbation perturbation_from(const std::string& text, const std::string& where);
 std::string to_text(const Perturbation& perturbation);  // canonical: `camera=1,light=2`
 
-// Cameras, the arm's start, light and looks. Those of the scene's draw number `draw`.
-void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key);
+// Cameras, the arm's start, light and looks. Those of the scene's draw number `draw`. What is said of the scene keeps
+// its look.
+void perturb(Scene& scene, const Perturbation& perturbation, RandomKey key, const std::vector<std::string>& said = {});
 
 // Instructions in other words.
 std::string perturbed(const std::string& sentence, const Perturbation& perturbation, RandomKey key);

@@ -10,7 +10,6 @@
 #include "engine/episode/constraints.h"
 #include "engine/episode/fact_tracker.h"
 #include "engine/episode/joint_placement.h"
-#include "engine/episode/said.h"
 #include "engine/model/camera.h"
 #include "engine/motion/looked.h"
 #include "engine/sim/overlap.h"
@@ -354,7 +353,7 @@ class StartMaker {
     put_cameras(scene, options_.cameras);
     const RandomKey key = RandomKey("dress").with(task_.name).with(task_.variation).with(options_.seed);
     const std::optional<Randomisation> own = task_.randomisation;
-    Said said = task_.instructions;
+    std::vector<std::string> said = task_.instructions;
     for (const Subgoal& subgoal : task_.subgoals) said.push_back(subgoal.sentence);
     if (const auto& ranges = own ? own : options_.randomise)
       randomise(scene, *ranges, key.with("looks").with(draw), said);

@@ -210,10 +210,11 @@ void draw_body_looks(Scene& scene, Body& body, const Body& before, const std::st
   }
 }
 
-void randomise_looks(Scene& scene, const Randomisation& ranges, RandomKey key, const Said& said) {
+// `before`: the scene as it was.
+void randomise_looks(const Scene& before, Scene& scene, const Randomisation& ranges, RandomKey key,
+                     const std::vector<std::string>& said) {
   const Meant meant = meant_by(scene, ranges.looks, "looks");
   if (ranges.looks.empty()) return;
-  const Scene before = scene;
   const Telling telling(before, said);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (Body& body = scene.bodies[i]; meant.all || meant.bodies.contains(body.name))
@@ -292,12 +293,10 @@ Randomisation default_randomisation() {
   return ranges;
 }
 
-void randomise(Scene& scene, const Randomisation& ranges, RandomKey key) { randomise(scene, ranges, key, {}); }
-
-void randomise(Scene& scene, const Randomisation& ranges, RandomKey key, const Said& said) {
+void randomise(Scene& scene, const Randomisation& ranges, RandomKey key, const std::vector<std::string>& said) {
   check(scene, ranges);
   Scene drawn = scene;  // an error leaves the scene as it was
-  randomise_looks(drawn, ranges, key.with("looks"), said);
+  randomise_looks(scene, drawn, ranges, key.with("looks"), said);
   randomise_light(drawn.light, ranges, key.with("light"));
   for (Camera& camera : drawn.cameras) jitter(camera, ranges, key.with("camera"));
   randomise_dynamics(drawn, ranges, key.with("dynamics"));

@@ -31,7 +31,8 @@ struct Randomisation {
 // What `--randomise` means where the world says nothing.
 Randomisation default_randomisation();
 
-// Throws Error for names that the scene does not have. Repeatable: a pure function of its arguments.
-void randomise(Scene& scene, const Randomisation& ranges, RandomKey key);
+// What is said of the scene keeps its look. Throws Error for names that the scene does not have. Repeatable: a pure
+// function of its arguments.
+void randomise(Scene& scene, const Randomisation& ranges, RandomKey key, const std::vector<std::string>& said = {});
 
 }  // namespace stampede

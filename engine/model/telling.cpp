@@ -119,7 +119,7 @@ Vector3 lab(const Colour& colour) {
 
 double difference(const Colour& first, const Colour& second) { return (lab(first) - lab(second)).norm(); }
 
-Telling::Telling(const Scene& scene, const Said& said) : scene_(scene) {
+Telling::Telling(const Scene& scene, const std::vector<std::string>& said) : scene_(scene) {
   keep_named();
   keep_twins();
   for (const std::string& sentence : said) keep_spoken(sentence);

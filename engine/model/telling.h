@@ -14,15 +14,10 @@
 
 namespace stampede {
 
-using Said = std::vector<std::string>;  // what people are told to do in a scene
-
-// As randomise(), of a scene of which this is said.
-void randomise(Scene& scene, const Randomisation& ranges, RandomKey key, const Said& said);
-
 class Telling {
  public:
   // Lifetime: no longer than the scene.
-  Telling(const Scene& scene, const Said& said);
+  Telling(const Scene& scene, const std::vector<std::string>& said);
 
   // Its look tells as a whole.
   bool tells(const Body& body, std::size_t part) const;

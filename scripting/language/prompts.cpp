@@ -49,7 +49,7 @@ std::string asking(const std::string& scene, const std::vector<std::string>& own
          " to say it, one a line.";
 }
 
-std::string trimmed(std::string line) {
+std::string without_marks(std::string line) {
   const auto strip = [&](const char* marks) {
     const std::size_t first = line.find_first_not_of(marks);
     line.erase(0, first == std::string::npos ? line.size() : first);
@@ -113,13 +113,13 @@ std::vector<std::string> sentences_in(const std::string& answer) {
     const json list = json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
     if (list.is_array() && !list.empty() &&
         std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
-      for (const json& one : list) found.push_back(trimmed(one.get<std::string>()));
+      for (const json& one : list) found.push_back(without_marks(one.get<std::string>()));
       return found;
     }
   }
   std::istringstream lines(answer);
   for (std::string line; std::getline(lines, line);)
-    if (std::string plain = trimmed(std::move(line)); !plain.empty()) found.push_back(std::move(plain));
+    if (std::string plain = without_marks(std::move(line)); !plain.empty()) found.push_back(std::move(plain));
   return found;
 }
 

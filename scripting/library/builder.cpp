@@ -22,18 +22,17 @@ std::pair<std::string, int> place_of(const Error& error) {
 LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, BuilderOptions options)
     : options_(std::move(options)), complaints_(complaints), library_(std::make_shared<Library>()) {
   library_->roots_ = roots;
-  for (const ScriptFile& file : options_.left_out) left_out_.push_back(file.shown_path);
 }
 
 std::shared_ptr<Library> LibraryBuilder::build() {
   library_->files_ = find_files(library_->roots_, complaints_);
   std::erase_if(library_->files_, [&](const ScriptFile& file) {
-    return std::find(left_out_.begin(), left_out_.end(), file.shown_path) != left_out_.end();
+    return std::any_of(options_.left_out.begin(), options_.left_out.end(),
+                       [&](const ScriptFile& one) { return one.shown_path == file.shown_path; });
   });
   std::erase_if(complaints_, [&](const Error& error) {  // said when they were read first
-    return std::any_of(left_out_.begin(), left_out_.end(), [&](const std::string& path) {
-      return error.where().substr(0, error.where().find(':')) == path;
-    });
+    return std::any_of(options_.left_out.begin(), options_.left_out.end(),
+                       [&](const ScriptFile& one) { return is_about(error, one); });
   });
   check_names();
   read_definitions();

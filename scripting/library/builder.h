@@ -142,8 +142,8 @@ class LibraryBuilder {
 
   // check_tasks.cpp, variations.cpp
   void read_tasks();
-  std::size_t most_variations(
-      const std::string& task) const;  // that are tried: the first, and others at equal distances
+  // How many variations of a task are tried: the first, and others at equal distances.
+  std::size_t most_variations(const std::string& task) const;
   void read_task(const Definition& definition);
   std::vector<Value> variations_of(const Definition& definition, DefinitionState& state);
   void check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
@@ -157,7 +157,6 @@ class LibraryBuilder {
 
   BuilderOptions options_;
   std::vector<Error>& complaints_;
-  std::vector<std::string> left_out_;  // as shown
   std::shared_ptr<Library> library_;
   std::map<DefinitionKind, Definitions> definitions_;
   std::set<std::string> attributes_;

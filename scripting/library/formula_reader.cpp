@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/text.h"
 #include "engine/model/scene.h"
 #include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl.h"
@@ -13,12 +14,6 @@ namespace {
 
 constexpr std::size_t kMostOrders = 5040;      // 7!
 constexpr std::int64_t kMostWritten = 20'000;  // instances of a formula that are written out: each member of a group
-
-std::string trimmed(std::string text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 bool is_group(const std::string& name) { return name.size() > 1 && name.back() == '*'; }
 

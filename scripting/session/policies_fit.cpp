@@ -35,13 +35,8 @@ Complaints complaints(const Library& library, const RunOptions& options) {
   return of_skills;
 }
 
-}  // namespace
-
-void check_policies(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options,
-                    const std::atomic<bool>* stop) {
-  if (options.behaviour != Behaviour::plan) return;  // which skills it draws is told by nothing
-  const Complaints bad = complaints(*library, options);
-  if (bad.empty()) return;
+void check_policies_of(const std::shared_ptr<const Library>& library, const Complaints& bad, const EpisodeJob& job,
+                       const RunOptions& options, const std::atomic<bool>* stop) {
   PreparedEpisode prepared(library, job, options);
   const StartQuestion question = question_at_start(prepared.scripts(), prepared.options(), stop);
   if (question.start.reason != Reason::none) return;
@@ -51,6 +46,16 @@ void check_policies(const std::shared_ptr<const Library>& library, const Episode
     const auto found = bad.find(action == nullptr ? step.action : action->skill);
     if (found != bad.end()) throw Error(found->second);
   }
+}
+
+}  // namespace
+
+void check_policies(const std::shared_ptr<const Library>& library, const std::vector<EpisodeJob>& jobs,
+                    const RunOptions& options, const std::atomic<bool>* stop) {
+  if (options.behaviour != Behaviour::plan) return;  // which skills it draws is told by nothing
+  const Complaints bad = complaints(*library, options);
+  if (bad.empty()) return;
+  for (const EpisodeJob& job : jobs) check_policies_of(library, bad, job, options, stop);
 }
 
 }  // namespace stampede

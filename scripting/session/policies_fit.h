@@ -3,14 +3,15 @@
 
 #include <atomic>
 #include <memory>
+#include <vector>
 
 #include "scripting/session/episode_job.h"
 
 namespace stampede {
 
-// Throws Error where the plan for this episode calls a skill that asks for a policy by a name that nobody has
-// registered. Only where such a skill exists is a start made and planned for.
-void check_policies(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options,
-                    const std::atomic<bool>* stop);
+// Throws Error where the plan for one of these episodes calls a skill that asks for a policy by a name that nobody has
+// registered. Only where such a skill exists are starts made and planned for.
+void check_policies(const std::shared_ptr<const Library>& library, const std::vector<EpisodeJob>& jobs,
+                    const RunOptions& options, const std::atomic<bool>* stop);
 
 }  // namespace stampede

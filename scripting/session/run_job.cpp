@@ -108,8 +108,7 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
       options.sentences = sentences_for(found->second, job.variation);
     return options;
   };
-  if (!settings.act)
-    for (const EpisodeJob& job : jobs.first_of_each_task()) check_policies(library, job, settings.options, stop);
+  if (!settings.act) check_policies(library, jobs.first_of_each_task(), settings.options, stop);
   std::mutex mutex;
   std::set<std::string> remarked;
   const auto pass_on = [&](const std::vector<Error>& remarks) {

@@ -173,7 +173,7 @@ PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeReque
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
   PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
-  check_policies(library_, prepared.job(), prepared.options(), nullptr);
+  check_policies(library_, {prepared.job()}, prepared.options(), nullptr);
   return keep(prepared.run(nullptr));
 }
 

@@ -264,6 +264,18 @@ PyType_Slot kEnvironmentSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&tra
                                    {Py_tp_clear, reinterpret_cast<void*>(&clear_environment)},
                                    {0, nullptr}};
 
+// What is seen where an episode begins, or goes on from elsewhere.
+template <typename Begin>
+auto begun(PyEnvironment& self, const char* name, const Begin& begin) {
+  const Using use(self.turn, name);
+  EnvironmentObservation now;
+  {
+    const Released free;
+    now = begin();
+  }
+  return to_python(std::move(now));
+}
+
 // What an environment says of itself.
 template <typename Answer>
 Answer asked(const PyEnvironment& self, const char* question, Answer (Environment::*answer)() const) {
@@ -370,25 +382,13 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
       .def(
           "reset",
           [](PyEnvironment& self, const ResetRequest& request) {
-            const Using use(self.turn, "Environment.reset");
-            EnvironmentObservation now;
-            {
-              const Released free;
-              now = self->reset(request);
-            }
-            return to_python(std::move(now));
+            return begun(self, "Environment.reset", [&] { return self->reset(request); });
           },
           "request"_a = ResetRequest{}, "A start. Raises Error for one that cannot be made.")
       .def(
           "reset",
           [](PyEnvironment& self, const SavedState& state) {
-            const Using use(self.turn, "Environment.reset");
-            EnvironmentObservation now;
-            {
-              const Released free;
-              now = self->reset(state);
-            }
-            return to_python(std::move(now));
+            return begun(self, "Environment.reset", [&] { return self->reset(state); });
           },
           "state"_a, "A saved state, whatever start is under way.")
       .def(
@@ -463,13 +463,7 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
       .def(
           "restore",
           [](PyEnvironment& self, const SavedState& state) {
-            const Using use(self.turn, "Environment.restore");
-            EnvironmentObservation now;
-            {
-              const Released free;
-              now = self->restore(state);
-            }
-            return to_python(std::move(now));
+            return begun(self, "Environment.restore", [&] { return self->restore(state); });
           },
           "state"_a)
       .def(

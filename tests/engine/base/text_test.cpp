@@ -11,4 +11,11 @@ TEST_CASE("a text has one part more than separators, empty ones included") {
   CHECK(split(",a,", ',') == std::vector<std::string>{"", "a", ""});
 }
 
+TEST_CASE("blanks and tabs at the ends of a text are no part of it") {
+  CHECK(trimmed(" \ta b\t ") == "a b");
+  CHECK(trimmed("a") == "a");
+  CHECK(trimmed(" \t").empty());
+  CHECK(trimmed("").empty());
+}
+
 }  // namespace stampede

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <set>
 
-#include "engine/episode/said.h"
+#include "engine/episode/perturbation.h"
 #include "engine/model/randomise.h"
 #include "scripting/runtime/episode_scripts.h"
 
