@@ -36,10 +36,17 @@ bool WorldView::can_move(const std::string& part, const std::string& to, const s
   constexpr int kEnough = 2;             // not by a hair
   constexpr double kWithOneGrip = 0.25;  // of the way of what turns: it may be gripped again
   CollisionState space = world_->collision_state();
+  const auto put = [&](const std::string& name, double position) {
+    space.move_part(part_of(name), part_at(name, position) * world_from(name).inverse());
+  };
+  // What else of the furniture is open may be shut first: that is for the plan to find.
+  for (const Object& other : scene().objects)
+    if (other.kind == ObjectKind::part && other.body == object(part).body && other.name != part &&
+        other.name != before && other.numbers.contains("closed_at"))
+      put(other.name, other.numbers.at("closed_at"));
   if (!before.empty()) {
     const auto& numbers = object(before).numbers;
-    const double open = numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second;
-    space.move_part(part_of(before), part_at(before, open) * world_from(before).inverse());
+    put(before, numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second);
   }
   for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
   const std::optional<PartWay> way = way_to(*this, part, to);
