@@ -19,6 +19,12 @@ constexpr double kErp = 0.2;  // share of an error in position that a step takes
 constexpr double kKept = 1, kKeptBesideRobot = 0.85, kKeptOnRobot = 0.4;
 // What settles without a robot comes to rest, and sleeps, if iterations suffice: five stacked cubes need 200.
 constexpr int kPatience = 200;
+// Among free bodies alone what lies in each other parts no faster than so, or than they are. Among them and a robot no
+// contact bears more than so many times the momentum that all of them have or that a step presses into them, and more
+// where a robot presses. What is jammed asks for two things at once, and for more in every step.
+constexpr double kParting = 0.1;  // m/s
+constexpr double kWedge = 10;
+constexpr double kPressed = 250;       // N
 constexpr double kStopImpulse = 100;   // N s at most
 constexpr double kSettled = 1e-6;      // m/s or rad/s: an iteration that changes no more is the last
 constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
@@ -26,7 +32,8 @@ constexpr double kFastestJoint = 100;  // m/s or rad/s
 constexpr double kSlowSpin = 1e-4;     // rad/s: gyroscopic torque is left out below
 // Points between two free bodies that lie further apart than this, across the longest way between two of them, resist
 // turning by themselves.
-constexpr double kNarrow_m = 0.004;
+constexpr double kNarrow_m = 0.008;
+constexpr double kBears_m = 1e-4;                       // a point of contact that is further away bears nothing
 constexpr double kSoftForce = 80, kPointForce = 10;     // N: of a pair, and of each of its points at least
 constexpr double kSoft_m = 0.001, kHardness = 100'000;  // N/m
 constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;   // m/s, rad/s: slower is at rest
@@ -352,7 +359,8 @@ void Dynamics::find_touching() {
     points_.clear();
     for (; end != touching_.end() && end->first == it->first && end->second == it->second; ++end)
       for (int p = 0; p < end->manifold->getNumContacts(); ++p)
-        points_.push_back(from_bullet(end->manifold->getContactPoint(p).m_positionWorldOnB));
+        if (const btManifoldPoint& point = end->manifold->getContactPoint(p); point.getDistance() < kBears_m)
+          points_.push_back(from_bullet(point.m_positionWorldOnB));
     const bool narrow = lie_along_a_line(points_);
     for (; it != end; ++it) {
       it->points = static_cast<int>(points_.size());
@@ -381,18 +389,25 @@ void Dynamics::solve_island(const Island& island, int iterations) {
   contacts_.clear();
   touched_.clear();
   std::size_t link_contacts = 0;
-  bool with_robot = false, settling = true;
+  bool with_robot = false, with_mechanism = false, settling = true;
   for (const Mover& mover : movers_) {
     if (mover.island != island.number) continue;
     with_robot = with_robot || !mover.may_sleep;
+    with_mechanism = with_mechanism || (mover.tree && mover.may_sleep);
     settling = settling && mover.may_sleep && slower(mover, kSettling);
   }
+  const Motion before = free_motion(island);
+  const bool alone = !with_robot && !with_mechanism;
+  parting_ = 0;
+  Bounds bounds;
+  if (!with_mechanism) bounds.impulse = kWedge * before.momentum + (with_robot ? dt_ * kPressed : 0);
+  if (alone) bounds.parting = std::max(kParting, std::sqrt(2 * before.energy / std::max(before.mass, 1e-9)));
   for (const bool on_link : {false, true}) {
     if (on_link) link_contacts = contacts_.size();
     const double kept = !with_robot ? kKept : on_link ? kKeptOnRobot : kKeptBesideRobot;
     for (int i = island.touching_begin; i < island.touching_end; ++i)
       if (const Touching& touching = touching_[static_cast<std::size_t>(i)]; touching.on_link == on_link)
-        add_contacts(touching, kept);
+        add_contacts(touching, kept, bounds);
   }
   for (const Mover& mover : movers_)
     if (mover.tree && mover.island == island.number) add_joints(mover);
@@ -404,7 +419,41 @@ void Dynamics::solve_island(const Island& island, int iterations) {
                           link_contacts,   contacts_.size(),   joints,       joints_.size() - joints};
   for (int i = 0; i < iterations; ++i)
     if (solve_rows_(rows, i % 2 == 1) <= kSettled) break;
+  if (alone) take_no_energy(island, before);
   keep_results();
+}
+
+Dynamics::Motion Dynamics::free_motion(const Island& island) const {
+  Motion motion;
+  const double pressed = dt_ * gravity_.norm() + kParting;  // m/s
+  for (const Mover& mover : movers_) {
+    if (mover.island != island.number || !mover.free) continue;
+    const FreeBody& body = *mover.free;
+    const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
+    const Matrix3 turn = from_bullet(body.object->getWorldTransform()).linear();
+    const Vector3 linear(speeds[0], speeds[1], speeds[2]);
+    const Vector3 spin = turn.transpose() * Vector3(speeds[3], speeds[4], speeds[5]);
+    const double energy = (body.mass * linear.squaredNorm() + spin.dot(body.moments.cwiseProduct(spin))) / 2;
+    motion.energy += energy;
+    motion.momentum += std::sqrt(2 * body.mass * energy) + body.mass * pressed;
+    motion.mass += body.mass;
+  }
+  return motion;
+}
+
+// Contacts only take energy away, but for what parts from what it lies in and hardly moves. Where those of a wedge have
+// not agreed within the iterations, or a wobbling plate is pushed out of the floor at one place after the other, all
+// goes slower.
+void Dynamics::take_no_energy(const Island& island, const Motion& before) {
+  const double now = free_motion(island).energy;
+  const double parting = std::min(parting_, kParting);
+  const double most = std::max(before.energy, before.mass * parting * parting / 2);
+  if (now <= most) return;
+  for (const Mover& mover : movers_) {
+    if (mover.island != island.number) continue;
+    double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
+    for (int i = 0; i < 6; ++i) speeds[i] *= std::sqrt(most / now);
+  }
 }
 
 Dynamics::Node Dynamics::node_of(const btCollisionObject* object) {
@@ -517,7 +566,7 @@ void Dynamics::start(SolverRow& row, double impulse) {
   if (impulse != 0) push(numbers_.data(), velocities_.data(), row, impulse);
 }
 
-void Dynamics::add_contacts(const Touching& touching, double kept) {
+void Dynamics::add_contacts(const Touching& touching, double kept, const Bounds& bounds) {
   btPersistentManifold& manifold = *touching.manifold;
   const Node one = node_of(manifold.getBody0()), other = node_of(manifold.getBody1());
   const auto robot = [&](const Node& node) {
@@ -539,14 +588,15 @@ void Dynamics::add_contacts(const Touching& touching, double kept) {
     SolverRow& row = begin_row(rows_);
     add_point(row, one, on_one, normal);
     add_point(row, other, on_other, -normal);
-    end_row(row, distance > 0 ? -distance / dt_ : -distance * kErp / dt_);
+    end_row(row, distance > 0 ? -distance / dt_ : std::min(-distance * kErp / dt_, bounds.parting));
+    parting_ = std::max(parting_, row.target);
     if (point.m_combinedRestitution > 0) {
       const double approach = speed(numbers_.data(), velocities_.data(), row);
       if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
     }
     row.lower = 0;
-    row.upper = of_robot ? dt_ * softened(distance, touching.points) : 1e10;
-    start(row, kept * point.m_appliedImpulse);
+    row.upper = of_robot ? dt_ * softened(distance, touching.points) : bounds.impulse;
+    start(row, std::min(row.upper, kept * point.m_appliedImpulse));
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     for (int i = 0; i < 2; ++i) {
       SolverRow& friction = begin_row(rows_);

@@ -173,7 +173,16 @@ class Dynamics {
   void apply_forces();
   void find_touching();
   void solve_island(const Island& island, int iterations);
-  void add_contacts(const Touching& touching, double kept);
+  struct Bounds {                           // of contacts
+    double impulse = 1e10, parting = 1e30;  // N s; m/s, of what lies in each other
+  };
+  struct Motion {                     // of free bodies
+    double energy = 0, momentum = 0;  // J; N s, with what a step presses into them
+    double mass = 0;                  // kg
+  };
+  Motion free_motion(const Island& island) const;
+  void take_no_energy(const Island& island, const Motion& before);
+  void add_contacts(const Touching& touching, double kept, const Bounds& bounds);
   void add_joints(const Mover& mover);
   void start_motors(const Mover& mover, std::size_t first);
   SolverRow& begin_row(std::vector<SolverRow>& rows);
@@ -211,6 +220,7 @@ class Dynamics {
   std::vector<SolverRow> joints_, rows_;
   std::vector<std::pair<int, JointMotor*>> motor_rows_;
   std::vector<SolverContact> contacts_;
+  double parting_ = 0;            // m/s, the most that a contact asks of what lies in each other
   std::vector<Touched> touched_;  // of the contacts
   std::vector<double> scratch_;
   SolveRows solve_rows_ = fastest_solve_rows();
