@@ -186,6 +186,7 @@ StepResult Environment::Impl::step(const AgentAction& action) {
   Acting& own = acting();
   StepResult result;
   own.observer.facts();  // as they are before
+  own.rollout.world().forget_limited();
   const std::int64_t changes = own.rollout.facts().changes(), before_step = own.rollout.step();
   if (auto refusal = own.refusal_of(action))
     result.refusal = std::move(refusal);
@@ -205,6 +206,7 @@ StepResult Environment::Impl::step(const AgentAction& action) {
     if (own.over == Reason::sensor_error) result.detail = own.rollout.sensors().failure();
   }
   if (own.running.what != Running::What::nothing) result.running = own.running.name;
+  if (lasts_a_frame(action.space)) result.limited = own.rollout.world().limited();
   // Success is rewarded once; what says how things stand does so again.
   result.reward = result.refusal && settings.reward == RewardKind::sparse ? 0 : reward();
   own.note_result(result);

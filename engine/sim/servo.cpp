@@ -1,6 +1,7 @@
 #include "engine/sim/servo.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stampede {
@@ -16,6 +17,9 @@ constexpr double kToolSpeed = 1.6;         // m/s: a Panda's tool may move at 1.
 constexpr double kLeastPull = 1e-9;        // what rounding changes is no limit that acted
 // A motor takes away a small error at this rate: a fifth of it in a step of 1/240 s.
 constexpr double kCatch_s = 1.0 / 48;
+
+constexpr std::array<const char*, kLimits> kLimitNames{"speed",      "acceleration", "jerk",     "torque",
+                                                       "tool_speed", "reference",    "approach", "contact"};
 
 double jerk_of(const JointLimits& limits) { return limits.jerk > 0 ? limits.jerk : kUsualJerk; }
 
@@ -37,6 +41,13 @@ std::pair<double, double> allowed(double position, const JointLimits& limits, do
 }
 
 }  // namespace
+
+std::vector<std::string> Limits::names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kLimits; ++i)
+    if (acted_[i]) names.emplace_back(kLimitNames[i]);
+  return names;
+}
 
 double speed_of(const JointLimits& limits) { return limits.velocity > 0 ? limits.velocity : kUsualSpeed; }
 

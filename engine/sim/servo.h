@@ -2,12 +2,14 @@
 #pragma once
 
 #include <bitset>
+#include <string>
+#include <vector>
 
 #include "engine/sim/world.h"
 
 namespace stampede {
 
-// What kept an arm from doing what an agent asked for.
+// What kept an arm from doing what an agent asked for; named in World::limited.
 enum class Limit {
   speed,         // of a joint
   acceleration,  // of a joint
@@ -23,8 +25,7 @@ constexpr int kLimits = 8;
 class Limits {  // that acted
  public:
   void note(Limit limit) { acted_.set(static_cast<std::size_t>(limit)); }
-  void note(const Limits& others) { acted_ |= others.acted_; }
-  bool any() const { return acted_.any(); }
+  std::vector<std::string> names() const;
 
  private:
   std::bitset<kLimits> acted_;

@@ -343,6 +343,13 @@ bool World::steered(int robot) const {
   return impl_->reference.servo.has_value();
 }
 
+std::vector<std::string> World::limited(int robot) const {
+  impl_->check_robot(robot);
+  return impl_->acted.names();
+}
+
+void World::forget_limited() { impl_->acted = {}; }
+
 double World::opening(int robot) const {
   impl_->check_robot(robot);
   double sum = 0;

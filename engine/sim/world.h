@@ -135,6 +135,11 @@ class World {
   JointState reference(int robot = 0) const;  // the arm's set-point at this step; under torques, where it is
   bool following(int robot = 0) const;        // the reference has not reached its trajectory's end
   bool steered(int robot = 0) const;          // a Servo is in force
+  // What kept a steered arm from doing what its Servo asks for since it was last forgotten: any of speed, acceleration,
+  // jerk, torque (of a joint), tool_speed, reference (it waits for an arm that does not get on), approach (something is
+  // ahead, and is met slowly) and contact (the arm presses no harder).
+  std::vector<std::string> limited(int robot = 0) const;
+  void forget_limited();
   const operation::Controller& controller(int robot = 0) const;
   Transform world_from_tip(int robot = 0) const;
   double opening(int robot = 0) const;  // m

@@ -207,6 +207,30 @@ TEST_CASE("a position is reached, a velocity is kept, and a path goes around wha
   CHECK(now.frames == 0);
 }
 
+TEST_CASE("what kept the arm from going as an action asks is told, and nothing where it goes so") {
+  Environment world = environment("reach_target");
+  world.reset({.seed = 1});
+  const std::vector<double> still(7, 0.0);
+  std::vector<double> turning = still;
+  turning[0] = 0.5;
+  StepResult now = world.step({.space = "joint_velocity", .values = turning});
+  CHECK_THAT(now.limited, Catch::VectorContains(std::string("acceleration")));
+  for (int i = 0; i < 12; ++i) now = world.step({.space = "joint_velocity", .values = turning});
+  CHECK(now.limited == std::vector<std::string>{});
+  now = world.step({.space = "joint_velocity", .values = still});
+  for (int i = 0; i < 12; ++i) now = world.step({.space = "joint_velocity", .values = still});
+  CHECK(now.limited == std::vector<std::string>{});
+  std::set<std::string> limits;
+  for (int i = 0; i < 80; ++i) {
+    now = world.step({.space = "tool_velocity", .values = {0, 0, -0.4, 0, 0, 0}});
+    limits.insert(now.limited.begin(), now.limited.end());
+  }
+  CHECK(limits.contains("approach"));   // of the table
+  CHECK(limits.contains("reference"));  // which is ahead of an arm that stands on it
+  now = world.step({.space = "hold"});
+  CHECK(now.limited == std::vector<std::string>{});
+}
+
 TEST_CASE("what cannot be done is said, and nothing changes") {
   Environment world = environment("stack_blocks", {.channels = {"task_low_dim_state", "joint_positions", "facts"}});
   const std::vector<double> before = numbers(world.reset({.seed = 2}));

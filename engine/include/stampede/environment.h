@@ -133,6 +133,10 @@ struct StepResult {
   std::vector<StateFact> changes;        // facts that came (`holds`) and went, as far as they are known
   std::string running;                   // a skill, path or hold that was cut off and can go_on; empty: none
   std::vector<SkillEnd> ended;
+  // What kept the arm from going as the action asks: any of speed, acceleration, jerk, torque (of a joint), tool_speed,
+  // reference (it waits for an arm that does not get on), approach (something is ahead, and is met slowly) and contact
+  // (the arm presses no harder). Of actions for a frame only: paths and skills are planned within the limits.
+  std::vector<std::string> limited;
 };
 
 // What a skill was called with, for the policy that is its body; or, where a policy acts in a whole episode, its task.

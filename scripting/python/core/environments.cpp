@@ -188,6 +188,11 @@ void bind_results(nb::module_& module) {
           "running", [](const Step& s) { return s.rest.running; }, "what was cut off and can go_on, or empty")
       .def_prop_ro(
           "ended", [](const Step& s) { return s.rest.ended; }, "skills")
+      .def_prop_ro(
+          "limited", [](const Step& s) { return s.rest.limited; },
+          "what kept the arm from going as an action for a frame asks: any of speed, acceleration, jerk, torque,\n"
+          "tool_speed, reference (it waits for an arm that does not get on), approach (something is ahead, and is met\n"
+          "slowly), contact (the arm presses no harder)")
       .def("__repr__", [](const Step& s) {
         return "Step(frame " + std::to_string(s.rest.observation.frame) + ", reward " + std::to_string(s.rest.reward) +
                (s.rest.refusal ? ", refused" : "") + (s.rest.terminated ? ", terminated" : "") +

@@ -82,6 +82,7 @@ class EpisodeAccount:
             "reason": last.reason,
             "running": self.running,
             "changes": changes_of(steps),
+            "limited": sorted({limit for step in steps for limit in step.limited}),
             "ended": [_described(end) for step in steps for end in step.ended],
         }
         if refusal is not None:

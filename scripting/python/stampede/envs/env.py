@@ -113,7 +113,8 @@ class Env(EpisodeEnv):
         """Acts for one frame, or for as long as a path, skill or hold lasts.
 
         An action that cannot be done changes nothing: info["refusal"] says why, the reward is 0, and the step counts
-        as one frame of the horizon. Raises stampede.Error for an action of another shape.
+        as one frame of the horizon. info["limited"] lists what kept the arm from going as the action asks, such as
+        "tool_speed" or "contact": see stampede.Step. Raises stampede.Error for an action of another shape.
         """
         self._check_begun("step")
         if self._account.over:
