@@ -9,6 +9,7 @@
 
 #include "engine/sim/collision_state.h"
 #include "engine/sim/impl.h"
+#include "engine/sim/paces.h"
 
 namespace stampede {
 namespace {
@@ -18,8 +19,8 @@ constexpr double kLongest_s = 0.5;  // of a stop
 constexpr int kSpacing = 4;         // steps between two configurations that are looked at
 constexpr double kClear_m = 0.001;  // from what is ahead
 constexpr double kMeeting = 0.025;  // share of the speeds: 4 cm/s of the tip
-constexpr std::array kPaces{1.0, 0.4, 0.15, 0.06};
-constexpr double kPushing = 0.06, kHolding = 0.15;  // against what the arm touches, or what is at a handle in its hand
+constexpr double kSlow = 2;         // times that: faster, it brakes first
+constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kPushingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
 constexpr std::array<std::pair<double, double>, 3> kClearances{{{0.16, 1.0}, {0.06, 0.4}, {0.02, 0.12}}};  // m, pace
 
@@ -73,7 +74,7 @@ void World::Impl::look_ahead() {
   for (const auto& [own, other] : known.pairs)
     if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
       known.moving.insert(other);
-  const double most = known.pairs.empty() ? 1 : contacts.grasped(scene->robot.pads) ? kHolding : kPushing;
+  const double most = known.pairs.empty() ? 1 : contacts.grasped(scene->robot.pads) ? kHoldingPace : kPushingPace;
   Limits ignored;
   const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(here.size())};
   for (const double pace : kPaces) {
@@ -90,7 +91,13 @@ void World::Impl::look_ahead() {
     }
     if (clear(state, way, known)) return;
   }
-  reference.pace = kMeeting;
+  // The way to a stand was seen to be clear at the look before; that of the new action, slowly, need not be.
+  const std::vector<JointLimits>& limits = arm.limits();
+  bool slow = true;
+  for (Eigen::Index i = 0; i < here.size(); ++i)
+    slow =
+        slow && std::abs(reference_now.velocity[i]) <= kSlow * kMeeting * speed_of(limits[static_cast<std::size_t>(i)]);
+  reference.pace = slow ? kMeeting : 0;
 }
 
 }  // namespace stampede

@@ -29,6 +29,7 @@ constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 constexpr double kPress = 35;       // N
 constexpr double kLeastTorque = 6;  // N m
 constexpr double kLoadRate = 14;    // m/s^2: gravity and what carrying adds
+constexpr double kSelfTorque = 2;   // N m, of an arm that an agent steers into itself
 constexpr double kCatchUp = 0.3;    // share of a joint's acceleration for getting back to its reference
 constexpr double kMostPull = 60;    // N at the tip, of an arm that gives way
 
@@ -143,6 +144,10 @@ void World::Impl::control_position(const JointState& now, const JointState& next
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const auto jacobian = arm.jacobian(q);
   const double press = kPress + kLoadRate * load_mass();
+  // Where its links meet each other they do so near the joints between them: what is little at the tip is much there.
+  const bool against_itself = reference.servo && std::ranges::any_of(contacts.closed(), [](const Contact& one) {
+                                return one.a.body == kRobot && one.b.body == kRobot;
+                              });
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const JointLimits& limits = scene->robot.limits[j];
@@ -155,7 +160,8 @@ void World::Impl::control_position(const JointState& now, const JointState& next
     const double wanted = std::clamp(steady + catching_up(error, kCatchUp * most), -fastest, fastest);
     motor.velocity = std::clamp(wanted, v[i] - way, v[i] + way);
     motor.most_force = effort_of(limits);
-    motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
+    motor.against_contact =
+        against_itself ? kSelfTorque : std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
       acted.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }
