@@ -20,12 +20,16 @@ local function push(robot, part, grasp, c, pivot)
   robot:move_through({ approach = grasp.approach, goal = before, ahead = grasp.pose },
     { then_part = part, to = whole and past or grasp.reach, pivot = pivot, retreat = away })
   robot:move_line(grasp.pose, { speed = 0.05, stop_on_contact = true, tolerate = true })
-  local function on(to, speed)
-    robot:move_part(part, to,
-      { speed = speed, most_force = 25, pivot = pivot, retreat = away, as_far_as_it_goes = not whole })
+  local function on(to, speed, then_to)
+    robot:move_part(part, to, { speed = speed, most_force = 25, pivot = pivot, retreat = away,
+      as_far_as_it_goes = not whole, then_to = then_to })
   end
-  on(whole and math.min(-past / 2, w:joint(part)) or grasp.reach, c.speed) -- the last 1.5 cm slowly: no blow at the stop
-  if whole then on(past, math.min(c.speed, 0.03)) end
+  if whole then
+    on(math.min(-past / 2, w:joint(part)), c.speed, past)
+    on(past, math.min(c.speed, 0.03)) -- the last 1.5 cm slowly: no blow at the stop
+  else
+    on(grasp.reach, c.speed)
+  end
   robot:retreat(away, { as_far_as_it_goes = true })
 end
 

@@ -6,6 +6,7 @@
 #include "engine/episode/call_follow.h"
 #include "engine/motion/stops.h"
 #include "engine/motion/tool_line.h"
+#include "engine/sim/paces.h"
 
 namespace stampede {
 namespace {
@@ -47,6 +48,14 @@ class Planned {
     for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
     return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
   }
+  // Of a motion that meets something or takes something along: with stops, an agent is to be able to do it again.
+  MotionLimits in_contact(LineOptions& line) const {
+    MotionLimits limits;
+    if (!stop_) return limits;
+    limits.speed = world_.grasped() ? kHoldingPace : kPushingPace;
+    line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
+    return limits;
+  }
 
  private:
   const World& world_;
@@ -60,31 +69,42 @@ PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, c
   const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
   LineOptions line;
   line.tool_speed = call.speed;
+  const MotionLimits limits = from.in_contact(line);
   const auto moving = [&](double reach) {  // the part goes with the hand, the first `reach` of its way
     return [&way, reach](CollisionState& space, double share) {
       if (way.part.body >= 0) space.move_part(way.part, way.moved(reach * share));
     };
   };
+  const auto along = [&](const ArmWay& found, double reach, double least_share) {
+    LineOptions guided = line;
+    guided.near = found.arm;
+    guided.least_share = least_share;
+    return plan_tool_path_with(state, start, found.world_from_tip, guided, moving(reach), limits, key);
+  };
   options.kind = "move_part";
   options.most_force = call.most_force;
   options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
+  if (call.then_to) {
+    PartWay onward = way_of_part(rollout.view(), call.object, *call.then_to, call.pivot);
+    onward.retreat = call.retreat;
+    const double here = rollout.view().joint(call.object), whole = *call.then_to - here;
+    const double share = whole == 0 ? 1 : std::clamp((call.position - here) / whole, 0.0, 1.0);
+    if (const std::optional<ArmWay> found = way_with_part(state, start, onward, key)) {
+      PlannedMotion motion = along(first_of(*found, share), 1, 1);
+      if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
+    }
+  }
   if (const std::optional<ArmWay> found = way_with_part(state, start, way, key)) {
-    LineOptions guided = line;
-    guided.near = found->arm;
-    PlannedMotion motion = plan_tool_path_with(state, start, found->world_from_tip, guided, moving(1), {}, key);
+    PlannedMotion motion = along(*found, 1, 1);
     if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
   }
   const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
-  PlannedMotion whole = plan_tool_path_with(state, start, rigid, line, moving(1), {}, key);
+  PlannedMotion whole = plan_tool_path_with(state, start, rigid, line, moving(1), limits, key);
   const bool good =  // the arm goes on from there
       whole.reason == Reason::none && free_at_end(state, start, way, whole.trajectory.knots.back().position);
   if (!good && call.as_far_as_it_goes)
-    if (const std::optional<ArmWay> found = furthest_with_part(state, start, way, key)) {
-      LineOptions guided = line;
-      guided.near = found->arm;
-      guided.least_share = 0;
-      whole = plan_tool_path_with(state, start, found->world_from_tip, guided, moving(found->reach), {}, key);
-    }
+    if (const std::optional<ArmWay> found = furthest_with_part(state, start, way, key))
+      whole = along(*found, found->reach, 0);
   return from(std::move(whole), std::move(options));
 }
 
@@ -113,7 +133,9 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
   line.tool_speed = call.speed;
   line.keep_clear = call.keep_clear;
   if (call.as_far_as_it_goes) line.least_share = 0.5;
-  return from(plan_line(state, start, call.target, line, {}, key), std::move(options));
+  const bool touches = call.stop_on_contact || call.most_force > 0 || call.press > 0;
+  const MotionLimits limits = touches ? from.in_contact(line) : MotionLimits{};
+  return from(plan_line(state, start, call.target, line, limits, key), std::move(options));
 }
 
 PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const CollisionState& state,

@@ -264,6 +264,7 @@ struct MovePart {
   double retreat = 0;              // m that the hand must be able to go straight back at the end
   double pivot = 0;                // rad either way that the handle may turn in the hand, about the joint's axis
   bool as_far_as_it_goes = false;  // where the arm cannot follow the whole way: as much of it as it can
+  std::optional<double> then_to;   // on to which another one takes it: the arm is to be able to follow until there
 };                                 // the held handle's joint; arcs too
 // Questions: planned from here and now, nothing moves. The run is told the answer before it is asked for its next call.
 struct ReachOfPart {  // the position nearest to `position` that the arm can take the held part to

@@ -110,7 +110,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
     const auto at = [&](double place) {
       CollisionState there = holding;
       if (way.part.body >= 0) there.move_part(way.part, way.moved(place));
-      return there;
+      return share > way.stop ? space_of_line(there, false) : there;
     };
     const double last = static_cast<double>(k - 1) / static_cast<double>(count);
     const std::array<std::pair<double, CollisionState>, 3> on_the_way{
@@ -132,7 +132,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
         const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost >= node.cost || !(share > way.stop || free(from.q, *q))) continue;
+        if (cost >= node.cost || !free(from.q, *q)) continue;
         node = {*q, elbow_turns ? elbow_of(arm, *q, from.elbow) : JointVector{}, cost, i + most};
       }
       any = any || node.from >= 0;
@@ -199,6 +199,20 @@ PartWay first_of(const PartWay& way, double share) {
   part.moved = [moved = way.moved, share](double of_it) { return moved(share * of_it); };
   part.turn *= share;
   part.stop = std::min(1.0, way.stop / share);
+  return part;
+}
+
+ArmWay first_of(const ArmWay& way, double share) {
+  ArmWay part = way;
+  part.world_from_tip = [whole = way.world_from_tip, share](double of_it) { return whole(share * of_it); };
+  const std::size_t last = way.arm.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const double place = share * static_cast<double>(k);
+    const std::size_t i = std::min(last == 0 ? 0 : last - 1, static_cast<std::size_t>(place));
+    const JointVector& next = way.arm[std::min(last, i + 1)];
+    part.arm[k] = way.arm[i] + (place - static_cast<double>(i)) * (next - way.arm[i]);
+  }
+  part.reach *= share;
   return part;
 }
 

@@ -29,10 +29,9 @@ struct ArmWay {
 };
 
 // A way that the arm can follow from `start`, where the hand holds the part, without a jump and with nothing touched
-// but what `state` allows and the shapes of the part that are in the hand; the part is where it is by then. What is
-// touched beyond the part's stop does not count. Dynamic
-// programming over the turn of the handle in the hand, or, where it cannot turn, of the elbow: the least motion of the
-// joints. Result: nothing when there is none. Repeatable.
+// but what `state` allows and the shapes of the part that are in the hand; the part is where it is by then. What the
+// hand touches beyond the part's stop does not count. Dynamic programming over the turn of the handle in the hand, or,
+// where it cannot turn, of the elbow: the least motion of the joints. Result: nothing when there is none. Repeatable.
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key);
 // The same as far as it goes: to the end, or to where the arm cannot follow. Nothing: not even a little.
@@ -48,5 +47,6 @@ std::vector<PartRef> with_mounted(const Scene& scene, PartRef part);
 
 // The first `share` of a way.
 PartWay first_of(const PartWay& way, double share);
+ArmWay first_of(const ArmWay& way, double share);
 
 }  // namespace stampede

@@ -514,10 +514,11 @@ function stampede_robot_view:move_joints(positions) end
 -- The held handle along its joint. `pivot`: so far, in rad either way, the handle may turn in the hand about the joint's
 -- axis; within that the hand turns as the arm can best follow
 -- and can then go straight back by `retreat` [m]. `as_far_as_it_goes`: where the arm cannot follow the whole way, as much
--- of it as it can; w:joint(part) then says how far that was
+-- of it as it can; w:joint(part) then says how far that was. `then_to`: the position to which another move_part takes it
+-- on: the arm goes so that it can follow until there, if it can
 ---@param part string
 ---@param position number
----@param options? { speed: number, most_force: number, pivot: number, retreat: number, as_far_as_it_goes: boolean }
+---@param options? { speed: number, most_force: number, pivot: number, retreat: number, as_far_as_it_goes: boolean, then_to: number }
 function stampede_robot_view:move_part(part, position, options) end
 -- The joint position nearest to `to` that the arm can take the held part to from here
 ---@param part string

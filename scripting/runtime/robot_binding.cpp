@@ -251,7 +251,7 @@ int move_joints(lua_State* state) {
 
 // The held or touched part's joint to a position, along its line or arc.
 int move_part(lua_State* state) {
-  only_fields(state, 4, {"speed", "most_force", "pivot", "retreat", "as_far_as_it_goes"});
+  only_fields(state, 4, {"speed", "most_force", "pivot", "retreat", "as_far_as_it_goes", "then_to"});
   robot_call::MovePart call;
   call.as_far_as_it_goes = flag_field(state, 4, "as_far_as_it_goes");
   call.speed = number_field(state, 4, "speed", call.speed);
@@ -261,6 +261,7 @@ int move_part(lua_State* state) {
   call.retreat = number_field(state, 4, "retreat", call.retreat);
   luaL_argcheck(state, call.pivot >= 0 && call.pivot <= 3.2, 4, "pivot must be 0 … pi rad");
   call.position = finite(state, 3);
+  if (has_field(state, 4, "then_to")) call.then_to = number_field(state, 4, "then_to", 0);
   const std::string_view part = check_text(state, 2);
   view_of(state).joint_range(part);
   call.object = std::string(part);
