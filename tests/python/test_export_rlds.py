@@ -14,9 +14,10 @@ import pytest
 
 import stampede
 from stampede.export import export, rlds
-from stampede.export.pictures import packed, size_of
+from stampede.export.pictures import size_of
 from stampede.export.steps import Steps
 from stampede.export.tfrecord import crc32c
+from stampede.png import png_of
 
 Example = dict[str, Any]
 
@@ -214,15 +215,7 @@ def test_pictures_that_are_not_stored_are_drawn(made: Path, tmp_path: Path) -> N
     folder = run(made, tmp_path / "out", "--where", "episode = 3", "--cameras", "overhead", "--draw")
     (file, *_) = read(folder)[3]["steps/observation/overhead_image"]
     drawn = stampede.Catalogue(made)[3].pictures("overhead_rgb", [0], draw=True)[0]
-    assert file == packed(drawn) and size_of(file) == drawn.shape[:2]
-
-
-def test_packed_pictures_are_read_by_others() -> None:
-    image = pytest.importorskip("PIL.Image")
-    import io
-
-    picture = np.random.default_rng(2).integers(0, 256, (5, 7, 3), dtype=np.uint8)
-    assert np.array_equal(np.asarray(image.open(io.BytesIO(packed(picture)))), picture)
+    assert file == png_of(drawn, "rlds") and size_of(file) == drawn.shape[:2]
 
 
 def test_what_is_cut_off_at_the_very_end_is_done_again(

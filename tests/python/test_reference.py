@@ -46,6 +46,8 @@ def fields(header: str, name: str) -> set[str]:
 
 def methods(header: str, name: str) -> set[str]:
     body = _body(header, name)
+    while "{" in body:  # bodies of functions
+        body = re.sub(r"\{[^{}]*\}", "", body)
     found = set(re.findall(r"(?<![\w~:])([a-z_]\w*)\s*\(", body))
     return {name for name in found if not name.endswith("_")} - {"explicit", "default", "operator"}
 

@@ -24,6 +24,7 @@ from stampede.export import cameras_of
 from stampede.export.steps import is_real
 from stampede.faults import fault
 from stampede.file_names import file_name
+from stampede.png import pillow
 from stampede.rlbench.backend.const import (
     EPISODE_FOLDER,
     EPISODES_FOLDER,
@@ -39,7 +40,7 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pickles import demo_bytes
 from stampede.rlbench.backend.pictures import CameraView, camera_misc, depth_to_unit
 from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_misc, ignoring_frames, kept_frames, numbers_at
-from stampede.rlbench.backend.utils import float_array_to_rgb, mask_to_rgb_handles, pillow
+from stampede.rlbench.backend.utils import float_array_to_rgb, mask_to_rgb_handles
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CAMERAS, ObservationConfig
 
@@ -58,7 +59,7 @@ class Writer:
     def __init__(self, folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
         self._folder = folder
         self._options = options
-        pillow()
+        pillow("rlbench")
         self._session = _core.Session(paths=[Path(path) for path in options.scripts])
         self._orders: dict[str, list[str]] = {}
         self._places: dict[int, tuple[int, int]] = {}  # episode -> variation, number
@@ -249,7 +250,7 @@ def _pickle_plain(file: Path, value: object) -> None:
 
 
 def _save(file: Path, colours: np.ndarray) -> None:
-    pillow().fromarray(colours).save(file)
+    pillow("rlbench").fromarray(colours).save(file)
 
 
 def _intrinsics(episode: StoredEpisode, camera: str, height: int, width: int) -> np.ndarray:

@@ -29,6 +29,7 @@ from stampede.export.pieces import Pieces
 from stampede.export.steps import ACTIONS, Array, Steps, check_names, known
 from stampede.export.tfrecord import example, features, record
 from stampede.faults import fault
+from stampede.png import pillow
 
 Json = dict[str, Any]
 
@@ -80,6 +81,8 @@ class Writer:
         self._final = folder / options.name / _VERSION
         self._pieces = Pieces(folder)
         self._cameras = common_cameras(episodes, options)
+        if self._cameras:
+            pillow("rlds")
 
     @staticmethod
     def add_arguments(parser: argparse.ArgumentParser) -> None:

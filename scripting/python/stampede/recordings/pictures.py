@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import struct
-import zlib
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -13,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stampede.faults import fault
+from stampede.png import png_of
 from stampede.recordings.messages import PictureReading
 
 Array = NDArray[Any]
@@ -26,31 +25,7 @@ _CURE = "record rgb8, bgr8, mono8, 16UC1, 32FC1, or compressed as JPEG or PNG; -
 
 def packed(picture: Array) -> bytes:
     """A PNG file of height x width x 3 uint8, or of height x width uint16. Quick rather than small."""
-    height, width = picture.shape[:2]
-    deep = picture.dtype == np.uint16
-    raw = picture.astype(">u2").view(np.uint8) if deep else picture
-    rows = np.hstack(
-        [np.full((height, 1), 1, dtype=np.uint8), _left_differences(raw.reshape(height, -1), 2 if deep else 3)]
-    )
-    head = struct.pack(">IIBBBBB", width, height, 16 if deep else 8, 0 if deep else 2, 0, 0, 0)  # 0: grey, 2: colours
-    parts = [(b"IHDR", head), (b"IDAT", _deflated(rows.tobytes())), (b"IEND", b"")]
-    chunks = [
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in parts
-    ]
-    return _PNG + b"".join(chunks)
-
-
-def _deflated(data: bytes) -> bytes:
-    """Runs and no other repeats: of differences twice as quick as zlib's level 1, and smaller."""
-    packer = zlib.compressobj(1, strategy=zlib.Z_RLE)
-    return packer.compress(data) + packer.flush()
-
-
-def _left_differences(rows: Array, step: int) -> Array:
-    """PNG's filter 1: each byte less the one a pixel before."""
-    result = rows.copy()
-    result[:, step:] -= rows[:, :-step]
-    return result
+    return png_of(picture, "recordings")
 
 
 class Packers:

@@ -25,7 +25,7 @@ from stampede.faults import fault, unknown
 from stampede.recordings import sensors as sensing
 from stampede.recordings.bag_writer import McapBagWriter
 from stampede.recordings.pictures import packed
-from stampede.recordings.sensors import Clock, Dropped, Pictures, Recorder, Sensors
+from stampede.recordings.sensors import Clock, Dropped, Recorder, Sensors
 
 Array = NDArray[Any]
 Json = dict[str, Any]

@@ -146,6 +146,7 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
 
     _LINE_M = 0.01  # a frame
     _LINE_RAD = 0.05
+    _HANDLE = 0.4  # of them, with what may be a handle in the hand, which friction alone holds there
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
         target = self._target(scene, checked_shape(action, self.action_shape(scene)))
@@ -162,7 +163,9 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
         """False, with everything as it was, where the arm cannot."""
         begin = scene.numbers["gripper_pose"]
         turn = float(np.linalg.norm(rotation_vector(begin[3:], target[3:])))
-        parts = max(1, int(np.ceil(max(np.linalg.norm(target[:3] - begin[:3]) / self._LINE_M, turn / self._LINE_RAD))))
+        pace = self._HANDLE if _controller(scene) else 1.0
+        way = max(float(np.linalg.norm(target[:3] - begin[:3])) / self._LINE_M, turn / self._LINE_RAD)
+        parts = max(1, int(np.ceil(way / pace)))
         start = scene.save()
         turns = turn > _LEVER_PER_M * np.linalg.norm(target[:3] - begin[:3])  # a tap or a lid: by the whole force
         controller = "" if turns else _controller(scene)

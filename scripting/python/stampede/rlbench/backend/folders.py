@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from stampede.png import pillow
 from stampede.rlbench.backend.const import (
     DEPTH_SCALE,
     EPISODES_FOLDER,
@@ -17,7 +18,7 @@ from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.observation import NUMBERS, Observation
 from stampede.rlbench.backend.pickles import read_pickle
 from stampede.rlbench.backend.pictures import encoded_fields, resized_intrinsics
-from stampede.rlbench.backend.utils import image_to_float_array, pillow, rgb_handles_to_mask
+from stampede.rlbench.backend.utils import image_to_float_array, rgb_handles_to_mask
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
@@ -92,7 +93,7 @@ def _take_paths(seen: Observation, folder: Path, number: int, name: str, camera:
 
 
 def _take_pictures(seen: Observation, folder: Path, number: int, name: str, camera: CameraConfig) -> None:
-    image = pillow()
+    image = pillow("rlbench")
     height, width = (int(size) for size in camera.image_size)
     own_size = (width, height)
 

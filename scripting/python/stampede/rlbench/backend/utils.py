@@ -7,21 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stampede.png import pillow
+
 if TYPE_CHECKING:
     from stampede.rlbench.backend.task import Task
 
 
 _MOST_WHOLE = 2**24 - 1
 _SCALE = 256000.0  # of metres to steps of 1/256 mm; datasets are written with DEPTH_SCALE
-
-
-def pillow() -> Any:
-    """Pillow's module Image."""
-    try:
-        from PIL import Image
-    except ImportError as error:
-        raise ImportError('Pillow is missing\n    pip install "stampede[rlbench]"') from error
-    return Image
 
 
 def float_array_to_rgb(values: np.ndarray, scale_factor: float) -> np.ndarray:
@@ -40,7 +33,7 @@ def float_array_to_rgb_image(float_array: np.ndarray, scale_factor: float = _SCA
     colours = float_array_to_rgb(float_array, scale_factor)
     if drop_blue:
         colours[..., 2] = 0
-    return pillow().fromarray(colours)
+    return pillow("rlbench").fromarray(colours)
 
 
 def image_to_float_array(image: Any, scale_factor: float | None = None) -> np.ndarray:
