@@ -51,7 +51,7 @@ class Operators {
 
  private:
   void run(const std::string& name, const std::string& seed) const {
-    const Said said = say({"run", "pick_and_lift", "put_item_in_drawer", "--root", kRoot, "--episodes", "7", "--seed",
+    const Said said = say({"run", "pick_and_lift", "put_item_in_drawer", "--root", kRoot, "--episodes", "12", "--seed",
                            seed, "--out", folder_ / name});
     INFO(said.err);
     REQUIRE(said.code == kDone);

@@ -37,7 +37,7 @@ TEST_CASE("a valve of one and a half turns is turned by the library's own skill,
 
 TEST_CASE("a door that one grip does not open far enough is opened with several") {
   int grips = 0;
-  for (const std::uint64_t seed : {7, 8, 14}) {
+  for (const std::uint64_t seed : {1, 5, 6}) {
     const EpisodeRecord episode = run_authored("open_the_wide_door", "", seed);
     INFO(verdict(episode));
     CHECK(episode.outcome == Outcome::success);

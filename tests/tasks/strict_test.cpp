@@ -168,3 +168,27 @@ TEST_CASE("a skill that has just done what it declares has nothing to do when it
   }
   CHECK(called.size() >= 18);
 }
+
+TEST_CASE("a pick that counts leaves what stands beside where it stood") {
+  int picks = 0;
+  for (const std::string task : {"setup_chess", "pick_up_cup", "put_groceries_in_cupboard"})
+    for (const std::int64_t seed : {7310001, 7310004, 7310006}) {
+      RunOptions options;
+      options.seed = seed;
+      const EpisodeRecord episode = run_task(task, first_variation(task), options);
+      for (const SegmentRecord& segment : episode.segments) {
+        if (segment.kind != SegmentKind::skill || segment.skill != "pick" || segment.outcome != Outcome::success)
+          continue;
+        ++picks;
+        const auto frame = [&](std::int64_t step) { return step * episode.frame_hz / episode.physics_hz; };
+        for (const std::string& name : episode.posed) {
+          if (name == segment.arguments.front() || name.starts_with(segment.arguments.front() + ".")) continue;
+          const Transform before = pose(episode, frame(segment.span.start_step), name);
+          const Transform after = pose(episode, frame(segment.span.end_step), name);
+          INFO(task << " " << seed << ": " << segment.label << " moves " << name);
+          CHECK((after.translation() - before.translation()).norm() < 0.0105);
+        }
+      }
+    }
+  CHECK(picks > 6);
+}
