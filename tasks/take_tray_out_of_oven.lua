@@ -7,7 +7,9 @@ return task {
     oven = { "oven", place = places.round_the_table(0.14, deg(45), 0.75, 0, 0.38) },
     tray = { "baking_tray" },
   },
-  init = { is.closed("oven.door"), is.workable("oven.door"), is.inside("tray", "oven.shelf") },
+  init = {
+    is.closed("oven.door"), is.workable("oven.door"), is.inside("tray", "oven.shelf"), is.reachable_behind("tray", "oven.door"),
+  },
   told = { is.inside("tray", "oven.shelf") },
   goal = { is.on("tray", "table"), is.hand_empty() },
   instructions = {

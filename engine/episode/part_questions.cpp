@@ -1,9 +1,21 @@
 #include "engine/episode/part_questions.h"
 
+#include <algorithm>
+#include <array>
+
 #include "engine/base/error.h"
 #include "engine/episode/call_motion.h"
 
 namespace stampede {
+namespace {
+
+constexpr std::size_t kEnough = 2;  // grasps: not by a hair
+
+void put(const WorldView& view, const std::string& part, double position, CollisionState& space) {
+  space.move_part(view.part_of(part), view.part_at(part, position) * view.world_from(part).inverse());
+}
+
+}  // namespace
 
 std::vector<GraspCandidate> grasps_to_go(const WorldView& view, const CollisionState& space, const std::string& object,
                                          const std::optional<PartWay>& follow, double from, double to, RandomKey key,
@@ -32,22 +44,31 @@ std::optional<PartWay> way_to(const WorldView& view, const std::string& name, co
   return way;
 }
 
-bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before) const {
-  constexpr int kEnough = 2;             // not by a hair
-  constexpr double kWithOneGrip = 0.25;  // of the way of what turns: it may be gripped again
+CollisionState WorldView::space_behind(const std::string& before) const {
   CollisionState space = world_->collision_state();
-  const auto put = [&](const std::string& name, double position) {
-    space.move_part(part_of(name), part_at(name, position) * world_from(name).inverse());
-  };
+  if (before.empty()) return space;
+  const auto& numbers = object(before).numbers;
+  put(*this, before, numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second, space);
+  return space;
+}
+
+bool WorldView::can_grasp(const std::string& name, const std::string& before) const {
+  const CollisionState space = space_behind(before);
+  return std::ranges::all_of(std::array{"can_grasp", "again", "once more"}, [&](const char* draw) {
+    const auto grasps =
+        grasp_candidates(space, *world_, object(name), world_->arm_position(), RandomKey(draw), kEnough);
+    return grasps.size() == kEnough;
+  });
+}
+
+bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before) const {
+  constexpr double kWithOneGrip = 0.25;  // of the way of what turns: it may be gripped again
+  CollisionState space = space_behind(before);
   // What else of the furniture is open may be shut first: that is for the plan to find.
   for (const Object& other : scene().objects)
     if (other.kind == ObjectKind::part && other.body == object(part).body && other.name != part &&
         other.name != before && other.numbers.contains("closed_at"))
-      put(other.name, other.numbers.at("closed_at"));
-  if (!before.empty()) {
-    const auto& numbers = object(before).numbers;
-    put(before, numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second);
-  }
+      put(*this, other.name, other.numbers.at("closed_at"), space);
   for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
   const std::optional<PartWay> way = way_to(*this, part, to);
   if (!way) throw Error("can_move", "'" + part + "' has no number '" + to + "'");

@@ -286,13 +286,6 @@ WorldView::Judged WorldView::grasped(std::string_view name) const {
   return {held, held ? std::max(0.0, depth) : std::min(0.0, depth)};
 }
 
-bool WorldView::can_grasp(std::string_view name) const {
-  constexpr int kEnough = 2;  // not by a hair
-  const auto grasps = grasp_candidates(world_->collision_state(), *world_, object(name), world_->arm_position(),
-                                       RandomKey("can_grasp"), kEnough);
-  return grasps.size() == kEnough;
-}
-
 std::string WorldView::grasped_object() const {
   const auto held = world_->grasped();
   if (!held) return {};

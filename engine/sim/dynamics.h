@@ -147,6 +147,13 @@ class Dynamics {
     int number = 0;
     int touching_begin = 0, touching_end = 0;
   };
+  struct Bounds {                           // of contacts
+    double impulse = 1e10, parting = 1e30;  // N s; m/s, of what lies in each other
+  };
+  struct Motion {                     // of free bodies
+    double energy = 0, momentum = 0;  // J; N s, with what a step presses into them
+    double mass = 0;                  // kg
+  };
 
   static Node node_of(const btCollisionObject* object);
   Mover& mover_of(const Articulation& tree);
@@ -173,13 +180,6 @@ class Dynamics {
   void apply_forces();
   void find_touching();
   void solve_island(const Island& island, int iterations);
-  struct Bounds {                           // of contacts
-    double impulse = 1e10, parting = 1e30;  // N s; m/s, of what lies in each other
-  };
-  struct Motion {                     // of free bodies
-    double energy = 0, momentum = 0;  // J; N s, with what a step presses into them
-    double mass = 0;                  // kg
-  };
   Motion free_motion(const Island& island) const;
   void take_no_energy(const Island& island, const Motion& before);
   void add_contacts(const Touching& touching, double kept, const Bounds& bounds);

@@ -304,10 +304,12 @@ function stampede_world_view:grasped(thing) end
 ---@return boolean carried
 ---@return number margin
 function stampede_world_view:carried(thing) end
--- Could the arm, from where it is, take it with two of its grasps at least, nothing in the way?
+-- Could the arm, from where it is, take it with two of its grasps at least, nothing in the way, however they are drawn;
+-- with `before`, a part that it is behind, open?
 ---@param thing string
+---@param before? string
 ---@return boolean
-function stampede_world_view:can_grasp(thing) end
+function stampede_world_view:can_grasp(thing, before) end
 -- Could the arm, from where it is, take the part with two of its grasps at least and go with it towards its number `to`,
 -- nothing in the way; with `before`, a part that it is behind, open?
 ---@param part string

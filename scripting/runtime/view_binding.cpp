@@ -73,9 +73,20 @@ int single_test(lua_State* state) {
   return 1;
 }
 
+// The name of a thing, which may be left out.
+std::string optional_name(lua_State* state, int index) {
+  return lua_isnoneornil(state, index) ? std::string() : std::string(check_text(state, index));
+}
+
+int can_grasp(lua_State* state) {
+  const std::string thing(check_text(state, 2)), before = optional_name(state, 3);
+  lua_pushboolean(state, view_of(state).can_grasp(thing, before) ? 1 : 0);
+  return 1;
+}
+
 int can_move(lua_State* state) {
   const std::string part(check_text(state, 2)), to(check_text(state, 3));
-  const std::string before = lua_isnoneornil(state, 4) ? std::string() : std::string(check_text(state, 4));
+  const std::string before = optional_name(state, 4);
   lua_pushboolean(state, view_of(state).can_move(part, to, before) ? 1 : 0);
   return 1;
 }
@@ -329,7 +340,7 @@ constexpr luaL_Reg kMethods[] = {
     {"at_rest", lua_function<single_test<&WorldView::at_rest>>},
     {"grasped", lua_function<judged<&WorldView::grasped>>},
     {"carried", lua_function<judged<&WorldView::carried>>},
-    {"can_grasp", lua_function<single_test<&WorldView::can_grasp>>},
+    {"can_grasp", lua_function<can_grasp>},
     {"can_move", lua_function<can_move>},
     {"grasped_object", lua_function<grasped_object>},
     {"opening", lua_function<opening>},
