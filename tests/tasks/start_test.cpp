@@ -52,6 +52,8 @@ TEST_CASE("what a task opens or shuts stands where the arm can move it") {
                                                {"slide_cabinet_open", "side=right", 7310002},
                                                {"close_door", "", 7310000},
                                                {"take_tray_out_of_oven", "", 7310000},
+                                               {"take_tray_out_of_oven", "", 720001},
+                                               {"take_tray_out_of_oven", "", 720004},
                                                {"empty_dishwasher", "", 7310001},
                                                {"close_drawer", "level=bottom", 7},
                                                {"close_drawer", "level=bottom", 8}};
@@ -83,4 +85,11 @@ TEST_CASE("a part can be moved where the arm can take it and go with it, not far
   const Scene dishwasher = settled_scene("empty_dishwasher");
   CHECK_FALSE(can_move(dishwasher, "dishwasher.rack", ""));
   CHECK(can_move(dishwasher, "dishwasher.rack", "dishwasher.door"));
+}
+
+TEST_CASE("what is behind a flap can be grasped once it is open, and not before") {
+  EpisodeScripts scripts(all_tasks(), "take_tray_out_of_oven", "", 1);
+  World world(make_start(scripts.task(), scripts.symbols(), {}).scene);
+  CHECK_FALSE(WorldView(world).can_grasp("tray"));
+  CHECK(WorldView(world).can_grasp("tray", "oven.door"));
 }
