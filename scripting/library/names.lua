@@ -31,6 +31,7 @@
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
 ---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
+---@field reachable_behind fun(obj: string, door: string): stampede.literal  the {obj} is where a hand can take it once the {door} is open (obj: graspable, door: openable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
@@ -69,6 +70,7 @@
 ---@field pressed fun(button: string): stampede.literal  the {button} has been pressed (button: pressable)
 ---@field pressed_with fun(obj: string, button: string): stampede.literal  the {button} has been pressed with the {obj} (obj: movable, button: pressable)
 ---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
+---@field reachable_behind fun(obj: string, door: string): stampede.literal  the {obj} is where a hand can take it once the {door} is open (obj: graspable, door: openable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
@@ -134,6 +136,7 @@
 ---| "pressed"
 ---| "pressed_with"
 ---| "reachable"
+---| "reachable_behind"
 ---| "rests_on"
 ---| "spaced"
 ---| "switched_on"
