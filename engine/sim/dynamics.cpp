@@ -396,12 +396,12 @@ void Dynamics::solve_island(const Island& island, int iterations) {
     with_mechanism = with_mechanism || (mover.tree && mover.may_sleep);
     settling = settling && mover.may_sleep && slower(mover, kSettling);
   }
-  const Motion before = free_motion(island);
   const bool alone = !with_robot && !with_mechanism;
+  const Motion before = with_mechanism ? Motion{} : free_motion(island);
   parting_ = 0;
   Bounds bounds;
   if (!with_mechanism) bounds.impulse = kWedge * before.momentum + (with_robot ? dt_ * kPressed : 0);
-  if (alone) bounds.parting = std::max(kParting, std::sqrt(2 * before.energy / std::max(before.mass, 1e-9)));
+  if (alone) bounds.parting = std::max(kParting, std::sqrt(2 * before.energy / before.mass));
   for (const bool on_link : {false, true}) {
     if (on_link) link_contacts = contacts_.size();
     const double kept = !with_robot ? kKept : on_link ? kKeptOnRobot : kKeptBesideRobot;
@@ -449,10 +449,11 @@ void Dynamics::take_no_energy(const Island& island, const Motion& before) {
   const double parting = std::min(parting_, kParting);
   const double most = std::max(before.energy, before.mass * parting * parting / 2);
   if (now <= most) return;
+  const double share = std::sqrt(most / now);
   for (const Mover& mover : movers_) {
     if (mover.island != island.number) continue;
     double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
-    for (int i = 0; i < 6; ++i) speeds[i] *= std::sqrt(most / now);
+    for (int i = 0; i < 6; ++i) speeds[i] *= share;
   }
 }
 

@@ -3,7 +3,6 @@
 #include <set>
 
 #include "engine/base/random.h"
-#include "engine/episode/start.h"
 #include "engine/sim/collision_state.h"
 #include "engine/sim/world.h"
 #include "tests/tasks/run_task.h"
@@ -12,12 +11,6 @@ using namespace stampede;
 using namespace stampede::test;
 
 namespace {
-
-int index_of(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].name == name) return static_cast<int>(i);
-  return -1;
-}
 
 constexpr double kGravity = 9.81;
 constexpr double kFall_s = 12;    // at most
@@ -70,13 +63,14 @@ Fall watch(World& world, double seconds) {
   double least = first;
   for (int step = 0; step < seconds / world.dt(); ++step) {
     world.step();
-    if (step > 1 / world.dt() && energy_of(world).kinetic == 0) break;
-    const double now = energy_of(world).all();
+    const Energy energy = energy_of(world);
+    fall.left = energy.kinetic;
+    if (step > 1 / world.dt() && energy.kinetic == 0) break;
+    const double now = energy.all();
     fall.gained = std::max(fall.gained, now - least);
     least = std::min(least, now);
   }
   fall.lost = first - least;
-  fall.left = energy_of(world).kinetic;
   return fall;
 }
 
@@ -95,24 +89,30 @@ bool lift(World& world, int body, Random& random) {
   return false;
 }
 
-// Every free body of the task's start falls, one after the other; types that fell already do not again.
-void let_fall(const std::string& task, std::set<std::string>& done) {
+std::shared_ptr<const Scene> start_of(const std::string& task) {
   RunOptions options;
   options.seed = 4;
   EpisodeScripts scripts(shipped(), task, first_variation(task), options.seed);
-  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
+  const Start start = make_start(scripts.task(), scripts.symbols(), options);
   INFO(task << " " << start.detail);
   REQUIRE(start.scene);
-  World world(start.scene);
+  return start.scene;
+}
+
+// Every free body of the task's start falls, one after the other; types that fell already do not again.
+void let_fall(const std::string& task, std::set<std::string>& done) {
+  const std::shared_ptr<const Scene> scene = start_of(task);
+  INFO(task);
+  World world(scene);
   world.keep_log(false);
   const Fall settling = watch(world, 1);
   CHECK(settling.gained < 0.005);
   world.apply(operation::Boundary{});
   const Snapshot settled = world.snapshot();
-  for (const Object& object : start.scene->objects) {
+  for (const Object& object : scene->objects) {
     if (object.kind != ObjectKind::body) continue;
-    const int index = index_of(*start.scene, object.body);
-    const Body& body = start.scene->bodies[static_cast<std::size_t>(index)];
+    const int index = scene->body_index(object.body);
+    const Body& body = scene->bodies[static_cast<std::size_t>(index)];
     if (!body.free || !body.joined_to.empty() || !done.insert(object.class_name).second) continue;
     world.restore(settled);
     Random random(RandomKey("fall").with(object.class_name));
@@ -147,19 +147,15 @@ TEST_CASE("what is let fall, whatever it is, wins no energy and comes to rest", 
   for (const std::string& name : shipped_tasks(0, 1)) let_fall(name, done);
   CHECK(done.size() > 60);
 }
+
 TEST_CASE("a mechanism that is let go anywhere on its way wins no energy and comes to rest", "[energy]") {
   int mechanisms = 0;
   for (const std::string& name : shipped_tasks(0, 1)) {
-    RunOptions options;
-    options.seed = 4;
-    EpisodeScripts scripts(shipped(), name, first_variation(name), options.seed);
-    const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
-    REQUIRE(start.scene);
-    const auto& bodies = start.scene->bodies;
-    if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.free; })) continue;
+    const std::shared_ptr<const Scene> scene = start_of(name);
+    if (std::ranges::any_of(scene->bodies, &Body::free)) continue;
     for (const double share : {0.15, 0.4, 0.8}) {
       INFO(name << " at " << share);
-      World world(std::make_shared<const Scene>(opened(*start.scene, share)));
+      World world(std::make_shared<const Scene>(opened(*scene, share)));
       world.keep_log(false);
       const Fall fall = watch(world, kFall_s);
       CHECK(fall.gained < 0.02 * fall.lost + 2e-4);  // a heavy flap is thrown back a little by its stop

@@ -162,13 +162,14 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
     def _follows_line(self, scene: Scene, target: np.ndarray) -> bool:
         """False, with everything as it was, where the arm cannot."""
         begin = scene.numbers["gripper_pose"]
+        way = float(np.linalg.norm(target[:3] - begin[:3]))
         turn = float(np.linalg.norm(rotation_vector(begin[3:], target[3:])))
-        pace = self._HANDLE if _controller(scene) else 1.0
-        way = max(float(np.linalg.norm(target[:3] - begin[:3])) / self._LINE_M, turn / self._LINE_RAD)
-        parts = max(1, int(np.ceil(way / pace)))
+        controller = _controller(scene)
+        pace = self._HANDLE if controller else 1.0
+        parts = max(1, int(np.ceil(max(way / self._LINE_M, turn / self._LINE_RAD) / pace)))
+        if turn > _LEVER_PER_M * way:  # a tap or a lid: by the whole force
+            controller = ""
         start = scene.save()
-        turns = turn > _LEVER_PER_M * np.linalg.norm(target[:3] - begin[:3])  # a tap or a lid: by the whole force
-        controller = "" if turns else _controller(scene)
         try:
             for part in range(1, parts):
                 scene.act(_core.Action("tool_pose", interpolated(begin, target, part / parts), controller=controller))
