@@ -109,6 +109,15 @@ def test_ready_questions_have_names(demos: stampede.Catalogue) -> None:
     assert len(demos.query("SELECT * FROM segments", limit=2)) == 2
 
 
+def test_a_table_has_columns_by_name_only(demos: stampede.Catalogue) -> None:
+    table = demos.query("SELECT skill, start_s FROM segments")
+    for wrong, said in ((0, "table of columns"), (slice(2), "table of columns"), ("skil", "did you mean 'skill'")):
+        with pytest.raises(stampede.Error, match=said):
+            table[wrong]
+    with pytest.raises(stampede.Error, match="no name of a column"):
+        table.values(3)
+
+
 def test_tables_go_to_pandas_arrow_and_duckdb(demos: stampede.Catalogue, made: Path) -> None:
     pandas = pytest.importorskip("pandas")
     arrow = pytest.importorskip("pyarrow")

@@ -50,6 +50,8 @@ class Table:
         return [row[place] for row in self._rows]
 
     def __getitem__(self, column: str) -> NDArray[Any]:
+        if isinstance(column, int | slice):
+            raise fault("Table", "it is a table of columns", 'table["task"] is a column, list(table)[0] a row')
         values = self.values(column)
         kinds = {type(value) for value in values}
         if kinds <= {int}:

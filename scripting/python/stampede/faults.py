@@ -16,9 +16,11 @@ def fault(where: str, what: str, cure: str = "") -> Error:
     return error
 
 
-def unknown(where: str, kind: str, name: str, known: Iterable[str]) -> Error:
+def unknown(where: str, kind: str, name: object, known: Iterable[str]) -> Error:
     """An Error for a name that is none of those known; its cure is the nearest one, or all of them."""
     names = list(known)
+    if not isinstance(name, str):
+        return fault(where, f"{name!r} is no name of a {kind}", "one of " + ", ".join(names))
     near = difflib.get_close_matches(name, names, n=1)
     cure = f"did you mean '{near[0]}'?" if near else "one of " + ", ".join(names)
     return fault(where, f"there is no {kind} '{name}'", cure)
