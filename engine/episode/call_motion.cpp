@@ -52,7 +52,7 @@ class Planned {
   MotionLimits in_contact(LineOptions& line) const {
     MotionLimits limits;
     if (!stop_) return limits;
-    limits.speed = world_.grasped() ? kHoldingPace : kPushingPace;
+    limits.speed = world_.grasped() ? kHoldingPace : kMeetingPace;
     line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
     return limits;
   }

@@ -2,7 +2,7 @@
 //
 // A contact of rigid things bears the momentum of the arm in one step, whatever the motors do: 5 kg at 1.7 m/s are
 // 2,000 N. So the arm may only be as fast as it can stop before anything that it does not touch yet (as the dynamic
-// window of Fox, Burgard, Thrun 1997, doi:10.1109/100.580977, asks of a mobile robot); nearer, it goes at kMeeting.
+// window of Fox, Burgard, Thrun 1997, doi:10.1109/100.580977, asks of a mobile robot); nearer, it goes at kMeetingPace.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -14,13 +14,14 @@
 namespace stampede {
 namespace {
 
-constexpr double kLook_s = 0.05;    // looks so often, at the way until then and the stop after it
-constexpr double kLongest_s = 0.5;  // of a stop
-constexpr int kSpacing = 4;         // steps between two configurations that are looked at
-constexpr double kClear_m = 0.001;  // from what is ahead
-constexpr double kMeeting = 0.025;  // share of the speeds: 4 cm/s of the tip
-constexpr double kSlow = 2;         // times that: faster, it brakes first
-constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kPushingPace};
+constexpr double kLook_s = 0.05;                      // looks so often, at the way until then and the stop after it
+constexpr double kLongest_s = 0.5;                    // of a stop
+constexpr int kSpacing = 4;                           // steps between two configurations that are looked at
+constexpr std::array kDistances{0.001, 0.0003, 0.0};  // m, from what is ahead
+constexpr double kMoved_rad = 0.001;                  // so far a way's beginning goes
+constexpr double kInto = 0.05;                        // cosine to the normal: less is along a surface
+constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
+constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kMeetingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
 constexpr std::array<std::pair<double, double>, 3> kClearances{{{0.16, 1.0}, {0.06, 0.4}, {0.02, 0.12}}};  // m, pace
 
@@ -32,37 +33,87 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
   return pairs;
 }
 
-// What the arm touches now: pairs, and of what can move the whole part, which goes with it.
-struct Known {
+// What bears on the arm, or on what it holds. Of what can move the whole part counts, which goes with it.
+struct Bearing {
   Pairs pairs;
-  std::set<PartRef> moving;
+  std::set<PartRef> pushed;
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
-    return moving.contains(pair.second) || pairs.contains(pair);
+    return pairs.contains(pair) || pushed.contains(pair.second);
   }
 };
 
-// Whether nothing is met at any of these places that is not touched already.
-bool clear(const CollisionState& state, const std::vector<JointVector>& way, const Known& known) {
-  if (known.pairs.empty()) return state.first_touching(way, kClear_m) == way.size();
-  return std::all_of(way.begin(), way.end(), [&](const JointVector& q) {
-    const Pairs met = touched(state, q, kClear_m);
-    return std::all_of(met.begin(), met.end(), [&](const auto& pair) { return known.contains(pair); });
-  });
-}
+// What the arm is near now, and may be as near of on its way: of what is nearer than one distance, the next counts.
+class Near {
+ public:
+  Near(const CollisionState& state, const JointVector& here, const Bearing& bearing)
+      : state_(state), bearing_(bearing) {
+    for (const double distance : kDistances)
+      pairs_.push_back(pairs_.empty() || !pairs_.back().empty() ? touched(state, here, distance) : Pairs{});
+  }
+  bool clear(const std::vector<JointVector>& way) const {
+    if (pairs_.front().empty()) return state_.first_touching(way, kDistances.front()) == way.size();
+    return std::ranges::all_of(way, [&](const JointVector& q) { return clear(q); });
+  }
+  // Whether the arm gets off all that bears on it.
+  bool leaves(const std::vector<JointVector>& way) const {
+    return std::all_of(way.begin() + static_cast<std::ptrdiff_t>(way.size() / 2), way.end(), [&](const JointVector& q) {
+      return std::ranges::none_of(touched(state_, q, kDistances[1]),
+                                  [&](const auto& pair) { return bearing_.contains(pair); });
+    });
+  }
+
+ private:
+  bool clear(const JointVector& q) const {
+    for (std::size_t i = 0; i < kDistances.size(); ++i) {
+      bool nearer = false;
+      for (const auto& pair : touched(state_, q, kDistances[i])) {
+        if (bearing_.contains(pair)) continue;
+        if (!pairs_[i].contains(pair)) return false;
+        nearer = true;
+      }
+      if (!nearer) return true;
+    }
+    return true;
+  }
+  const CollisionState& state_;
+  const Bearing& bearing_;
+  std::vector<Pairs> pairs_;  // of each distance
+};
 
 }  // namespace
+
+// Whether a way begins into something that bears on the arm.
+bool World::Impl::presses(const std::vector<JointVector>& way, std::optional<int> held) const {
+  const JointVector here = arm_position_now();
+  const auto moved = std::ranges::find_if(way, [&](const JointVector& q) { return (q - here).norm() > kMoved_rad; });
+  if (moved == way.end()) return false;
+  const auto into = [&](PartRef own, PartRef other, const Contact& contact, double sign) {
+    if (!meets(own, other, held)) return false;
+    const Vector3 step = motion_of(own, contact.point, *moved - here);
+    return sign * step.dot(contact.normal) < -kInto * step.norm();
+  };
+  return std::ranges::any_of(
+      contacts.closed(), [&](const Contact& one) { return into(one.a, one.b, one, 1) || into(one.b, one.a, one, -1); });
+}
+
+// Contact of a link, or of what the hand carries, with something else.
+bool World::Impl::meets(PartRef own, PartRef other, std::optional<int> held) const {
+  const bool carried = own.body == held;
+  return (own.body == kRobot || carried) && other.body != held && !(carried && other.body == kRobot);
+}
 
 void World::Impl::look_ahead() {
   const auto often = static_cast<std::int64_t>(std::max(1.0, kLook_s / dt + 0.5));
   if (!reference.servo || (steps - reference.start_step) % often != 0) return;
   CollisionState state = now_for_planning();
-  if (const auto held = contacts.grasped(scene->robot.pads); held && body(held->body).free) {
+  const std::optional<PartRef> grasped = contacts.grasped(scene->robot.pads);
+  if (grasped && body(grasped->body).free) {
     const Transform tip = arm.world_from_tip(arm_position_now());
-    state.hold(held->body, tip.inverse() * world_from_part({held->body, 0}));
+    state.hold(grasped->body, tip.inverse() * world_from_part({grasped->body, 0}));
   }
   const JointVector here = arm_position_now();
   if (under_torque()) {
-    reference.pace = kMeeting;
+    reference.pace = kMeetingPace;
     for (const auto& [distance, pace] : kClearances)
       if (state.free(here, distance)) {
         reference.pace = pace;
@@ -70,34 +121,49 @@ void World::Impl::look_ahead() {
       }
     return;
   }
-  Known known{touched(state, here, kClear_m), {}};
-  for (const auto& [own, other] : known.pairs)
-    if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
-      known.moving.insert(other);
-  const double most = known.pairs.empty() ? 1 : contacts.grasped(scene->robot.pads) ? kHoldingPace : kPushingPace;
+  const std::optional<int> held = state.held();
+  Bearing bearing;
+  for (const Contact& one : contacts.closed())
+    for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {
+      if (!meets(own, other, held)) continue;
+      bearing.pairs.insert({own, other});
+      if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
+        bearing.pushed.insert(other);
+    }
+  if (held) {  // it may lie in something, as a plug does, or a lid in its thread
+    for (const auto& pair : touched(state, here, kDistances[0]))
+      if (pair.first.body == *held) bearing.pairs.insert(pair);
+    if (const Bond* bond = body_slot(*held).bond; bond && bond->holds) {
+      const int other = scene->body_index(body(*held).joined_to);
+      for (std::size_t p = 0; p < body(other).parts.size(); ++p)
+        bearing.pairs.insert({{*held, 0}, {other, static_cast<int>(p)}});
+    }
+  }
+  const Near near(state, here, bearing);
+  const double most = bearing.pairs.empty() ? 1 : grasped ? kHoldingPace : kMeetingPace;
   Limits ignored;
   const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(here.size())};
   for (const double pace : kPaces) {
-    if (pace > most) continue;
     reference.pace = pace;
     std::vector<JointVector> way;
     JointState at = reference_now;
     const auto longest = static_cast<std::int64_t>(kLongest_s / dt);
     for (std::int64_t i = 1; i <= often + longest; ++i) {
-      at = guided(at, i <= often ? *reference.servo : stop, arm, dt, {pace, {}}, ignored);
+      at = i <= often ? served(at, steps + i - 1, {pace, {}}, ignored)
+                      : guided(at, stop, {}, 0, arm, dt, {pace, {}}, ignored);
       const bool rests = i > often && at.velocity.cwiseAbs().maxCoeff() < 1e-3;
       if (i % kSpacing == 0 || rests) way.push_back(at.position);
       if (rests) break;
     }
-    if (clear(state, way, known)) return;
+    if (near.clear(way) && (pace <= most || (near.leaves(way) && !presses(way, held)))) return;
   }
   // The way to a stand was seen to be clear at the look before; that of the new action, slowly, need not be.
   const std::vector<JointLimits>& limits = arm.limits();
   bool slow = true;
   for (Eigen::Index i = 0; i < here.size(); ++i)
-    slow =
-        slow && std::abs(reference_now.velocity[i]) <= kSlow * kMeeting * speed_of(limits[static_cast<std::size_t>(i)]);
-  reference.pace = slow ? kMeeting : 0;
+    slow = slow &&
+           std::abs(reference_now.velocity[i]) <= kSlow * kMeetingPace * speed_of(limits[static_cast<std::size_t>(i)]);
+  reference.pace = slow ? kMeetingPace : 0;
 }
 
 }  // namespace stampede

@@ -29,9 +29,12 @@ constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 constexpr double kPress = 35;       // N
 constexpr double kLeastTorque = 6;  // N m
 constexpr double kLoadRate = 14;    // m/s^2: gravity and what carrying adds
-constexpr double kSelfTorque = 2;   // N m, of an arm that an agent steers into itself
+constexpr double kSelfTorque = 2;   // N m, of an arm that an agent steers, however short its lever
+constexpr double kRubbing = 0.15;   // N along a surface, per N on it
 constexpr double kCatchUp = 0.3;    // share of a joint's acceleration for getting back to its reference
-constexpr double kMostPull = 60;    // N at the tip, of an arm that gives way
+constexpr double kSlip = 0.25;      // share of a joint's speed
+constexpr double kCatchUpTouching = 0.05;
+constexpr double kMostPull = 60;  // N at the tip, of an arm that gives way
 
 // Rotation vector of `to` seen from `from`, in world axes.
 Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
@@ -103,6 +106,27 @@ JointState World::Impl::reference_at(std::int64_t step) const {
   return evaluate(*reference.trajectory, static_cast<double>(step - reference.start_step), scene->physics_hz);
 }
 
+void World::Impl::serve(const operation::Servo& servo) {
+  using Of = operation::Servo::Of;
+  const bool led = reference.servo && leads(*reference.servo);
+  operation::Servo next = servo;
+  // Rest, while a way is followed: the arm cannot stop at once, but comes back to where it was sent last.
+  if (led && reference.stream.passes() && servo.of == Of::velocity && servo.value.isZero()) next = *reference.servo;
+  Stream stream = reference.stream;
+  if (led && leads(next))
+    stream.follow(reference.servo->value, next.value, dt * static_cast<double>(steps - reference.start_step),
+                  scene->robot.limits);
+  else
+    stream.end();
+  reference = {nullptr, steps, reference_now, next, stream};
+}
+
+// What the servo makes of a reference in the step from `step` on.
+JointState World::Impl::served(const JointState& now, std::int64_t step, const Guard& guard, Limits& noted) const {
+  const double since = dt * static_cast<double>(step - reference.start_step);
+  return guided(now, *reference.servo, reference.stream, since, arm, dt, guard, noted);
+}
+
 void World::Impl::control() {
   look_ahead();
   if (under_torque()) {
@@ -110,9 +134,10 @@ void World::Impl::control() {
     control_hand();
     return;
   }
-  const JointState next =
-      reference.servo ? guided(reference_now, *reference.servo, arm, dt, {reference.pace, arm_position_now()}, acted)
-                      : reference_at(steps + 1);
+  const double lead = controller.kind == ControllerKind::joint_position ? kLead_rad : kYieldingLead_rad;
+  const JointState next = reference.servo
+                              ? served(reference_now, steps, {reference.pace, arm_position_now(), lead}, acted)
+                              : reference_at(steps + 1);
   switch (controller.kind) {
     case ControllerKind::joint_position:
       control_position(reference_now, next);
@@ -136,6 +161,54 @@ double World::Impl::load_mass() const {
   return mass;
 }
 
+// How a joint of the arm at 1 rad/s, or 1 m/s, moves a point that goes with it, m/s.
+Vector3 World::Impl::lever(std::size_t joint, const Vector3& point) const {
+  const PartRef moved{kRobot, scene->robot.arm[joint]};
+  const Transform& pose = world_from_part(moved);
+  const Joint& own = part(moved).joint;
+  const Vector3 axis = pose.linear() * own.axis.normalized();
+  return own.kind == JointKind::slider ? axis : axis.cross(point - pose.translation());
+}
+
+bool World::Impl::moves(std::size_t joint, PartRef link) const {
+  if (link.body != kRobot) return true;  // the hand holds it
+  int at = link.part;
+  while (at > scene->robot.arm[joint]) at = part({kRobot, at}).parent;
+  return at == scene->robot.arm[joint];
+}
+
+// Of a point of a link, or of what is held, where the joints change by so little.
+Vector3 World::Impl::motion_of(PartRef link, const Vector3& point, const JointVector& change) const {
+  Vector3 motion = Vector3::Zero();
+  for (std::size_t j = 0; j < scene->robot.arm.size(); ++j)
+    if (moves(j, link)) motion += change[static_cast<Eigen::Index>(j)] * lever(j, point);
+  return motion;
+}
+
+// What a joint of the arm has to give for a newton of each contact of the links that it moves: of the contact for which
+// that is least. At the tip it is much, where a link lies on an edge or on another link it is little, and a joint that
+// moves its link along a surface hardly presses on it. m. Empty: nothing is touched.
+std::vector<double> World::Impl::contact_levers() const {
+  std::vector<double> levers;
+  const Robot& robot = scene->robot;
+  const auto held = contacts.grasped(robot.pads);
+  const auto meet = [&](PartRef link, PartRef other, const Contact& contact) {
+    if (link.body != kRobot || (held == other && body(other.body).free)) return;
+    if (levers.empty()) levers.assign(robot.arm.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t j = 0; j < robot.arm.size(); ++j) {
+      if (!moves(j, link)) continue;
+      const Vector3 way = lever(j, contact.point);
+      levers[j] =
+          std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(contact.normal)) + kRubbing * way.norm());
+    }
+  };
+  for (const Contact& one : contacts.closed()) {
+    meet(one.a, one.b, one);
+    meet(one.b, one.a, one);
+  }
+  return levers;
+}
+
 // The motors' velocity rows: where the joint is on its reference now, it is on it after the step too. Off it, by
 // contact, it comes back within the joint's limits, and contact never bears more than a hand's push: a stiff arm in its
 // way would else press with all it has, and whip forward when it comes free.
@@ -144,10 +217,7 @@ void World::Impl::control_position(const JointState& now, const JointState& next
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const auto jacobian = arm.jacobian(q);
   const double press = kPress + kLoadRate * load_mass();
-  // Where its links meet each other they do so near the joints between them: what is little at the tip is much there.
-  const bool against_itself = reference.servo && std::ranges::any_of(contacts.closed(), [](const Contact& one) {
-                                return one.a.body == kRobot && one.b.body == kRobot;
-                              });
+  const std::vector<double> levers = reference.servo ? contact_levers() : std::vector<double>{};
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const JointLimits& limits = scene->robot.limits[j];
@@ -155,17 +225,21 @@ void World::Impl::control_position(const JointState& now, const JointState& next
     const double steady = moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i];
     const double most = acceleration_of(limits), fastest = std::max(speed_of(limits), std::abs(steady));
     const double error = now.position[i] - q[i];
-    const double own = std::max(std::abs(now.acceleration[i]), std::abs(next.acceleration[i]));
-    const double way = dt * (own + kCatchUp * most);
-    const double wanted = std::clamp(steady + catching_up(error, kCatchUp * most), -fastest, fastest);
-    motor.velocity = std::clamp(wanted, v[i] - way, v[i] + way);
+    // A reference that brakes does not press on.
+    const double most_own = std::max({0.0, now.acceleration[i], next.acceleration[i]});
+    const double least_own = std::min({0.0, now.acceleration[i], next.acceleration[i]});
+    const double back = most * (levers.empty() ? kCatchUp : kCatchUpTouching);
+    const double wanted = std::clamp(steady + catching_up(error, back), -fastest, fastest);
+    motor.velocity = std::clamp(wanted, v[i] + dt * (least_own - back), v[i] + dt * (most_own + back));
     motor.most_force = effort_of(limits);
-    motor.against_contact =
-        against_itself ? kSelfTorque : std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
+    motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
+    if (!levers.empty())
+      motor.against_contact = std::min(motor.against_contact, std::max(kSelfTorque, kPress * levers[j]));
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
       acted.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }
   arm_torque.setZero();
+  foreseen.resize(0);
 }
 
 void World::Impl::update_dynamics() {
@@ -200,18 +274,34 @@ void World::Impl::control_torque(const JointVector& asked) {
   update_dynamics();
   const JointMatrix& mass = arm_dynamics.mass();
   const JointVector free = mass.ldlt().solve(asked);
-  give_torques(arm_dynamics.gravity() + asked + mass * (kept_safe(free) - free));
+  foreseen.resize(0);
+  give_torques(arm_dynamics.gravity() + asked + mass * (kept_safe(free, kMargin_rad) - free));
 }
 
 // The nearest acceleration that an arm may have which an agent steers.
-JointVector World::Impl::kept_safe(const JointVector& acceleration) {
-  return safe_acceleration(acceleration, arm_position_now(), arm_velocity_now(), arm, dt, reference.pace, acted);
+JointVector World::Impl::kept_safe(const JointVector& acceleration, double margin) {
+  return safe_acceleration(acceleration, arm_position_now(), arm_velocity_now(), arm, dt, reference.pace, margin,
+                           acted);
 }
 
-// What keeps an arm within its limits that an agent steers, beside a controller that gives it this acceleration.
+// What keeps an arm within its limits that an agent steers, beside a controller that would give it this acceleration in
+// free air. What contact took from it in the step before, it is taken to bear again: held so, a joint gets more torque
+// than its limit of acceleration takes, but no more than a step can turn into `kSlip` of its speed when contact ends.
 JointVector World::Impl::held_back(const JointVector& acceleration) {
-  if (!reference.servo) return JointVector::Zero(acceleration.size());
-  return arm_dynamics.mass() * (kept_safe(acceleration) - acceleration);
+  if (!reference.servo) {
+    foreseen.resize(0);
+    return JointVector::Zero(acceleration.size());
+  }
+  const JointVector v = arm_velocity_now();
+  JointVector expected = acceleration;
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    const double most = kSlip * speed_of(scene->robot.limits[static_cast<std::size_t>(i)]) / dt;
+    const double borne = foreseen.size() > 0 ? std::clamp((v[i] - foreseen[i]) / dt, -most, most) : 0;
+    expected[i] += std::clamp(borne, std::min(0.0, -acceleration[i]), std::max(0.0, -acceleration[i]));
+  }
+  const JointVector given = acceleration + kept_safe(expected, 0) - expected;
+  foreseen = v + dt * given;
+  return arm_dynamics.mass() * (given - acceleration);
 }
 
 // Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step

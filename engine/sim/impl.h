@@ -81,7 +81,8 @@ struct Reference {
   std::int64_t start_step = 0;
   JointState setpoint;
   std::optional<operation::Servo> servo = {};
-  double pace = 1;  // of a servo: the share of its speeds that what lies ahead allows
+  Stream stream = {};  // of a servo's positions
+  double pace = 1;     // of a servo: the share of its speeds that what lies ahead allows
 };
 
 struct World::Impl {
@@ -100,6 +101,8 @@ struct World::Impl {
 
   // controllers.cpp
   void control();
+  void serve(const operation::Servo& servo);
+  JointState served(const JointState& now, std::int64_t step, const Guard& guard, Limits& noted) const;
   JointState reference_at(std::int64_t step) const;
   bool under_torque() const { return reference.servo && reference.servo->of == operation::Servo::Of::torque; }
   void control_torque(const JointVector& asked);
@@ -107,14 +110,20 @@ struct World::Impl {
   void control_joint_impedance(const JointState& next);
   void control_cartesian_impedance(const JointState& next);
   void give_torques(JointVector torque);
-  JointVector kept_safe(const JointVector& acceleration);
+  JointVector kept_safe(const JointVector& acceleration, double margin);
   JointVector held_back(const JointVector& acceleration);
   double load_mass() const;
+  Vector3 lever(std::size_t joint, const Vector3& point) const;
+  bool moves(std::size_t joint, PartRef link) const;
+  Vector3 motion_of(PartRef link, const Vector3& point, const JointVector& change) const;
+  std::vector<double> contact_levers() const;
   void update_dynamics();
   void control_hand();
 
   // approach.cpp
   void look_ahead();
+  bool meets(PartRef own, PartRef other, std::optional<int> held) const;
+  bool presses(const std::vector<JointVector>& way, std::optional<int> held) const;
   CollisionState now_for_planning() const;  // world.cpp
 
   // mechanisms.cpp
@@ -174,6 +183,7 @@ struct World::Impl {
   ContactWindow contacts;
   Limits acted;                              // since they were last forgotten
   JointVector arm_torque;                    // given by the controller in the last step
+  JointVector foreseen;                      // velocity after the last step, had the arm met nothing; may be empty
   std::vector<std::vector<double>> efforts;  // body + 1, part
   bool canonical = false;                    // nothing moved since the last boundary
   CommandLog log;

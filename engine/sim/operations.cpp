@@ -117,7 +117,7 @@ Operation decode_controller(ByteReader& in) {
 Operation decode_servo(ByteReader& in) {
   operation::Servo o;
   const auto of = in.number<std::uint8_t>();
-  if (of > static_cast<std::uint8_t>(operation::Servo::Of::torque)) in.fail("it names no quantity");
+  if (of > static_cast<std::uint8_t>(operation::Servo::Of::passage)) in.fail("it names no quantity");
   o.of = static_cast<operation::Servo::Of>(of);
   o.value = in.vector();
   return o;

@@ -3,7 +3,7 @@
 
 namespace stampede {
 
-constexpr double kPushingPace = 0.06;  // against what it touches
+constexpr double kMeetingPace = 0.04;  // towards what it will touch, and against what it touches: 6 cm/s of the tip
 constexpr double kHoldingPace = 0.15;  // while what it touches, such as a handle, is in its hand
 
 }  // namespace stampede

@@ -7,14 +7,16 @@
 namespace stampede {
 namespace {
 
-constexpr double kLinear_s = 0.04;  // time constant of the last bit of the way
-// What pushes the arm from outside must not take it over its stops: speeds and torques do not lead nearer than this.
-constexpr double kMargin_rad = 0.05;
+constexpr double kLinear_s = 0.04;         // time constant of the last bit of the way
 constexpr double kUsualSpeed = 2;          // rad/s, where a robot states none
 constexpr double kUsualAcceleration = 10;  // rad/s^2, likewise
 constexpr double kUsualJerk = 5000;        // rad/s^3, likewise
 constexpr double kToolSpeed = 1.6;         // m/s: a Panda's tool may move at 1.7
-constexpr double kLeastPull = 1e-9;        // what rounding changes is no limit that acted
+constexpr double kLongestGap_s = 0.2;      // between positions of a stream
+constexpr double kGentlest = 0.05;         // share of the acceleration
+constexpr double kOver_rad = 0.005;  // as far as a stream that ends at once takes a joint beyond its last position
+constexpr double kAsFast = 1.05;     // share of the limits of speed and acceleration that a stream may have
+constexpr double kLeastPull = 1e-9;  // what rounding changes is no limit that acted
 // A motor takes away a small error at this rate: a fifth of it in a step of 1/240 s.
 constexpr double kCatch_s = 1.0 / 48;
 
@@ -28,6 +30,14 @@ double stopping_speed(double way, double acceleration, double linear_s = kLinear
   if (way <= 0) return 0;
   const double linear = acceleration * linear_s * linear_s;
   return way <= linear ? way / linear_s : std::sqrt(2 * acceleration * (way - linear / 2));
+}
+
+// For the next step, on the cubic that leads to a position with a velocity (Hermite).
+double passing_speed(double from, double velocity, double to, double end_velocity, double left_s, double dt) {
+  const double t = std::min(1.0, dt / left_s), square = t * t, cube = square * t;
+  const double way = (3 * square - 2 * cube) * (to - from) + (cube - 2 * square + t) * left_s * velocity +
+                     (cube - square) * left_s * end_velocity;
+  return way / dt;
 }
 
 bool limited(const JointLimits& limits) { return limits.lower < limits.upper; }
@@ -66,36 +76,70 @@ JointVector slowed(const Arm& arm, const JointVector& q, JointVector velocity, d
   return velocity * (pace * kToolSpeed / speed);
 }
 
-JointState guided(const JointState& now, const operation::Servo& servo, const Arm& arm, double dt, const Guard& guard,
-                  Limits& acted) {
+bool leads(const operation::Servo& servo) {
+  return servo.of == operation::Servo::Of::position || servo.of == operation::Servo::Of::passage;
+}
+
+void Stream::follow(const JointVector& from, const JointVector& to, double seconds,
+                    const std::vector<JointLimits>& limits) {
+  if (seconds <= 0 || seconds > kLongestGap_s) return end();
+  if (due_s_ == 0) mean_ = JointVector::Zero(to.size());
+  const JointVector mean = (to - from) / seconds;
+  passing_ = JointVector::Zero(to.size());
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    const JointLimits& own = limits[static_cast<std::size_t>(i)];
+    const double change = mean[i] - mean_[i];
+    if (std::abs(mean[i]) > kAsFast * speed_of(own) || std::abs(change) > kAsFast * acceleration_of(own) * seconds)
+      continue;
+    const double soon = std::clamp(mean[i] + change / 2, -speed_of(own), speed_of(own));
+    if (soon * mean[i] > 0) passing_[i] = soon;
+  }
+  mean_ = mean;
+  due_s_ = seconds;
+}
+
+JointState guided(const JointState& now, const operation::Servo& servo, const Stream& stream, double since,
+                  const Arm& arm, double dt, const Guard& guard, Limits& acted) {
   const std::vector<JointLimits>& limits = arm.limits();
-  const bool led = servo.of == operation::Servo::Of::position;
+  const bool led = leads(servo), passage = servo.of == operation::Servo::Of::passage;
+  const double left_s = led ? stream.due_s() - since : 0;
   JointVector wanted = servo.value;
+  double share = 1;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const JointLimits& own = limits[static_cast<std::size_t>(i)];
     const double q = now.position[i];
-    if (led) {
+    const double passing = left_s > dt / 2 ? stream.passing(i) : 0,
+                 brief = std::sqrt(2 * acceleration_of(own) * kOver_rad);
+    if (passing != 0 && (passage || std::abs(passing) <= brief)) {
+      wanted[i] = passing_speed(q, now.velocity[i], wanted[i], passing, left_s, dt);
+    } else if (led) {
       const double way = (limited(own) ? std::clamp(wanted[i], own.lower, own.upper) : wanted[i]) - q;
       // What the jerk takes to turn the acceleration round is not there for stopping.
       const double turning_s = acceleration_of(own) / jerk_of(own);
       const double lag = turning_s > dt ? std::abs(now.velocity[i]) * turning_s : 0;
       const double linear_s = std::max(kLinear_s, 2.5 * turning_s);
-      wanted[i] = std::copysign(stopping_speed(std::abs(way) - lag, acceleration_of(own), linear_s), way);
+      const double stopping = stopping_speed(std::abs(way) - lag, acceleration_of(own), linear_s);
+      wanted[i] = std::copysign(passing * way > 0 ? std::hypot(stopping, brief) : stopping, way);
     }
-    const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad, guard.pace);
+    const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad, 1);
     const double kept = std::clamp(wanted[i], slowest, fastest);
-    if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(guard.pace < 1 ? Limit::approach : Limit::speed);
+    if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(Limit::speed);
     wanted[i] = kept;
+    // Where it has to be slow it keeps to its way: all joints together.
+    if (std::abs(kept) > guard.pace * speed_of(own))
+      share = std::min(share, guard.pace * speed_of(own) / std::abs(kept));
     if (guard.position.size() == 0) continue;
     const double ahead = std::copysign(1.0, wanted[i]) * (q - guard.position[i]);
-    if (ahead <= kLead_rad / 2 || wanted[i] == 0) continue;
+    if (ahead <= guard.lead / 2 || wanted[i] == 0) continue;
     acted.note(Limit::reference);
-    wanted[i] *= std::max(0.0, 2 - 2 * ahead / kLead_rad);
+    wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard.lead);
   }
+  if (share < 1) acted.note(Limit::approach);
+  wanted *= share;
   wanted = slowed(arm, now.position, wanted, guard.pace, acted);
 
   // Joints that change their speed each in its own time could make the tool faster than before and after.
-  double share = 1;
+  share = 1;
   JointVector soon = now.velocity;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const double most = acceleration_of(limits[static_cast<std::size_t>(i)]) * dt, change = wanted[i] - now.velocity[i];
@@ -113,6 +157,11 @@ JointState guided(const JointState& now, const operation::Servo& servo, const Ar
     const double q = now.position[i], most = acceleration_of(own), jerk = jerk_of(own);
     const double asked = (wanted[i] - now.velocity[i]) / dt;
     double acceleration = std::clamp(asked, -most, most);
+    // What is to be slow starts gently too: a stiff arm that is held by something presses as hard as it would start.
+    if (std::abs(now.velocity[i] + acceleration * dt) > std::abs(now.velocity[i])) {
+      const double start = std::max(guard.pace, kGentlest) * most;
+      acceleration = std::clamp(acceleration, -start, start);
+    }
     if (std::abs(acceleration - asked) > kLeastPull / dt) acted.note(Limit::acceleration);
     const double eased = std::clamp(acceleration, std::min(now.acceleration[i] - jerk * dt, most),
                                     std::max(now.acceleration[i] + jerk * dt, -most));
@@ -124,7 +173,7 @@ JointState guided(const JointState& now, const operation::Servo& servo, const Ar
       velocity = (position - q) / dt;
     }
     if (guard.position.size() > 0) {
-      const double near = std::clamp(position, guard.position[i] - 2 * kLead_rad, guard.position[i] + 2 * kLead_rad);
+      const double near = std::clamp(position, guard.position[i] - 2 * guard.lead, guard.position[i] + 2 * guard.lead);
       if (near != position) {
         position = near;
         velocity = std::clamp((near - q) / dt, -speed_of(own), speed_of(own));
@@ -138,11 +187,11 @@ JointState guided(const JointState& now, const operation::Servo& servo, const Ar
 }
 
 JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
-                              const Arm& arm, double dt, double pace, Limits& acted) {
+                              const Arm& arm, double dt, double pace, double margin, Limits& acted) {
   JointVector next = velocity + dt * asked;
   const JointVector ahead = position + dt * velocity;
   for (Eigen::Index i = 0; i < next.size(); ++i) {
-    const auto [slowest, fastest] = allowed(ahead[i], arm.limits()[static_cast<std::size_t>(i)], kMargin_rad, pace);
+    const auto [slowest, fastest] = allowed(ahead[i], arm.limits()[static_cast<std::size_t>(i)], margin, pace);
     const double kept = std::clamp(next[i], slowest, fastest);
     if (kept != next[i]) acted.note(pace < 1 ? Limit::approach : Limit::speed);
     next[i] = kept;
@@ -154,7 +203,7 @@ JointVector safe_acceleration(const JointVector& asked, const JointVector& posit
     const double most = acceleration_of(own);
     if (std::abs(result[i]) > most) acted.note(Limit::acceleration);
     // To stop before its end, a joint may do more.
-    const auto [slowest, fastest] = allowed(ahead[i], own, kMargin_rad, 1);
+    const auto [slowest, fastest] = allowed(ahead[i], own, margin, 1);
     result[i] =
         std::clamp(std::clamp(result[i], -most, most), (slowest - velocity[i]) / dt, (fastest - velocity[i]) / dt);
   }

@@ -31,29 +31,54 @@ class Limits {  // that acted
   std::bitset<kLimits> acted_;
 };
 
+// The reference waits for an arm that is held up: it slows down from half this distance on, and never gets further
+// ahead than twice of it. Where the arm gives way, it takes more to have it press.
+constexpr double kLead_rad = 0.05, kYieldingLead_rad = 0.1;
+
+// What pushes the arm from outside must not take it over its stops: speeds and torques do not lead nearer than this.
+constexpr double kMargin_rad = 0.05;
+
 // What a reference must mind beside the limits of the joints.
 struct Guard {
   double pace = 1;       // the share of joint and tool speeds that it may use
   JointVector position;  // of the arm itself; empty: it is on its reference
+  double lead = kLead_rad;
 };
-// The reference waits for an arm that is held up: it slows down from half this distance on, and never gets further
-// ahead than twice of it.
-constexpr double kLead_rad = 0.05;
+
+bool leads(const operation::Servo& servo);  // to positions
+
+// Positions that come one after the other as an arm may move are a way: each is passed when the next is due, not
+// stopped at: a passage at any speed, other positions no faster than the arm can stop soon after. Found anew with each
+// position.
+class Stream {
+ public:
+  // `seconds` after the position before.
+  void follow(const JointVector& from, const JointVector& to, double seconds, const std::vector<JointLimits>& limits);
+  void end() { *this = {}; }
+  bool passes() const { return due_s_ > 0 && !passing_.isZero(); }
+  double due_s() const { return due_s_; }  // after the position was given; 0: it is stopped at
+  double passing(Eigen::Index joint) const { return passing_[joint]; }  // rad/s; 0: this joint stops there
+
+ private:
+  JointVector mean_, passing_;
+  double due_s_ = 0;
+};
 
 // Joint velocities whose tip is no faster than the robot's tool may be, by the pace: the same direction, slower.
 JointVector slowed(const Arm& arm, const JointVector& q, JointVector velocity, double pace, Limits& acted);
 
-// The reference one physics step later. It goes towards a position, or takes on a velocity, as fast as the limits of
-// the tool's speed and of each joint's speed, acceleration and jerk allow, and never beyond its stops: near its goal,
-// and near a stop, it slows down by the square root of the way that is left, and in the end linearly (a filter of third
-// order, after Kroeger, Wahl 2010, doi:10.1109/TRO.2009.2035744). Not for torques. Repeatable.
-JointState guided(const JointState& now, const operation::Servo& servo, const Arm& arm, double dt, const Guard& guard,
-                  Limits& acted);
+// The reference one physics step later, `since` seconds after the servo was given. It goes towards a position, or takes
+// on a velocity, as fast as the limits of the tool's speed and of each joint's speed, acceleration and jerk allow, and
+// never beyond its stops: near its goal, and near a stop, it slows down by the square root of the way that is left, and
+// in the end linearly (a filter of third order, after Kroeger, Wahl 2010, doi:10.1109/TRO.2009.2035744). Not for
+// torques. Repeatable.
+JointState guided(const JointState& now, const operation::Servo& servo, const Stream& stream, double since,
+                  const Arm& arm, double dt, const Guard& guard, Limits& acted);
 
 // The acceleration closest to the one asked for that breaks no limit of speed and acceleration and can still stop short
-// of the stops. Shapes: one entry a joint. rad/s^2.
+// `margin` short of the stops. Shapes: one entry a joint. rad/s^2.
 JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
-                              const Arm& arm, double dt, double pace, Limits& acted);
+                              const Arm& arm, double dt, double pace, double margin, Limits& acted);
 
 // The speed at which a motor may take away an error of position, so that it can still stop there. rad, rad/s.
 double catching_up(double error, double acceleration);

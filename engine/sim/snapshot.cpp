@@ -19,7 +19,7 @@ struct Snapshot::Data {
   Reference reference;
   JointState reference_now;
   ContactWindow::State contacts;
-  JointVector arm_torque;
+  JointVector arm_torque, foreseen;
   std::vector<std::vector<double>> efforts;
   CommandLog::Mark log;
 };
@@ -175,6 +175,7 @@ Snapshot World::snapshot() const {
   data->reference_now = w.reference_now;
   data->contacts = w.contacts.state();
   data->arm_torque = w.arm_torque;
+  data->foreseen = w.foreseen;
   data->efforts = w.efforts;
   data->log = impl_->log.mark();
   return {data};
@@ -198,6 +199,7 @@ void World::restore(const Snapshot& snapshot) {
   w.reference_now = data.reference_now;
   w.contacts.set_state(data.contacts);
   w.arm_torque = data.arm_torque;
+  w.foreseen = data.foreseen;
   w.acted = {};
   w.efforts = data.efforts;
   w.log.back_to(data.log);

@@ -260,7 +260,7 @@ void World::apply(const Operation& operation) {
       throw Error("servo",
                   "it needs a finite number for each of the arm's " + std::to_string(w.arm.joints()) + " joints",
                   "give rad, rad/s or N m");
-    w.reference = {nullptr, w.steps, w.reference_now, *servo};
+    w.serve(*servo);
   } else if (const auto* place = std::get_if<operation::Place>(&operation)) {
     w.place(place->body, place->world_from_body);
   }

@@ -42,9 +42,10 @@ struct Setpoint {  // a reference for this step on, from an agent
 };
 struct Servo {  // what an agent asks of the arm from this step on, in place of a trajectory or set-point
   // position: rad, to be reached; velocity: rad/s, to be kept; both within the joints' limits of speed, acceleration
-  // and range. torque: N m beside those that bear the weight of the arm and of what it holds; a joint that would pass
-  // its limit of speed, or could not stop short of its stop, is held back.
-  enum class Of { position, velocity, torque };
+  // and range. passage: positions of a way, each to be passed when the next is due, however fast; where none comes, it
+  // is reached after all. torque: N m beside those that bear the weight of the arm and of what it holds; a joint that
+  // would pass its limit of speed, or could not stop short of its stop, is held back.
+  enum class Of { position, velocity, torque, passage };
   Of of = Of::position;
   JointVector value;
   int robot = 0;

@@ -61,6 +61,72 @@ TEST_CASE("a position is reached without passing it, and a velocity of nothing i
   CHECK(world.arm_velocity().cwiseAbs().maxCoeff() < 1e-3);
 }
 
+TEST_CASE("positions that come as an arm may move are passed in time, and one that stays is stopped at", "[sim]") {
+  World world(shared(table_scene(0)));
+  const JointVector home = world.arm().home();
+  const double frame = 1.0 / 20;
+  const auto way = [&](double t, double seconds) {  // from rest to rest, 1.2 rad of the last joint
+    const double s = std::min(1.0, t / seconds);
+    return JointVector(home + constant(1.2 * s * s * s * (10 - 15 * s + 6 * s * s))
+                                  .cwiseProduct((JointVector(7) << 0.5, -0.5, 0.5, 0.5, 0.5, -0.5, 1).finished()));
+  };
+  double passed = 0;
+  const auto late = [&](double seconds, Servo::Of of) {
+    double most = 0;
+    move_to(world, home, 2);
+    for (int i = 1; i <= seconds / frame + 20; ++i) {
+      world.apply(Servo{of, way(i * frame, seconds)});
+      for (int k = 0; k < 12; ++k) {
+        world.step();
+        passed = std::max(passed, world.reference().position[6] - home[6] - 1.2);
+      }
+      most = std::max(most, (world.reference().position - way(i * frame, seconds)).cwiseAbs().maxCoeff());
+    }
+    return most;
+  };
+  CHECK(late(8, Servo::Of::position) < 1e-3);  // stopping at each, it would be 0.02 rad late
+  CHECK(late(2, Servo::Of::position) < 0.1);   // fast, it is late by what it takes to stop
+  CHECK(late(2, Servo::Of::passage) < 2e-3);
+  CHECK(passed < 1e-3);
+  // One that ends at once is hardly passed.
+  const JointVector last = way(1, 4);
+  move_to(world, home, 2);
+  for (int i = 1; i <= 40; ++i) {
+    world.apply(Servo{Servo::Of::position, way(std::min(1.0, i * frame), 4)});
+    for (int k = 0; k < 12; ++k) {
+      world.step();
+      passed = std::max(passed, world.reference().position[6] - last[6]);
+    }
+  }
+  CHECK(passed < 0.008);
+  CHECK((world.reference().position - last).cwiseAbs().maxCoeff() < 1e-3);
+  // A jump is no way: it is gone to and stopped at.
+  const JointVector there = last - constant(0.3);
+  passed = 0;
+  world.apply(Servo{Servo::Of::position, there});
+  for (int k = 0; k < 240; ++k) {
+    world.step();
+    passed = std::max(passed, (there - world.reference().position).maxCoeff());
+  }
+  CHECK(passed < 1e-9);
+}
+
+TEST_CASE("an arm that has to be slow keeps to its way", "[sim]") {
+  World world(shared(table_scene(0)));
+  grip(world, 0);
+  move_to(world, solve(world, tip_down(0.5, 0, 0.004), world.arm().home()), 2);
+  const JointVector from = world.arm_position(), to = solve(world, tip_down(0.5, 0, -0.02), from);
+  double aside = 0;
+  for (int i = 0; i < 8; ++i) {
+    world.apply(Servo{Servo::Of::position, to});
+    run(world, 0.05);
+    const JointVector gone = world.reference().position - from, whole = to - from;
+    aside = std::max(aside, (gone - whole * (gone.dot(whole) / whole.squaredNorm())).norm());
+  }
+  CHECK_THAT(world.limited(), Catch::Matchers::VectorContains(std::string("approach")));
+  CHECK(aside < 0.1 * (to - from).norm());
+}
+
 TEST_CASE("no torque is weightlessness, any torque keeps joints between their stops, and the arm goes on from there",
           "[sim]") {
   World world(shared(table_scene(0)));
