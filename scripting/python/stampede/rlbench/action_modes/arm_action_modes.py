@@ -12,6 +12,7 @@ from stampede.rlbench.backend.exceptions import InvalidActionError
 from stampede.rlbench.backend.rotations import composed, interpolated, product, rotation_vector
 from stampede.rlbench.backend.scene import Scene
 
+_BACK_M = (0.03, 0.08)
 _UNIT_TOLERANCE = 1e-3  # of a quaternion's length
 _STANDS_RAD = 0.001  # a frame
 _TOUCHES_AT_START = "the arm touches something at the start"
@@ -156,8 +157,25 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
             scene.act(_core.Action("tool_path", target))
         except InvalidActionError as error:
             # What the arm touches already is no obstacle on its way off it, as in RLBench; else there is no way.
-            if _TOUCHES_AT_START not in str(error) or not self._follows_line(scene, target):
+            if _TOUCHES_AT_START not in str(error):
                 raise
+            if not self._backs_off(scene, target) and not self._follows_line(scene, target):
+                raise
+
+    def _backs_off(self, scene: Scene, target: np.ndarray) -> bool:
+        """The way it came, out of what it touches, and on by a planned path. False, with everything as it was: no."""
+        start, here = scene.save(), scene.numbers["gripper_pose"]
+        for way in _BACK_M:
+            if not self._follows_line(scene, composed(here, np.array([0, 0, -way, 0, 0, 0, 1.0]))):
+                continue
+            if scene.over:
+                return True
+            try:
+                scene.act(_core.Action("tool_path", target))
+                return True
+            except InvalidActionError:
+                scene.restore(start)
+        return False
 
     def _follows_line(self, scene: Scene, target: np.ndarray) -> bool:
         """False, with everything as it was, where the arm cannot."""

@@ -39,8 +39,9 @@ class Discrete(GripperActionMode):
     def action(self, scene: Scene, action: np.ndarray) -> None:
         action = checked_shape(action, self.action_shape(scene))
         wants_open = action[0] > 0.5
-        if wants_open == (float(scene.numbers["gripper_open"]) > 0.5):
-            return
+        if wants_open == (float(scene.numbers["gripper_open"]) > 0.5) or wants_open == scene.told_to_open:
+            return  # the fingers are there, or something holds them: they go on by themselves when they can
+        scene.told_to_open = wants_open
         opening = scene.opening_m if wants_open else 0.0
         for frame in range(_MOST_FRAMES):
             before = float(scene.numbers["gripper_opening"])

@@ -43,7 +43,7 @@ class Observation:
     gripper_touch_forces (6,) float64: N, a vector a finger; its second component is the force along the pad's normal
     task_low_dim_state   (k,) float64: pose of each object, then positions of joints that are not the robot's; world
     ignore_collisions    () float64: 1.0 in frames of a demo whose motion was not planned around obstacles (lines, arcs,
-                         pushes), else 0.0; PerAct's field
+                         pushes), or in which the arm stands, else 0.0; PerAct's field
     misc                 dict: CAMERA_camera_extrinsics, CAMERA_camera_intrinsics, CAMERA_camera_near,
                          CAMERA_camera_far; variation_index; in demos joint_position_action and frame
     """

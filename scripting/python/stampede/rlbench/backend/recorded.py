@@ -13,9 +13,9 @@ from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
 STOP_AT_VIAS = "motion.stop_at_vias=1"  # setting of a run
 
-# Motions that are planned, or in which the arm stands still.
-_AROUND_OBSTACLES = ("move_to", "move_through", "open_hand", "close_hand", "hold", "wait")
+_AROUND_OBSTACLES = ("move_to", "move_through", "move_joints")
 _FRAMES_OF_VERDICT = 3  # that a trimmed demo keeps: whoever replays it arrives a little later
+_STANDS_RAD_PER_S = 0.01
 _SHUT_M = 1e-3  # a hand that was told to open less wide than that was told to close
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
@@ -46,12 +46,30 @@ def kept_frames(arrays: EpisodeArrays, gripper_frames: bool, trimmed: bool = Fal
 
 
 def ignoring_frames(arrays: EpisodeArrays) -> set[int]:
-    """Frames whose motion was not planned around obstacles: `Observation.ignore_collisions`."""
+    """
+    Frames whose motion was not planned around obstacles: `Observation.ignore_collisions`. Also those in which the arm
+    stands: what the hand is about to let go of may lie on something. Where a demo stops at its via-points, the way after
+    the first of them, which is of lines, is one of these.
+    """
     ignoring: set[int] = set()
     for segment in arrays.segments:
-        if segment.kind == "motion" and segment.name not in _AROUND_OBSTACLES:
-            ignoring.update(range(segment.first_frame, segment.end_frame))
+        if segment.kind != "motion":
+            continue
+        first = segment.first_frame
+        if segment.name in _AROUND_OBSTACLES:
+            first = _end_of_free_way(arrays, segment.first_frame, segment.end_frame)
+        ignoring.update(range(first, segment.end_frame))
     return ignoring
+
+
+def _end_of_free_way(arrays: EpisodeArrays, first: int, end: int) -> int:
+    """The frame after that in which the arm first stands between the ends of a motion; `end`: it does not."""
+    fastest = np.abs(arrays["joint_velocities"][first:end]).max(axis=1, initial=0.0)
+    moving = np.flatnonzero(fastest > _STANDS_RAD_PER_S)
+    for frame in range(moving[0] if moving.size else len(fastest), moving[-1] if moving.size else 0):
+        if fastest[frame] <= _STANDS_RAD_PER_S:
+            return first + frame + 1
+    return end
 
 
 def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) -> Iterator[dict[str, object]]:

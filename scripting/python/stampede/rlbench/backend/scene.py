@@ -13,6 +13,7 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import ObservationConfig
 
+_STANDS_RAD_PER_S = 0.01
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
 
 
@@ -59,6 +60,7 @@ class Scene:
         self.over = True
         self.reward = 0.0
         self.variation_index = 0
+        self.told_to_open: bool | None = None  # the hand, last, by Discrete
 
     def _pictures(self) -> list[str]:
         channels: list[str] = []
@@ -74,6 +76,7 @@ class Scene:
             _core.Reset(variation=start.variation, seed=start.seed, randomise=start.randomise)
         )
         self.over, self.reward, self.variation_index = False, 0.0, variation_index
+        self.told_to_open = None
 
     def act(self, action: _core.Action) -> None:
         """
@@ -90,8 +93,9 @@ class Scene:
         self.over = step.terminated or step.truncated
 
     def wait_for_verdict(self) -> None:
-        """Where the goal holds, stands still until it has held for as long as the task asks."""
-        if not self.over and float(self.numbers["progress"]) == 1.0:
+        """Where the goal holds and the arm stands, stands still until it has held for as long as the task asks."""
+        still = float(np.abs(self.numbers["joint_velocities"]).max()) < _STANDS_RAD_PER_S
+        if not self.over and still and float(self.numbers["progress"]) == 1.0:
             self.act(_core.Action("hold"))
 
     def save(self) -> _core.SavedState:
