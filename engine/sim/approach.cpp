@@ -19,6 +19,7 @@ constexpr double kLongest_s = 0.5;                    // of a stop
 constexpr int kSpacing = 4;                           // steps between two configurations that are looked at
 constexpr std::array kDistances{0.001, 0.0003, 0.0};  // m, from what is ahead
 constexpr double kMoved_rad = 0.001;                  // so far a way's beginning goes
+constexpr std::size_t kAtOnce = 2;                    // of the places looked at
 constexpr double kInto = 0.05;                        // cosine to the normal: less is along a surface
 constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
 constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kMeetingPace};
@@ -35,10 +36,10 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
 
 // What bears on the arm, or on what it holds. Of what can move the whole part counts, which goes with it.
 struct Bearing {
-  Pairs pairs;
+  Pairs pairs, lying;  // lying: that touch without force
   std::set<PartRef> pushed;
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
-    return pairs.contains(pair) || pushed.contains(pair.second);
+    return pairs.contains(pair) || lying.contains(pair) || pushed.contains(pair.second);
   }
 };
 
@@ -54,12 +55,13 @@ class Near {
     if (pairs_.front().empty()) return state_.first_touching(way, kDistances.front()) == way.size();
     return std::ranges::all_of(way, [&](const JointVector& q) { return clear(q); });
   }
-  // Whether the arm gets off all that bears on it.
+  // Whether the arm gets off all that bears on it, and at once off what it touches without force: nobody knows from
+  // where.
   bool leaves(const std::vector<JointVector>& way) const {
-    return std::all_of(way.begin() + static_cast<std::ptrdiff_t>(way.size() / 2), way.end(), [&](const JointVector& q) {
-      return std::ranges::none_of(touched(state_, q, kDistances[1]),
-                                  [&](const auto& pair) { return bearing_.contains(pair); });
-    });
+    for (std::size_t i = kAtOnce; i < way.size(); ++i)
+      for (const auto& pair : touched(state_, way[i], kDistances[1]))
+        if (bearing_.lying.contains(pair) || (i >= way.size() / 2 && bearing_.contains(pair))) return false;
+    return true;
   }
 
  private:
@@ -139,8 +141,11 @@ void World::Impl::look_ahead() {
         bearing.pairs.insert({{*held, 0}, {other, static_cast<int>(p)}});
     }
   }
+  for (const auto& pair : touched(state, here, kDistances.back()))
+    if (!bearing.contains(pair)) bearing.lying.insert(pair);
   const Near near(state, here, bearing);
-  const double most = bearing.pairs.empty() ? 1 : grasped ? kHoldingPace : kMeetingPace;
+  const bool free = bearing.pairs.empty() && bearing.lying.empty();
+  const double most = free ? 1 : grasped ? kHoldingPace : kMeetingPace;
   Limits ignored;
   const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(here.size())};
   for (const double pace : kPaces) {

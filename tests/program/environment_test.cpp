@@ -221,7 +221,7 @@ TEST_CASE("what kept the arm from going as an action asks is told, and nothing w
   for (int i = 0; i < 12; ++i) now = world.step({.space = "joint_velocity", .values = still});
   CHECK(now.limited == std::vector<std::string>{});
   std::set<std::string> limits;
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < 160; ++i) {
     now = world.step({.space = "tool_velocity", .values = {0, 0, -0.4, 0, 0, 0}});
     limits.insert(now.limited.begin(), now.limited.end());
   }
