@@ -270,8 +270,7 @@ std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAc
       return ActionRefusal{"no joint positions near the present ones reach that pose", "a nearer pose, or tool_path"};
     target = *found;
   }
-  // Joint positions one after the other are a way, as of a recorded arm; what is reckoned from where the arm is, is
-  // not.
+  // Joint positions one after the other are a way, as of a recorded arm; what is reckoned from where it is, is none.
   const auto of = space == "joint_position" ? Servo::Of::passage : Servo::Of::position;
   operations.push_back(Servo{of, std::move(target)});
   return operations;

@@ -34,42 +34,46 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
   return pairs;
 }
 
-// What bears on the arm, or on what it holds. Of what can move the whole part counts, which goes with it.
+// What the arm touches, or what it holds does. Of what can move the whole part counts, which goes with it.
 struct Bearing {
-  Pairs pairs, lying;  // lying: that touch without force
+  Pairs pairs, lying;  // that bear a force; that touch without
   std::set<PartRef> pushed;
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
     return pairs.contains(pair) || lying.contains(pair) || pushed.contains(pair.second);
   }
+  bool empty() const { return pairs.empty() && lying.empty(); }
 };
 
-// What the arm is near now, and may be as near of on its way: of what is nearer than one distance, the next counts.
+// What is nearer to the arm than each of the distances.
 class Near {
  public:
-  Near(const CollisionState& state, const JointVector& here, const Bearing& bearing)
-      : state_(state), bearing_(bearing) {
-    for (const double distance : kDistances)
-      pairs_.push_back(pairs_.empty() || !pairs_.back().empty() ? touched(state, here, distance) : Pairs{});
+  Near(const CollisionState& state, const JointVector& here) : state_(state) {
+    for (std::size_t i = 0; i < kDistances.size(); ++i)
+      if (i == 0 || !pairs_[i - 1].empty()) pairs_[i] = touched(state, here, kDistances[i]);
   }
-  bool clear(const std::vector<JointVector>& way) const {
-    if (pairs_.front().empty()) return state_.first_touching(way, kDistances.front()) == way.size();
-    return std::ranges::all_of(way, [&](const JointVector& q) { return clear(q); });
+  const Pairs& near() const { return pairs_.front(); }
+  const Pairs& touching() const { return pairs_.back(); }
+  // Whether nothing is met on a way but what is touched already, and nothing that is near gets nearer than the next
+  // distance.
+  bool clear(const std::vector<JointVector>& way, const Bearing& bearing) const {
+    if (near().empty()) return state_.first_touching(way, kDistances.front()) == way.size();
+    return std::ranges::all_of(way, [&](const JointVector& q) { return clear(q, bearing); });
   }
   // Whether the arm gets off all that bears on it, and at once off what it touches without force: nobody knows from
   // where.
-  bool leaves(const std::vector<JointVector>& way) const {
+  bool leaves(const std::vector<JointVector>& way, const Bearing& bearing) const {
     for (std::size_t i = kAtOnce; i < way.size(); ++i)
       for (const auto& pair : touched(state_, way[i], kDistances[1]))
-        if (bearing_.lying.contains(pair) || (i >= way.size() / 2 && bearing_.contains(pair))) return false;
+        if (bearing.lying.contains(pair) || (i >= way.size() / 2 && bearing.contains(pair))) return false;
     return true;
   }
 
  private:
-  bool clear(const JointVector& q) const {
+  bool clear(const JointVector& q, const Bearing& bearing) const {
     for (std::size_t i = 0; i < kDistances.size(); ++i) {
       bool nearer = false;
       for (const auto& pair : touched(state_, q, kDistances[i])) {
-        if (bearing_.contains(pair)) continue;
+        if (bearing.contains(pair)) continue;
         if (!pairs_[i].contains(pair)) return false;
         nearer = true;
       }
@@ -78,8 +82,7 @@ class Near {
     return true;
   }
   const CollisionState& state_;
-  const Bearing& bearing_;
-  std::vector<Pairs> pairs_;  // of each distance
+  std::array<Pairs, kDistances.size()> pairs_;
 };
 
 }  // namespace
@@ -102,6 +105,23 @@ bool World::Impl::presses(const std::vector<JointVector>& way, std::optional<int
 bool World::Impl::meets(PartRef own, PartRef other, std::optional<int> held) const {
   const bool carried = own.body == held;
   return (own.body == kRobot || carried) && other.body != held && !(carried && other.body == kRobot);
+}
+
+// Of the reference: so many steps by the servo at this pace, then as fast as it can to a stand.
+std::vector<JointVector> World::Impl::way_to_a_stand(double pace, std::int64_t led) const {
+  Limits ignored;
+  const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(arm.joints())};
+  const auto longest = static_cast<std::int64_t>(kLongest_s / dt);
+  std::vector<JointVector> way;
+  JointState at = reference_now;
+  for (std::int64_t i = 1; i <= led + longest; ++i) {
+    at = i <= led ? served(at, steps + i - 1, {pace, {}}, ignored)
+                  : guided(at, stop, {}, 0, arm, dt, {pace, {}}, ignored);
+    const bool rests = i > led && at.velocity.cwiseAbs().maxCoeff() < 1e-3;
+    if (i % kSpacing == 0 || rests) way.push_back(at.position);
+    if (rests) break;
+  }
+  return way;
 }
 
 void World::Impl::look_ahead() {
@@ -132,8 +152,9 @@ void World::Impl::look_ahead() {
       if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
         bearing.pushed.insert(other);
     }
+  const Near near(state, here);
   if (held) {  // it may lie in something, as a plug does, or a lid in its thread
-    for (const auto& pair : touched(state, here, kDistances[0]))
+    for (const auto& pair : near.near())
       if (pair.first.body == *held) bearing.pairs.insert(pair);
     if (const Bond* bond = body_slot(*held).bond; bond && bond->holds) {
       const int other = scene->body_index(body(*held).joined_to);
@@ -141,26 +162,13 @@ void World::Impl::look_ahead() {
         bearing.pairs.insert({{*held, 0}, {other, static_cast<int>(p)}});
     }
   }
-  for (const auto& pair : touched(state, here, kDistances.back()))
+  for (const auto& pair : near.touching())
     if (!bearing.contains(pair)) bearing.lying.insert(pair);
-  const Near near(state, here, bearing);
-  const bool free = bearing.pairs.empty() && bearing.lying.empty();
-  const double most = free ? 1 : grasped ? kHoldingPace : kMeetingPace;
-  Limits ignored;
-  const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(here.size())};
+  const double most = bearing.empty() ? 1 : grasped ? kHoldingPace : kMeetingPace;
   for (const double pace : kPaces) {
     reference.pace = pace;
-    std::vector<JointVector> way;
-    JointState at = reference_now;
-    const auto longest = static_cast<std::int64_t>(kLongest_s / dt);
-    for (std::int64_t i = 1; i <= often + longest; ++i) {
-      at = i <= often ? served(at, steps + i - 1, {pace, {}}, ignored)
-                      : guided(at, stop, {}, 0, arm, dt, {pace, {}}, ignored);
-      const bool rests = i > often && at.velocity.cwiseAbs().maxCoeff() < 1e-3;
-      if (i % kSpacing == 0 || rests) way.push_back(at.position);
-      if (rests) break;
-    }
-    if (near.clear(way) && (pace <= most || (near.leaves(way) && !presses(way, held)))) return;
+    const std::vector<JointVector> way = way_to_a_stand(pace, often);
+    if (near.clear(way, bearing) && (pace <= most || (near.leaves(way, bearing) && !presses(way, held)))) return;
   }
   // The way to a stand was seen to be clear at the look before; that of the new action, slowly, need not be.
   const std::vector<JointLimits>& limits = arm.limits();

@@ -26,15 +26,15 @@ constexpr double kPressSpeed = 1.0;     // m/s
 constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 // What an arm gives against contact, measured at its tip, and beside it the weight of what it holds; a wrist's short
 // lever needs some torque of its own.
-constexpr double kPress = 35;       // N
-constexpr double kLeastTorque = 6;  // N m
-constexpr double kLoadRate = 14;    // m/s^2: gravity and what carrying adds
-constexpr double kSelfTorque = 2;   // N m, of an arm that an agent steers, however short its lever
-constexpr double kRubbing = 0.15;   // N along a surface, per N on it
-constexpr double kCatchUp = 0.3;    // share of a joint's acceleration for getting back to its reference
-constexpr double kSlip = 0.25;      // share of a joint's speed
-constexpr double kCatchUpTouching = 0.05;
-constexpr double kMostPull = 60;  // N at the tip, of an arm that gives way
+constexpr double kPress = 35;              // N
+constexpr double kLeastTorque = 6;         // N m
+constexpr double kLoadRate = 14;           // m/s^2: gravity and what carrying adds
+constexpr double kShortLever = 2;          // N m, of an arm that an agent steers, however short its lever
+constexpr double kRubbing = 0.15;          // N along a surface, per N on it
+constexpr double kCatchUp = 0.3;           // share of a joint's acceleration for getting back to its reference
+constexpr double kCatchUpTouching = 0.05;  // likewise, while something bears on an arm that an agent steers
+constexpr double kSlip = 0.25;             // share of a joint's speed
+constexpr double kMostPull = 60;           // N at the tip, of an arm that gives way
 
 // Rotation vector of `to` seen from `from`, in world axes.
 Vector3 turn_between(const Matrix3& from, const Matrix3& to) {
@@ -234,7 +234,7 @@ void World::Impl::control_position(const JointState& now, const JointState& next
     motor.most_force = effort_of(limits);
     motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
     if (!levers.empty())
-      motor.against_contact = std::min(motor.against_contact, std::max(kSelfTorque, kPress * levers[j]));
+      motor.against_contact = std::min(motor.against_contact, std::max(kShortLever, kPress * levers[j]));
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
       acted.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }

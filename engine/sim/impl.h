@@ -122,6 +122,7 @@ struct World::Impl {
 
   // approach.cpp
   void look_ahead();
+  std::vector<JointVector> way_to_a_stand(double pace, std::int64_t led) const;
   bool meets(PartRef own, PartRef other, std::optional<int> held) const;
   bool presses(const std::vector<JointVector>& way, std::optional<int> held) const;
   CollisionState now_for_planning() const;  // world.cpp

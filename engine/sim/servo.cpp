@@ -50,6 +50,20 @@ std::pair<double, double> allowed(double position, const JointLimits& limits, do
           std::min(most, stopping_speed(limits.upper - margin - position, acceleration))};
 }
 
+// At which a joint can still stop soon after a position that it passes.
+double brief_speed(const JointLimits& limits) { return std::sqrt(2 * acceleration_of(limits) * kOver_rad); }
+
+// Towards a position that is stopped at, or, with a speed in its direction, soon after.
+double leading_speed(double from, double velocity, double to, double passing, const JointLimits& limits, double dt) {
+  const double way = (limited(limits) ? std::clamp(to, limits.lower, limits.upper) : to) - from;
+  // What the jerk takes to turn the acceleration round is not there for stopping.
+  const double turning_s = acceleration_of(limits) / jerk_of(limits);
+  const double lag = turning_s > dt ? std::abs(velocity) * turning_s : 0;
+  const double linear_s = std::max(kLinear_s, 2.5 * turning_s);
+  const double stopping = stopping_speed(std::abs(way) - lag, acceleration_of(limits), linear_s);
+  return std::copysign(passing * way > 0 ? std::hypot(stopping, brief_speed(limits)) : stopping, way);
+}
+
 }  // namespace
 
 std::vector<std::string> Limits::names() const {
@@ -104,42 +118,34 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
   const bool led = leads(servo), passage = servo.of == operation::Servo::Of::passage;
   const double left_s = led ? stream.due_s() - since : 0;
   JointVector wanted = servo.value;
-  double share = 1;
+  double slow = 1;  // share that the pace leaves
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const JointLimits& own = limits[static_cast<std::size_t>(i)];
     const double q = now.position[i];
-    const double passing = left_s > dt / 2 ? stream.passing(i) : 0,
-                 brief = std::sqrt(2 * acceleration_of(own) * kOver_rad);
-    if (passing != 0 && (passage || std::abs(passing) <= brief)) {
-      wanted[i] = passing_speed(q, now.velocity[i], wanted[i], passing, left_s, dt);
-    } else if (led) {
-      const double way = (limited(own) ? std::clamp(wanted[i], own.lower, own.upper) : wanted[i]) - q;
-      // What the jerk takes to turn the acceleration round is not there for stopping.
-      const double turning_s = acceleration_of(own) / jerk_of(own);
-      const double lag = turning_s > dt ? std::abs(now.velocity[i]) * turning_s : 0;
-      const double linear_s = std::max(kLinear_s, 2.5 * turning_s);
-      const double stopping = stopping_speed(std::abs(way) - lag, acceleration_of(own), linear_s);
-      wanted[i] = std::copysign(passing * way > 0 ? std::hypot(stopping, brief) : stopping, way);
+    if (led) {
+      const double passing = left_s > dt / 2 ? stream.passing(i) : 0;
+      wanted[i] = passing != 0 && (passage || std::abs(passing) <= brief_speed(own))
+                      ? passing_speed(q, now.velocity[i], wanted[i], passing, left_s, dt)
+                      : leading_speed(q, now.velocity[i], wanted[i], passing, own, dt);
     }
     const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad, 1);
     const double kept = std::clamp(wanted[i], slowest, fastest);
     if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(Limit::speed);
     wanted[i] = kept;
     // Where it has to be slow it keeps to its way: all joints together.
-    if (std::abs(kept) > guard.pace * speed_of(own))
-      share = std::min(share, guard.pace * speed_of(own) / std::abs(kept));
+    if (std::abs(kept) > guard.pace * speed_of(own)) slow = std::min(slow, guard.pace * speed_of(own) / std::abs(kept));
     if (guard.position.size() == 0) continue;
     const double ahead = std::copysign(1.0, wanted[i]) * (q - guard.position[i]);
     if (ahead <= guard.lead / 2 || wanted[i] == 0) continue;
     acted.note(Limit::reference);
     wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard.lead);
   }
-  if (share < 1) acted.note(Limit::approach);
-  wanted *= share;
+  if (slow < 1) acted.note(Limit::approach);
+  wanted *= slow;
   wanted = slowed(arm, now.position, wanted, guard.pace, acted);
 
   // Joints that change their speed each in its own time could make the tool faster than before and after.
-  share = 1;
+  double share = 1;
   JointVector soon = now.velocity;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const double most = acceleration_of(limits[static_cast<std::size_t>(i)]) * dt, change = wanted[i] - now.velocity[i];

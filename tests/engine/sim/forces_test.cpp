@@ -63,7 +63,7 @@ TEST_CASE("an arm that is sent through the table meets it slowly, presses no har
   CHECK(watch.ahead < 0.11);
   // And back up.
   const double low = world.world_from_tip().translation().z();
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 60; ++i) {
     world.apply(Servo{Servo::Of::position, solve(world, tip_down(0.5, 0, 0.2), world.arm_position())});
     watch.run(12);
   }

@@ -12,7 +12,7 @@ from stampede.rlbench.backend.exceptions import InvalidActionError
 from stampede.rlbench.backend.rotations import composed, interpolated, product, rotation_vector
 from stampede.rlbench.backend.scene import Scene
 
-_BACK_M = (0.03, 0.08)
+_BACK_M = (0.03, 0.08)  # one after the other, out of what the hand touches
 _UNIT_TOLERANCE = 1e-3  # of a quaternion's length
 _STANDS_RAD = 0.001  # a frame
 _TOUCHES_AT_START = "the arm touches something at the start"

@@ -19,6 +19,7 @@ NUMBERS = (
     "gripper_touch_forces",
     "task_low_dim_state",
 )
+STANDS_RAD_PER_S = 0.01  # an arm none of whose joints is faster
 FIELDS = (*_PICTURES, *NUMBERS, "ignore_collisions", "misc")
 
 

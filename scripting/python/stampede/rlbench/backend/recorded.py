@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from stampede._core import EpisodeArrays
-from stampede.rlbench.backend.observation import NUMBERS, Observation
+from stampede.rlbench.backend.observation import NUMBERS, STANDS_RAD_PER_S, Observation
 from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
@@ -15,7 +15,6 @@ STOP_AT_VIAS = "motion.stop_at_vias=1"  # setting of a run
 
 _AROUND_OBSTACLES = ("move_to", "move_through", "move_joints")
 _FRAMES_OF_VERDICT = 3  # that a trimmed demo keeps: whoever replays it arrives a little later
-_STANDS_RAD_PER_S = 0.01
 _SHUT_M = 1e-3  # a hand that was told to open less wide than that was told to close
 
 # picture(frame, camera, width, height, rgb, depth, mask, shadows) -> what `Session.picture` gives
@@ -64,12 +63,10 @@ def ignoring_frames(arrays: EpisodeArrays) -> set[int]:
 
 def _end_of_free_way(arrays: EpisodeArrays, first: int, end: int) -> int:
     """The frame after that in which the arm first stands between the ends of a motion; `end`: it does not."""
-    fastest = np.abs(arrays["joint_velocities"][first:end]).max(axis=1, initial=0.0)
-    moving = np.flatnonzero(fastest > _STANDS_RAD_PER_S)
-    for frame in range(moving[0] if moving.size else len(fastest), moving[-1] if moving.size else 0):
-        if fastest[frame] <= _STANDS_RAD_PER_S:
-            return first + frame + 1
-    return end
+    stands = np.abs(arrays["joint_velocities"][first:end]).max(axis=1, initial=0.0) <= STANDS_RAD_PER_S
+    moving = np.flatnonzero(~stands)
+    between = np.flatnonzero(stands[moving[0] : moving[-1]]) if moving.size else moving
+    return first + int(moving[0] + between[0]) + 1 if between.size else end
 
 
 def demo_misc(arrays: EpisodeArrays, frames: list[int], variation_index: int) -> Iterator[dict[str, object]]:

@@ -8,12 +8,11 @@ import numpy as np
 
 from stampede import _core
 from stampede.rlbench.backend.exceptions import InvalidActionError
-from stampede.rlbench.backend.observation import NUMBERS, Observation
+from stampede.rlbench.backend.observation import NUMBERS, STANDS_RAD_PER_S, Observation
 from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import ObservationConfig
 
-_STANDS_RAD_PER_S = 0.01
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
 
 
@@ -94,7 +93,7 @@ class Scene:
 
     def wait_for_verdict(self) -> None:
         """Where the goal holds and the arm stands, stands still until it has held for as long as the task asks."""
-        still = float(np.abs(self.numbers["joint_velocities"]).max()) < _STANDS_RAD_PER_S
+        still = float(np.abs(self.numbers["joint_velocities"]).max()) < STANDS_RAD_PER_S
         if not self.over and still and float(self.numbers["progress"]) == 1.0:
             self.act(_core.Action("hold"))
 
