@@ -63,7 +63,7 @@ void Acting::note_result(const StepResult& result) {
 
 std::optional<ActionRefusal> Acting::carry_out(const AgentAction& action, StepResult& result) {
   if (lasts_a_frame(action.space)) {
-    auto asked = operations_for(action, rollout.world());
+    auto asked = operations_for(action, rollout);
     if (const auto* refusal = std::get_if<ActionRefusal>(&asked)) return *refusal;
     end_running(result, "another action");
     one_frame(std::get<std::vector<Operation>>(asked));

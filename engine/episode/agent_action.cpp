@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/episode/call_motion.h"
 #include "engine/episode/call_settings.h"
 
 namespace stampede {
@@ -68,6 +69,7 @@ std::vector<ActionSpace> all_spaces(const std::vector<NamedLimits>& joints, cons
           {"tool_path", pose},
           {"tool_path_delta", twist_components("m", kFarthest_m, "rad", kHalfTurn)},
           {"gripper", {{"opening", "m", 0, opening_max}}},
+          {"release", {}},
           {"hold", {}},
           {"skill", {}},
           {"go_on", {}}};
@@ -136,6 +138,13 @@ void set_controller(const AgentAction& action, const World& world, std::vector<O
 void set_hand(double opening, const World& world, std::vector<Operation>& operations) {
   if (opening != world.commanded_opening())
     operations.push_back(operation::Hand{opening, world.scene().robot.grip_force});
+}
+
+// Told again, a hand that holds nothing any more stays beside what its fingers would meet.
+double opening_of_release(Rollout& rollout) {
+  const World& world = rollout.world();
+  const auto held = world.grasped();
+  return opening_beside(world, *planning_space(rollout, {}), held, world.scene().robot.opening_max, held.has_value());
 }
 
 }  // namespace
@@ -231,15 +240,16 @@ Transform tool_target(const AgentAction& action, const World& world) {
   return target;
 }
 
-std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, const World& world) {
+std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, Rollout& rollout) {
   using operation::Servo;
+  const World& world = rollout.world();
   std::vector<Operation> operations;
   const Arm& arm = world.arm();
   const auto joints = static_cast<std::size_t>(arm.joints());
   const std::string& space = action.space;
-  if (space == "gripper") {
+  if (space == "gripper" || space == "release") {
     if (world.steered()) operations.push_back(rest(world));
-    set_hand(action.values[0], world, operations);
+    set_hand(space == "gripper" ? action.values[0] : opening_of_release(rollout), world, operations);
     return operations;
   }
   if (action.gripper) set_hand(*action.gripper, world, operations);
@@ -270,8 +280,10 @@ std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAc
       return ActionRefusal{"no joint positions near the present ones reach that pose", "a nearer pose, or tool_path"};
     target = *found;
   }
-  // Joint positions one after the other are a way, as of a recorded arm; what is reckoned from where it is, is none.
-  const auto of = space == "joint_position" ? Servo::Of::passage : Servo::Of::position;
+  // Joint positions one after the other are a way, as of a recorded arm, and so are those of a speed that is kept; a
+  // delta and a pose are places to be at.
+  const bool way = space == "joint_position" || space == "tool_velocity";
+  const auto of = way ? Servo::Of::passage : Servo::Of::position;
   operations.push_back(Servo{of, std::move(target)});
   return operations;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/episode/interfaces.h"
+#include "engine/episode/rollout.h"
 #include "stampede/action.h"
 #include "stampede/environment.h"
 
@@ -23,9 +24,9 @@ std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints);
 // that name; nothing: there is none.
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces);
 
-// What a space with values of the arm or hand asks for during the next frame. Repeatable: a pure function of its
-// arguments. Nothing has been applied yet, so a refusal changes nothing.
-std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, const World& world);
+// What a space of arm or hand asks for during the next frame. Repeatable: a pure function of its arguments. Nothing has
+// been applied yet, so a refusal changes nothing.
+std::variant<std::vector<Operation>, ActionRefusal> operations_for(const AgentAction& action, Rollout& rollout);
 
 // Where a tool space's values lead: of tool_pose, tool_delta, tool_impedance, tool_path and tool_path_delta.
 Transform tool_target(const AgentAction& action, const World& world);

@@ -147,18 +147,12 @@ PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const 
   return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, {}, key), std::move(options));
 }
 
-// The hand opens no further than what is beside it allows: a finger must not press against a neighbour or a rim.
 PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
   if (!call.expect.empty())
     return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect), call.robot), Reason::none, {}};
   double opening = call.opening;
-  if (opening > rollout.world().opening(call.robot)) {
-    CollisionState released = held;
-    released.release();
-    released.clear_allowed();  // where it is put may be touched by what is held, not by the fingers
-    if (rollout.keep) released.allow(*rollout.keep);
-    opening = widest_opening(released, rollout.world().arm_position(call.robot), opening);
-  }
+  if (opening > rollout.world().opening(call.robot))
+    opening = opening_beside(rollout.world(), held, rollout.keep, opening, true, call.robot);
   return {make_hand(opening, call.force, std::nullopt, call.robot), Reason::none, {}};
 }
 
@@ -212,6 +206,14 @@ std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vect
   allow_joined(world, rollout.keep, *space);
   for (const PartRef part : rollout.imagined_away) space->remove(part);
   return space;
+}
+
+double opening_beside(const World& world, CollisionState space, std::optional<PartRef> held, double wanted_m,
+                      bool lets_go, int robot) {
+  space.release();
+  space.clear_allowed();  // where it is put may be touched by what is held, not by the fingers
+  if (held) space.allow(*held);
+  return widest_opening(space, world.arm_position(robot), wanted_m, lets_go);
 }
 
 Yielding yielding(const RobotCall& call) {

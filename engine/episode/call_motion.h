@@ -34,6 +34,11 @@ bool moves_fingers(const RobotCall& call);
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
 
+// How far a hand opens around what it holds, up to `wanted_m`: a finger must not press against a neighbour or a rim.
+// `lets_go`: a little further in any case.
+double opening_beside(const World& world, CollisionState space, std::optional<PartRef> held, double wanted_m,
+                      bool lets_go, int robot = 0);
+
 // How a part goes from where its joint is to `position`, its handle free to turn in the hand by `pivot` rad.
 PartWay way_of_part(const WorldView& view, const std::string& name, double position, double pivot);
 

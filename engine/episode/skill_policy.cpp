@@ -122,7 +122,7 @@ MotionResult SkillPolicy::step(World& world) {
   }
   AgentAction complete = *action;
   if (complete.controller.empty()) complete.controller = to_string(controller_);
-  auto operations = operations_for(complete, world);
+  auto operations = operations_for(complete, rollout_);
   if (const auto* refusal = std::get_if<ActionRefusal>(&operations)) return failed(refusal->what);
   note_asked(*action);
   for (const Operation& operation : std::get<std::vector<Operation>>(operations)) world.apply(operation);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStep_m = 0.001;
 constexpr double kBeside_m = 0.0015;                         // left between a finger and what is beside it
-constexpr double kLeast_m = kRoomToLetGo_m - 2 * kBeside_m;  // in any case
+constexpr double kLeast_m = kRoomToLetGo_m - 2 * kBeside_m;  // to let go
 
 bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
   return std::any_of(pairs.begin(), pairs.end(), [&](const CollisionPair& other) {
@@ -18,8 +18,8 @@ bool among(const std::vector<CollisionPair>& pairs, const CollisionPair& pair) {
 
 }  // namespace
 
-double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m) {
-  const double least = std::min(wanted_m, state.opening() + kLeast_m);
+double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m, bool lets_go) {
+  const double least = std::min(wanted_m, state.opening() + (lets_go ? kLeast_m : 0));
   const std::vector<CollisionPair> touched = state.contacts(q);
   CollisionState wider = state;
   for (double opening = state.opening() + kStep_m; opening < wanted_m + kBeside_m; opening += kStep_m) {

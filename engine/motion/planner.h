@@ -66,9 +66,10 @@ PlannedMotion plan_through(const CollisionState& state, const JointVector& start
 constexpr double kShut_m = 0.005;         // a hand that is no wider grasps nothing: it pushes
 constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go
 
-// How far the hand may open where it is, up to `wanted_m`, before a finger meets what it does not touch yet; at least a
-// little, or nothing could be let go. `state`: nothing held, what is to be let go allowed. Units: m. Repeatable.
-double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m);
+// How far the hand may open where it is, up to `wanted_m`, before a finger meets what it does not touch yet; where it
+// `lets_go`, a little at least, or nothing would fall. `state`: nothing held, what is to be let go allowed. Units: m.
+// Repeatable.
+double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m, bool lets_go = true);
 
 // A planned free motion to joint positions.
 PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,

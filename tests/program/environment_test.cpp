@@ -131,11 +131,12 @@ TEST_CASE("an agent that plays back a plan's skills gets the bytes of the run") 
 }
 
 TEST_CASE("every action space moves the arm within its limits, and what was done replays") {
-  const std::vector<std::string> spaces = {"joint_position", "joint_delta",    "joint_velocity",
-                                           "joint_torque",   "tool_pose",      "tool_delta",
-                                           "tool_velocity",  "tool_impedance", "gripper"};
+  const std::vector<std::string> spaces = {"joint_position", "joint_delta", "joint_velocity", "joint_torque",
+                                           "tool_pose",      "tool_delta",  "tool_velocity",  "tool_impedance",
+                                           "gripper",        "release"};
   for (const std::string& name : spaces) {
     CAPTURE(name);
+    const bool of_hand = name == "gripper" || name == "release";
     Environment world = environment("pick_and_lift", {.channels = {"joint_positions", "gripper_pose"}, .record = true});
     EnvironmentObservation seen = world.reset({.seed = 11});
     const std::vector<double> first = seen["joint_positions"].reals();
@@ -151,7 +152,7 @@ TEST_CASE("every action space moves the arm within its limits, and what was done
         for (std::size_t k = 0; k < 7; ++k) action.values[k] = pose[k];
         for (std::size_t k = 0; k < 3; ++k) action.values[k] += random.between(-0.03, 0.03);
       }
-      if (i % 7 == 0 && name != "gripper") action.gripper = random.between(0, 0.08);
+      if (i % 7 == 0 && !of_hand) action.gripper = random.between(0, 0.08);
       const StepResult now = world.step(action);
       if (now.refusal)
         CHECK_THAT(now.refusal->what, Catch::Contains("no joint positions"));
@@ -166,7 +167,7 @@ TEST_CASE("every action space moves the arm within its limits, and what was done
         moved = std::max(moved, std::abs(q[j] - first[j]));
       }
     }
-    if (name != "gripper") CHECK(moved > 0.05);
+    if (!of_hand) CHECK(moved > 0.05);
     const Episode episode = world.episode();
     CHECK(episode.reason == "goal_false");
     REQUIRE(episode.record);
@@ -207,6 +208,24 @@ TEST_CASE("a position is reached, a velocity is kept, and a path goes around wha
   CHECK(now.frames == 0);
 }
 
+TEST_CASE("what is held falls where the hand is told to release it, and the hand is open then") {
+  Environment world = environment("pick_and_lift", {.channels = {"gripper_opening", "gripper_touch_forces"}});
+  world.reset({.seed = 3});
+  const std::vector<SkillChoice> choices = world.skills();
+  const auto pick = std::find_if(choices.begin(), choices.end(),
+                                 [](const SkillChoice& one) { return one.feasible && one.skill == "pick"; });
+  REQUIRE(pick != choices.end());
+  StepResult now = world.step({.space = "skill", .skill = pick->skill, .arguments = pick->arguments});
+  const auto force_on_pads = [&] {
+    const std::vector<double>& forces = now.observation["gripper_touch_forces"].reals();
+    return *std::max_element(forces.begin(), forces.end());
+  };
+  REQUIRE(force_on_pads() > 1);
+  for (int i = 0; i < 30; ++i) now = world.step({.space = "release"});
+  CHECK(force_on_pads() == 0);
+  CHECK(now.observation["gripper_opening"].reals()[0] == Approx(0.08).margin(1e-3));
+}
+
 TEST_CASE("what kept the arm from going as an action asks is told, and nothing where it goes so") {
   Environment world = environment("reach_target");
   world.reset({.seed = 1});
@@ -221,7 +240,7 @@ TEST_CASE("what kept the arm from going as an action asks is told, and nothing w
   for (int i = 0; i < 12; ++i) now = world.step({.space = "joint_velocity", .values = still});
   CHECK(now.limited == std::vector<std::string>{});
   std::set<std::string> limits;
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < 80; ++i) {
     now = world.step({.space = "tool_velocity", .values = {0, 0, -0.4, 0, 0, 0}});
     limits.insert(now.limited.begin(), now.limited.end());
   }

@@ -553,8 +553,10 @@ def test_joint_positions_of_demos_do_the_task_again() -> None:
         assert rewards[-1] == 1.0
 
 
-# Wrists that turn, lids and doors that lead the hand, a block that is pushed.
-@pytest.mark.parametrize("name", ["change_clock", "open_box", "slide_cabinet_open", "slide_block_to_target"])
+# Wrists that turn, lids and doors that lead the hand, a block that is pushed, forks that are let go beside knives.
+@pytest.mark.parametrize(
+    "name", ["change_clock", "open_box", "slide_cabinet_open", "slide_block_to_target", "set_the_table"]
+)
 def test_demos_that_stop_do_it_again_by_joint_positions_in_contact_too(name: str) -> None:
     task = task_for(JointPosition(), task=tasks.task_of(name))
     (demo,) = task.get_demos(1, live_demos=True, stop_at_vias=True)

@@ -21,17 +21,18 @@ struct ActionComponent {
 //
 // | name | values | what it does |
 // |---|---|---|
-// | joint_position | n, rad | the arm goes there; one frame |
-// | joint_delta | n, rad | likewise, from where its reference is now |
+// | joint_position | n, rad | the arm goes there, through it where the next one comes in time; one frame |
+// | joint_delta | n, rad | from where its reference is now, stopping there |
 // | joint_velocity | n, rad/s | kept until the next action; one frame |
 // | joint_torque | n, N m | beside those that bear the arm's weight; one frame |
-// | tool_pose | x y z m, qx qy qz qw | inverse kinematics from the present joints, then as joint_position |
+// | tool_pose | x y z m, qx qy qz qw | inverse kinematics from the present joints, then as joint_delta |
 // | tool_delta | x y z m, rotation vector rad | likewise, from the reference's pose: moved, and turned about itself |
-// | tool_velocity | linear m/s, angular rad/s | damped least squares along one frame, then as joint_position |
+// | tool_velocity | linear m/s, angular rad/s | damped least squares along one frame, not stopping at its end |
 // | tool_impedance | as tool_pose, then stiffness N/m | as tool_pose, and the arm gives way to contact |
 // | tool_path | as tool_pose | planned around obstacles and followed: to its end, or for `frames` |
 // | tool_path_delta | as tool_delta | likewise |
 // | gripper | opening m | the arm stays as it is; one frame |
+// | release | none | likewise; opens the hand as far as it can beside what stands by its fingers |
 // | hold | none | stands still until the goal has held long enough, for a second where it does not hold |
 // | skill | none | see AgentAction::skill: to its end, or for `frames` |
 // | go_on | none | the path, skill or hold that `frames` cut off goes on |

@@ -50,7 +50,7 @@ void bind_actions(nb::module_& module) {
 
 space: joint_position (rad), joint_delta (rad), joint_velocity (rad/s), joint_torque (N m), tool_pose (x y z m,
 qx qy qz qw), tool_delta (m, rotation vector rad), tool_velocity (m/s, rad/s), tool_impedance (a pose and a stiffness,
-N/m), tool_path and tool_path_delta (planned around obstacles), gripper (m), hold, go_on, skill (see `skill_call`).
+N/m), tool_path and tool_path_delta (planned around obstacles), gripper (m), release, hold, go_on, skill (see `skill_call`).
 values: one a component of the space.
 gripper: opening that the fingers go to beside any space of the arm, m; None: what they were told last.
 frame: of tool spaces, `world` or `tool`.

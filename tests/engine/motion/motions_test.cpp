@@ -191,6 +191,8 @@ TEST_CASE("the hand opens as far as what is beside it allows") {
   state.set_opening(0.04);
   state.move_body(other, world.world_from_tip() * translation(0, 0.02 + 0.0224 + 0.0003 + 0.02, 0));
   CHECK(widest_opening(state, q, 0.08) < 0.045);
+  CHECK(widest_opening(state, q, 0.08) > 0.04);
+  CHECK(widest_opening(state, q, 0.08, false) == 0.04);  // nothing is let go: it need not open at all
 }
 
 TEST_CASE("the tool keeps its own speed limit, whatever the joints could do") {

@@ -28,7 +28,8 @@ class GripperActionMode(ABC):
 
 class Discrete(GripperActionMode):
     """
-    (1,): above 0.5 opens, else closes, until the fingers stop; nothing where they are so already.
+    (1,): above 0.5 opens, else closes, until the fingers stop; nothing where they are so already. It opens as far as it
+    can beside what stands by its fingers, as in the demos, and further where the arm stands next.
 
     attach_grasped_objects and detach_before_open change nothing: what is grasped is held by contact.
     """
@@ -39,19 +40,22 @@ class Discrete(GripperActionMode):
     def action(self, scene: Scene, action: np.ndarray) -> None:
         action = checked_shape(action, self.action_shape(scene))
         wants_open = action[0] > 0.5
-        if wants_open == (float(scene.numbers["gripper_open"]) > 0.5) or wants_open == scene.told_to_open:
-            return  # the fingers are there, or something holds them: they go on by themselves when they can
+        if wants_open == (float(scene.numbers["gripper_open"]) > 0.5):
+            return
+        news = wants_open != scene.told_to_open
+        if not news and not (wants_open and scene.stands):
+            return  # something holds the fingers: those that close go on by themselves when they can
         scene.told_to_open = wants_open
-        opening = scene.opening_m if wants_open else 0.0
+        fingers = _core.Action("release") if wants_open else _core.Action("gripper", [0.0])
         for frame in range(_MOST_FRAMES):
             before = float(scene.numbers["gripper_opening"])
-            scene.act(_core.Action("gripper", [opening]))
+            scene.act(fingers)
             # Fingers start from rest: the first frames may be slower than one in which they have stalled.
             if scene.over or (frame > 1 and abs(float(scene.numbers["gripper_opening"]) - before) < _STALLED_M):
                 break
-        if wants_open:
+        if wants_open and news:
             scene.act(_core.Action("hold", frames=_FRAMES_AFTER_OPENING - 1))
-            scene.act(_core.Action("gripper", [opening]))  # ends the hold: nothing is left that could go on
+            scene.act(fingers)  # ends the hold: nothing is left that could go on
 
     def action_shape(self, scene: Scene | type[Scene]) -> tuple[int, ...]:
         return (1,)

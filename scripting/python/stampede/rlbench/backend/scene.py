@@ -91,10 +91,14 @@ class Scene:
         self.numbers, self.reward = step.observation, float(step.reward)
         self.over = step.terminated or step.truncated
 
+    @property
+    def stands(self) -> bool:
+        """The arm."""
+        return float(np.abs(self.numbers["joint_velocities"]).max()) < STANDS_RAD_PER_S
+
     def wait_for_verdict(self) -> None:
         """Where the goal holds and the arm stands, stands still until it has held for as long as the task asks."""
-        still = float(np.abs(self.numbers["joint_velocities"]).max()) < STANDS_RAD_PER_S
-        if not self.over and still and float(self.numbers["progress"]) == 1.0:
+        if not self.over and self.stands and float(self.numbers["progress"]) == 1.0:
             self.act(_core.Action("hold"))
 
     def save(self) -> _core.SavedState:
