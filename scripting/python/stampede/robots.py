@@ -1,190 +1,149 @@
-"""Robots from their URDF: where links are, and what torques a motion takes. Many configurations at once, numpy only.
+"""Robots from their URDF: where links are, and what torques a motion takes. By Pinocchio (Carpentier et al., 2019,
+doi:10.1109/SII.2019.8700380), which is imported when a robot is read.
 
-It is what `stampede.recordings`, `stampede.calibration` and `stampede.torque_noise` know of an arm. Units: m, rad, kg,
-N m; poses are 4 x 4 matrices parent_from_child.
+It is what `stampede.recordings`, `stampede.calibrate` and `stampede.torque_noise` know of an arm. Units: m, rad, kg,
+N m; poses are 4 x 4 matrices parent_from_child. Gravity is 9.81 m/s^2 along -z of the base.
 """
 
 from __future__ import annotations
 
 import copy
 import json
-import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stampede._core import Error
 from stampede.faults import fault, unknown
 
 Array = NDArray[Any]
 
-GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2, in the base's frame
-_TURNING, _SLIDING = ("revolute", "continuous"), ("prismatic",)
 _ROBOTS = Path(__file__).parent / "engine" / "share" / "stampede" / "worlds" / "robots"
 
 
-@dataclass(frozen=True)
-class Joint:
-    """What hangs a link from its parent."""
-
-    name: str
-    kind: str  # revolute, continuous, prismatic, fixed
-    parent: str
-    child: str
-    origin: Array  # parent_from_joint
-    axis: Array  # unit, in the joint's frame
-
-    @property
-    def moves(self) -> bool:
-        return self.kind in _TURNING + _SLIDING
-
-
-@dataclass(frozen=True)
-class Inertia:
-    mass: float  # kg
-    centre: Array  # m, link
-    tensor: Array  # about the centre, link's axes, kg m^2
+def pinocchio() -> Any:
+    """The library. Raises ImportError that says how to install it."""
+    try:
+        import pinocchio
+    except ImportError as error:
+        raise ImportError('Pinocchio is missing\n    pip install "stampede[recordings]"') from error
+    return pinocchio
 
 
 class Robot:
     """A tree of links. hand: the link that the arm carries about; the arm's joints are those on the way to it.
 
+    links: all, the base first; heavy: those that have an inertia; fingers: joints that slide and are not the arm's.
     Raises Error for a file that is no URDF, and for a hand that it does not have.
     """
 
     def __init__(self, file: Path, hand: str = "hand") -> None:
-        self.file = file
-        self.name, self.joints, self.inertias, self._links = _read(file)
-        self.base = next(link for link in self._links if link not in {joint.child for joint in self.joints})
-        if hand not in self._links:
-            raise unknown(str(file), "link", hand, self._links)
-        self.hand = hand
-        self._above = {joint.child: joint for joint in self.joints}
-        self.arm = [joint.name for joint in self._way(hand) if joint.moves]
-        self.fingers = [joint.name for joint in self.joints if joint.kind in _SLIDING and joint.name not in self.arm]
-
-    def _way(self, link: str) -> list[Joint]:
-        """Joints from the base to a link."""
-        way: list[Joint] = []
-        while link in self._above:
-            way.append(self._above[link])
-            link = way[-1].parent
-            if len(way) > len(self.joints):
-                raise fault(
-                    str(self.file), "its links are no tree", "hang every link from one that hangs from the base"
-                )
-        return way[::-1]
+        self.file, self.hand = file, hand
+        self._urdf, self.links = _read(file)
+        self.name = str(self._urdf.get("name"))
+        self.base = self.links[0]
+        self.heavy = [str(link.get("name")) for link in self._urdf.findall("link") if link.find("inertial") is not None]
+        self._model = model = self._model_of(self.heavy)
+        if not all(model.existFrame(link, pinocchio().BODY) for link in self.links):  # some hang from each other alone
+            raise _no_tree(file)
+        way = [k for k in self._above(hand) if model.joints[k].nv == 1 and k > 0]
+        self.arm = [str(model.names[k]) for k in way]
+        self._columns = [model.joints[k].idx_v for k in way]
+        sliding = [str(joint.get("name")) for joint in self._urdf.findall("joint[@type='prismatic']")]
+        self.fingers = [name for name in sliding if name not in self.arm]
 
     def poses(self, positions: Array, links: Sequence[str] | None = None) -> dict[str, Array]:
         """base_from_link of each link: n x 4 x 4. positions: n x joints of the arm; other joints are at 0."""
+        pin, model = pinocchio(), self._model
         positions = np.atleast_2d(positions)
-        if positions.shape[1] != len(self.arm):
-            raise fault(self.name, f"{positions.shape[1]} positions for {len(self.arm)} joints", ", ".join(self.arm))
-        place = {name: index for index, name in enumerate(self.arm)}
-        wanted = (
-            None if links is None else {self.base}.union(*({one.child for one in self._way(link)} for link in links))
-        )
-        found = {self.base: np.broadcast_to(np.eye(4), (len(positions), 4, 4))}
-        for joint in self._ordered:
-            if wanted is not None and joint.child not in wanted:
-                continue
-            pose = found[joint.parent] @ joint.origin
-            if joint.name in place:
-                pose = pose @ _motion(joint, positions[:, place[joint.name]])
-            found[joint.child] = pose
+        frames = {link: self._frame_of(link) for link in (self.links if links is None else links)}
+        found = {link: np.empty((len(positions), 4, 4)) for link in frames}
+        data = model.createData()
+        for row, q in enumerate(self._configurations(positions)):
+            pin.forwardKinematics(model, data, q)
+            for link, frame in frames.items():
+                found[link][row] = pin.updateFramePlacement(model, data, frame).homogeneous
         return found
 
     def torques(self, positions: Array, velocities: Array, accelerations: Array) -> Array:
-        """What the arm's motors have to give, n x joints: recursive Newton-Euler (Luh, Walker, Paul, 1980,
-        doi:10.1115/1.3149599) in the base's axes. Ideal joints; other joints than the arm's are at rest."""
-        poses = self.poses(positions)
-        place = {name: index for index, name in enumerate(self.arm)}
-        count = len(positions)
-        zero = np.zeros((count, 3))
-        turn, spin = {self.base: zero}, {self.base: zero}  # angular velocity and acceleration
-        rise = {self.base: np.broadcast_to(-GRAVITY, (count, 3))}  # of the link's origin
-        axes: dict[str, Array] = {}
-        for joint in self._ordered:
-            above = joint.parent
-            way = poses[joint.child][:, :3, 3] - poses[above][:, :3, 3]
-            w, a = turn[above], spin[above]
-            lift = rise[above] + np.cross(a, way) + np.cross(w, np.cross(w, way))
-            if joint.name in place:
-                column = place[joint.name]
-                axis = axes[joint.child] = poses[joint.child][:, :3, :3] @ joint.axis
-                v, c = velocities[:, column, None] * axis, accelerations[:, column, None] * axis
-                if joint.kind in _TURNING:
-                    w, a = w + v, a + c + np.cross(w, v)
-                else:
-                    lift = lift + c + 2 * np.cross(w, v)
-            turn[joint.child], spin[joint.child], rise[joint.child] = w, a, lift
-        force = {link: zero for link in poses}
-        moment = {link: zero for link in poses}  # about the link's origin
-        result = np.zeros((count, len(self.arm)))
-        for joint in reversed(self._ordered):
-            link = joint.child
-            rotation = poses[link][:, :3, :3]
-            if link in self.inertias:
-                body = self.inertias[link]
-                arm = rotation @ body.centre
-                w, a = turn[link], spin[link]
-                push = body.mass * (rise[link] + np.cross(a, arm) + np.cross(w, np.cross(w, arm)))
-                tensor = rotation @ body.tensor @ np.swapaxes(rotation, 1, 2)
-                twist = _times(tensor, a) + np.cross(w, _times(tensor, w))
-                force[link] = force[link] + push
-                moment[link] = moment[link] + twist + np.cross(arm, push)
-            way = poses[link][:, :3, 3] - poses[joint.parent][:, :3, 3]
-            force[joint.parent] = force[joint.parent] + force[link]
-            moment[joint.parent] = moment[joint.parent] + moment[link] + np.cross(way, force[link])
-            if joint.name in place:
-                pull = moment[link] if joint.kind in _TURNING else force[link]
-                result[:, place[joint.name]] = np.einsum("ij,ij->i", pull, axes[link])
-        return result
+        """What the arm's motors have to give, n x joints. Ideal joints; other joints than the arm's are at rest."""
+        rnea, data = pinocchio().rnea, self._model.createData()
+        states = self._states(positions, velocities, accelerations)
+        each = [rnea(self._model, data, *state)[self._columns] for state in states]
+        return np.array(each).reshape(positions.shape)
 
     def load_torques(self, positions: Array, velocities: Array, accelerations: Array) -> Array:
         """What a load in the hand takes, as a linear function of it: n x joints x 4, for its mass (kg) and its mass
         times its centre in the hand's frame (kg m). Its own inertia is left out."""
+        pin, model = pinocchio(), self._model
+        hand = model.frames[self._frame_of(self.hand)]
 
-        def with_centre(centre: Array) -> Array:
-            one = copy.copy(self)
-            one.inertias = {self.hand: Inertia(1.0, centre, np.zeros((3, 3)))}
-            return one.torques(positions, velocities, accelerations)
+        def point(centre: Array) -> Any:
+            return hand.placement.act(pin.Inertia(1.0, centre, np.zeros((3, 3)))).toDynamicParameters()
 
-        columns = [with_centre(np.zeros(3))]
-        for axis in 0.1 * np.eye(3):  # what is quadratic in the centre is the same on both sides
-            columns.append((with_centre(axis) - with_centre(-axis)) / 0.2)
-        return np.stack(columns, axis=2)
+        # What is quadratic in the centre is the same on both sides.
+        load = np.stack([point(np.zeros(3)), *((point(axis) - point(-axis)) / 2 for axis in np.eye(3))], axis=1)
+        carrier = slice(10 * (hand.parentJoint - 1), 10 * hand.parentJoint)  # ten parameters a body
+        data = model.createData()
+        states = self._states(positions, velocities, accelerations)
+        each = (pin.computeJointTorqueRegressor(model, data, *state).reshape(model.nv, -1) for state in states)
+        return np.array([one[self._columns, carrier] @ load for one in each]).reshape(*positions.shape, 4)
 
     def beyond_arm(self) -> set[str]:
         """Links that nothing of the arm moves to each other: the last joint's and what hangs from it."""
-        last = next(joint for joint in self.joints if joint.name == self.arm[-1])
-        return {last.child} | {link for link in self._links if last in self._way(link)}
+        last = self._model.getJointId(self.arm[-1])
+        return {link for link in self.links if last in self._above(link)}
 
     def only(self, link: str) -> Robot:
         """The same robot, in which one link alone has mass: torques are linear in the masses."""
         one = copy.copy(self)
-        one.inertias = {link: self.inertias[link]}
+        one._model = self._model_of([link])
         return one
 
-    @cached_property
-    def _ordered(self) -> list[Joint]:
-        """Parents before children."""
-        found, ordered = {self.base}, []
-        left = list(self.joints)
-        while left:
-            ready = [joint for joint in left if joint.parent in found]
-            if not ready:
-                raise fault(
-                    str(self.file), "its links are no tree", "hang every link from one that hangs from the base"
-                )
-            ordered += ready
-            found |= {joint.child for joint in ready}
-            left = [joint for joint in left if joint not in ready]
-        return ordered
+    def _model_of(self, heavy: Collection[str]) -> Any:
+        """heavy: links whose inertias count. Pinocchio lumps what is fixed to each other, so an inertia is had alone
+        only by leaving out the others."""
+        bare = copy.deepcopy(self._urdf)
+        for link in bare.findall("link"):
+            for part in list(link):
+                if part.tag != "inertial" or link.get("name") not in heavy:
+                    link.remove(part)
+        try:
+            return pinocchio().buildModelFromXML(ElementTree.tostring(bare, encoding="unicode"))
+        except ValueError as error:
+            raise fault(str(self.file), f"no URDF: {error}", "mend what is told on standard error") from error
+
+    def _frame_of(self, link: str) -> int:
+        """Its number in Pinocchio's model, which must not be asked for what it does not have."""
+        if link not in self.links:
+            raise unknown(str(self.file), "link", link, self.links)
+        return int(self._model.getFrameId(link, pinocchio().BODY))
+
+    def _above(self, link: str) -> list[int]:
+        """Numbers of the joints from the base to a link, after 0."""
+        return list(self._model.supports[self._model.frames[self._frame_of(link)].parentJoint])
+
+    def _configurations(self, positions: Array) -> Iterator[Array]:
+        """Of all joints, as Pinocchio has them: a continuous one is a cosine and a sine."""
+        if positions.shape[1] != len(self.arm):
+            raise fault(self.name, f"{positions.shape[1]} positions for {len(self.arm)} joints", ", ".join(self.arm))
+        pin = pinocchio()
+        zero = pin.neutral(self._model)
+        return (pin.integrate(self._model, zero, row) for row in self._of_all(positions))
+
+    def _states(self, positions: Array, velocities: Array, accelerations: Array) -> Iterator[tuple[Array, ...]]:
+        moving = self._of_all(velocities), self._of_all(accelerations)
+        return zip(self._configurations(positions), *moving, strict=True)
+
+    def _of_all(self, values: Array) -> Array:
+        """Of all joints: 0 where they are not the arm's."""
+        result = np.zeros((len(values), self._model.nv))
+        result[:, self._columns] = values
+        return result
 
 
 def robot_of(described: Mapping[str, Any] | str, folder: Path = Path(), hand: str = "hand") -> Robot:
@@ -215,91 +174,26 @@ def described_robot(text: str) -> dict[str, Any]:
     return described
 
 
-def rotation(rpy: Array) -> Array:
-    """3 x 3 of roll, pitch and yaw about fixed axes, as URDF has them."""
-    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
-
-
-def _times(matrices: Array, vectors: Array) -> Array:
-    return np.einsum("ijk,ik->ij", matrices, vectors)
-
-
-def _motion(joint: Joint, positions: Array) -> Array:
-    """joint_from_child at each position."""
-    result = np.broadcast_to(np.eye(4), (len(positions), 4, 4)).copy()
-    if joint.kind in _SLIDING:
-        result[:, :3, 3] = positions[:, None] * joint.axis
-        return result
-    x, y, z = joint.axis
-    skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])  # Rodrigues' formula
-    sine, versine = np.sin(positions)[:, None, None], (1 - np.cos(positions))[:, None, None]
-    result[:, :3, :3] += sine * skew + versine * (skew @ skew)
-    return result
-
-
-def _read(file: Path) -> tuple[str, list[Joint], dict[str, Inertia], list[str]]:
+def _read(file: Path) -> tuple[ElementTree.Element, list[str]]:
+    """A URDF and the names of its links, the base first."""
     try:
-        root = ElementTree.parse(file).getroot()
+        urdf = ElementTree.parse(file).getroot()
     except (OSError, ElementTree.ParseError) as error:
         raise fault(str(file), f"no URDF: {error}", "name the robot's URDF file") from error
-    links = [str(one.get("name")) for one in root.findall("link")]
-    inertias = {}
-    for element in root.findall("link"):
-        inertial = element.find("inertial")
-        if inertial is not None:
-            inertias[str(element.get("name"))] = _inertia(inertial)
-    joints = [_joint(one) for one in root.findall("joint")]
+    urdf.set("name", urdf.get("name", file.stem))
+    links = [str(one.get("name")) for one in urdf.findall("link")]
+    joints = urdf.findall("joint")
     if not links or not joints:
         raise fault(str(file), "no robot: it has no links or no joints", "name the robot's URDF file")
     for joint in joints:
-        for link in (joint.parent, joint.child):
-            if link not in links:
-                raise unknown(f"{file} at joint {joint.name}", "link", link, links)
-    return str(root.get("name", file.stem)), joints, inertias, links
+        for end in joint.findall("parent") + joint.findall("child"):
+            if end.get("link") not in links:
+                raise unknown(f"{file} at joint {joint.get('name')}", "link", end.get("link", ""), links)
+    hung = [end.get("link") for end in urdf.findall("joint/child")]
+    if not len(hung) == len({*hung}) == len(links) - 1:  # each but the base, once
+        raise _no_tree(file)
+    return urdf, sorted(links, key=hung.__contains__)
 
 
-def _joint(element: ElementTree.Element) -> Joint:
-    ends = {}
-    for end in ("parent", "child"):
-        found = element.find(end)
-        ends[end] = "" if found is None else str(found.get("link"))
-    axis = element.find("axis")
-    along = _numbers("1 0 0" if axis is None else axis.get("xyz"))
-    length = np.linalg.norm(along)
-    return Joint(
-        str(element.get("name")),
-        str(element.get("type")),
-        ends["parent"],
-        ends["child"],
-        _pose(element.find("origin")),
-        along / length if length > 0 else along,
-    )
-
-
-def _inertia(element: ElementTree.Element) -> Inertia:
-    pose = _pose(element.find("origin"))
-    mass, given = element.find("mass"), element.find("inertia")
-    xx, xy, xz, yy, yz, zz = (
-        0.0 if given is None else float(given.get(name, 0)) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    )
-    tensor = pose[:3, :3] @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ pose[:3, :3].T
-    return Inertia(0.0 if mass is None else float(mass.get("value", 0)), pose[:3, 3], tensor)
-
-
-def _pose(origin: ElementTree.Element | None) -> Array:
-    pose = np.eye(4)
-    if origin is not None:
-        pose[:3, :3] = rotation(_numbers(origin.get("rpy")))
-        pose[:3, 3] = _numbers(origin.get("xyz"))
-    return pose
-
-
-def _numbers(text: str | None) -> Array:
-    return np.array([float(word) for word in (text or "0 0 0").split()])
+def _no_tree(file: Path) -> Error:
+    return fault(str(file), "its links are no tree", "hang every link from one that hangs from the base")

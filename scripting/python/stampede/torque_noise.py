@@ -184,7 +184,7 @@ def _shared_columns(robot: Robot, motion: Motion, with_load: bool, with_masses: 
     columns, priors, links = [], [], []
     carried = robot.beyond_arm() if with_load else set()  # a load says the same as their masses
     if with_masses:
-        for link in robot.inertias:
+        for link in robot.heavy:
             if link in carried:
                 continue
             column = robot.only(link).torques(motion.positions, motion.velocities, motion.accelerations)

@@ -20,10 +20,11 @@ from laboratory_scripts import BASE, DRIVER_EVERY, FRAME_HZ, SIZE, SQUARE_M, SQU
 from ros_bag import RosBag
 
 import stampede
+from stampede.calibrate.poses import turned
 from stampede.recordings import sensors
 from stampede.recordings.sensors import Recorder, Sensors
 from stampede.recordings.synthesize import as_jpeg
-from stampede.robots import Robot, robot_of, rotation
+from stampede.robots import Robot, robot_of
 
 Array = NDArray[Any]
 
@@ -63,7 +64,7 @@ def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
     rng = np.random.default_rng([seed, 1])
     at = np.array([0.95, 0.05, 1.32]) + rng.uniform(-0.05, 0.05, 3)
     camera = _looking(at, np.array([0.20, 0.0, 1.12]) + rng.uniform(-0.03, 0.03, 3))
-    camera[:3, :3] = camera[:3, :3] @ rotation(np.radians(rng.uniform(-4, 4, 3)))
+    camera[:3, :3] = camera[:3, :3] @ turned(np.radians(rng.uniform(-4, 4, 3)))
     focal = rng.uniform(590, 640)
     matrix = np.array(
         [
@@ -76,7 +77,7 @@ def draw_truth(seed: int, joint_offset_deg: float = 0.5) -> Truth:
     hand_from_board = np.eye(4)  # it hangs before the fingers and looks forward and up; OpenCV's z goes into it
     into = np.array([-np.cos(0.45), 0.0, np.sin(0.45)])
     right = np.array([0.0, -1.0, 0.0])
-    tilt = rotation(np.radians(rng.uniform(-3, 3, 3)))
+    tilt = turned(np.radians(rng.uniform(-3, 3, 3)))
     hand_from_board[:3, :3] = tilt @ np.stack([right, np.cross(into, right), into], axis=1)
     centre = np.array([SQUARES[0], SQUARES[1], 0]) * SQUARE_M / 2
     hand_from_board[:3, 3] = (

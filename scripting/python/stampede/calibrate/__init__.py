@@ -1,7 +1,7 @@
 """Cameras calibrated from pictures of a board: `python -m stampede.calibrate WHAT SOURCE --board BOARD`.
 
 `intrinsics` finds a lens, `extrinsics` where cameras are in the robot's base or on its links, what clocks and joints
-are off by, each with its standard deviation. Needs OpenCV: `pip install "stampede[calibrate]"`.
+are off by, each with its standard deviation. Needs OpenCV and Pinocchio: `pip install "stampede[calibrate]"`.
 """
 
 from __future__ import annotations
@@ -168,7 +168,7 @@ def _link(mount: str, robot: Robot) -> str:
     if mount == "world":
         return robot.base
     name = mount.removeprefix("robot.")
-    links = [robot.base, *(joint.child for joint in robot.joints)]
+    links = robot.links
     if name not in links:
         raise unknown("@", "link", name, ["world", *links])
     return name

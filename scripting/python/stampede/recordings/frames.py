@@ -132,7 +132,7 @@ class Frames:
 
 def link_named(frame: str, robot: Robot) -> str | None:
     """The link that a frame's name means: the same, or one that it ends in, `panda_hand`."""
-    links = [robot.base, *(joint.child for joint in robot.joints)]
+    links = robot.links
     if frame in links:
         return frame
     ending = [link for link in links if frame.endswith((f"_{link}", f".{link}", f"/{link}"))]
