@@ -2,8 +2,12 @@
 #include "engine/motion/nearest.h"
 
 #if defined(__x86_64__)
+#ifdef __clang__  // which does not know the others
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#endif
 
 namespace stampede {
 namespace avx2_nearest {
@@ -16,7 +20,11 @@ static std::size_t nearest_with_avx2(const EightFloats* blocks, std::size_t coun
 }
 }  // namespace stampede
 
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 namespace stampede {
 Nearest nearest_avx2() { return __builtin_cpu_supports("avx2") ? nearest_with_avx2 : nullptr; }

@@ -36,10 +36,10 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
 
 // What the arm touches, or what it holds does. Of what can move the whole part counts, which goes with it.
 struct Bearing {
-  Pairs pairs, lying;  // that bear a force; that touch without
+  Pairs pairs, lying, joined;  // that bear a force; that touch without; a lid in its thread, with what it is on
   std::set<PartRef> pushed;
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
-    return pairs.contains(pair) || lying.contains(pair) || pushed.contains(pair.second);
+    return pairs.contains(pair) || lying.contains(pair) || joined.contains(pair) || pushed.contains(pair.second);
   }
   bool empty() const { return pairs.empty() && lying.empty(); }
 };
@@ -56,7 +56,7 @@ class Near {
   // Whether nothing is met on a way but what is touched already, and nothing that is near gets nearer than the next
   // distance.
   bool clear(const std::vector<JointVector>& way, const Bearing& bearing) const {
-    if (near().empty()) return state_.first_touching(way, kDistances.front()) == way.size();
+    if (near().empty() && state_.first_touching(way, kDistances.front()) == way.size()) return true;
     return std::ranges::all_of(way, [&](const JointVector& q) { return clear(q, bearing); });
   }
   // Whether the arm gets off all that bears on it, and at once off what it touches without force: nobody knows from
@@ -64,7 +64,9 @@ class Near {
   bool leaves(const std::vector<JointVector>& way, const Bearing& bearing) const {
     for (std::size_t i = kAtOnce; i < way.size(); ++i)
       for (const auto& pair : touched(state_, way[i], kDistances[1]))
-        if (bearing.lying.contains(pair) || (i >= way.size() / 2 && bearing.contains(pair))) return false;
+        if (!bearing.joined.contains(pair) &&
+            (bearing.lying.contains(pair) || (i >= way.size() / 2 && bearing.contains(pair))))
+          return false;
     return true;
   }
 
@@ -153,14 +155,14 @@ void World::Impl::look_ahead() {
         bearing.pushed.insert(other);
     }
   const Near near(state, here);
-  if (held) {  // it may lie in something, as a plug does, or a lid in its thread
-    for (const auto& pair : near.near())
-      if (pair.first.body == *held) bearing.pairs.insert(pair);
+  if (held) {
     if (const Bond* bond = body_slot(*held).bond; bond && bond->holds) {
       const int other = scene->body_index(body(*held).joined_to);
       for (std::size_t p = 0; p < body(other).parts.size(); ++p)
-        bearing.pairs.insert({{*held, 0}, {other, static_cast<int>(p)}});
+        bearing.joined.insert({{*held, 0}, {other, static_cast<int>(p)}});
     }
+    for (const auto& pair : near.near())  // it may lie in something, as a plug does
+      if (pair.first.body == *held && !bearing.joined.contains(pair)) bearing.pairs.insert(pair);
   }
   for (const auto& pair : near.touching())
     if (!bearing.contains(pair)) bearing.lying.insert(pair);

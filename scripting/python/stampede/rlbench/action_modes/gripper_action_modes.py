@@ -45,6 +45,8 @@ class Discrete(GripperActionMode):
         news = wants_open != scene.told_to_open
         if not news and not (wants_open and scene.stands):
             return  # something holds the fingers: those that close go on by themselves when they can
+        if news:
+            scene.arrive()
         scene.told_to_open = wants_open
         fingers = _core.Action("release") if wants_open else _core.Action("gripper", [0.0])
         for frame in range(_MOST_FRAMES):

@@ -14,6 +14,8 @@ from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import ObservationConfig
 
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
+_THERE_RAD = 0.005
+_LATEST_FRAMES = 40
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,7 @@ class Scene:
         self.reward = 0.0
         self.variation_index = 0
         self.told_to_open: bool | None = None  # the hand, last, by Discrete
+        self._asked: _core.Action | None = None  # last
 
     def _pictures(self) -> list[str]:
         channels: list[str] = []
@@ -75,7 +78,7 @@ class Scene:
             _core.Reset(variation=start.variation, seed=start.seed, randomise=start.randomise)
         )
         self.over, self.reward, self.variation_index = False, 0.0, variation_index
-        self.told_to_open = None
+        self.told_to_open = self._asked = None
 
     def act(self, action: _core.Action) -> None:
         """
@@ -90,10 +93,20 @@ class Scene:
             raise InvalidActionError(str(step.refusal))
         self.numbers, self.reward = step.observation, float(step.reward)
         self.over = step.terminated or step.truncated
+        self._asked = action
+
+    def arrive(self) -> None:
+        """Until the arm is where joint positions have just sent it, or stands."""
+        if self._asked is None or self._asked.space != "joint_position":
+            return
+        for frame in range(_LATEST_FRAMES):
+            off = float(np.abs(self.numbers["joint_positions"] - self._asked.values).max())
+            if self.over or off < _THERE_RAD or (frame > 0 and self.stands):
+                break
+            self.act(self._asked)
 
     @property
     def stands(self) -> bool:
-        """The arm."""
         return float(np.abs(self.numbers["joint_velocities"]).max()) < STANDS_RAD_PER_S
 
     def wait_for_verdict(self) -> None:
