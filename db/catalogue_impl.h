@@ -11,6 +11,7 @@
 
 #include "db/catalogue.h"
 #include "db/sqlite.h"
+#include "engine/episode/observation.h"
 
 namespace stampede {
 
@@ -49,6 +50,10 @@ sql::Wide<Value> part_of(std::span<const Value> values, std::size_t part, std::s
 // What a real recording does not know is NaN in its record and NULL in the file.
 inline sql::UnknownValues unknown_values_of(const EpisodeRecord& episode) {
   return episode.real ? sql::UnknownValues::allowed : sql::UnknownValues::refused;
+}
+// A predicate may give no margin at some frame.
+inline sql::UnknownValues unknown_values_of(const ChannelRecord& channel, const EpisodeRecord& episode) {
+  return channel.name == kMargins ? sql::UnknownValues::allowed : unknown_values_of(episode);
 }
 inline std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 

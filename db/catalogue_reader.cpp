@@ -89,11 +89,12 @@ std::string numbered(const std::string& name, std::size_t count) {
 }
 
 void EpisodeReader::take_part(const sql::Statement& row, int column, std::size_t part, std::size_t a_row,
-                              std::span<double> all, const char* table) const {
+                              std::span<double> all, const char* table, sql::UnknownValues unknown) const {
+  const bool complete = unknown == sql::UnknownValues::refused && !record_.real;
   const std::size_t first = part * a_row;
   if (part >= all.size() || first >= all.size()) damaged(table);
   for (double& value : all.subspan(first, std::min(a_row, all.size() - first))) {
-    if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL && !record_.real) damaged(table);
+    if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL && complete) damaged(table);
     value = known_or_nan(row, column++);
   }
 }
@@ -234,7 +235,8 @@ void EpisodeReader::read_channels() {
          if (part >= width || part * kComponentsARow >= width) damaged("sample");
          const std::size_t values = std::min(kComponentsARow, width - part * kComponentsARow);
          owner.values.resize(owner.values.size() + values);
-         take_part(row, 3, 0, kComponentsARow, std::span(owner.values).last(values), "sample");
+         take_part(row, 3, 0, kComponentsARow, std::span(owner.values).last(values), "sample",
+                   unknown_values_of(owner, record_));
        });
 }
 

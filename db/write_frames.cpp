@@ -196,7 +196,7 @@ void EpisodeWriter::write_channels(const EpisodeRecord& episode) {
       const auto values = std::span(channel.values).subspan(i * width, width);
       for (std::size_t part = 0; part * kComponentsARow < width; ++part)
         sample_.run(id_, ordinal, i, part, channel.steps[i],
-                    part_of<double>(values, part, kComponentsARow, unknown_values_of(episode)));
+                    part_of<double>(values, part, kComponentsARow, unknown_values_of(channel, episode)));
     }
     ++ordinal;
   }

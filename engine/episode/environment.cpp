@@ -27,6 +27,13 @@ std::vector<StateFact> difference(const Facts& before, const Facts& now) {
   return changes;
 }
 
+// Nothing else of an environment needs them.
+bool observes_margins(const std::vector<std::string>& channels) {
+  return std::any_of(channels.begin(), channels.end(), [](const std::string& name) {
+    return name == "sensor/" + std::string(kMargins) || name == "sensor_time/" + std::string(kMargins);
+  });
+}
+
 std::vector<SkillDescription> described_skills(const EpisodeSource::Opened& opened) {
   constexpr const char* kSources[] = {"value", "grasps", "sample"};
   std::vector<SkillDescription> list;
@@ -128,6 +135,11 @@ void Environment::Impl::begin(const ResetRequest& asked) {
   if (settings.torque_noise > 0) options.observation.torque_noise = settings.torque_noise;
   if (!settings.torque_model.empty()) options.observation.torque_model = torque_noise_from(settings.torque_model);
   const PreparedStart start = prepare_start(altered(opened.draw, *opened.symbols, options), *opened.symbols, options);
+  if (observes_margins(settings.channels)) {
+    auto& channels = options.observation.channels;
+    if (!channels) channels = chosen(start.task.observation).channels;
+    channels->emplace_back(kMargins);
+  }
   EpisodeRecord record = described(start.task, *opened.symbols, options);
   record.draws = start.draws;
   if (start.reason != Reason::none) throw NoStart(start.task.name, start.reason, start.detail);
@@ -141,7 +153,8 @@ void Environment::Impl::begin(const ResetRequest& asked) {
   now->identity =
       content_hash(now->record.task + "\n" + now->record.variation + "\n" + std::to_string(now->record.seed) + "\n" +
                    std::to_string(start.scene->physics_hz) + "\n" + std::to_string(start.scene->frame_hz) + "\n" +
-                   to_pddl(start.task.goal) + "\n" + asked.where + "\n" + asked.perturb);
+                   to_pddl(start.task.goal) + "\n" + asked.where + "\n" + asked.perturb +
+                   (now->rollout.sensors().wants_margins() ? "\nmargins" : ""));
   request = asked;
   if (settings.record) {
     describe_beginning(now->rollout, now->record);
@@ -333,7 +346,8 @@ EnvironmentObservation Environment::restore(const SavedState& state) {
   if (!impl_->now) impl_->begin(*state.data);
   Acting& own = impl_->acting();
   if (state.data->identity != own.identity)
-    throw Error("Environment::restore", "the state is of another task, variation, seed or rate",
+    throw Error("Environment::restore",
+                "the state is of another task, variation, seed or rate, or only one of both reads margins",
                 "reset the environment to what it was when the state was saved");
   if (impl_->settings.record && !state.data->recorded)
     throw Error("Environment::restore", "the state was saved without a record, and this environment keeps one",

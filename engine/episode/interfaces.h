@@ -100,7 +100,10 @@ struct PredicateTraits {
   Pairs requires_pairs = Pairs::all;
   int functional = -1;             // index of the parameter that has at most one value for given others; -1: none
   std::vector<std::string> mutex;  // predicates that cannot hold of the same first argument
+  // Of its margins: `m`, `rad`, or kUnitOfJoint; empty: it has none, or does not say.
+  std::string margin_unit = {};
 };
+inline constexpr const char* kUnitOfJoint = "m or rad";  // that of the joint of the first argument
 
 class Symbols {
  public:

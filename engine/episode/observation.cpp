@@ -1,5 +1,6 @@
 #include "engine/episode/observation.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "engine/base/error.h"
@@ -113,6 +114,17 @@ ObservationChoice before(const ObservationChoice& first, const ObservationChoice
     if (!(choice.*field)) choice.*field = otherwise.*field;
   });
   return choice;
+}
+
+bool asks_for_channel(const Observation& observation, std::string_view name) {
+  return std::find(observation.channels.begin(), observation.channels.end(), name) != observation.channels.end();
+}
+
+std::vector<std::string> channel_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Sensor& sensor : scene.sensors) names.push_back(sensor.name);
+  names.emplace_back(kMargins);
+  return names;
 }
 
 Observation chosen(const ObservationChoice& choice) {

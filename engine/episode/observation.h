@@ -43,11 +43,17 @@ struct Observation {
   bool points = false;  // point clouds too (kind `points`: binary PLY)
   bool shadows = false;
   CameraNoise noise;
-  double torque_noise = 0;                    // N m, standard deviation added to channel `joint_torque`
-  TorqueNoise torque_model;                   // of the arm, beside that; empty: none
-  std::vector<std::string> channels = {"*"};  // sensors of the world, by name; {"*"}: all
+  double torque_noise = 0;   // N m, standard deviation added to channel `joint_torque`
+  TorqueNoise torque_model;  // of the arm, beside that; empty: none
+  // Sensors of the world, by name, "*": all; and kMargins.
+  std::vector<std::string> channels = {"*"};
 };
 Observation chosen(const ObservationChoice& choice);
+
+// The channel of signed margins (margins.h), which is no sensor of the world: recorded where it is named, not by "*".
+inline constexpr const char* kMargins = "margins";
+bool asks_for_channel(const Observation& observation, std::string_view name);  // by its name
+std::vector<std::string> channel_names(const Scene& scene);                    // that can be asked for
 
 // Throws Error for cameras and sensors that the scene does not have (with the nearest name as cure), sizes out of 1 …
 // 4096, and the torque noise of another robot.

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/text.h"
 #include "engine/episode/assumptions.h"
 #include "engine/episode/effects.h"
 #include "engine/episode/language.h"
@@ -304,7 +305,7 @@ void Observer::add_raw(EnvironmentObservation& observation) {
   }
 }
 
-// Poses of what no eye can see are not known.
+// Poses of what no eye can see are not known, nor are margins of atoms about it.
 void Observer::hide(ChannelValue& value) const {
   const auto unknown = [&](std::size_t from) {
     auto& data = std::get<std::vector<double>>(value.data);
@@ -315,7 +316,17 @@ void Observer::hide(ChannelValue& value) const {
       if (hidden_.contains(now_->posed[i])) unknown(7 * i);
   } else if (value.name.starts_with("object_pose/") || value.name.starts_with("object_pose_in_tool/")) {
     if (hidden_.contains(value.name.substr(value.name.find('/') + 1))) unknown(0);
+  } else if (value.name == "sensor/" + std::string(kMargins)) {
+    auto& margins = std::get<std::vector<double>>(value.data);
+    for (std::size_t i = 0; i < margins.size(); ++i)
+      if (names_hidden(value.labels.at(i))) margins[i] = kUnknown;
   }
+}
+
+// Is one of them an argument of the atom, `(inside item box)`?
+bool Observer::names_hidden(const std::string& atom) const {
+  const std::vector<std::string> words = split(std::string_view(atom).substr(1, atom.size() - 2), ' ');
+  return std::any_of(words.begin() + 1, words.end(), [&](const std::string& word) { return hidden_.contains(word); });
 }
 
 View Observer::view_from(const std::string& camera, const ScenePoses& poses) const {

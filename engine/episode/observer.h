@@ -51,6 +51,7 @@ class Observer {
   View view_from(const std::string& camera, const ScenePoses& poses) const;
   ChannelValue abstract(const std::string& name);
   void hide(ChannelValue& value) const;
+  bool names_hidden(const std::string& atom) const;
   AtomFormula compiled(const Formula& formula) const;
   double progress();
   const std::vector<double>& goal();

@@ -29,8 +29,7 @@ int camera_index(const Scene& scene, const std::string& name) {
 
 void check_observation(const Scene& scene, const Observation& observation) {
   for (const std::string& name : observation.cameras) camera_index(scene, name);
-  std::vector<std::string> sensors;
-  for (const Sensor& sensor : scene.sensors) sensors.push_back(sensor.name);
+  const std::vector<std::string> sensors = channel_names(scene);
   for (const std::string& name : observation.channels)
     if (name != "*" && std::find(sensors.begin(), sensors.end(), name) == sensors.end())
       throw Error("channel '" + name + "'", "the world has no such sensor", did_you_mean(name, sensors));

@@ -64,7 +64,7 @@ std::string replay_episode(const EpisodeRecord& episode) {
 std::vector<std::string> not_replayed(const EpisodeRecord& episode) {
   std::vector<std::string> names;
   for (const ChannelRecord& channel : episode.channels)
-    if (episode.options.contains("sensor_" + channel.name)) names.push_back(channel.name);
+    if (channel.name == kMargins || episode.options.contains("sensor_" + channel.name)) names.push_back(channel.name);
   return names;
 }
 

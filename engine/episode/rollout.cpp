@@ -25,6 +25,12 @@ Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sens
   facts_.look(view_);
   facts_.tell(start.task.told);
   recorder_.first_frame(view_);
+  if (!sensors_.wants_margins()) return;
+  Margins margins(symbols, facts_.atoms(), view_);
+  if (margins.empty()) return;
+  sensors_.add_margins(margins.channel(scene_->frame_hz));
+  sensors_.note_margins(step(), margins.read(view_, start.values));
+  margins_ = std::move(margins);
 }
 
 Reason Rollout::advance() {
@@ -46,6 +52,7 @@ Reason Rollout::close_frame() {
   world_.close_window();
   view_.close_frame();
   facts_.frame(view_);
+  if (margins_) sensors_.note_margins(step(), margins_->read(view_));
   recorder_.contacts(view_);
   recorder_.frame(view_, task_.reward ? task_.reward(view_) : 0);
   if (!keeps_record_) {

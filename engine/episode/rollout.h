@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "engine/episode/fact_tracker.h"
+#include "engine/episode/margins.h"
 #include "engine/episode/recorder.h"
 #include "engine/episode/sensors.h"
 #include "engine/episode/start.h"
@@ -98,6 +99,7 @@ class Rollout {
   FactTracker facts_;
   Recorder recorder_;
   SensorReader sensors_;
+  std::optional<Margins> margins_;  // none: nobody asks for them
   int steps_per_frame_;
   std::int64_t horizon_steps_;
   int stage_ = 0;

@@ -90,7 +90,8 @@ Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& optio
 // Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
 // difference in words (frame, value, stored, now).
 std::string replay_episode(const EpisodeRecord& episode);
-// What that leaves out: channels of sensors that belong to the program which recorded the episode.
+// What that leaves out: channels of sensors that belong to the program which recorded the episode, and kMargins, which
+// scripts measure.
 std::vector<std::string> not_replayed(const EpisodeRecord& episode);
 
 }  // namespace stampede

@@ -14,8 +14,7 @@ namespace {
 constexpr const char* kForceTorque = "force_torque";
 
 bool wanted(const Observation& observation, const std::string& name) {
-  return std::any_of(observation.channels.begin(), observation.channels.end(),
-                     [&](const std::string& one) { return one == "*" || one == name; });
+  return asks_for_channel(observation, "*") || asks_for_channel(observation, name);
 }
 
 ChannelRecord channel_of(const Sensor& sensor, const Robot& robot) {
@@ -95,7 +94,10 @@ std::string to_text(const SensorEntry& entry) {
 }
 
 SensorReader::SensorReader(const Scene& scene, const Observation& observation, RandomKey key)
-    : arm_(scene.robot.arm), torque_noise_(observation.torque_noise), key_(key) {
+    : arm_(scene.robot.arm),
+      torque_noise_(observation.torque_noise),
+      key_(key),
+      wants_margins_(asks_for_channel(observation, kMargins)) {
   if (!observation.torque_model.empty()) torque_model_ = of_arm(observation.torque_model, arm_joints(scene.robot));
   warm_up_s_ = warm_up_s(torque_model_, key_);
   for (const Sensor& sensor : scene.sensors) {
@@ -110,6 +112,7 @@ void SensorReader::add(const Scene& scene, const std::string& name, const Sensor
   const std::string where = "sensor '" + name + "'";
   for (const Sensor& sensor : scene.sensors)
     if (sensor.name == name) throw Error(where, "world " + scene.world + " has one of that name", "choose another one");
+  if (name == kMargins) throw Error(where, "the signed margins of facts are called so", "choose another name");
   if (entry.rate_hz < 1 || scene.physics_hz % entry.rate_hz != 0)
     throw Error(where, "world " + scene.world + " cannot be read " + std::to_string(entry.rate_hz) + " times a second",
                 "choose a rate that divides its " + std::to_string(scene.physics_hz) + " steps a second");
@@ -119,6 +122,15 @@ void SensorReader::add(const Scene& scene, const std::string& name, const Sensor
   channel.unit = entry.unit;
   channel.components = entry.components;
   channel.rate_hz = entry.rate_hz;
+}
+
+void SensorReader::add_margins(ChannelRecord head) {
+  margins_ = channels_.size();
+  channels_.push_back({std::move(head), {}, {}});
+}
+
+void SensorReader::note_margins(std::int64_t step, const std::vector<double>& reading) {
+  channels_[margins_].add(step, reading);
 }
 
 void SensorReader::read_own(const Own& own, const WorldView& view) {

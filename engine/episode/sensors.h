@@ -26,6 +26,11 @@ class SensorReader {
   // Beside these, whatever is wanted. Throws Error for a name that is taken, and a rate that does not fit the scene's.
   void add(const Scene& scene, const std::string& name, const SensorEntry& entry);
 
+  // Margins, read by whoever knows the facts: wanted by name alone. `head`: the channel without readings.
+  bool wants_margins() const { return wants_margins_; }
+  void add_margins(ChannelRecord head);
+  void note_margins(std::int64_t step, const std::vector<double>& reading);
+
   void step(const WorldView& view);  // after every physics step
   // Why the program's sensors are not read any more; empty: they are.
   const std::string& failure() const { return failure_; }
@@ -38,7 +43,7 @@ class SensorReader {
   void cut(const Mark& mark);  // everything after the mark never happened
   void forget();               // all samples but the last of each channel
 
-  // The scene's, in its order, then the program's: all that was read, and the last reading alone of each.
+  // The scene's, in its order, then the program's and margins: all that was read, and the last reading alone of each.
   std::vector<ChannelRecord> channels() const;
   std::vector<ChannelRecord> last_readings() const;
 
@@ -72,6 +77,8 @@ class SensorReader {
   std::vector<Source> sources_;
   std::vector<Channel> channels_;
   std::vector<Own> own_;
+  bool wants_margins_ = false;
+  std::size_t margins_ = 0;  // place in channels_, once they were added
   std::string failure_;
 };
 

@@ -66,9 +66,10 @@ void read_noise(const std::string& text, PictureUse use, ObservationChoice& choi
 }
 
 std::vector<std::string> channels_from(const std::string& text) {
-  if (text == "all") return {"*"};
   if (text == "none") return {};
-  return split(text, ',');
+  std::vector<std::string> names = split(text, ',');
+  std::replace(names.begin(), names.end(), std::string("all"), std::string("*"));
+  return names;
 }
 
 }  // namespace
@@ -129,7 +130,10 @@ std::vector<OptionRow> picture_options(PictureUse use) {
                              "NAME=at:1,0,1.5;look:0.2,0,0.75, then as wanted ;fov:40;size:128x128;near:0.01;far:4.5;"
                              "up:0,0,1;mount:panda.hand (m and degrees, in the frame of the mount)",
                              true));
-  if (run) rows.push_back(text_option("--channels", "LIST", "sensors of the world to record, all or none"));
+  if (run)
+    rows.push_back(text_option("--channels", "LIST",
+                               "sensors of the world to record, all or none; and margins: by how much each fact holds "
+                               "or fails to (all,margins)"));
   return rows;
 }
 
@@ -148,9 +152,9 @@ ObservationChoice picture_choice(const Arguments& arguments, PictureUse use) {
 }
 
 void check_choice(const ObservationChoice& choice, const Scene& scene) {
-  std::vector<std::string> cameras, sensors;
+  const std::vector<std::string> sensors = channel_names(scene);
+  std::vector<std::string> cameras;
   for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
-  for (const Sensor& sensor : scene.sensors) sensors.push_back(sensor.name);
   for (const std::string& name : choice.cameras.value_or(std::vector<std::string>{}))
     if (std::find(cameras.begin(), cameras.end(), name) == cameras.end())
       throw UsageError("--camera: there is no camera '" + name + "'", did_you_mean(name, cameras));

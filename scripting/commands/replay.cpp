@@ -59,7 +59,9 @@ ExitCode do_replay(const Arguments& arguments, Console& console) {
     std::string verdict =
         difference.empty() ? fmt::format("same, {} frames", episode.frames.size()) : "DIFFERENT: " + difference;
     for (const std::string& sensor : not_replayed(episode))
-      verdict += fmt::format("; sensor {} left out: only the program that recorded it can read it", sensor);
+      verdict += sensor == kMargins
+                     ? "; margins left out: scripts measure them"
+                     : fmt::format("; sensor {} left out: only the program that recorded it can read it", sensor);
     console.out << fmt::format("{:>5}  {} {} seed {}: {}", id, episode.task, episode.variation, episode.seed, verdict)
                 << std::endl;
   }
@@ -79,8 +81,7 @@ CommandRow replay_command() {
           "Needs the catalogue only: no scripts and no planner. Without EPISODE it replays all. The first value that "
           "differs is named, and the exit code is then 1. The promise holds for one build on one class of processor; "
           "where that does not hold it is said first. Real episodes are left out, with a line that says so. Sensors of "
-          "a program that recorded episodes cannot be read here; "
-          "each "
+          "a program that recorded episodes cannot be read here, nor the channel margins, which scripts measure; each "
           "is named and left out.",
           {{"FILE", "the catalogue", true, false}, {"EPISODE", "numbers of episodes; default: all", false, true}},
           {},

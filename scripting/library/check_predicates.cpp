@@ -215,6 +215,7 @@ void LibraryBuilder::define_predicates() {
     traits.settle_s = node["settle"].number;
     traits.momentary = node["momentary"].boolean;
     traits.remember = node["remember"].boolean;
+    traits.margin_unit = node["margin_unit"].text;
     const std::string& pairs = node["requires"].text;
     if (pairs == "touching") traits.requires_pairs = Pairs::touching;
     if (pairs == "near") traits.requires_pairs = Pairs::near;

@@ -87,6 +87,7 @@ void LibraryBuilder::check_sensors(const Definition& definition) {
   const int physics = rate_or(definition.node["physics_hz"], 240);
   for (const auto& [name, sensor] : definition.node["sensors"].fields) {
     const std::string path = "sensors." + name;
+    if (name == kMargins) complain(definition, path, "the signed margins of facts are called so", "another name");
     if (sensor.items.size() != 1 || !sensor.items[0].is_text()) {
       complain(definition, path, "a sensor begins with its kind",
                "such as { \"force_torque\", on = \"robot.hand\", rate = 120 }");
@@ -207,9 +208,10 @@ void LibraryBuilder::check_observe(const Definition& definition, const Value& wo
     for (const Value& camera : node["cameras"].items)
       check_one_of(definition, "observe.cameras", camera, "camera", names_of(world["cameras"].fields));
   }
+  std::vector<std::string> channels = names_of(world["sensors"].fields);
+  channels.emplace_back(kMargins);
   for (const Value& channel : node["channels"].items) {
-    if (channel.text != "*")
-      check_one_of(definition, "observe.channels", channel, "sensor", names_of(world["sensors"].fields));
+    if (channel.text != "*") check_one_of(definition, "observe.channels", channel, "sensor", channels);
   }
   for (const char* noise : {"rgb", "depth", "torque"}) {
     if (node["noise"][noise].is_number() && node["noise"][noise].number < 0)

@@ -131,7 +131,8 @@ const Record kPredicate{
       "at most one value of the last (or named) parameter: no start is drawn with two"},
      {"observable", "function|boolean", false, "true", "",
       "function(w, …): can one see now whether it holds; false: never"},
-     {"margin_unit", "string", false, "", "", "unit of the margin", "\"m\""}}};
+     {"margin_unit", "string", false, "", "",
+      "unit of the margin; channel `margins` is of the predicates that say one; \"m or rad\": the joint's", "\"m\""}}};
 
 const std::vector<Field> kBodyFields = {
     {"type", "string", false, "", "", "its class in the type tree of worlds/types.lua", "\"cube\""},
@@ -361,7 +362,8 @@ const Record kObserve{
      {"points", "boolean", false, "false", "", "point clouds too"},
      {"shadows", "boolean", false, "false", "", "of the lamp"},
      {"noise", "observe_noise", false, "{}", "", "of cameras and joint torques"},
-     {"channels", "string[]", false, "{ \"*\" }", "", "sensors of the world by name; { \"*\" }: all",
+     {"channels", "string[]", false, "{ \"*\" }", "",
+      "sensors of the world by name, \"*\" for all; and \"margins\": by how much each fact holds or fails to",
       "{ \"wrench\" }"}}};
 
 const Record kObserveNoise{"observe_noise",

@@ -64,7 +64,7 @@
 ---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)
 ---@field observable? (fun(w: stampede.world_view, ...: any): any)|boolean  function(w, …): can one see now whether it holds; false: never (default true)
----@field margin_unit? string  unit of the margin
+---@field margin_unit? string  unit of the margin; channel `margins` is of the predicates that say one; "m or rad": the joint's
 
 -- A thing: shape, mass, type, traits, parts, grasps
 ---@class stampede.object
@@ -327,7 +327,7 @@
 ---@field points? boolean  point clouds too (default false)
 ---@field shadows? boolean  of the lamp (default false)
 ---@field noise? stampede.observe_noise  of cameras and joint torques (default {})
----@field channels? string[]  sensors of the world by name; { "*" }: all (default { "*" })
+---@field channels? string[]  sensors of the world by name, "*" for all; and "margins": by how much each fact holds or fails to (default { "*" })
 
 -- What real sensors add (standard deviations)
 ---@class stampede.observe_noise

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "db/table_text.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -219,4 +220,24 @@ TEST_CASE("what a simulated episode does not know is refused still") {
   EpisodeRecord astray = sample_episode("lift", "colour=red", 7);
   astray.frames[3].hands[0].tip.position[0] = std::nan("");
   CHECK_THROWS_WITH(catalogue.add(astray, kEngine), Catch::Matchers::Contains("NaN"));
+}
+
+TEST_CASE("a margin that a predicate did not give comes back as not known, other sensors' gaps are refused") {
+  const Folder folder;
+  Catalogue catalogue = Catalogue::write(folder / "a.db");
+  EpisodeRecord measured = sample_episode("lift", "colour=red", 7);
+  measured.channels.push_back(measured.channels.at(0));
+  ChannelRecord& margins = measured.channels.at(1);
+  margins.name = "margins";
+  margins.values.at(1) = std::nan("");
+  const std::int64_t id = catalogue.add(measured, kEngine);
+  const EpisodeRecord back = catalogue.read_episode(id);
+  CHECK(std::isnan(back.channels.at(1).values.at(1)));
+  CHECK(back.channels.at(1).values.at(2) == margins.values.at(2));
+  CHECK(std::isnan(catalogue.read_arrays(id, {{"sensor/margins"}}).column("sensor/margins").reals()[1]));
+  const QueryResult gaps = catalogue.query("SELECT sensor, sample, component FROM sensors WHERE value IS NULL");
+  CHECK(to_csv(gaps) == "sensor,sample,component\nmargins,0,1\n");
+  measured.channels.at(0).values.at(1) = std::nan("");
+  measured.key = "another";
+  CHECK_THROWS_WITH(catalogue.add(measured, kEngine), Catch::Matchers::Contains("NaN"));
 }

@@ -186,6 +186,9 @@ TEST_CASE("a sensor that fails ends the episode with the reason, one that cannot
   entry.rate_hz = 37;
   session->add_sensor("a", entry);
   CHECK_THROWS_WITH(session->run("reach_target", {.seed = 7}), Catch::Contains("divides its 240 steps a second"));
+  const auto other = sensing();
+  other->add_sensor("margins", tip_height());
+  CHECK_THROWS_WITH(other->run("reach_target", {.seed = 7}), Catch::Contains("are called so"));
 }
 
 }  // namespace stampede::program

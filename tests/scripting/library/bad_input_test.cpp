@@ -205,6 +205,7 @@ TEST_CASE("golden: how a world is seen") {
         "worlds/lab.lua:4: sensors.wrench.rate: 50 Hz does not divide 240 Hz\n    these do: 1 2 3 4 5 6 8 10 12 15 16 "
         "20 24 30 40 48 60 80 120 240\n");
   CHECK(has(lab("sensors = { t = { \"joint_torque\", on = \"robot.hand\" } }"), "is of all joints of the arm"));
+  CHECK(has(lab("sensors = { margins = { \"joint_torque\" } }"), "the signed margins of facts are called so"));
   CHECK(lab("light = { ambiant = 0.5 }") ==
         "worlds/lab.lua:4: light.ambiant: a light has no field 'ambiant'\n    did you mean 'ambient'?\n");
   CHECK(has(lab("light = { direction = { 0, 0, 0 } }"), "light.direction: has no length"));
@@ -225,6 +226,8 @@ TEST_CASE("golden: how a world is seen") {
   CHECK(has(lab("observe = { noise = { rbg = 1 } }"), "did you mean 'rgb'?"));
   CHECK(has(lab("observe = { noise = { rgb = -1 } }"), "a standard deviation is not negative"));
   CHECK(has(lab("observe = { channels = { \"wrench\" } }"), "there is no sensor 'wrench'"));
+  CHECK(has(lab("observe = { channels = { \"margin\" } }"), "did you mean 'margins'?"));
+  CHECK(lab("observe = { channels = { \"*\", \"margins\" } }").empty());
   CHECK(has(said("tasks/take.lua", "  goal", "  observe = { cameras = { \"front\" } },\n  goal"),
             "tasks/take.lua:7: observe.cameras: there is no camera 'front'"));
 }
