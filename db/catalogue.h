@@ -132,6 +132,7 @@ class Catalogue {
   std::vector<std::string> keys_after(std::int64_t& last_id) const;
 
  private:
+  friend class CatalogueSet;
   explicit Catalogue(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -14,20 +14,20 @@ namespace {
 
 enum class Kind { progress, applicable };
 
-// A table of that kind: its columns begin alike.
-struct Labels : sqlite3_vtab {
-  const sql::Database* database = nullptr;
-  Kind kind = Kind::progress;
-};
-
 struct Made {
   const sql::Database* database;
   Kind kind;
+  ReadsArrays arrays;
+};
+
+// A table of that kind: its columns begin alike.
+struct Labels : sqlite3_vtab {
+  const Made* made = nullptr;  // which lives as long as the connection
 };
 
 // The rows of one episode after the other.
 struct LabelRows : sqlite3_vtab_cursor {
-  LabelRows(const sql::Database& database, Kind kind) : sqlite3_vtab_cursor{}, database_(database), kind_(kind) {}
+  explicit LabelRows(const Made& made) : sqlite3_vtab_cursor{}, made_(made) {}
 
   void begin(std::vector<std::int64_t> episodes) {
     episodes_ = std::move(episodes);
@@ -40,12 +40,13 @@ struct LabelRows : sqlite3_vtab_cursor {
     for (;;) {
       if (!arrays_) {
         if (next_ == episodes_.size()) return;
-        arrays_ = read_arrays(database_, episodes_[next_], {{kind_ == Kind::progress ? "progress" : "applicable"}});
-        width_ = kind_ == Kind::progress ? 1 : static_cast<std::int64_t>(arrays_->skills.size());
+        arrays_ = made_.arrays(episodes_[next_], {{made_.kind == Kind::progress ? "progress" : "applicable"}});
+        width_ = made_.kind == Kind::progress ? 1 : static_cast<std::int64_t>(arrays_->skills.size());
         row_ = -1;
       }
       for (++row_; row_ < arrays_->frames * width_; ++row_)
-        if (kind_ == Kind::progress || arrays_->column("applicable").booleans()[static_cast<std::size_t>(row_)]) return;
+        if (made_.kind == Kind::progress || arrays_->column("applicable").booleans()[static_cast<std::size_t>(row_)])
+          return;
       arrays_.reset();
       ++next_;
     }
@@ -69,7 +70,7 @@ struct LabelRows : sqlite3_vtab_cursor {
       default:
         break;
     }
-    if (kind_ == Kind::progress) {
+    if (made_.kind == Kind::progress) {
       const double share = arrays_->column("progress").reals()[static_cast<std::size_t>(frame)];
       return std::isnan(share) ? sqlite3_result_null(context) : sqlite3_result_double(context, share);
     }
@@ -79,8 +80,7 @@ struct LabelRows : sqlite3_vtab_cursor {
   }
 
  private:
-  const sql::Database& database_;
-  Kind kind_;
+  const Made& made_;
   std::vector<std::int64_t> episodes_;
   std::size_t next_ = 0;
   std::optional<EpisodeArrays> arrays_;  // of the episode that is told; nothing: all have been
@@ -102,16 +102,15 @@ int guarded(sqlite3_vtab* table, const Work& work) {
 }
 
 int connect(sqlite3* handle, void* made, int, const char* const*, sqlite3_vtab** table, char**) {
-  const auto& [database, kind] = *static_cast<const Made*>(made);
+  const auto* const table_made = static_cast<const Made*>(made);
   const int code = sqlite3_declare_vtab(
-      handle, kind == Kind::progress
+      handle, table_made->kind == Kind::progress
                   ? "CREATE TABLE progress (episode INTEGER, task TEXT, frame INTEGER, time_s REAL, progress REAL)"
                   : "CREATE TABLE applicable (episode INTEGER, task TEXT, frame INTEGER, time_s REAL, skill TEXT, "
                     "arguments TEXT)");
   if (code != SQLITE_OK) return code;
   auto labels = std::make_unique<Labels>();
-  labels->database = database;
-  labels->kind = kind;
+  labels->made = table_made;
   *table = labels.release();
   return SQLITE_OK;
 }
@@ -139,7 +138,7 @@ int plan(sqlite3_vtab*, sqlite3_index_info* info) {
 
 int open(sqlite3_vtab* table, sqlite3_vtab_cursor** cursor) {
   const auto& labels = *static_cast<const Labels*>(table);
-  *cursor = new (std::nothrow) LabelRows(*labels.database, labels.kind);
+  *cursor = new (std::nothrow) LabelRows(*labels.made);
   return *cursor ? SQLITE_OK : SQLITE_NOMEM;
 }
 
@@ -152,9 +151,9 @@ int filter(sqlite3_vtab_cursor* cursor, int named, const char*, int, sqlite3_val
   const auto& labels = *static_cast<const Labels*>(cursor->pVtab);
   return guarded(cursor->pVtab, [&] {
     std::vector<std::int64_t> episodes;
-    sql::Statement rows(*labels.database, named
-                                              ? "SELECT id FROM main.episode WHERE id = ?1 AND frames > 0"
-                                              : "SELECT id FROM main.episode WHERE ?1 = 0 AND frames > 0 ORDER BY id");
+    sql::Statement rows(*labels.made->database,
+                        named ? "SELECT id FROM main.episode WHERE id = ?1 AND frames > 0"
+                              : "SELECT id FROM main.episode WHERE ?1 = 0 AND frames > 0 ORDER BY id");
     for (rows.start(named ? static_cast<std::int64_t>(sqlite3_value_int64(values[0])) : std::int64_t{0});
          rows.step();) {
       std::int64_t id = 0;
@@ -195,9 +194,15 @@ const sqlite3_module& module_of_labels() {
 
 }  // namespace
 
-void add_frame_labels(const sql::Database& database) {
+void add_frame_labels(const sql::Database& database, ReadsArrays arrays) {
   for (const auto& [name, kind] : {std::pair{"progress", Kind::progress}, std::pair{"applicable", Kind::applicable}})
-    sqlite3_create_module_v2(database.handle(), name, &module_of_labels(), new Made{&database, kind}, forget);
+    sqlite3_create_module_v2(database.handle(), name, &module_of_labels(), new Made{&database, kind, arrays}, forget);
+}
+
+void add_frame_labels(const sql::Database& database) {
+  add_frame_labels(database, [&database](std::int64_t episode, const ArrayRequest& request) {
+    return read_arrays(database, episode, request);
+  });
 }
 
 }  // namespace stampede

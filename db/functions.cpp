@@ -149,6 +149,22 @@ void regexp(sqlite3_context* context, int, sqlite3_value** arguments) {
   sqlite3_result_int(context, text && regexec(&pattern->expression, text, 0, nullptr, 0) == 0);
 }
 
+std::optional<Origin> origin(sqlite3_context* context, sqlite3_value* episode) {
+  if (sqlite3_value_type(episode) != SQLITE_INTEGER) return std::nullopt;
+  return (*static_cast<const OriginOf*>(sqlite3_user_data(context)))(sqlite3_value_int64(episode));
+}
+
+void file_of(sqlite3_context* context, int, sqlite3_value** arguments) {
+  if (const auto found = origin(context, arguments[0]))
+    sqlite3_result_text64(context, found->file.data(), found->file.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+}
+
+void number_in_file(sqlite3_context* context, int, sqlite3_value** arguments) {
+  if (const auto found = origin(context, arguments[0])) sqlite3_result_int64(context, found->episode);
+}
+
+void forget_origins(void* origin_of) { delete static_cast<OriginOf*>(origin_of); }
+
 constexpr int kPure = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY;
 
 template <Answer answer>
@@ -165,6 +181,12 @@ void add_functions(sqlite3* handle) {
   add_aggregate<of_sample>(handle, "stddev", 1);
   add_aggregate<of_all>(handle, "stddev_pop", 1);
   sqlite3_create_function_v2(handle, "regexp", 2, kPure, nullptr, regexp, nullptr, nullptr, nullptr);
+}
+
+void add_origins(sqlite3* handle, OriginOf origin_of) {
+  for (const auto& [name, function] : {std::pair{"file_of", &file_of}, std::pair{"number_in_file", &number_in_file}})
+    sqlite3_create_function_v2(handle, name, 1, kPure, new OriginOf(origin_of), function, nullptr, nullptr,
+                               forget_origins);
 }
 
 }  // namespace stampede::sql

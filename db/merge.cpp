@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "db/catalogue.h"
 #include "db/catalogue_impl.h"
 #include "db/count_visible.h"
-#include "db/schema.h"
+#include "db/known_keys.h"
+#include "db/table_copier.h"
 
 namespace stampede {
 namespace {
@@ -24,87 +24,6 @@ struct Source {
   Catalogue catalogue;
 };
 
-std::string named(const EpisodeSummary& episode) {
-  std::string text = episode.task;
-  if (!episode.variation.empty()) text.append(" ").append(episode.variation);
-  return text + " seed " + std::to_string(episode.seed) + " (key " + episode.key.substr(0, 8) + "…)";
-}
-
-// Who has a key: the first file that does.
-struct Owner {
-  const Catalogue* catalogue = nullptr;
-  std::string path;
-  std::int64_t id = 0;
-};
-
-// What each file adds, and whether all agree.
-class KnownKeys {
- public:
-  void own(const Catalogue& catalogue, const fs::path& path) {
-    for (const EpisodeSummary& episode : catalogue.episodes())
-      owners_.emplace(episode.key, Owner{&catalogue, path.string(), episode.id});
-  }
-  // The ids of what nobody has yet.
-  std::vector<std::int64_t> add(const Catalogue& catalogue, const fs::path& path, std::int64_t& existing) {
-    std::vector<std::int64_t> fresh;
-    for (const EpisodeSummary& episode : catalogue.episodes()) {
-      const auto [owner, is_new] = owners_.emplace(episode.key, Owner{&catalogue, path.string(), episode.id});
-      if (is_new) {
-        fresh.push_back(episode.id);
-        continue;
-      }
-      const Owner& other = owner->second;
-      if (other.catalogue->episode_hash(other.id) != catalogue.episode_hash(episode.id))
-        throw CatalogueError(path.string(),
-                             "episode " + std::to_string(episode.id) + ", " + named(episode) + ", is in " + other.path +
-                                 " too (episode " + std::to_string(other.id) + "), with other content",
-                             "they were made by different builds, or one has pictures that the other lacks: leave one "
-                             "of the two files out, or make the episode again");
-      ++existing;
-    }
-    return fresh;
-  }
-
- private:
-  std::map<std::string, Owner> owners_;
-};
-
-// Copies rows of a table between two files, value by value: neither sees the other.
-class TableCopier {
- public:
-  TableCopier(const sql::Database& from, const sql::Database& to, const Table& table) {
-    const std::string columns = joined(table.columns);
-    std::string read = "SELECT " + columns + " FROM " + table.name, write = "INSERT INTO main." + table.name + " (";
-    if (table.of_episode) {
-      const std::string number = table.name == "episode" ? "id" : "episode";
-      read.append(" WHERE ").append(number).append(" = ?1");
-      write.append(number).append(", ");
-    }
-    write.append(columns).append(") VALUES (").append(table.of_episode ? "?1" : "?");
-    for (std::size_t i = table.of_episode ? 0 : 1; i < table.columns.size(); ++i) write += ", ?";
-    rows_ = sql::Statement(from, read, true);
-    write_ = sql::Statement(to, write.append(table.of_episode ? ")" : ") ON CONFLICT DO NOTHING"), true);
-    columns_ = static_cast<int>(table.columns.size());
-  }
-  void copy_episode(std::int64_t there, std::int64_t here) {
-    for (rows_.start(there); rows_.step();) put(write_.start(here), 1);
-  }
-  void copy_shared() {
-    for (rows_.start(); rows_.step();) put(write_.start(), 0);
-  }
-
- private:
-  void put(sql::Statement& row, int first) {
-    for (int i = 0; i < columns_; ++i)
-      sqlite3_bind_value(row.handle(), first + i + 1, sqlite3_column_value(rows_.handle(), i));
-    while (row.step()) {
-    }
-  }
-
-  sql::Statement rows_, write_;
-  int columns_ = 0;
-};
-
 std::vector<TableCopier> episode_copiers(const sql::Database& from, const sql::Database& to) {
   std::vector<Table> tables = current_tables();
   std::erase_if(tables, [](const Table& table) { return !table.of_episode; });
@@ -114,26 +33,10 @@ std::vector<TableCopier> episode_copiers(const sql::Database& from, const sql::D
   return copiers;
 }
 
-void check_variations(const sql::Database& from, const sql::Database& to) {
-  sql::Statement theirs(from, "SELECT task, variation, axis, value FROM variation_axis");
-  sql::Statement ours(
-      to, "SELECT 1 FROM main.variation_axis WHERE task = ?1 AND variation = ?2 AND axis = ?3 AND value <> ?4");
-  for (theirs.start(); theirs.step();) {
-    std::string task, variation, axis, value;
-    theirs.read(task, variation, axis, value);
-    if (ours.start(task, variation, axis, value).step())
-      throw CatalogueError(
-          to.path(),
-          "the two catalogues disagree about the variation " + sql::shown(task + " " + variation + ", axis " + axis),
-          "they were made from different tasks of one name: keep them apart");
-  }
-}
-
-// What episodes share, by hash or name: scripts, scenes, texts. Splits are the same everywhere.
 void copy_shared(const sql::Database& from, const sql::Database& to) {
   check_variations(from, to);
   for (const Table& table : current_tables())
-    if (!table.of_episode && table.name != "split") TableCopier(from, to, table).copy_shared();
+    if (is_shared(table)) TableCopier(from, to, table).copy_shared();
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "db/declared.h"
 #include "db/episode_writer.h"
 #include "db/frame_labels.h"
+#include "db/functions.h"
 #include "db/migrations.h"
 #include "db/schema.h"
 #include "engine/base/reason.h"
@@ -208,6 +209,13 @@ void make_ready(const sql::Database& database, const fs::path& path) {
   }
 }
 
+// One file: every episode is its own, by its own number.
+void add_own_origin(const sql::Database& database) {
+  sql::add_origins(database.handle(), [file = database.path()](std::int64_t episode) -> std::optional<sql::Origin> {
+    return sql::Origin{file, episode};
+  });
+}
+
 }  // namespace
 
 Catalogue Catalogue::open(const fs::path& path) {
@@ -225,6 +233,7 @@ Catalogue Catalogue::open(const fs::path& path) {
   impl->database.run("PRAGMA cache_size = -65536");  // 64 MiB: joins come back to the same pages
   impl->database.run(temporary_views_script());
   add_frame_labels(impl->database);
+  add_own_origin(impl->database);
   return Catalogue(std::move(impl));
 }
 
@@ -241,6 +250,7 @@ Catalogue Catalogue::write(const fs::path& path, Journal journal) {
   database.run("PRAGMA foreign_keys = ON");
   database.run(temporary_views_script());
   add_frame_labels(database);
+  add_own_origin(database);
   impl->writable = true;
   return Catalogue(std::move(impl));
 }

@@ -30,8 +30,9 @@ bool is_harmless_pragma(const char* pragma, const char* value) {
 }
 
 bool may_be_asked_by_reader(const char* pragma, const char* value) {
-  return is_harmless_pragma(pragma, value) || is_one_of(pragma, {"cache_size", "temp_store", "foreign_key_check",
-                                                                 "integrity_check", "quick_check", "schema_version"});
+  return is_harmless_pragma(pragma, value) ||
+         is_one_of(pragma, {"cache_size", "data_version", "temp_store", "foreign_key_check", "integrity_check",
+                            "quick_check", "schema_version"});
 }
 
 bool may_be_asked_by_writer(const char* pragma, const char* value) {
@@ -93,6 +94,7 @@ bool may_write(int action, const char* first, const char* second) {
 
 int decide(void* data, int action, const char* first, const char* second, const char*, const char*) {
   const auto& permissions = *static_cast<const Permissions*>(data);
+  if (permissions.read && action == SQLITE_READ && first) permissions.read->insert(first);
   bool allowed = action == SQLITE_ATTACH && permissions.may_attach;
   switch (permissions.purpose) {
     case Purpose::question:

@@ -3,6 +3,9 @@
 
 #include <sqlite3.h>
 
+#include <set>
+#include <string>
+
 namespace stampede::sql {
 
 // question: a user's, which reads and does nothing else. read: ours, which may also make temporary views. write: ours,
@@ -12,7 +15,8 @@ enum class Purpose { question, read, write };
 
 struct Permissions {
   Purpose purpose = Purpose::question;
-  bool may_attach = false;  // while a file is attached that we name ourselves
+  bool may_attach = false;                // while a file is attached that we name ourselves
+  std::set<std::string>* read = nullptr;  // receives the names of tables and views that a statement would read
 };
 
 // Takes from the connection what files could abuse: triggers, stored views, functions in declarations that reach out,

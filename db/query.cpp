@@ -140,13 +140,17 @@ bool is_a_name(std::string_view text) {
   });
 }
 
-std::string text_of(std::string_view question) {
+}  // namespace
+
+std::string text_of_question(std::string_view question) {
   if (!is_a_name(question)) return std::string(question);
   if (const NamedQuery* query = find_named_query(question)) return query->sql;
   std::string names = "the named queries are";
   for (const NamedQuery& query : named_queries()) names += " " + query.name;
   throw Error("query", "there is no query named '" + std::string(question) + "'", names);
 }
+
+namespace {
 
 // A column is found by its name: of two that are called the same the later is `episode_2`.
 void make_unique(std::vector<std::string>& names) {
@@ -161,18 +165,13 @@ void make_unique(std::vector<std::string>& names) {
   }
 }
 
-struct RowKeeper : RowReceiver {
-  void columns(const std::vector<std::string>& names) override { result.columns = names; }
-  bool row(const std::vector<SqlValue>& values) override {
-    result.cut = most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == most_rows;
-    if (!result.cut) result.rows.push_back(values);
-    return !result.cut;
-  }
-  QueryResult result;
-  std::int64_t most_rows = 0;
-};
-
 }  // namespace
+
+bool RowKeeper::row(const std::vector<SqlValue>& values) {
+  result.cut = most_rows > 0 && static_cast<std::int64_t>(result.rows.size()) == most_rows;
+  if (!result.cut) result.rows.push_back(values);
+  return !result.cut;
+}
 
 const std::vector<NamedQuery>& named_queries() {
   static const std::vector<NamedQuery> queries = [] {
@@ -191,6 +190,13 @@ const NamedQuery* find_named_query(std::string_view name) {
   for (const NamedQuery& query : named_queries())
     if (query.name == name) return &query;
   return nullptr;
+}
+
+std::set<std::string> tables_read_by(const sql::Database& database, const std::string& text) {
+  std::set<std::string> tables;
+  const sql::AsQuestion guard(database, &tables);
+  prepare(database.handle(), text);
+  return tables;
 }
 
 void read_only_query(const sql::Database& database, const std::string& text, RowReceiver& receiver,
@@ -223,7 +229,7 @@ Rows read_only_query(const sql::Database& database, std::string_view text, const
 }
 
 void Catalogue::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
-  read_only_query(impl_->database, text_of(question), receiver, options);
+  read_only_query(impl_->database, text_of_question(question), receiver, options);
 }
 
 QueryResult Catalogue::query(std::string_view question, const QueryOptions& options) const {

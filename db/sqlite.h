@@ -61,19 +61,22 @@ class Database {
   std::string path_;
 };
 
-// While it lives, the connection takes a user's statements: they read and do nothing else.
+// While it lives, the connection takes a user's statements: they read and do nothing else. `read` receives the names of
+// the tables and views that they would read.
 class AsQuestion {
  public:
-  explicit AsQuestion(const Database& database) : permissions_(*database.permissions_), before_(permissions_.purpose) {
+  explicit AsQuestion(const Database& database, std::set<std::string>* read = nullptr)
+      : permissions_(*database.permissions_), before_(permissions_) {
     permissions_.purpose = Purpose::question;
+    permissions_.read = read;
   }
-  ~AsQuestion() { permissions_.purpose = before_; }
+  ~AsQuestion() { permissions_ = before_; }
   AsQuestion(const AsQuestion&) = delete;
   AsQuestion& operator=(const AsQuestion&) = delete;
 
  private:
   Permissions& permissions_;
-  Purpose before_;
+  Permissions before_;
 };
 
 // SQLite deletes the file that a journal beside a database names as that of several databases. No journal of ours names

@@ -92,8 +92,11 @@ void check_value(const OptionRow& option, const std::string& value) {
 
 void place_positionals(const CommandRow& command, const std::vector<std::string>& places, Arguments& arguments) {
   auto next = places.begin();
+  auto rows_after = static_cast<std::ptrdiff_t>(command.positionals.size());
   for (const PositionalRow& row : command.positionals) {
-    const auto end = row.repeats || next == places.end() ? places.end() : next + 1;
+    // One that repeats leaves a word for each row after it, where there are so many.
+    const std::ptrdiff_t left = places.end() - next, most = row.repeats ? left - --rows_after : (--rows_after, 1);
+    const auto end = next + std::min(left, std::max<std::ptrdiff_t>(most, 1));
     if (row.required && next == end) throw Usage{"stampede " + command.name + " needs " + row.name, row.help};
     for (auto place = next; place != end; ++place) arguments.add_input(*place);
     arguments.set(row.name, {next, end}, next != end);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "db/catalogue.h"
+#include "db/catalogue_set.h"
 #include "engine/episode/arrays.h"
 #include "engine/render/png.h"
 #include "scripting/session/studio.h"
@@ -80,7 +80,7 @@ std::vector<ReadyQuestion> ready_questions() {
 }
 
 struct CatalogueReader::Impl {
-  Catalogue catalogue;
+  CatalogueSet catalogues;
   std::optional<Studio> studio = {};  // from the first picture on that is drawn
   // Of the last picture or state: the next one is mostly of the same episode.
   std::int64_t record_id = -1;
@@ -90,7 +90,8 @@ struct CatalogueReader::Impl {
 
   const std::shared_ptr<const EpisodeRecord>& record_of(std::int64_t episode) {
     if (record_id != episode) {
-      record = std::make_shared<const EpisodeRecord>(catalogue.read_episode(episode));
+      const auto [catalogue, number] = catalogues.place(episode);
+      record = std::make_shared<const EpisodeRecord>(catalogue.read_episode(number));
       record_id = episode;
     }
     return record;
@@ -99,25 +100,30 @@ struct CatalogueReader::Impl {
   [[noreturn]] void not_stored(std::int64_t episode, const std::string& column, std::int64_t frame) const {
     const std::string where = "episode " + std::to_string(episode);
     // Throws for a name that there is not, with the nearest one.
-    if (catalogue.read_arrays(episode, {{column}}).pictures.empty())
+    const auto [catalogue, number] = catalogues.place(episode);
+    if (catalogue.read_arrays(number, {{column}}).pictures.empty())
       throw Error(where, "'" + column + "' is no picture");
     throw Error(where, "frame " + std::to_string(frame) + " has no stored picture '" + column + "'",
                 "draw it now, or store it: `stampede render FILE --into`");
   }
 };
 
-CatalogueReader::CatalogueReader(const std::filesystem::path& file) : impl_(new Impl{Catalogue::open(file)}) {}
+CatalogueReader::CatalogueReader(const std::filesystem::path& file)
+    : CatalogueReader(std::vector<std::filesystem::path>{file}) {}
+CatalogueReader::CatalogueReader(const std::vector<std::filesystem::path>& files)
+    : impl_(new Impl{CatalogueSet(files)}) {}
 CatalogueReader::~CatalogueReader() = default;
 CatalogueReader::CatalogueReader(CatalogueReader&&) noexcept = default;
 CatalogueReader& CatalogueReader::operator=(CatalogueReader&&) noexcept = default;
 
 Rows CatalogueReader::query(std::string_view question, const std::vector<SqlValue>& parameters,
                             std::int64_t most_rows) const {
-  return impl_->catalogue.query(question, {parameters, most_rows});
+  return impl_->catalogues.query(question, {parameters, most_rows});
 }
 
 EpisodeArrays CatalogueReader::arrays(std::int64_t episode, const ArrayRequest& request) const {
-  return impl_->catalogue.read_arrays(episode, request);
+  const auto [catalogue, number] = impl_->catalogues.place(episode);
+  return catalogue.read_arrays(number, request);
 }
 
 PictureFrames CatalogueReader::pictures(std::int64_t episode, const std::string& column,
@@ -126,8 +132,9 @@ PictureFrames CatalogueReader::pictures(std::int64_t episode, const std::string&
   if (request.threads < 1) throw Error("PictureFramesRequest::threads", "it is at least 1");
   const std::optional<PictureColumn> wanted = picture_column(column);
   if (!wanted) impl_->not_stored(episode, column, request.frames.front());
+  const auto [catalogue, number] = impl_->catalogues.place(episode);
   const std::vector<std::string> files =
-      impl_->catalogue.read_images(episode, request.frames, wanted->camera, to_string(wanted->kind));
+      catalogue.read_images(number, request.frames, wanted->camera, to_string(wanted->kind));
   for (std::size_t i = 0; i < files.size() && !request.draw; ++i)
     if (files[i].empty()) impl_->not_stored(episode, column, request.frames[i]);
 

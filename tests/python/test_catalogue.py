@@ -42,6 +42,24 @@ def test_episodes_are_found_by_conditions(demos: stampede.Catalogue) -> None:
         demos.episodes("sucess = 1")
 
 
+def test_several_files_are_read_as_one(demos: stampede.Catalogue, made: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.db"
+    stampede.Session(catalogue=other).run("reach_target", seed=3)
+    both = stampede.Catalogue(made, other)
+    assert len(both) == 4 and both[4].seed == 3
+    rows = both.query("SELECT file_of(episode) AS file, number_in_file(episode) AS number FROM episodes ORDER BY episode")
+    assert list(rows["file"]) == [str(made)] * 3 + [str(other)] and list(rows["number"]) == [1, 2, 3, 1]
+    assert np.array_equal(both[4].arrays("joint_positions")["joint_positions"],
+                          stampede.Catalogue(other)[1].arrays("joint_positions")["joint_positions"])
+    assert np.array_equal(both[1].pictures("front_rgb", [0]), demos[1].pictures("front_rgb", [0]))
+    again = pickle.loads(pickle.dumps(both))
+    assert again.query("success_by_task").to_dict().keys() == demos.query("success_by_task").to_dict().keys()
+    assert repr(again) == f"Catalogue({str(made)!r}, {str(other)!r})" and len(again) == 4
+    assert len(stampede.Catalogue(made, made)) == 3  # an episode that is there twice is counted once
+    with pytest.raises(stampede.CatalogueError, match="no such file"):
+        stampede.Catalogue(made, tmp_path / "none.db")
+
+
 def test_arrays_are_views_of_the_engines_memory(demos: stampede.Catalogue) -> None:
     episode = demos[1]
     arrays = episode.arrays("joint_positions", "facts", "skill")

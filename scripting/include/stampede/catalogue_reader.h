@@ -46,6 +46,11 @@ struct PictureFramesRequest {
 class STAMPEDE_EXPORT CatalogueReader {
  public:
   explicit CatalogueReader(const std::filesystem::path& file);
+  // Several read as one, `CatalogueReader(std::vector<std::filesystem::path>{"a.db", "b.db"})`: episodes are numbered
+  // anew, file by file, one that two files have is there once, and `file_of(episode)` and `number_in_file(episode)`
+  // tell SQL where it is from. What a question reads but pictures is copied aside. Throws CatalogueError naming both
+  // files where two have other content under one key.
+  explicit CatalogueReader(const std::vector<std::filesystem::path>& files);
   ~CatalogueReader();
   CatalogueReader(CatalogueReader&&) noexcept;
   CatalogueReader& operator=(CatalogueReader&&) noexcept;

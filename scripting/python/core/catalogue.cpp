@@ -68,7 +68,8 @@ nb::typed<nb::tuple, std::vector<std::string>, nb::typed<nb::list, nb::tuple>> a
 
 // A catalogue as Python has it: a file and a thread that draws are in it.
 struct PyReader : Owned<CatalogueReader> {
-  explicit PyReader(const std::filesystem::path& file) : Owned("Catalogue", Turn::Others::wait, file) {
+  explicit PyReader(const std::filesystem::path& file) : PyReader(std::vector<std::filesystem::path>{file}) {}
+  explicit PyReader(const std::vector<std::filesystem::path>& files) : Owned("Catalogue", Turn::Others::wait, files) {
     turn.stay_in_this_process();
   }
 };
@@ -228,9 +229,11 @@ void bind_catalogue(nb::module_& module) {
       .def_ro("description", &ReadyQuestion::description)
       .def_ro("sql", &ReadyQuestion::sql);
   module.def("ready_questions", &ready_questions, "Questions that have a name.");
-  nb::class_<PyReader>(module, "CatalogueReader",
-                       "A catalogue to be read, in one process; threads that share it wait for each other.")
+  nb::class_<PyReader>(
+      module, "CatalogueReader",
+      "A catalogue, or several, to be read, in one process; threads that share it wait for each other.")
       .def(nb::init<const std::filesystem::path&>(), "file"_a)
+      .def(nb::init<const std::vector<std::filesystem::path>&>(), "files"_a, "Several, read as one.")
       .def(
           "query",
           [](const PyReader& self, const std::string& question, const nb::sequence& parameters,

@@ -172,14 +172,19 @@ FROM episodes"""
 
 
 class Catalogue:
-    """A file of episodes, to be read.
+    """A file of episodes, to be read; or several, read as one.
+
+    Of several (`Catalogue("a.db", "b.db")`), episodes are numbered anew, file by file, and one that two files have is
+    there once. `file_of(episode)` and `number_in_file(episode)` tell SQL where a row is from. What a question reads, but
+    pictures, is copied aside. Raises CatalogueError naming both where two files have other content under one key.
 
     Threads, forked and spawned processes may share one object: each opens the file for itself. Episodes that another
     process adds meanwhile are seen. Raises CatalogueError for a file that is no catalogue.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    def __init__(self, path: str | os.PathLike[str], *more: str | os.PathLike[str]) -> None:
         self.path = Path(path)
+        self.paths = [self.path, *map(Path, more)]
         self._local = threading.local()
         _ = self._reader  # opens: a file that cannot serve is told of here
 
@@ -187,7 +192,7 @@ class Catalogue:
     def _reader(self) -> _core.CatalogueReader:
         # A connection must not cross a fork, nor serve two threads.
         if getattr(self._local, "process", None) != os.getpid():
-            self._local.reader = _core.CatalogueReader(self.path)
+            self._local.reader = _core.CatalogueReader(self.paths)
             self._local.process = os.getpid()
         return self._local.reader
 
@@ -224,11 +229,11 @@ class Catalogue:
     def __iter__(self) -> Iterator[StoredEpisode]:
         return iter(self.episodes())
 
-    def __reduce__(self) -> tuple[type[Catalogue], tuple[Path]]:
-        return Catalogue, (self.path,)
+    def __reduce__(self) -> tuple[type[Catalogue], tuple[Path, ...]]:
+        return Catalogue, tuple(self.paths)
 
     def __repr__(self) -> str:
-        return f"Catalogue({str(self.path)!r})"
+        return f"Catalogue({', '.join(repr(str(path)) for path in self.paths)})"
 
 
 def _optional(module: str) -> Any:
