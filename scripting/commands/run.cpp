@@ -147,7 +147,8 @@ CommandRow run_command() {
        {"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
        {"--shard",
         "I/N",
-        "only the I-th of N parts of this run, each into a file of its own; merged they are the whole, and `query` asks them as one",
+        "only the I-th of N parts of this run, each into a file of its own; merged they are the whole, and `query` "
+        "asks them as one",
         Takes::text,
         "",
         {},

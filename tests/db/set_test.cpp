@@ -77,7 +77,7 @@ TEST_CASE("every view and every named query of shards answers as the undivided f
   }
   for (const std::string table : {"progress", "applicable"})
     CHECK(sorted_lines(set.query("SELECT * FROM " + table)) == sorted_lines(all.query("SELECT * FROM " + table)));
-  // A set that is asked one thing only, without what was copied for another.
+  // A set that is asked one thing only has nothing that was copied for another.
   for (const SqlFile& view : embedded_views()) {
     INFO(view.name);
     const std::string question = "SELECT count(*), EXISTS (SELECT 1 FROM " + view.name + ") FROM " + view.name;
