@@ -47,8 +47,8 @@ def test_several_files_are_read_as_one(demos: stampede.Catalogue, made: Path, tm
     stampede.Session(catalogue=other).run("reach_target", seed=3)
     both = stampede.Catalogue(made, other)
     assert len(both) == 4 and both[4].seed == 3
-    rows = both.query("SELECT file_of(episode) AS file, number_in_file(episode) AS number FROM episodes ORDER BY episode")
-    assert list(rows["file"]) == [str(made)] * 3 + [str(other)] and list(rows["number"]) == [1, 2, 3, 1]
+    rows = both.query("SELECT file_of(episode) AS file, number_in_file(episode) AS n FROM episodes ORDER BY episode")
+    assert list(rows["file"]) == [str(made)] * 3 + [str(other)] and list(rows["n"]) == [1, 2, 3, 1]
     alone = stampede.Catalogue(other)[1].arrays("joint_positions")
     assert np.array_equal(both[4].arrays("joint_positions")["joint_positions"], alone["joint_positions"])
     assert np.array_equal(both[1].pictures("front_rgb", [0]), demos[1].pictures("front_rgb", [0]))

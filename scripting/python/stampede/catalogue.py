@@ -175,8 +175,8 @@ class Catalogue:
     """A file of episodes, to be read; or several, read as one.
 
     Of several (`Catalogue("a.db", "b.db")`), episodes are numbered anew, file by file, and one that two files have is
-    there once. `file_of(episode)` and `number_in_file(episode)` tell SQL where a row is from. What a question reads, but
-    pictures, is copied aside. Raises CatalogueError naming both where two files have other content under one key.
+    there once. `file_of(episode)` and `number_in_file(episode)` tell SQL where a row is from. What a question reads,
+    but pictures, is copied aside. Raises CatalogueError naming both where two files have other content under one key.
 
     Threads, forked and spawned processes may share one object: each opens the file for itself. Episodes that another
     process adds meanwhile are seen. Raises CatalogueError for a file that is no catalogue.
