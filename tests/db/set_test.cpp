@@ -171,7 +171,7 @@ TEST_CASE("a row that no catalogue can hold is told with its file") {
   const CatalogueSet set({folder / "a.db", folder / "b.db"});
   CHECK_THROWS_WITH(set.query("SELECT count(*) FROM segments"),
                     Contains("b.db: a row of segment can be none") && Contains("damaged or changed by hand"));
-  CHECK(set.query("SELECT count(*) FROM episodes").rows.size() == 1);
+  CHECK(set.query("SELECT count(*) FROM objects").rows.size() == 1);
 }
 
 TEST_CASE("files of earlier releases are asked beside those of this one, and none is touched") {
