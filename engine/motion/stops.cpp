@@ -16,6 +16,7 @@ constexpr double kMost_s = 2.0;         // that are tried
 constexpr double kApart_s = 0.25;       // stands nearer to an end, or to each other, are one
 constexpr double kOffLine_m = 0.005;    // of the tip
 constexpr double kOffLine_rad = 0.035;  // and its turn
+constexpr double kMostTurn_rad = 2;     // between two stops: near half a turn nobody knows which way around
 
 std::vector<Transform> tips(const Arm& arm, const Trajectory& trajectory, int physics_hz) {
   std::vector<Transform> all;
@@ -36,7 +37,7 @@ double off_line(const Transform& at, const Transform& from, const Transform& to)
                   angle_between(turned, first.slerp(share, last)) / kOffLine_rad);
 }
 
-// Halves what bends where it is furthest off.
+// Halves what bends where it is furthest off, and what turns far.
 void add_bends(const std::vector<Transform>& all, std::size_t first, std::size_t last,
                std::vector<std::int64_t>& stops) {
   std::size_t worst = first;
@@ -45,6 +46,8 @@ void add_bends(const std::vector<Transform>& all, std::size_t first, std::size_t
     const double off = off_line(all[i], all[first], all[last]);
     if (off > most) most = off, worst = i;
   }
+  const double turn = angle_between(Quaternion(all[first].linear()), Quaternion(all[last].linear()));
+  if (worst == first && turn > kMostTurn_rad) worst = (first + last) / 2;
   if (worst == first) return;
   add_bends(all, first, worst, stops);
   stops.push_back(static_cast<std::int64_t>(worst) * kStopKnotSteps);

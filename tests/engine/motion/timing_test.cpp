@@ -187,3 +187,23 @@ TEST_CASE("a motion that stops at its via-points goes the same way, stands at ea
   const JointState there = evaluate(motion.trajectory, static_cast<double>(motion.vias[0].step), kHz);
   CHECK((there.position - passed).norm() < 1e-3);
 }
+
+TEST_CASE("a wrist that turns by nearly half a turn stops on its way, one that turns by a quarter does not") {
+  const Arm arm(panda_robot());
+  for (const double turn : {3.0, 1.5}) {
+    CAPTURE(turn);
+    JointVector goal = arm.home();
+    goal[6] -= turn;
+    PlannedMotion motion;
+    motion.trajectory = time_path(arm, {arm.home(), goal}, {}, kHz);
+    stop_at_vias(arm, {}, kHz, 0, motion);
+    std::optional<double> stood;  // where
+    for (std::int64_t step = 0; step < motion.trajectory.steps(); ++step) {
+      const JointState now = evaluate(motion.trajectory, static_cast<double>(step), kHz);
+      const double turned = std::abs(now.position[6] - arm.home()[6]);
+      if (now.velocity.norm() < 1e-3 && turned > 0.1 && turned < turn - 0.1) stood = turned;
+    }
+    CHECK(stood.has_value() == (turn > 2));
+    if (stood) CHECK(*stood == Approx(turn / 2).margin(0.3));
+  }
+}

@@ -16,7 +16,6 @@ _BACK_M = (0.03, 0.08)  # one after the other, out of what the hand touches
 _UNIT_TOLERANCE = 1e-3  # of a quaternion's length
 _STANDS_RAD = 0.001  # a frame
 _TOUCHES_AT_START = "the arm touches something at the start"
-_LEVER_PER_M = 6.0  # rad: a line that turns more is about an axis near the hand
 _SHUT_M = 0.002  # less wide, the hand is a fist
 _OFF_M, _OFF_RAD = 0.005, 0.05
 _PRESSES_FRAMES = 8  # standing short of the pose
@@ -185,8 +184,6 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
         controller = _controller(scene)
         pace = self._HANDLE if controller else 1.0
         parts = max(1, int(np.ceil(max(way / self._LINE_M, turn / self._LINE_RAD) / pace)))
-        if turn > _LEVER_PER_M * way:  # a tap or a lid: by the whole force
-            controller = ""
         start = scene.save()
         try:
             for part in range(1, parts):

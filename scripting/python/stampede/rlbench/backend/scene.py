@@ -14,6 +14,7 @@ from stampede.rlbench.backend.pictures import CAMERA_COLUMNS, CameraView
 from stampede.rlbench.observation_config import ObservationConfig
 
 _NO_HORIZON_S = 1e9  # RLBench's episodes have no time limit
+_SLOW_RAD_PER_S = 0.05  # an arm that stands, and trembles with what it holds
 _THERE_RAD = 0.005
 _LATEST_FRAMES = 40
 
@@ -106,12 +107,16 @@ class Scene:
             self.act(self._asked)
 
     @property
+    def _fastest_joint(self) -> float:
+        return float(np.abs(self.numbers["joint_velocities"]).max())
+
+    @property
     def stands(self) -> bool:
-        return float(np.abs(self.numbers["joint_velocities"]).max()) < STANDS_RAD_PER_S
+        return self._fastest_joint < STANDS_RAD_PER_S
 
     def wait_for_verdict(self) -> None:
         """Where the goal holds and the arm stands, stands still until it has held for as long as the task asks."""
-        if not self.over and self.stands and float(self.numbers["progress"]) == 1.0:
+        if not self.over and self._fastest_joint < _SLOW_RAD_PER_S and float(self.numbers["progress"]) == 1.0:
             self.act(_core.Action("hold"))
 
     def save(self) -> _core.SavedState:
