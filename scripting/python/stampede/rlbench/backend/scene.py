@@ -126,6 +126,7 @@ class Scene:
         """Goes back to a moment of this episode at which it was not over."""
         self.numbers = self._environment.restore(state)
         self.over, self.reward = False, 0.0
+        self._asked = None  # what was asked after that moment never was
 
     @cached_property
     def _bounds(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
