@@ -200,11 +200,12 @@ std::optional<Blocked> blocked_arm(const CollisionState& state, const Robot& rob
 }
 
 // Nothing lies in anything else: furniture in the table, things in each other. Before they have settled, free things
-// may: a cup is filled with beads in one place.
+// may: a cup is filled with beads in one place; and a hair deeper, for samplers put things a millimetre into what they
+// are to lie on.
 std::optional<Blocked> blocked_bodies(const CollisionState& state, bool settled) {
-  constexpr double kMost_m = 0.001;
+  const double most_m = settled ? 0.001 : 0.0011;
   const Scene& scene = state.scene();
-  std::vector<Overlap> all = overlapping_bodies(state, kMost_m);
+  std::vector<Overlap> all = overlapping_bodies(state, most_m);
   if (!settled)
     std::erase_if(all, [&](const Overlap& pair) {
       return scene.body_at(pair.one.body).free && scene.body_at(pair.other.body).free;

@@ -55,8 +55,12 @@ double depth_between(const Convex& a, const Transform& world_from_a, const Conve
   if (least <= 0) return 0;
   btGjkEpaSolver2::sResults results;
   if (btGjkEpaSolver2::Penetration(&one, to_bullet(world_from_a), &other, to_bullet(world_from_b), to_bullet(guess),
-                                   results))
-    return std::clamp(-results.distance, 0.0, least);
+                                   results)) {
+    // Its distance may be far too little, as of thin boxes upon one plane; along its normal the bound is sure.
+    const Vector3 normal = world_from_a.linear() * from_bullet(results.normal);  // it tells it in a's frame
+    if (normal.norm() < 0.5) return least;
+    return std::max(0.0, std::min({least, along(normal), along(-normal)}));
+  }
   return closer_than(a, world_from_a, b, world_from_b, 0) ? least : 0;
 }
 

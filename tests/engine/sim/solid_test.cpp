@@ -99,6 +99,11 @@ TEST_CASE("how deep shapes lie in each other is told to a tenth of a millimetre"
   const Convex sphere(ball);
   CHECK(depth_between(sphere, Transform::Identity(), sphere, translation(0.06, 0.06, 0)) ==
         Approx(0.1 - 0.06 * std::sqrt(2.0)).margin(2e-4));
+  // Two sheets on one plane, a corner of one over the other: they are as deep as they are thick.
+  const Convex mat(box_shape({0.25, 0.38, 0.002})), napkin(box_shape({0.20, 0.23, 0.002}));
+  CHECK(depth_between(mat, translation(0.198645, 0.048945, 0.751) * rotation_rpy(0, 0, -0.12094), napkin,
+                      translation(0.148459, 0.378324, 0.751) * rotation_rpy(0, 0, 0.25343)) ==
+        Approx(0.002).margin(1e-4));
 }
 
 TEST_CASE("of a way on which the hand may meet things, the arm alone counts", "[sim]") {
