@@ -207,6 +207,21 @@ bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& ot
   return true;
 }
 
+double contact_margin(const btCollisionObject& one, const btCollisionObject& other) {
+  const auto usual = [](const btCollisionObject& object) {
+    return object.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold);
+  };
+  constexpr btScalar kKept = 0.002;
+  const bool of_robot = one.getUserIndex() == kRobot || other.getUserIndex() == kRobot;
+  return std::max(of_robot ? kKept : 0, std::min(usual(one), usual(other)));
+}
+
+btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* one, const btCollisionObject* other) {
+  btPersistentManifold* manifold = btCollisionDispatcher::getNewManifold(one, other);
+  manifold->setContactBreakingThreshold(contact_margin(*one, *other));
+  return manifold;
+}
+
 void Dispatcher::look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
   const auto& one = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
   const auto& other = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);

@@ -22,9 +22,17 @@
 class btCollisionObject;
 class btCollisionWorld;
 class btManifoldPoint;
+struct btBroadphasePair;
+template <typename T>
+class btAlignedObjectArray;
 class btPersistentManifold;
 
 namespace stampede {
+
+// Points of contact further apart than this, m, or that slid so far, are forgotten: a fiftieth of the smaller shape, as
+// in Bullet; but those of a robot not within 2 mm, for Bullet tells of boxes only once they lie in each other, and one
+// step without any would free what a hand presses. (So far the edge of a hole would be remembered, too.)
+double contact_margin(const btCollisionObject& one, const btCollisionObject& other);
 
 // A body without joints. Its object's frame: centre of mass and principal axes.
 struct FreeBody {
@@ -176,11 +184,19 @@ class Dynamics {
   bool bonded(const btCollisionObject& one, const btCollisionObject& other) const;
   void add_bond_rows(const Bond& bond);
   void move_bonds();
+  // encounters.cpp
+  struct Side;
+  Side side_of(btCollisionObject& object) const;
+  void hold_up(Side& one, Side& other, const btAlignedObjectArray<btPersistentManifold*>& manifolds) const;
+  void meet_ahead(btBroadphasePair& pair, double way);
+  void find_encounters();
+  void forget_encounters();
   void fall_asleep();
   void apply_forces();
   void find_touching();
   void solve_island(const Island& island, int iterations);
   Motion free_motion(const Island& island) const;
+  void slow_down(const Island& island, double share);
   void take_no_energy(const Island& island, const Motion& before);
   void add_contacts(const Touching& touching, double kept, const Bounds& bounds);
   void add_joints(const Mover& mover);
@@ -210,6 +226,8 @@ class Dynamics {
   std::vector<Mover> movers_;
 
   std::vector<Quad> velocities_;
+  std::vector<double> fast_;                                          // m that a free body gets in a step
+  std::vector<std::pair<btPersistentManifold*, double>> encounters_;  // with their usual margins, m
   std::vector<Touching> touching_;
   std::vector<Island> islands_;
   std::vector<int> waking_, least_rest_;

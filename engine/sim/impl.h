@@ -66,6 +66,7 @@ struct Dispatcher final : btCollisionDispatcher {
   explicit Dispatcher(btCollisionConfiguration* configuration) : btCollisionDispatcher(configuration) {
     setNearCallback(look_at);
   }
+  btPersistentManifold* getNewManifold(const btCollisionObject* one, const btCollisionObject* other) override;
   static void look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   bool apart(const btCollisionObject& one, const btCollisionObject& other) const;
   struct Piece {

@@ -13,8 +13,23 @@ namespace stampede {
 namespace {
 
 constexpr double kHullMargin = 0.001;    // m
+constexpr double kRoom = 0.001;          // m, around the boxes around shapes
 constexpr double kMarginOfInside = 0.2;  // of the greatest ball inside: thin hulls keep their shape
 constexpr double kNoRotation = 1e-12;
+
+// Bullet forgets where two children of compounds touch as soon as the boxes around them, along the axes, do not: a
+// steady grasp would lose all its points when it comes to lie along an axis with a hair's breadth between pad and
+// thing.
+template <typename S>
+struct Roomy final : S {
+  using S::S;
+  void getAabb(const btTransform& pose, btVector3& lower, btVector3& upper) const override {
+    S::getAabb(pose, lower, upper);
+    const btVector3 room(kRoom, kRoom, kRoom);
+    lower -= room;
+    upper += room;
+  }
+};
 
 template <typename S, typename... Arguments>
 S* keep(ShapeStore& store, Arguments&&... arguments) {
@@ -32,7 +47,7 @@ btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform&
   btConvexHullComputer computer;
   const btScalar shrunk =
       computer.compute(&moved[0].x(), sizeof(btVector3), static_cast<int>(moved.size()), kHullMargin, kMarginOfInside);
-  auto* hull = keep<btConvexHullShape>(store);
+  auto* hull = keep<Roomy<btConvexHullShape>>(store);
   if (shrunk < 0 || computer.vertices.size() < 4) {  // flat: Bullet's hull code cannot shrink it
     for (const btVector3& point : moved) hull->addPoint(point, false);
     hull->setMargin(1e-4);
@@ -49,7 +64,7 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
   const double margin = std::min(kHullMargin, 0.1 * std::min(shape.radius, shape.length));
   const double sine = shape.radius / std::hypot(shape.radius, shape.length);
   const double length = shape.length - margin - margin / sine;
-  auto* cone = keep<btConeShapeZ>(store, shape.radius * length / shape.length, length);
+  auto* cone = keep<Roomy<btConeShapeZ>>(store, shape.radius * length / shape.length, length);
   cone->setMargin(margin);
   link_from_shape = link_from_shape * translation(0, 0, -shape.length / 2 + margin + length / 2);
   return cone;
@@ -59,13 +74,13 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
 btCollisionShape* make_shape(const Shape& shape, ShapeStore& store, Transform& link_from_shape) {
   switch (shape.kind) {
     case ShapeKind::box:
-      return keep<btBoxShape>(store, to_bullet(Vector3(shape.size / 2)));
+      return keep<Roomy<btBoxShape>>(store, to_bullet(Vector3(shape.size / 2)));
     case ShapeKind::sphere:
-      return keep<btSphereShape>(store, shape.radius);
+      return keep<Roomy<btSphereShape>>(store, shape.radius);
     case ShapeKind::cylinder:
-      return keep<btCylinderShapeZ>(store, btVector3(shape.radius, shape.radius, shape.length / 2));
+      return keep<Roomy<btCylinderShapeZ>>(store, btVector3(shape.radius, shape.radius, shape.length / 2));
     case ShapeKind::capsule:
-      return keep<btCapsuleShapeZ>(store, shape.radius, shape.length);
+      return keep<Roomy<btCapsuleShapeZ>>(store, shape.radius, shape.length);
     case ShapeKind::cone:
       return make_cone(shape, store, link_from_shape);
     case ShapeKind::hull:

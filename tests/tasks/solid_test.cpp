@@ -9,21 +9,18 @@ using namespace stampede::test;
 
 namespace {
 
-constexpr double kSlack_m = 0.0012;  // a contact that is pressed gives way by a little more than the millimetre
-
-void check_solid(const std::string& task, int seed) {
+void check_solid(const std::string& task, int seed, const std::string& variation) {
   RunOptions options;
   options.seed = seed;
-  const EpisodeRecord episode = run_task(task, first_variation(task), options);
+  const EpisodeRecord episode = run_task(task, variation, options);
   INFO(task << " " << seed << ": " << verdict(episode));
   CHECK_FALSE(episode.frames.empty());
-  for (const Overlap& overlap : overlaps_of(episode)) {
-    // What is pinched, jammed into a hole or dropped may be deeper for a frame: grasp and landing tests look at that.
-    if (overlap.kind == OverlapKind::things || overlap.kind == OverlapKind::thing) continue;
-    if (overlap.depth < kSlack_m) continue;
-    FAIL_CHECK(to_text(overlap));
-  }
+  OverlapLimits limits;
+  limits.let_alone = 0.0011;  // in physics a hull's corners are round, by a millimetre
+  for (const Overlap& overlap : overlaps_of(episode, limits)) FAIL_CHECK(to_text(overlap));
 }
+
+void check_solid(const std::string& task, int seed) { check_solid(task, seed, first_variation(task)); }
 
 }  // namespace
 
@@ -44,6 +41,14 @@ TEST_CASE("arm and furniture are solid in the tasks that open and shut things", 
   for (const char* task : {"open_microwave", "open_fridge", "close_laptop_lid", "open_washing_machine", "open_window",
                            "put_bottle_in_fridge", "slide_cabinet_open_and_place_cups", "turn_oven_on"})
     for (const int seed : {6, 7}) check_solid(task, seed);
+}
+
+TEST_CASE("what is pinched, turned or let fall does not sink in where it once did", "[solid]") {
+  check_solid("setup_chess", 730003, "case=5,count=3");              // a pawn trembled between the fingers
+  check_solid("open_window", 730002);                                // one side lost its only point of contact
+  check_solid("reach_and_drag", 730002, "colour=maroon");            // all of them, along an axis of the world
+  check_solid("place_shape_in_shape_sorter", 730008, "form=prism");  // one corner landed, then the others
+  check_solid("take_plate_off_colored_dish_rack", 730007);
 }
 
 TEST_CASE("arm and furniture are solid in every task, first third", "[solid]") {

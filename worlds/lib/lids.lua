@@ -21,13 +21,13 @@ function lids.grip(front, z, y, colour)
 end
 
 -- A lid that is level, shut, and reaches from its hinge, the y axis of its frame, towards -x. `shapes`: what it is made of;
--- `front`: how far it reaches; `grip`: the height of the grip, and its y. Open from `open` degrees on.
+-- `front`: how far it reaches; `grip`: the height of the grip, and its y. Open from `open` degrees on, shut up to `closed`, 1.
 function lids.lid(fields)
   local y = fields.grip.y or 0
   local lid = {
     type = "lid", traits = { "openable" }, mass = fields.mass, colour = fields.colour, friction = 0.7,
     hinge = { axis = { 0, 1, 0 }, at = fields.at, range = { 0, math.rad(fields.most or 110) }, friction = fields.friction or 0.25, damping = 0.1 },
-    numbers = { open_at = math.rad(fields.open), closed_at = math.rad(1), pull = math.rad(fields.open + 8), pivot = 2.2, gripped = 1 },
+    numbers = { open_at = math.rad(fields.open), closed_at = math.rad(fields.closed or 1), pull = math.rad(fields.open + 8), pivot = 2.2, gripped = 1 },
     shapes = fields.shapes,
     grasps = lids.grasps(-fields.front - 0.025, y, fields.grip.z, 0.030),
   }

@@ -26,7 +26,7 @@ return object {
   type = "barbecue", traits = {}, fixed = true, colour = black, friction = 0.5, shapes = shapes,
   parts = {
     lid = lids.lid {
-      at = { length / 2, 0, height + 0.001 }, front = length, mass = 0.8, open = 50, most = 100, friction = 1.2, colour = red,
+      at = { length / 2, 0, height + 0.001 }, front = length, mass = 0.8, open = 50, closed = 2, most = 100, friction = 1.2, colour = red,
       shapes = {
         box { wall, width, 0.05, at = { wall / 2 - length, 0, 0.025 } },
         box { length, wall, 0.05, at = { -length / 2, width / 2 - wall / 2, 0.025 } },

@@ -9,7 +9,7 @@ for k = 0, 11 do
   for _, turn in ipairs { -math.pi / 2, math.pi / 2 } do
     grasps[#grasps + 1] = {
       at = { (rim - wall / 2 - 0.0015) * math.cos(angle), (rim - wall / 2 - 0.0015) * math.sin(angle), height - 0.012 },
-      rpy = { math.pi + (turn > 0 and slope or -slope), 0, angle + turn }, width = wall + 0.002, approach = 0.09, force = 20,
+      rpy = { math.pi + (turn > 0 and slope or -slope), 0, angle + turn }, width = wall + 0.002, approach = 0.09, force = 28,
     }
   end
 end

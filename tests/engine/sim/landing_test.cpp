@@ -1,0 +1,80 @@
+// What falls does not sink in: not for a step.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "engine/base/random.h"
+#include "engine/sim/overlap.h"
+#include "tests/engine/sim/sim_scenes.h"
+
+using namespace stampede;
+using namespace stampede::testing;
+
+namespace {
+
+constexpr double kMost_m = 7e-4;  // a millimetre is wanted
+
+Body falling(const std::string& name, const std::vector<Shape>& shapes, const Transform& pose) {
+  Body body;
+  body.name = name;
+  body.free = true;
+  body.world_from_body = pose;
+  Part part;
+  part.name = "base";
+  part.shapes = shapes;
+  set_uniform_mass(part, 0.2);
+  body.parts.push_back(part);
+  return body;
+}
+
+Shape solid(std::vector<Vector3> points) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.points = std::move(points);
+  return shape;
+}
+
+// The greatest depth to which bodies lie in each other until they rest.
+double deepest_of(World& world, double seconds) {
+  double deepest = 0;
+  for (int i = 0; i < seconds / world.dt(); ++i) {
+    world.step();
+    if (world.step_count() % 12 == 0) world.close_window();
+    for (const Overlap& overlap : overlapping_bodies(world.collision_state(), 1e-4))
+      deepest = std::max(deepest, overlap.depth);
+  }
+  return deepest;
+}
+
+}  // namespace
+
+TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in and lies still", "[sim]") {
+  Shape disc;
+  disc.kind = ShapeKind::cylinder;
+  disc.radius = 0.09;
+  disc.length = 0.004;
+  const Shape prism = solid({{0.03, 0, -0.02},
+                             {-0.02, 0.025, -0.02},
+                             {-0.02, -0.025, -0.02},  //
+                             {0.03, 0, 0.02},
+                             {-0.02, 0.025, 0.02},
+                             {-0.02, -0.025, 0.02}});
+  const std::vector<std::pair<const char*, std::vector<Shape>>> things = {
+      {"tile", {box_shape({0.10, 0.10, 0.004})}},
+      {"disc", {disc}},
+      {"prism", {prism}},
+      {"cross", {box_shape({0.12, 0.01, 0.01}), box_shape({0.01, 0.12, 0.01})}}};
+  Random random(RandomKey("landing"));
+  for (const auto& [name, shapes] : things)
+    for (int i = 0; i < 6; ++i) {
+      Scene scene = table_scene(0);
+      const double height = 0.1 + 0.05 * i;
+      const Transform pose =
+          translation(0.55, 0, height) * rotation_rpy(random.between(-0.4, 0.4), random.between(-0.4, 0.4), 0);
+      add_body(scene, falling(name, shapes, pose));
+      World world(shared(scene));
+      INFO(name << " from " << height << " m");
+      CHECK(deepest_of(world, 2) < kMost_m);
+      const int body = body_index(world, name);
+      CHECK(world.linear_velocity({body, 0}).norm() < 1e-3);
+    }
+}
