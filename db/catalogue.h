@@ -68,7 +68,9 @@ class Catalogue {
  public:
   static Catalogue open(const std::filesystem::path& path);  // read-only; works in a read-only folder
   static Catalogue write(const std::filesystem::path& path, Journal journal = Journal::log);  // made when not there
-  ~Catalogue();                                                                               // closes; throws nothing
+  // Nothing has been written to it: it is not there, or a run was killed before it had a table.
+  static bool is_new(const std::filesystem::path& path);
+  ~Catalogue();  // closes; throws nothing
   Catalogue(Catalogue&&) noexcept;
   Catalogue& operator=(Catalogue&&) noexcept;
 

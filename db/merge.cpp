@@ -81,7 +81,7 @@ MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const
   // The keys and, where two have the same, the content of all files are known before anything is written.
   KnownKeys keys;
   std::optional<Source> before;
-  if (fs::exists(into, ignored) && fs::file_size(into, ignored) > 0) {
+  if (!Catalogue::is_new(into)) {
     before.emplace(into);
     keys.own(before->catalogue, into);
   }

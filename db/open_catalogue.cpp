@@ -237,6 +237,14 @@ Catalogue Catalogue::open(const fs::path& path) {
   return Catalogue(std::move(impl));
 }
 
+bool Catalogue::is_new(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored) || (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0))
+    return true;
+  check_path(path, false);
+  return inspect_alone(open_to_read(path).database).empty();
+}
+
 Catalogue Catalogue::write(const fs::path& path, Journal journal) {
   check_path(path, true);
   auto impl = std::make_unique<Impl>();

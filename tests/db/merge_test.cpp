@@ -67,6 +67,22 @@ TEST_CASE("merging again, and merging what overlaps, adds only what is new") {
   CHECK(hash_of(folder / "sum.db") == hash_of(folder / "all.db"));
 }
 
+TEST_CASE("a merge that was killed before its file had a table is made again") {
+  const Folder folder;
+  make(folder / "one.db", {1, 2});
+  const std::filesystem::path into = folder / "into.db";
+  {
+    const sql::Database database(into.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, into.string());
+    database.run("PRAGMA journal_mode = WAL");  // its log goes as it is closed
+  }
+  REQUIRE(std::filesystem::file_size(into) > 0);
+  CHECK(Catalogue::is_new(into));
+  CHECK_THROWS_WITH(Catalogue::open(into), Contains("holds nothing by itself"));
+  merge(into, {folder / "one.db"});
+  CHECK_FALSE(Catalogue::is_new(into));
+  CHECK(hash_of(into) == hash_of(folder / "one.db"));
+}
+
 TEST_CASE("the same key with other content names both files, and nothing is written") {
   const Folder folder;
   make(folder / "a.db", {1, 2});
