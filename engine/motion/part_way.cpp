@@ -19,6 +19,7 @@ constexpr double kMostJump = 0.5;    // rad of a joint from one to the next
 constexpr int kMostTurns = 2;        // steps of the handle in the hand from one to the next
 constexpr double kLeastStep = 0.05;  // rad, of those
 constexpr double kPivotCost = 0.3;   // of a rad that the handle turns in the hand, beside one of a joint
+constexpr double kLinksApart = 0.003;  // m a joint that links keep from each other: under load each trails a little
 constexpr int kMostElbows = 4;       // steps of an elbow either way from where it would come to be by itself
 constexpr double kElbowStep = 0.15;  // rad of all joints together, of those
 
@@ -132,7 +133,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
         const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost >= node.cost || !free(from.q, *q)) continue;
+        if (cost >= node.cost || holding.links_within(*q, kLinksApart) || !free(from.q, *q)) continue;
         node = {*q, elbow_turns ? elbow_of(arm, *q, from.elbow) : JointVector{}, cost, i + most};
       }
       any = any || node.from >= 0;

@@ -112,6 +112,12 @@ bool CollisionQuery::touches(const JointVector& q, double padding_m) {
   return touching;
 }
 
+bool CollisionQuery::links_within(const JointVector& q, double distance_m) {
+  set_positions(q);
+  place_robot();
+  return visit_links(distance_m, [](const CollisionPair&) { return true; });
+}
+
 void CollisionQuery::pose(const JointVector& q) {
   set_positions(q);
   const Robot& robot = model_.scene->robot;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "engine/sim/collision_model.h"
 #include "engine/sim/collision_state.h"
@@ -20,6 +21,7 @@ class CollisionQuery {
 
   bool touches(const JointVector& q) { return touches(q, padding_); }
   bool touches(const JointVector& q, double padding_m);
+  bool links_within(const JointVector& q, double distance_m);  // a joint between them
   // The same in parts: after pose(), single pairs of pieces may be asked about, the robot's or what it holds.
   void pose(const JointVector& q);
   const std::vector<Transform>& poses() const { return poses_; }  // of the robot's parts
@@ -58,7 +60,10 @@ class CollisionQuery {
   template <typename Visitor>
   bool meets_bodies(const Piece& piece, const Placed& placed, bool may_touch, const Visitor& visitor) const;
   template <typename Visitor>
-  bool meets_part(const Piece& piece, const Placed& placed, int robot_part, const Visitor& visitor) const;
+  bool meets_part(const Piece& piece, const Placed& placed, int robot_part, double distance,
+                  const Visitor& visitor) const;
+  template <typename Visitor>
+  bool visit_links(double distance_a_joint, const Visitor& visitor) const;
 
   const CollisionState& state_;
   const CollisionModel& model_;
@@ -85,12 +90,25 @@ bool CollisionQuery::meets_bodies(const Piece& piece, const Placed& placed, bool
 }
 
 template <typename Visitor>
-bool CollisionQuery::meets_part(const Piece& piece, const Placed& placed, int robot_part,
+bool CollisionQuery::meets_part(const Piece& piece, const Placed& placed, int robot_part, double distance,
                                 const Visitor& visitor) const {
   const CollisionModel::Range range = model_.robot_parts[static_cast<std::size_t>(robot_part)];
   for (std::size_t i = range.begin; i < range.end; ++i)
-    if (near(piece, placed, model_.robot[i], robot_[i], 0) && visitor(CollisionPair{piece.part, model_.robot[i].part}))
+    if (near(piece, placed, model_.robot[i], robot_[i], distance) &&
+        visitor(CollisionPair{piece.part, model_.robot[i].part}))
       return true;
+  return false;
+}
+
+template <typename Visitor>
+bool CollisionQuery::visit_links(double distance_a_joint, const Visitor& visitor) const {
+  for (const auto& [one, two] : model_.scene->robot.checked_pairs) {
+    const CollisionModel::Range range = model_.robot_parts[static_cast<std::size_t>(one)];
+    const int between =
+        std::abs(model_.joints[static_cast<std::size_t>(two)] - model_.joints[static_cast<std::size_t>(one)]);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      if (meets_part(model_.robot[i], robot_[i], two, between * distance_a_joint, visitor)) return true;
+  }
   return false;
 }
 
@@ -105,7 +123,6 @@ bool CollisionQuery::visit(const JointVector& q, const Visitor& visitor) {
 
 template <typename Visitor>
 bool CollisionQuery::visit_placed(const Visitor& visitor) const {
-  const Robot& robot = model_.scene->robot;
   const bool holding = state_.held_.has_value();
   for (std::size_t i = 0; i < robot_.size(); ++i) {
     const auto part = static_cast<std::size_t>(model_.robot[i].part.part);
@@ -113,16 +130,12 @@ bool CollisionQuery::visit_placed(const Visitor& visitor) const {
     if (model_.moved[part] && meets_bodies(model_.robot[i], robot_[i], model_.grips[part] && !holding, visitor))
       return true;
   }
-  for (const auto& [one, two] : robot.checked_pairs) {
-    const CollisionModel::Range range = model_.robot_parts[static_cast<std::size_t>(one)];
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      if (meets_part(model_.robot[i], robot_[i], two, visitor)) return true;
-  }
+  if (visit_links(0, visitor)) return true;
   for (std::size_t i = held_begin_; i < held_end_; ++i) {
     const Placed& placed = carried_[i - held_begin_];
     if (!arm_alone_ && meets_bodies(model_.bodies[i], placed, true, visitor)) return true;
     for (const int part : model_.held_partners)
-      if (meets_part(model_.bodies[i], placed, part, visitor)) return true;
+      if (meets_part(model_.bodies[i], placed, part, 0, visitor)) return true;
   }
   return false;
 }

@@ -86,6 +86,10 @@ bool CollisionState::free(const JointVector& q, double padding_m) const {
   return !CollisionQuery(*this, padding_m).touches(q);
 }
 
+bool CollisionState::links_within(const JointVector& q, double distance_m) const {
+  return CollisionQuery(*this).links_within(q, distance_m);
+}
+
 std::optional<CollisionPair> CollisionState::first_contact(const JointVector& q, double padding_m) const {
   std::optional<CollisionPair> found;
   CollisionQuery(*this, padding_m).visit(q, [&](const CollisionPair& pair) {

@@ -53,6 +53,8 @@ class CollisionState {
   bool free(const JointVector& q, double padding_m = 0) const;
   std::optional<CollisionPair> first_contact(const JointVector& q, double padding_m = 0) const;  // in a fixed order
   std::vector<CollisionPair> contacts(const JointVector& q, double padding_m = 0) const;         // each pair once
+  // Do two links that can meet come as near to each other as this for each of the arm's joints between them?
+  bool links_within(const JointVector& q, double distance_m) const;
   // Index of the first configuration that touches something; configurations.size() when none does. See
   // ConfigurationChecker, which keeps its tables from call to call.
   std::size_t first_touching(std::span<const JointVector> configurations, double padding_m = 0) const;

@@ -13,12 +13,6 @@ namespace stampede {
 
 class ContactWindow {
  public:
-  ContactWindow();
-  void add_step(btDispatcher& dispatcher, double dt);  // reads what the solver applied in the step just made
-  void close();
-  const std::vector<Contact>& closed() const { return closed_; }
-  std::optional<PartRef> grasped(const std::vector<int>& pads) const;
-
   // One pair's running sums: of forces in N over the steps of the open window.
   struct Sum {
     PartRef a, b;
@@ -26,6 +20,19 @@ class ContactWindow {
     std::int64_t step = 0;  // that step_normal belongs to
     Vector3 normal_vector = Vector3::Zero(), point = Vector3::Zero(), force = Vector3::Zero();
   };
+
+  ContactWindow();
+  void add_step(btDispatcher& dispatcher, double dt);  // reads what the solver applied in the step just made
+  void close();
+  const std::vector<Contact>& closed() const { return closed_; }
+  // Calls visitor(a, b, point, normal) for what touched in the closed window, and in the open one so far.
+  template <typename Visitor>
+  void visit(const Visitor& visitor) const {
+    for (const Contact& one : closed_) visitor(one.a, one.b, one.point, one.normal);
+    for (const Sum& sum : sums_) visitor(sum.a, sum.b, sum.point / sum.normal, sum.normal_vector.normalized());
+  }
+  std::optional<PartRef> grasped(const std::vector<int>& pads) const;
+
   // All of it is part of a snapshot.
   struct State {
     std::vector<Sum> open;

@@ -192,20 +192,19 @@ std::vector<double> World::Impl::contact_levers() const {
   std::vector<double> levers;
   const Robot& robot = scene->robot;
   const auto held = contacts.grasped(robot.pads);
-  const auto meet = [&](PartRef link, PartRef other, const Contact& contact) {
+  const auto meet = [&](PartRef link, PartRef other, const Vector3& point, const Vector3& normal) {
     if (link.body != kRobot || (held == other && body(other.body).free)) return;
     if (levers.empty()) levers.assign(robot.arm.size(), std::numeric_limits<double>::infinity());
     for (std::size_t j = 0; j < robot.arm.size(); ++j) {
       if (!moves(j, link)) continue;
-      const Vector3 way = lever(j, contact.point);
-      levers[j] =
-          std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(contact.normal)) + kRubbing * way.norm());
+      const Vector3 way = lever(j, point);
+      levers[j] = std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(normal)) + kRubbing * way.norm());
     }
   };
-  for (const Contact& one : contacts.closed()) {
-    meet(one.a, one.b, one);
-    meet(one.b, one.a, one);
-  }
+  contacts.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& normal) {
+    meet(one, other, point, normal);
+    meet(other, one, point, normal);
+  });
   return levers;
 }
 

@@ -38,13 +38,13 @@ constexpr double kSlowSpin = 1e-4;     // rad/s: gyroscopic torque is left out b
 // Points between two free bodies that lie further apart than this, across the longest way between two of them, resist
 // turning by themselves.
 constexpr double kNarrow_m = 0.008;
-constexpr double kBears_m = 1e-4;                        // a point of contact that is further away bears nothing
-constexpr double kSoftForce = 80, kPointForce = 10;      // N: of a pair, and of each of its points at least
-constexpr double kSoft_m = 0.0008, kHardness = 100'000;  // N/m
-constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;    // m/s, rad/s: slower is at rest
-constexpr double kTrembling = 10, kSettling = 100;       // times that
-constexpr double kSmoothing = 0.125;                     // of the speeds that are looked at: resting things tremble
-constexpr int kRestSteps = 24;                           // at rest for so long, an island falls asleep
+constexpr double kBears_m = 1e-4;                       // a point of contact that is further away bears nothing
+constexpr double kSoftForce = 80, kPointForce = 10;     // N: of a pair, and of each of its points at least
+constexpr double kSoft_m = 0.0008, kHardness = 60'000;  // N/m
+constexpr double kRestSpeed = 5e-4, kRestSpin = 5e-3;   // m/s, rad/s: slower is at rest
+constexpr double kTrembling = 10, kSettling = 100;      // times that
+constexpr double kSmoothing = 0.125;                    // of the speeds that are looked at: resting things tremble
+constexpr int kRestSteps = 24;                          // at rest for so long, an island falls asleep
 constexpr int kFindSteps = 8;      // that it stays awake for at least, where contacts have to be found anew
 constexpr double kMeetGap = 1e-3;  // m: what will be nearer than that at the end of the step meets
 

@@ -144,7 +144,8 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
   wanted *= slow;
   wanted = slowed(arm, now.position, wanted, guard.pace, acted);
 
-  // Joints that change their speed each in its own time could make the tool faster than before and after.
+  // Joints that change their speed each in its own time could make the tool faster than before and after; and as they
+  // turn, the tool gets faster by itself.
   double share = 1;
   JointVector soon = now.velocity;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
@@ -153,7 +154,7 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
     if (std::abs(change) > most) share = std::min(share, most / std::abs(change));
   }
   if ((arm.jacobian(now.position).topRows<3>() * soon).norm() > kToolSpeed) {
-    wanted = now.velocity + share * (wanted - now.velocity);
+    wanted = slowed(arm, now.position, now.velocity + share * (wanted - now.velocity), 1, acted);
     acted.note(Limit::tool_speed);
   }
 

@@ -216,7 +216,7 @@ class Measurement {
       return lump.name == whole || lump.name == object;
     };
     return std::ranges::any_of(episode_.contacts, [&](const ContactRecord& contact) {
-      return contact.first_frame <= frame_ && frame_ < contact.end_frame &&
+      return contact.first_frame <= frame_ && frame_ <= contact.end_frame &&  // it ended with this frame's picture
              ((is(one, contact.object_a, contact.part_a) && is(other, contact.object_b, contact.part_b)) ||
               (is(other, contact.object_a, contact.part_a) && is(one, contact.object_b, contact.part_b)));
     });
