@@ -25,11 +25,12 @@ class ContactWindow {
   void add_step(btDispatcher& dispatcher, double dt);  // reads what the solver applied in the step just made
   void close();
   const std::vector<Contact>& closed() const { return closed_; }
-  // Calls visitor(a, b, point, normal) for what touched in the closed window, and in the open one so far.
+  // Calls visitor(a, b, point, direction of the force) for what touched in the closed window, and in the open one so
+  // far.
   template <typename Visitor>
   void visit(const Visitor& visitor) const {
-    for (const Contact& one : closed_) visitor(one.a, one.b, one.point, one.normal);
-    for (const Sum& sum : sums_) visitor(sum.a, sum.b, sum.point / sum.normal, sum.normal_vector.normalized());
+    for (const Contact& one : closed_) visitor(one.a, one.b, one.point, one.force.normalized());
+    for (const Sum& sum : sums_) visitor(sum.a, sum.b, sum.point / sum.normal, sum.force.normalized());
   }
   std::optional<PartRef> grasped(const std::vector<int>& pads) const;
 

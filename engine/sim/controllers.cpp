@@ -192,18 +192,18 @@ std::vector<double> World::Impl::contact_levers() const {
   std::vector<double> levers;
   const Robot& robot = scene->robot;
   const auto held = contacts.grasped(robot.pads);
-  const auto meet = [&](PartRef link, PartRef other, const Vector3& point, const Vector3& normal) {
+  const auto meet = [&](PartRef link, PartRef other, const Vector3& point, const Vector3& along) {
     if (link.body != kRobot || (held == other && body(other.body).free)) return;
     if (levers.empty()) levers.assign(robot.arm.size(), std::numeric_limits<double>::infinity());
     for (std::size_t j = 0; j < robot.arm.size(); ++j) {
       if (!moves(j, link)) continue;
       const Vector3 way = lever(j, point);
-      levers[j] = std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(normal)) + kRubbing * way.norm());
+      levers[j] = std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(along)) + kRubbing * way.norm());
     }
   };
-  contacts.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& normal) {
-    meet(one, other, point, normal);
-    meet(other, one, point, normal);
+  contacts.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& along) {
+    meet(one, other, point, along);
+    meet(other, one, point, along);
   });
   return levers;
 }

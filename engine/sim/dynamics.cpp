@@ -145,6 +145,7 @@ void Dynamics::step(int iterations) {
   torsions_.clear();
   wake_what_is_met();
   apply_forces();
+  untouched_ = velocities_;
   find_touching();
   for (const Island& island : islands_) solve_island(island, iterations);
   move();
@@ -688,28 +689,35 @@ void Dynamics::add_joints(const Mover& mover) {
 }
 
 // Where every joint has one motor, the impulses that give all joints the speeds asked for are M (wanted - now): the
-// answer, but for contacts and for motors at the end of their force.
+// answer, but for contacts and for motors at the end of their force. What a motor may give against contact counts from
+// what it takes where nothing touches: from what contacts bore in the step before, force would grow step by step.
 void Dynamics::start_motors(const Mover& mover, std::size_t first) {
   const Articulation& tree = *mover.tree;
   const auto count = static_cast<std::size_t>(tree.dofs());
   if (joints_.size() - first != count || mover.motors.size() != count) return;
-  std::vector<double>& missing = scratch_;
-  missing.assign(count, 0);
   const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
+  const double* untouched = untouched_[static_cast<std::size_t>(mover.at)].v;
+  std::vector<double>& missing = scratch_;
+  missing.assign(2 * count, 0);  // now; where nothing touches
   for (std::size_t i = 0; i < count; ++i) {
-    const int dof = mover.motors[i]->dof;
-    missing[static_cast<std::size_t>(dof)] = joints_[first + i].target - speeds[dof];
+    const auto dof = static_cast<std::size_t>(mover.motors[i]->dof);
+    missing[dof] = joints_[first + i].target - speeds[dof];
+    missing[count + dof] = joints_[first + i].target - untouched[dof];
   }
   for (std::size_t i = 0; i < count; ++i) {
     SolverRow& row = joints_[first + i];
-    double impulse = 0;
-    for (std::size_t j = 0; j < count; ++j)
-      impulse += tree.mass(mover.motors[i]->dof, static_cast<int>(j)) * missing[j];
-    row.impulse = std::clamp(impulse, row.lower, row.upper);
-    if (const double most = dt_ * mover.motors[i]->against_contact; most > 0) {
-      row.lower = std::max(row.lower, row.impulse - most);
-      row.upper = std::min(row.upper, row.impulse + most);
+    double impulse = 0, own = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      const double mass = tree.mass(mover.motors[i]->dof, static_cast<int>(j));
+      impulse += mass * missing[j];
+      own += mass * missing[count + j];
     }
+    own = std::clamp(own, row.lower, row.upper);
+    if (const double most = dt_ * mover.motors[i]->against_contact; most > 0) {
+      row.lower = std::max(row.lower, own - most);
+      row.upper = std::min(row.upper, own + most);
+    }
+    row.impulse = std::clamp(impulse, row.lower, row.upper);
   }
   for (std::size_t i = 0; i < count; ++i) start(joints_[first + i], joints_[first + i].impulse);
 }

@@ -225,7 +225,7 @@ class Dynamics {
   std::deque<Node> nodes_;
   std::vector<Mover> movers_;
 
-  std::vector<Quad> velocities_;
+  std::vector<Quad> velocities_, untouched_;                          // now; by forces alone, before any contact
   std::vector<double> fast_;                                          // m that a free body gets in a step
   std::vector<std::pair<btPersistentManifold*, double>> encounters_;  // with their usual margins, m
   std::vector<Touching> touching_;

@@ -460,3 +460,31 @@ TEST_CASE("among a thousand things the answers are those for each alone", "[sim]
     CHECK(state.first_touching(std::span(&a, 1)) == (free ? 1U : 0U));
   }
 }
+
+TEST_CASE("links that are near each other are told before they touch, the further apart on the arm the sooner",
+          "[sim]") {
+  const World world(shared(table_scene(0)));
+  const CollisionState state = world.collision_state();
+  const auto meets_itself = [&](const JointVector& q) {
+    return std::ranges::any_of(state.contacts(q), [](const CollisionPair& pair) { return pair.other.body == -1; });
+  };
+  Random random(RandomKey("links"));
+  int touching = 0, near = 0, apart = 0;
+  for (int i = 0; i < 3000; ++i) {
+    JointVector q(7);
+    for (Eigen::Index j = 0; j < 7; ++j) {
+      const JointLimits& own = world.arm().limits()[static_cast<std::size_t>(j)];
+      q[j] = random.between(own.lower, own.upper);
+    }
+    const bool touches = state.links_within(q, 0);
+    CHECK(touches == meets_itself(q));
+    if (touches) CHECK(state.links_within(q, 0.003));
+    touching += touches;
+    near += !touches && state.links_within(q, 0.003);
+    apart += !state.links_within(q, 0.003);
+  }
+  CHECK(touching > 100);
+  CHECK(near > 20);
+  CHECK(apart > 1000);
+  CHECK_FALSE(state.links_within(world.arm().home(), 0.003));
+}

@@ -42,6 +42,31 @@ TEST_CASE("a servo's reference keeps the limits of speed, acceleration and range
   }
 }
 
+TEST_CASE("the tool keeps its speed limit while the arm turns, however long it is asked to go fast", "[sim]") {
+  World world(shared(table_scene(0)));
+  Random random(RandomKey("tool speed"));
+  const auto kind = GENERATE(Servo::Of::position, Servo::Of::velocity);
+  double fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    JointVector value(7);
+    for (Eigen::Index j = 0; j < 7; ++j) {
+      const JointLimits& own = world.arm().limits()[static_cast<std::size_t>(j)];
+      value[j] = kind == Servo::Of::position ? random.between(own.lower, own.upper)
+                                             : random.between(-own.velocity, own.velocity);
+    }
+    world.apply(Servo{kind, value});
+    const std::int64_t held = 12 * random.below(20);
+    for (int k = 0; k < held; ++k) {
+      if (k % 12 == 0) world.apply(Servo{kind, value});
+      world.step();
+      const JointState now = world.reference();
+      fastest = std::max(fastest, (world.arm().jacobian(now.position).topRows<3>() * now.velocity).norm());
+    }
+  }
+  CHECK(fastest > 1.5);
+  CHECK(fastest < 1.65);  // 1.6 m/s, and what a step adds
+}
+
 TEST_CASE("a position is reached without passing it, and a velocity of nothing is rest", "[sim]") {
   World world(shared(table_scene(0)));
   const JointVector goal = world.arm().home() + constant(0.2);
