@@ -698,26 +698,29 @@ void Dynamics::start_motors(const Mover& mover, std::size_t first) {
   const double* speeds = velocities_[static_cast<std::size_t>(mover.at)].v;
   const double* untouched = untouched_[static_cast<std::size_t>(mover.at)].v;
   std::vector<double>& missing = scratch_;
-  missing.assign(2 * count, 0);  // now; where nothing touches
+  missing.assign(4 * count, 0);  // speeds: now; where nothing touches; and the impulses that give them
+  double *now = missing.data(), *alone = now + count, *impulses = alone + count, *own = impulses + count;
   for (std::size_t i = 0; i < count; ++i) {
     const auto dof = static_cast<std::size_t>(mover.motors[i]->dof);
-    missing[dof] = joints_[first + i].target - speeds[dof];
-    missing[count + dof] = joints_[first + i].target - untouched[dof];
+    now[dof] = joints_[first + i].target - speeds[dof];
+    alone[dof] = joints_[first + i].target - untouched[dof];
+  }
+  bool able = true;  // each of them can do what is asked of it: else the others must make up for it
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      const double mass = tree.mass(mover.motors[i]->dof, static_cast<int>(j));
+      impulses[i] += mass * now[j];
+      own[i] += mass * alone[j];
+    }
+    able = able && (mover.motors[i]->against_contact == 0 || std::abs(own[i]) <= joints_[first + i].upper);
   }
   for (std::size_t i = 0; i < count; ++i) {
     SolverRow& row = joints_[first + i];
-    double impulse = 0, own = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-      const double mass = tree.mass(mover.motors[i]->dof, static_cast<int>(j));
-      impulse += mass * missing[j];
-      own += mass * missing[count + j];
+    if (const double most = dt_ * mover.motors[i]->against_contact; most > 0 && able) {
+      row.lower = std::max(row.lower, own[i] - most);
+      row.upper = std::min(row.upper, own[i] + most);
     }
-    own = std::clamp(own, row.lower, row.upper);
-    if (const double most = dt_ * mover.motors[i]->against_contact; most > 0) {
-      row.lower = std::max(row.lower, own - most);
-      row.upper = std::min(row.upper, own + most);
-    }
-    row.impulse = std::clamp(impulse, row.lower, row.upper);
+    row.impulse = std::clamp(impulses[i], row.lower, row.upper);
   }
   for (std::size_t i = 0; i < count; ++i) start(joints_[first + i], joints_[first + i].impulse);
 }
