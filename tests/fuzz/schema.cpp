@@ -179,16 +179,19 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-void read(const fs::path& file) {
+// An eighth of the views and one way of reading the episodes: which, says `asked`.
+void read(const fs::path& file, std::size_t asked) {
   const Catalogue catalogue = Catalogue::open(file);
+  std::size_t number = asked;
   for (const SqlFile& view : embedded_views())
-    tolerated([&] { (void)catalogue.query("SELECT * FROM " + view.name, {{}, 2}); });
+    if (number++ % 8 == 0) tolerated([&] { (void)catalogue.query("SELECT * FROM " + view.name, {{}, 2}); });
   tolerated([&] { (void)catalogue.query("SELECT * FROM main.episodes", {{}, 2}); });
-  for (const EpisodeSummary& episode : catalogue.episodes()) {
-    tolerated([&] { (void)catalogue.read_episode(episode.id); });
-    tolerated([&] { (void)catalogue.read_arrays(episode.id); });
-    tolerated([&] { (void)catalogue.images(episode.id); });
-  }
+  for (const EpisodeSummary& episode : catalogue.episodes())
+    tolerated([&] {
+      if (asked / 8 % 3 == 0) (void)catalogue.read_episode(episode.id);
+      if (asked / 8 % 3 == 1) (void)catalogue.read_arrays(episode.id);
+      if (asked / 8 % 3 == 2) (void)catalogue.images(episode.id);
+    });
 }
 
 }  // namespace
@@ -200,7 +203,8 @@ void use_altered_schema(const fs::path& folder, std::string_view changes) {
   std::ofstream(canary, std::ios::binary) << all.canary;
   Changes front(changes);
   std::ofstream(file, std::ios::binary) << all.catalogues[front.number(all.catalogues.size())];
-  const bool writes = front.number(4) == 0;
+  const bool writes = front.number(16) == 0;
+  const std::size_t asked = front.number(24);
   {
     RawDatabase database(file);
     while (!front.empty()) change_schema(database, front);
@@ -213,7 +217,7 @@ void use_altered_schema(const fs::path& folder, std::string_view changes) {
     if (test::bytes_of(canary) != all.canary) throw std::logic_error("the catalogue beside it was changed");
   };
   const std::string before = test::bytes_of(file);
-  tolerated([&] { read(file); });
+  tolerated([&] { read(file, asked); });
   tolerated([&] { (void)PlainFile::open(file); });
   is_as_it_was({"altered.db", "canary.db"});
   if (test::bytes_of(file) != before) throw std::logic_error("reading changed the file");
