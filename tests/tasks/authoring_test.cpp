@@ -95,13 +95,13 @@ TEST_CASE("values that formulas of the library name are constants of every domai
         domain.constants.end());
 }
 
-TEST_CASE("what eight tries of authors look like now: each is done, with one seed", "[!mayfail]") {
+TEST_CASE("what eight tries of authors look like now: each is done, with one seed") {
   const std::vector<std::pair<std::string, std::string>> tasks = {
       {"peg_in_bore", "insert peg"},       {"beans_into_dish", "drop bean"},     {"shut_every_lid", "close crate.lid"},
       {"wipe_stain", "wipe sponge"},       {"light_beacon", "press beacon.cap"}, {"put_away", "close crate.lid"},
       {"empty_the_pot", "pick_empty pot"}, {"tin_beside_cube", "put_beside tin"}};
   for (const auto& [task, skill] : tasks) {
-    const EpisodeRecord episode = run_authors(task);
+    const EpisodeRecord episode = run_authors(task, 4);
     INFO(task + ": " + verdict(episode));
     CHECK(episode.outcome == Outcome::success);
     const std::vector<std::string> skills = skills_of(episode);
