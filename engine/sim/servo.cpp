@@ -154,13 +154,14 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
     if (std::abs(change) > most) share = std::min(share, most / std::abs(change));
   }
   if ((arm.jacobian(now.position).topRows<3>() * soon).norm() > kToolSpeed) {
-    wanted = slowed(arm, now.position, now.velocity + share * (wanted - now.velocity), 1, acted);
-    acted.note(Limit::tool_speed);
+    wanted = now.velocity + share * (wanted - now.velocity);
     for (Eigen::Index i = 0; i < wanted.size(); ++i) {  // but each brakes for its stops
       const auto [slowest, fastest] =
           allowed(now.position[i], limits[static_cast<std::size_t>(i)], led ? 0 : kMargin_rad, 1);
       wanted[i] = std::clamp(wanted[i], slowest, fastest);
     }
+    wanted = slowed(arm, now.position, wanted, 1, acted);
+    acted.note(Limit::tool_speed);
   }
 
   JointState next = now;
