@@ -7,7 +7,10 @@ return task {
     oven = { "oven", place = places.round_the_table(0.14, deg(45), 0.75, 0, 0.38) },
     tray = { "baking_tray" },
   },
-  init = { is.closed("oven.door"), is.workable("oven.door"), is.on("tray", "table"), is.outside("tray", "oven.front") },
+  init = {
+    is.closed("oven.door"), is.workable("oven.door"), is.on("tray", "table"), is.outside("tray", "oven.front"),
+    is.reachable("tray"),
+  },
   goal = { is.inside("tray", "oven.shelf"), is.hand_empty() },
   instructions = {
     "put the tray in the oven",

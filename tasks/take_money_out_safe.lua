@@ -8,7 +8,13 @@ return task {
     safe = { "safe", place = places.beside_the_table(0.17, deg(45), 0.75, 0, nil, 0.38) },
     low = { "money" }, mid = { "money" }, high = { "money" },
   },
-  init = { is.inside("low", "safe.bottom_shelf"), is.inside("mid", "safe.middle_shelf"), is.inside("high", "safe.top_shelf") },
+  init = function(v)
+    local stacks = { bottom = "low", middle = "mid", top = "high" }
+    return {
+      is.inside("low", "safe.bottom_shelf"), is.inside("mid", "safe.middle_shelf"), is.inside("high", "safe.top_shelf"),
+      is.reachable(stacks[v.shelf]),
+    }
+  end,
   goal = function(v)
     local stacks = { bottom = "low", middle = "mid", top = "high" }
     local parts = { is.on(stacks[v.shelf], "table"), is.hand_empty() }
