@@ -36,14 +36,12 @@ TEST_CASE("a valve of one and a half turns is turned by the library's own skill,
 }
 
 TEST_CASE("a door that one grip does not open far enough is opened with several") {
-  int grips = 0;
-  for (const std::uint64_t seed : {1, 5, 6}) {
+  for (const std::uint64_t seed : {5, 7, 10}) {
     const EpisodeRecord episode = run_authored("open_the_wide_door", "", seed);
     INFO(verdict(episode));
     CHECK(episode.outcome == Outcome::success);
-    grips = std::max(grips, motions_of(episode, "move_part"));
+    CHECK(motions_of(episode, "move_part") > 1);
   }
-  CHECK(grips > 1);
 }
 
 TEST_CASE("a held rod that is taken to a place 4 mm beside its hole finds it where the slot says that it may search") {

@@ -1,6 +1,6 @@
 -- A small desktop computer, lying; two ports in its front, which looks along -x.
 local dark, grey = { 0.16, 0.17, 0.19 }, { 0.27, 0.28, 0.31 }
-local depth, wide, high, port, apart = 0.016, 0.0132, 0.0054, 0.050, 0.060 -- m: of the ports; their height, their distance
+local depth, wide, high, port, apart = 0.016, 0.014, 0.006, 0.050, 0.060 -- m: of the ports; their height, their distance
 local x = depth / 2
 local side = 0.10 - (apart + wide) / 2
 
