@@ -9,20 +9,11 @@ for _, least in ipairs { 0, 6, 12 } do
   end
 end
 
-local plug = hull { colour = { 0.80, 0.80, 0.83 } } -- its end is bevelled, as plugs are that hands put in
-for _, y in ipairs { -1, 1 } do
-  for _, z in ipairs { -1, 1 } do
-    plug[#plug + 1] = { 0.0225, y * 0.00625, z * 0.0024 }
-    plug[#plug + 1] = { 0.0340, y * 0.00625, z * 0.0024 }
-    plug[#plug + 1] = { 0.0365, y * 0.0050, z * 0.0012 }
-  end
-end
-
 return object {
   type = "usb_stick", traits = { "movable", "graspable" }, mass = 0.02, colour = "red", friction = 0.5,
   shapes = {
     box { 0.045, 0.020, 0.012 },
-    plug,
+    box { 0.014, 0.0125, 0.0048, at = { 0.0295, 0, 0 }, colour = { 0.80, 0.80, 0.83 } },
     box { 0.012, 0.0202, 0.0122, at = { -0.012, 0, 0 }, colour = { 0.92, 0.92, 0.92 }, collides = false },
   },
   regions = { seat = { at = { 0.0365, 0, 0 }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.0048, 0.0125, 0.001 } } },
