@@ -13,15 +13,15 @@
 namespace stampede {
 namespace {
 
-constexpr int kLayers = 16;          // places of the part that are looked at, at least
-constexpr double kLayerTurn = 0.25;  // rad from one to the next, at most
-constexpr double kMostJump = 0.5;    // rad of a joint from one to the next
-constexpr int kMostTurns = 2;        // steps of the handle in the hand from one to the next
-constexpr double kLeastStep = 0.05;  // rad, of those
-constexpr double kPivotCost = 0.3;   // of a rad that the handle turns in the hand, beside one of a joint
+constexpr int kLayers = 16;            // places of the part that are looked at, at least
+constexpr double kLayerTurn = 0.25;    // rad from one to the next, at most
+constexpr double kMostJump = 0.5;      // rad of a joint from one to the next
+constexpr int kMostTurns = 2;          // steps of the handle in the hand from one to the next
+constexpr double kLeastStep = 0.05;    // rad, of those
+constexpr double kPivotCost = 0.3;     // of a rad that the handle turns in the hand, beside one of a joint
 constexpr double kLinksApart = 0.003;  // m a joint that links keep from each other: under load each trails a little
-constexpr int kMostElbows = 4;       // steps of an elbow either way from where it would come to be by itself
-constexpr double kElbowStep = 0.15;  // rad of all joints together, of those
+constexpr int kMostElbows = 4;         // steps of an elbow either way from where it would come to be by itself
+constexpr double kElbowStep = 0.15;    // rad of all joints together, of those
 
 struct Node {
   JointVector q;
