@@ -118,6 +118,10 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
   const bool led = leads(servo), passage = servo.of == operation::Servo::Of::passage;
   const double left_s = led ? stream.due_s() - since : 0;
   JointVector wanted = servo.value;
+  // What each joint may have at its place, so that it can stop before its end.
+  const auto range = [&](Eigen::Index i) {
+    return allowed(now.position[i], limits[static_cast<std::size_t>(i)], led ? 0 : kMargin_rad, 1);
+  };
   double slow = 1;  // share that the pace leaves
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const JointLimits& own = limits[static_cast<std::size_t>(i)];
@@ -128,7 +132,7 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
                       ? passing_speed(q, now.velocity[i], wanted[i], passing, left_s, dt)
                       : leading_speed(q, now.velocity[i], wanted[i], passing, own, dt);
     }
-    const auto [slowest, fastest] = allowed(q, own, led ? 0 : kMargin_rad, 1);
+    const auto [slowest, fastest] = range(i);
     const double kept = std::clamp(wanted[i], slowest, fastest);
     if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(Limit::speed);
     wanted[i] = kept;
@@ -156,8 +160,7 @@ JointState guided(const JointState& now, const operation::Servo& servo, const St
   if ((arm.jacobian(now.position).topRows<3>() * soon).norm() > kToolSpeed) {
     wanted = now.velocity + share * (wanted - now.velocity);
     for (Eigen::Index i = 0; i < wanted.size(); ++i) {  // but each brakes for its stops
-      const auto [slowest, fastest] =
-          allowed(now.position[i], limits[static_cast<std::size_t>(i)], led ? 0 : kMargin_rad, 1);
+      const auto [slowest, fastest] = range(i);
       wanted[i] = std::clamp(wanted[i], slowest, fastest);
     }
     wanted = slowed(arm, now.position, wanted, 1, acted);

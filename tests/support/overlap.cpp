@@ -215,8 +215,9 @@ class Measurement {
       const std::string whole = part.empty() || object.ends_with("." + part) ? object : object + "." + part;
       return lump.name == whole || lump.name == object;
     };
+    // A contact's frames are those between which it was: at the last of them, too, things are as it left them.
     return std::ranges::any_of(episode_.contacts, [&](const ContactRecord& contact) {
-      return contact.first_frame <= frame_ && frame_ <= contact.end_frame &&  // it ended with this frame's picture
+      return contact.first_frame <= frame_ && frame_ <= contact.end_frame &&
              ((is(one, contact.object_a, contact.part_a) && is(other, contact.object_b, contact.part_b)) ||
               (is(other, contact.object_a, contact.part_a) && is(one, contact.object_b, contact.part_b)));
     });
