@@ -44,6 +44,15 @@ std::optional<PartWay> way_to(const WorldView& view, const std::string& name, co
   return way;
 }
 
+// Where a number of the part lies on its way from where its joint is to where another of its numbers says.
+static std::optional<double> share_of(const WorldView& view, const std::string& part, const std::string& to,
+                                      const std::string& number) {
+  const auto& numbers = view.object(part).numbers;
+  if (!numbers.contains(to) || !numbers.contains(number)) return std::nullopt;
+  const double from = view.joint(part);
+  return (numbers.at(number) - from) / (numbers.at(to) - from);
+}
+
 CollisionState WorldView::space_behind(const std::string& before) const {
   CollisionState space = world_->collision_state();
   if (before.empty()) return space;
@@ -61,8 +70,10 @@ bool WorldView::can_grasp(const std::string& name, const std::string& before) co
   });
 }
 
-bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before) const {
-  constexpr double kWithOneGrip = 0.25;  // of the way of what turns: it may be gripped again
+bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before,
+                         const std::string& enough) const {
+  constexpr int kMostGrips = 8;
+  constexpr double kSlack = 0.03;  // of the way: what a handle gives in the hand
   CollisionState space = space_behind(before);
   // What else of the furniture is open may be shut first: that is for the plan to find.
   for (const Object& other : scene().objects)
@@ -71,11 +82,18 @@ bool WorldView::can_move(const std::string& part, const std::string& to, const s
       put(*this, other.name, other.numbers.at("closed_at"), space);
   for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
   const std::optional<PartWay> way = way_to(*this, part, to);
-  if (!way) throw Error("can_move", "'" + part + "' has no number '" + to + "'");
-  const PartWay first = way->turn == 0 ? *way : first_of(*way, kWithOneGrip);
-  const auto grasps =
-      grasp_candidates(space, *world_, object(part), world_->arm_position(), RandomKey("can_move"), kEnough, first);
-  return grasps.size() == kEnough;
+  const auto needed = share_of(*this, part, to, enough.empty() ? to : enough);
+  if (!way || !needed) throw Error("can_move", "'" + part + "' has no number '" + (way ? enough : to) + "'");
+  const double least = std::min(1.0, *needed + kSlack);
+  double done = 0;  // share of the way, grip by grip
+  for (int grip = 0; grip < kMostGrips && done < least; ++grip) {
+    CollisionState there = space;
+    there.move_part(way->part, way->moved(done));
+    const auto found = grasps_to_go(*this, there, part, rest_of(*way, done), done, 1, RandomKey("can_move"), kEnough);
+    if (found.size() < (grip == 0 ? kEnough : 1)) return false;
+    done = *found.front().reach;
+  }
+  return done >= least;
 }
 
 std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable,

@@ -60,10 +60,12 @@ class WorldView {
   // Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way, however
   // they are drawn? With `before`, a part that it is behind, open. As costly as looking for grasps: some milliseconds.
   bool can_grasp(const std::string& object, const std::string& before = {}) const;
-  // Could the arm, from where it is, take the part with two of its grasps at least and go with it to where its number
-  // `to` says, or with more than one grip a part of the way, nothing in its way? With `before`, a part that the way is
-  // behind, open. As costly as looking for such a grasp: up to a second where there is none.
-  bool can_move(const std::string& part, const std::string& to, const std::string& before = {}) const;
+  // Could the arm, from where it is, take the part with two of its grasps at least and go with it, nothing in its way,
+  // towards where its number `to` says, and with one grip after another, from wherever the last one ends, at least as
+  // far as its number `enough` (by default `to`)? With `before`, a part that the way is behind, open. As costly as
+  // looking for such grasps: up to a second each where there is none.
+  bool can_move(const std::string& part, const std::string& to, const std::string& before = {},
+                const std::string& enough = {}) const;
   // The world as planning sees it, with a part that is in front of something open, as far as it is pulled.
   CollisionState space_behind(const std::string& before) const;
   std::string grasped_object() const;  // or empty

@@ -132,11 +132,13 @@ void measure_miss(const CollisionState& state, const GraspCandidate& grasp, cons
 
 // All that might be a grasp of one object.
 struct Search {
-  Search(const CollisionState& state, const World& world, const Object& object, const JointVector& start, RandomKey key)
+  Search(const CollisionState& state, const World& world, const Object& object, const JointVector& start, RandomKey key,
+         const std::optional<PartWay>& follow = {})
       : opening_max(world.scene().robot.opening_max), authored(!object.grasps.empty()) {
     const Part& part = part_of(world.scene(), object, ref.body);
     ref.part = object.part;
     world_from_body = world.world_from_part(ref);
+    if (follow) world_from_body = follow->before * world_from_body;
     options = make_options(world.scene(), object, part, world_from_body, state.arm().world_from_tip(start), key);
     if (options.size() > kMostTested) options.resize(kMostTested);
   }
@@ -184,7 +186,7 @@ Transform world_from_object(const World& world, const Object& object) {
 std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
                                              const JointVector& start, RandomKey key, int most,
                                              const std::optional<PartWay>& follow) {
-  const Search search(state, world, object, start, key);
+  const Search search(state, world, object, start, key, follow);
   std::vector<GraspCandidate> found;
   CollisionState hand = search.hand(state);
   for (const double room :

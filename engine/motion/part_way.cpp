@@ -194,6 +194,20 @@ std::vector<PartRef> with_mounted(const Scene& scene, PartRef part) {
   return parts;
 }
 
+PartWay rest_of(const PartWay& way, double share) {
+  if (share == 0) return way;
+  PartWay rest = way;
+  const Transform there = way.moved(share);
+  rest.moved = [moved = way.moved, back = Transform(there.inverse()), share](double of_it) {
+    return Transform(moved(share + of_it * (1 - share)) * back);
+  };
+  rest.before = there * way.before;
+  rest.axis = there.linear() * way.axis;
+  rest.turn *= 1 - share;
+  rest.stop = way.stop <= share ? 0 : (way.stop - share) / (1 - share);
+  return rest;
+}
+
 PartWay first_of(const PartWay& way, double share) {
   if (share == 1) return way;
   PartWay part = way;

@@ -14,6 +14,7 @@ namespace stampede {
 struct PartWay {
   PartRef part;
   std::function<Transform(double)> moved;  // by what motion the part has left its place, at a share 0 … 1 of its way
+  Transform before = Transform::Identity();  // by what motion it got to that place from where the world has it
   Vector3 axis = Vector3::UnitZ();         // it turns about, a unit vector
   double turn = 0;                         // rad about the axis in all; 0: it slides
   double opening = 0;                      // m, of the hand that holds it
@@ -45,6 +46,8 @@ bool free_at_end(const CollisionState& state, const JointVector& start, const Pa
 // A part and all whose joints hang on it: a door and its lever.
 std::vector<PartRef> with_mounted(const Scene& scene, PartRef part);
 
+// What is left of a way after `share` of it.
+PartWay rest_of(const PartWay& way, double share);
 // The first `share` of a way.
 PartWay first_of(const PartWay& way, double share);
 ArmWay first_of(const ArmWay& way, double share);

@@ -311,12 +311,14 @@ function stampede_world_view:carried(thing) end
 ---@return boolean
 function stampede_world_view:can_grasp(thing, before) end
 -- Could the arm, from where it is, take the part with two of its grasps at least and go with it towards its number `to`,
--- nothing in the way; with `before`, a part that it is behind, open?
+-- nothing in the way, with one grip after another at least as far as its number `enough` (by default `to`); with `before`,
+-- a part that it is behind, open?
 ---@param part string
 ---@param to string
 ---@param before? string
+---@param enough? string
 ---@return boolean
-function stampede_world_view:can_move(part, to, before) end
+function stampede_world_view:can_move(part, to, before, enough) end
 ---@return string|nil
 function stampede_world_view:grasped_object() end
 -- Of the hand

@@ -86,8 +86,8 @@ int can_grasp(lua_State* state) {
 
 int can_move(lua_State* state) {
   const std::string part(check_text(state, 2)), to(check_text(state, 3));
-  const std::string before = optional_name(state, 4);
-  lua_pushboolean(state, view_of(state).can_move(part, to, before) ? 1 : 0);
+  const std::string before = optional_name(state, 4), enough = optional_name(state, 5);
+  lua_pushboolean(state, view_of(state).can_move(part, to, before, enough) ? 1 : 0);
   return 1;
 }
 
