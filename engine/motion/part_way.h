@@ -15,12 +15,12 @@ struct PartWay {
   PartRef part;
   std::function<Transform(double)> moved;  // by what motion the part has left its place, at a share 0 … 1 of its way
   Transform before = Transform::Identity();  // by what motion it got to that place from where the world has it
-  Vector3 axis = Vector3::UnitZ();         // it turns about, a unit vector
-  double turn = 0;                         // rad about the axis in all; 0: it slides
-  double opening = 0;                      // m, of the hand that holds it
-  double retreat = 0;                      // m that the hand must be able to go straight back at the end
-  double stop = 1;                         // share at which the part meets its stop: on from there it is pressed
-  double pivot = 0;                        // rad either way that a handle may turn in the hand, about the axis
+  Vector3 axis = Vector3::UnitZ();           // it turns about, a unit vector
+  double turn = 0;                           // rad about the axis in all; 0: it slides
+  double opening = 0;                        // m, of the hand that holds it
+  double retreat = 0;                        // m that the hand must be able to go straight back at the end
+  double stop = 1;                           // share at which the part meets its stop: on from there it is pressed
+  double pivot = 0;                          // rad either way that a handle may turn in the hand, about the axis
 };
 
 struct ArmWay {

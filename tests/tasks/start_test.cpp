@@ -2,6 +2,7 @@
 #include "engine/episode/start.h"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 #include <set>
 
 #include "engine/episode/abstract_state.h"
@@ -85,6 +86,35 @@ TEST_CASE("a part can be moved where the arm can take it and go with it, not far
   const Scene dishwasher = settled_scene("empty_dishwasher");
   CHECK_FALSE(can_move(dishwasher, "dishwasher.rack", ""));
   CHECK(can_move(dishwasher, "dishwasher.rack", "dishwasher.door"));
+}
+
+TEST_CASE("a door that the arm can only open half is not one that it can open, a part with several grips is") {
+  EpisodeScripts scripts(all_tasks(), "open_microwave", "", 1);
+  Scene scene = *make_start(scripts.task(), scripts.symbols(), {}).scene;
+  const auto can_open_at = [&](double x, double y, double yaw_deg, const char* enough) {
+    Body& body = scene.bodies[static_cast<std::size_t>(scene.body_index("microwave"))];
+    body.world_from_body.translation().head<2>() << x, y;
+    body.world_from_body.linear() =
+        Eigen::AngleAxisd(yaw_deg * std::numbers::pi / 180, Vector3::UnitZ()).toRotationMatrix();
+    World world(std::make_shared<const Scene>(scene));
+    return WorldView(world).can_move("microwave.door", "pull", {}, enough);
+  };
+  CHECK(can_open_at(0.57, 0.01, -8, "open_at"));
+  CHECK(can_open_at(0.23, 0.59, 96, "closed_at"));  // shut it is: no way at all
+  CHECK_FALSE(can_open_at(0.23, 0.59, 96, "open_at"));
+  CHECK_THROWS_WITH(can_open_at(0.57, 0.01, -8, "ajar"), Catch::Contains("has no number 'ajar'"));
+}
+
+TEST_CASE("a knob is where the arm can turn it, or is not") {
+  EpisodeScripts scripts(all_tasks(), "turn_oven_on", "", 1);
+  Scene scene = *make_start(scripts.task(), scripts.symbols(), {}).scene;
+  const auto can_turn = [&] {
+    World world(std::make_shared<const Scene>(scene));
+    return WorldView(world).can_move("cooker.oven_knob", "turn_to", {}, "turned_at");
+  };
+  CHECK(can_turn());
+  scene.bodies[static_cast<std::size_t>(scene.body_index("cooker"))].world_from_body.translation().x() += 0.4;
+  CHECK_FALSE(can_turn());
 }
 
 TEST_CASE("what is behind a flap can be grasped once it is open, and not before") {

@@ -97,6 +97,19 @@ TEST_CASE("the first share of a way ends where the way is then") {
   CHECK(first_of(way, 1).stop == 0.8);
 }
 
+TEST_CASE("the rest of a way begins where its first share ends") {
+  PartWay way = turning(Transform::Identity(), 2);
+  way.stop = 0.8;
+  const PartWay rest = rest_of(way, 0.6);
+  CHECK(rest.turn == Approx(0.8));
+  CHECK(rest.stop == Approx(0.5));
+  CHECK(rest.before.isApprox(way.moved(0.6)));
+  CHECK(rest.moved(0).isApprox(Transform::Identity()));
+  CHECK((rest.moved(0.5) * rest.before).isApprox(way.moved(0.8)));
+  CHECK((rest_of(rest, 0.5).moved(1) * rest_of(rest, 0.5).before).isApprox(way.moved(1)));
+  CHECK(rest_of(way, 0.9).stop == 0);
+}
+
 TEST_CASE("a line to where the arm cannot follow is as long as it can be, where that will do") {
   const World world(std::make_shared<Scene>(table_scene(0)));
   const CollisionState state = world.collision_state();
