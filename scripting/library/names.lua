@@ -37,7 +37,7 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
----@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: anything)
 ---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
 
 ---@class stampede.is_not
@@ -76,7 +76,7 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
----@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: anything)
 ---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
 
 ---@class stampede.act
