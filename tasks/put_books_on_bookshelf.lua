@@ -8,7 +8,7 @@ return task {
   world = "tabletop",
   variations = { count = { 1, 2, 3 } },
   objects = {
-    bookshelf = { "bookshelf", place = places.beside_the_table(0.185, deg(34), 0.95, 0, nil, 0.62) },
+    bookshelf = { "bookshelf", place = places.beside_the_table(0.185, deg(28), 0.95, 0, 0.20, 0.62) },
     red_book = { "book", colour = "red" }, green_book = { "book", colour = "green" }, blue_book = { "book", colour = "blue" },
   },
   init = { is.on("red_book", "table"), is.apart("green_book", "red_book"), is.on("green_book", "table"),

@@ -9,7 +9,7 @@ return task {
   },
   init = {
     is.closed("oven.door"), is.workable("oven.door"), is.on("tray", "table"), is.outside("tray", "oven.front"),
-    is.reachable("tray"),
+    is.reachable_behind("tray", "oven.door"),
   },
   goal = { is.inside("tray", "oven.shelf"), is.hand_empty() },
   instructions = {
