@@ -100,7 +100,7 @@ TEST_CASE("a door that the arm can only open half is not one that it can open, a
     return WorldView(world).can_move("microwave.door", "pull", {}, enough);
   };
   CHECK(can_open_at(0.57, 0.01, -8, "open_at"));
-  CHECK(can_open_at(0.23, 0.59, 96, "closed_at"));  // shut it is: no way at all
+  CHECK(can_open_at(0.23, 0.59, 96, "closed_at"));  // it is all but there
   CHECK_FALSE(can_open_at(0.23, 0.59, 96, "open_at"));
   CHECK_THROWS_WITH(can_open_at(0.57, 0.01, -8, "ajar"), Catch::Contains("has no number 'ajar'"));
 }
