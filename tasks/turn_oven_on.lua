@@ -4,7 +4,7 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = { cooker = { "cooker", place = places.round_the_table(0.13, deg(45), 0.75, 0, 0.40) } },
-  init = { is_not.turned("cooker.oven_knob"), is.workable("cooker.oven_knob") },
+  init = { is_not.turned("cooker.oven_knob"), is.workable_by_turning("cooker.oven_knob") },
   goal = { is.turned("cooker.oven_knob"), is.hand_empty() },
   instructions = {
     "turn the oven on",

@@ -15,6 +15,19 @@
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
+
+std::string atom_fault(const Fact& fact, const Domain& domain, const std::vector<TypedObject>& objects,
+                       const Facts& known) {
+  const symbolic::View view{known, domain, objects};
+  const Predicate* predicate = domain.predicate(fact.predicate);
+  if (predicate == nullptr || predicate->kind == PredicateKind::fixed) return {};
+  for (std::size_t i = 0; i < fact.arguments.size(); ++i) {
+    std::string fault = symbolic::argument_fault(predicate->parameters.at(i), fact.arguments[i], view);
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
 namespace {
 
 constexpr int kMostSteps = 100'000;  // of the search; a formula that needs more counts as contradictory
@@ -135,6 +148,7 @@ class Drawing {
   bool literal(const Formula& formula, const Binding& binding, bool negated) {
     const Fact fact = symbolic::ground_atom(formula.predicate, formula.terms, binding);
     if (decided_.contains(fact.predicate)) return view_.facts.contains(fact) != negated;
+    if (!atom_fault(fact, view_.domain, view_.objects, view_.facts).empty()) return negated;  // no fact of it can be
     for (const Literal& known : literals_) {
       if (known.fact == fact) return known.negated == negated;
       if (!negated && !known.negated && (excludes(fact, known.fact) || excludes(known.fact, fact))) return false;

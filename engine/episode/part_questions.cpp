@@ -72,7 +72,7 @@ bool WorldView::can_grasp(const std::string& name, const std::string& before) co
 
 bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before,
                          const std::string& enough) const {
-  constexpr int kMostGrips = 8;
+  constexpr int kMostGrips = 8;  // half of what a skill may take (worlds/lib/grips.lua): a start has something in hand
   constexpr double kSlack = 0.03;  // of the way: what a handle gives in the hand
   CollisionState space = space_behind(before);
   // What else of the furniture is open may be shut first: that is for the plan to find.

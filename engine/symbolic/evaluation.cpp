@@ -30,6 +30,18 @@ bool admits(const Parameter& parameter, const TypedObject& object, const View& v
   });
 }
 
+std::string argument_fault(const Parameter& parameter, const std::string& name, const View& view) {
+  const auto object =
+      std::find_if(view.objects.begin(), view.objects.end(), [&](const TypedObject& one) { return one.name == name; });
+  if (object == view.objects.end()) return "there is no object `" + name + "`";
+  if (!parameter.type.empty() && !view.domain.is_a(object->type, parameter.type))
+    return name + " is a " + object->type + ", but ?" + parameter.name + " must be a " + parameter.type;
+  for (const std::string& trait : parameter.traits)
+    if (!view.facts.contains(Fact{trait, {name}}))
+      return name + " is not " + trait + ", which ?" + parameter.name + " must be";
+  return {};
+}
+
 bool evaluate(const Formula& formula, const View& view, Binding& binding) {
   using Kind = Formula::Kind;
   const auto part_holds = [&](const Formula& part) { return evaluate(part, view, binding); };

@@ -22,6 +22,8 @@ const std::string& value_of(const Term& term, const Binding& binding);
 Fact ground_atom(const std::string& predicate, const std::vector<Term>& terms, const Binding& binding);
 bool evaluate(const Formula& formula, const View& view, Binding& binding);  // binding is as before on return
 bool admits(const Parameter& parameter, const TypedObject& object, const View& view);
+// What keeps an object from standing for a parameter: "table is not openable, which ?part must be"; empty: nothing.
+std::string argument_fault(const Parameter& parameter, const std::string& object, const View& view);
 
 // Calls `visit` for every binding of the variables to objects of their types and traits, in the objects' order, until
 // it returns false. Result: false if it did.

@@ -24,19 +24,8 @@ std::string fault(const Domain& domain, const Action& action, const PlanStep& st
   Binding binding;
   for (std::size_t i = 0; i < step.arguments.size(); ++i) {
     const Parameter& parameter = action.parameters[i];
-    const TypedObject* object = nullptr;
-    for (const TypedObject& one : objects) {
-      if (one.name == step.arguments[i]) object = &one;
-    }
-    if (object == nullptr) return "there is no object `" + step.arguments[i] + "`";
-    if (!domain.is_a(object->type, parameter.type)) {
-      return object->name + " is a " + object->type + ", but ?" + parameter.name + " must be a " + parameter.type;
-    }
-    for (const std::string& trait : parameter.traits) {
-      if (!facts.contains(Fact{trait, {object->name}})) {
-        return object->name + " is not " + trait + ", which ?" + parameter.name + " must be";
-      }
-    }
+    std::string fault = symbolic::argument_fault(parameter, step.arguments[i], {facts, domain, objects});
+    if (!fault.empty()) return fault;
     binding[parameter.name] = step.arguments[i];
   }
   std::vector<Formula> parts = symbolic::inequalities(action, domain);

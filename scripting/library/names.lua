@@ -37,8 +37,9 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
----@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: anything)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
 ---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
+---@field workable_by_turning fun(part: string): stampede.literal  the {part} is where the arm can turn it (part: turnable)
 
 ---@class stampede.is_not
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
@@ -76,8 +77,9 @@
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
 ---@field under fun(place: string, part: string): stampede.literal  the {place} is under the {part} (place: anything, part: openable)
----@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: anything)
+---@field workable fun(part: string): stampede.literal  the {part} is where the arm can move it (part: openable)
 ---@field workable_behind fun(part: string, door: string): stampede.literal  the {part} is where the arm can move it once the {door} is open (part: openable, door: openable)
+---@field workable_by_turning fun(part: string): stampede.literal  the {part} is where the arm can turn it (part: turnable)
 
 ---@class stampede.act
 ---@field close fun(part: string|table): stampede.call  close the {part} (part: openable)
@@ -144,6 +146,7 @@
 ---| "under"
 ---| "workable"
 ---| "workable_behind"
+---| "workable_by_turning"
 
 ---@alias stampede.type_name
 ---| "area"

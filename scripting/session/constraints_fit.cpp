@@ -7,6 +7,7 @@
 
 #include "engine/episode/altered_task.h"
 #include "engine/episode/constraints.h"
+#include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -14,12 +15,12 @@ namespace {
 
 constexpr int kEqualDraws = 3;  // when so many draws agree in all that the formula speaks of, none will differ
 
-// Which static facts bear on a formula: of an atom about an object, the predicate's of that object; with variables,
-// all.
+// Which static facts bear on a formula: of an atom, those of its objects; with variables, all.
 bool bears_on(const Formula& formula, const Fact& fact) {
   if (!formula.variables.empty()) return true;
-  if (formula.kind == Formula::Kind::atom && formula.predicate == fact.predicate)
-    return formula.terms.empty() || fact.arguments.empty() || formula.terms[0].name == fact.arguments[0];
+  if (formula.kind == Formula::Kind::atom)
+    return fact.arguments.empty() || std::any_of(formula.terms.begin(), formula.terms.end(),
+                                                 [&](const Term& term) { return term.name == fact.arguments[0]; });
   return std::any_of(formula.parts.begin(), formula.parts.end(),
                      [&](const Formula& part) { return bears_on(part, fact); });
 }
@@ -27,12 +28,19 @@ bool bears_on(const Formula& formula, const Fact& fact) {
 // The parts that cannot be met by themselves, or the whole where only together they cannot; nothing when they can.
 std::vector<std::string> contradictions(const Formula& where, const Symbols& symbols, const StaticFacts& known) {
   const RandomKey key("where");
+  const auto with_reason = [&](const Formula& part) {
+    const std::string why = part.kind == Formula::Kind::atom
+                                ? atom_fault(symbolic::ground_atom(part.predicate, part.terms, {}), symbols.domain(),
+                                             known.objects, known.facts)
+                                : "";
+    return to_text(part) + (why.empty() ? "" : ": " + why);
+  };
   std::vector<std::string> texts;
   if (draw_literals(where, symbols, known.objects, known.facts, key)) return texts;
   if (where.kind == Formula::Kind::conjunction)
     for (const Formula& part : where.parts)
-      if (!draw_literals(part, symbols, known.objects, known.facts, key)) texts.push_back(to_text(part));
-  if (texts.empty()) texts.push_back(to_text(where));
+      if (!draw_literals(part, symbols, known.objects, known.facts, key)) texts.push_back(with_reason(part));
+  if (texts.empty()) texts.push_back(with_reason(where));
   return texts;
 }
 

@@ -244,6 +244,12 @@ TEST_CASE("a --where that predicates themselves rule out is refused before anyth
                          "(and (open chest.top_drawer) (closed chest.top_drawer))"});
   CHECK(said.code == kBadInput);
   CHECK(says(said.err, "can meet (and (open chest.top_drawer) (closed chest.top_drawer))"));
+  for (const char* asked : {"(workable chest)", "(and (workable chest) (closed chest.top_drawer))"}) {
+    const Said unfit =
+        say({"run", "open_drawer", "--root", STAMPEDE_SOURCE_DIR, "--out", mine / "o.db", "--where", asked});
+    CHECK(unfit.code == kBadInput);
+    CHECK(says(unfit.err, "can meet (workable chest): chest is not openable, which ?part must be"));
+  }
 }
 
 TEST_CASE("a start is made as --where says, another goal is reached, and the episode says both") {

@@ -117,6 +117,15 @@ TEST_CASE("a knob is where the arm can turn it, or is not") {
   CHECK_FALSE(can_turn());
 }
 
+TEST_CASE("only of what has a joint can be asked whether the arm can move it: all else is a mistake of the task") {
+  const auto traits_of = [](const char* predicate) {
+    return all_tasks()->domain().predicate(predicate)->parameters[0].traits;
+  };
+  CHECK(traits_of("workable") == std::vector<std::string>{"openable"});
+  CHECK(traits_of("workable_behind") == std::vector<std::string>{"openable"});
+  CHECK(traits_of("workable_by_turning") == std::vector<std::string>{"turnable"});
+}
+
 TEST_CASE("what is behind a flap can be grasped once it is open, and not before") {
   EpisodeScripts scripts(all_tasks(), "take_tray_out_of_oven", "", 1);
   World world(make_start(scripts.task(), scripts.symbols(), {}).scene);

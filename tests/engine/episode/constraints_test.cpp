@@ -58,6 +58,24 @@ TEST_CASE("literals that make a formula true: what is known is decided, the rest
   CHECK_FALSE(draw("(and (on a t) (= a b))"));
 }
 
+TEST_CASE("of what is not of a predicate's types and traits nothing is drawn: no such fact can be") {
+  CHECK_FALSE(draw("(on t b)"));
+  CHECK_FALSE(draw("(on a c)"));
+  CHECK(draw("(not (on t b))")->empty());
+  CHECK_FALSE(draw("(forall (?x) (on ?x t))"));
+  std::set<std::pair<std::string, std::string>> drawn;
+  for (int n = 0; n < 60; ++n) {
+    const auto literals = draw("(exists (?x ?y) (on ?x ?y))", n);
+    REQUIRE(literals);
+    for (const Literal& literal : *literals) drawn.insert({literal.fact.arguments[0], literal.fact.arguments[1]});
+  }
+  using Pairs = std::set<std::pair<std::string, std::string>>;
+  CHECK(drawn == Pairs{{"a", "b"}, {"a", "t"}, {"b", "b"}, {"b", "t"}, {"c", "b"}, {"c", "t"}});
+  CHECK(atom_fault({"on", {"t", "b"}}, PlainSymbols().domain(), kObjects, kKnown) ==
+        "t is not movable, which ?obj must be");
+  CHECK(atom_fault({"on", {"a", "b"}}, PlainSymbols().domain(), kObjects, kKnown).empty());
+}
+
 TEST_CASE("what a predicate says of itself rules starts out before anything is placed") {
   CHECK(draw("(holding hand a)"));
   CHECK_FALSE(draw("(and (holding hand a) (holding hand b))"));
@@ -188,7 +206,11 @@ TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repea
 
 TEST_CASE("what quantifies over very many is refused with the count, and over many it takes no stack") {
   std::vector<TypedObject> objects;
-  for (int i = 0; i < 100; ++i) objects.push_back({"c" + std::to_string(100 + i), "cube"});
+  Facts known;
+  for (int i = 0; i < 100; ++i) {
+    objects.push_back({"c" + std::to_string(100 + i), "cube"});
+    for (const char* trait : {"movable", "surface"}) known.insert({trait, {objects.back().name}});
+  }
   const auto checked = [&](const char* text) {
     return checked_formula(formula(text), PlainSymbols().domain(), objects, "--where");
   };
@@ -199,7 +221,7 @@ TEST_CASE("what quantifies over very many is refused with the count, and over ma
   CHECK_THROWS_WITH(checked("(exists (?a - cube ?b - cube) (forall (?c - cube ?d - cube) (on ?a ?d)))"),
                     Catch::Contains("forall over ?a ?b ?c ?d: 100,000,000 instances"));
   const Formula many = checked("(forall (?a - cube ?b - cube) (or (= ?a ?b) (not (on ?a ?b))))");
-  const auto drawn = draw_literals(many, PlainSymbols(), objects, {}, RandomKey("test"));
+  const auto drawn = draw_literals(many, PlainSymbols(), objects, known, RandomKey("test"));
   REQUIRE(drawn);
   CHECK((drawn->size() >= 100 * 99 && drawn->size() <= 100 * 100));  // of one thing either part will do
 }
