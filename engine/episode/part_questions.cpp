@@ -89,8 +89,9 @@ bool WorldView::can_move(const std::string& part, const std::string& to, const s
   for (int grip = 0; grip < kMostGrips && done < least; ++grip) {
     CollisionState there = space;
     there.move_part(way->part, way->moved(done));
-    const auto found = grasps_to_go(*this, there, part, rest_of(*way, done), done, 1, RandomKey("can_move"), kEnough);
-    if (found.size() < (grip == 0 ? kEnough : 1)) return false;
+    const std::size_t wanted = grip == 0 ? kEnough : 1;
+    const auto found = grasps_to_go(*this, there, part, rest_of(*way, done), done, 1, RandomKey("can_move"), wanted);
+    if (found.size() < wanted) return false;
     done = *found.front().reach;
   }
   return done >= least;

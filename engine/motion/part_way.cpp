@@ -1,6 +1,6 @@
 #include "engine/motion/part_way.h"
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "engine/motion/checker.h"
 #include "engine/motion/route.h"
+#include "engine/sim/collision_query.h"
 
 namespace stampede {
 namespace {
@@ -76,8 +77,9 @@ CollisionState with_part_held(const CollisionState& state, const JointVector& st
 
 // How the joints of an arm with one more than it needs go together while the tip stands still, towards `like`.
 JointVector elbow_of(const Arm& arm, const JointVector& q, const JointVector& like) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(arm.jacobian(q), Eigen::ComputeFullV);
-  const JointVector elbow = svd.matrixV().col(q.size() - 1);
+  // What is at right angles to all rows of the Jacobian.
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(arm.jacobian(q).transpose());
+  const JointVector elbow = factors.householderQ() * Eigen::VectorXd::Unit(q.size(), q.size() - 1);
   return like.size() == elbow.size() && elbow.dot(like) < 0 ? JointVector(-elbow) : elbow;
 }
 
@@ -105,6 +107,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
   std::vector<std::vector<Node>> layers(count + 1, std::vector<Node>(width));
   layers[0][static_cast<std::size_t>(most)] = {start, elbow_turns ? elbow_of(arm, start, {}) : JointVector{}, 0, -1};
   const CollisionState holding = with_part_held(state, start, way);
+  CollisionQuery links(holding);
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count);
     const Transform moved = way.moved(share);
@@ -114,11 +117,15 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
       return share > way.stop ? space_of_line(there, false) : there;
     };
     const double last = static_cast<double>(k - 1) / static_cast<double>(count);
-    const std::array<std::pair<double, CollisionState>, 3> on_the_way{
-        {{1.0 / 3, at(last + (share - last) / 3)}, {2.0 / 3, at(last + 2 * (share - last) / 3)}, {1.0, at(share)}}};
+    const std::array third{1.0 / 3, 2.0 / 3, 1.0};
+    const std::array<CollisionState, 3> on_the_way{at(last + (share - last) / 3), at(last + 2 * (share - last) / 3),
+                                                   at(share)};
+    std::array<CollisionQuery, 3> queries{CollisionQuery(on_the_way[0]), CollisionQuery(on_the_way[1]),
+                                          CollisionQuery(on_the_way[2])};
     const auto free = [&](const JointVector& from, const JointVector& to) {
-      return std::ranges::all_of(
-          on_the_way, [&](const auto& place) { return place.second.free(from + place.first * (to - from)); });
+      for (std::size_t i = 0; i < third.size(); ++i)
+        if (queries[i].touches(from + third[i] * (to - from))) return false;
+      return true;
     };
     const std::vector<Node>& before = layers[k - 1];
     bool any = false;
@@ -133,7 +140,7 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
         const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;
         const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost >= node.cost || holding.links_within(*q, kLinksApart) || !free(from.q, *q)) continue;
+        if (cost >= node.cost || links.links_within(*q, kLinksApart) || !free(from.q, *q)) continue;
         node = {*q, elbow_turns ? elbow_of(arm, *q, from.elbow) : JointVector{}, cost, i + most};
       }
       any = any || node.from >= 0;

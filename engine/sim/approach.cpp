@@ -21,6 +21,7 @@ constexpr std::array kDistances{0.001, 0.0003, 0.0};  // m, from what is ahead
 constexpr double kMoved_rad = 0.001;                  // so far a way's beginning goes
 constexpr std::size_t kAtOnce = 2;                    // of the places looked at
 constexpr double kInto = 0.05;                        // cosine to the normal: less is along a surface
+constexpr double kLight_kg = 1;                       // what lies on the arm and is free goes with it
 constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
 constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kMeetingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
@@ -145,12 +146,17 @@ void World::Impl::look_ahead() {
       }
     return;
   }
+  const auto is_light = [&](PartRef part) {
+    return part.body >= 0 && body_slot(part.body).free != nullptr && body(part.body).parts[0].mass < kLight_kg;
+  };
   const std::optional<int> held = state.held();
   Bearing bearing;
+  bool heavy = false;  // something that it touches
   for (const Contact& one : contacts.closed())
     for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {
       if (!meets(own, other, held)) continue;
       bearing.pairs.insert({own, other});
+      heavy = heavy || !is_light(other);
       if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
         bearing.pushed.insert(other);
     }
@@ -165,8 +171,8 @@ void World::Impl::look_ahead() {
       if (pair.first.body == *held && !bearing.joined.contains(pair)) bearing.pairs.insert(pair);
   }
   for (const auto& pair : near.touching())
-    if (!bearing.contains(pair)) bearing.lying.insert(pair);
-  const double most = bearing.empty() ? 1 : grasped ? kHoldingPace : kMeetingPace;
+    if (!bearing.contains(pair)) bearing.lying.insert(pair), heavy = heavy || !is_light(pair.second);
+  const double most = bearing.empty() ? 1 : grasped || !heavy ? kHoldingPace : kMeetingPace;
   for (const double pace : kPaces) {
     reference.pace = pace;
     const std::vector<JointVector> way = way_to_a_stand(pace, often);

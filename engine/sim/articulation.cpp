@@ -100,15 +100,20 @@ void Articulation::place() {
   }
 }
 
+const std::vector<double>& Articulation::find_coriolis() {
+  find_bias(Vector3::Zero());
+  return bias_;
+}
+
 void Articulation::prepare(const Vector3& gravity) {
-  for (std::size_t i = 0; i < links_.size(); ++i)
-    inertias_[i] = places_[i].turn * links_[i].inertia * places_[i].turn.transpose();
   find_bias(gravity);
   find_mass();
   invert_mass();
 }
 
 void Articulation::find_bias(const Vector3& gravity) {
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    inertias_[i] = places_[i].turn * links_[i].inertia * places_[i].turn.transpose();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     const Place& here = places_[i];

@@ -52,6 +52,8 @@ class Articulation {
   // (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6, doi:10.1007/978-1-4899-7560-7), all vectors
   // in world axes.
   void prepare(const Vector3& gravity);
+  // By dof, the part of `bias` that comes of the speeds: centrifugal and Coriolis forces. Overwrites `bias`.
+  const std::vector<double>& find_coriolis();
   // By dof, of the last `prepare`. `bias`: the torques that would keep every joint at its speed. The inverse of the
   // mass matrix is symmetric, its rows are width() apart and filled up with zeros.
   const std::vector<double>& bias() const { return bias_; }

@@ -33,6 +33,7 @@ constexpr double kShortLever = 2;          // N m, of an arm that an agent steer
 constexpr double kRubbing = 0.15;          // N along a surface, per N on it
 constexpr double kCatchUp = 0.3;           // share of a joint's acceleration for getting back to its reference
 constexpr double kCatchUpTouching = 0.05;  // likewise, while something bears on an arm that an agent steers
+constexpr double kBrakedToolSpeed = 1.65;  // m/s: faster than it is led (kToolSpeed)
 constexpr double kSlip = 0.25;             // share of a joint's speed
 constexpr double kMostPull = 60;           // N at the tip, of an arm that gives way
 
@@ -129,6 +130,7 @@ JointState World::Impl::served(const JointState& now, std::int64_t step, const G
 
 void World::Impl::control() {
   look_ahead();
+  dynamics.set_brakes(*body_slot(kRobot).tree, {});
   if (under_torque()) {
     control_torque(reference.servo->value);
     control_hand();
@@ -216,6 +218,7 @@ void World::Impl::control_position(const JointState& now, const JointState& next
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const auto jacobian = arm.jacobian(q);
   const double press = kPress + kLoadRate * load_mass();
+  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes(jacobian));
   const std::vector<double> levers = reference.servo ? contact_levers() : std::vector<double>{};
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
@@ -266,15 +269,42 @@ void World::Impl::give_torques(JointVector torque) {
     body_slot(kRobot).tree->torque[static_cast<std::size_t>(arm_motors[j]->dof)] += torque[i];
   }
   arm_torque = torque;
+  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes(arm_dynamics.jacobian()));
 }
 
-// What is asked for, but for the part of it that would take a joint beyond its limits.
+// What is asked for, but for the part of it that would take a joint beyond its limits. Nobody takes off centrifugal and
+// Coriolis forces for an agent that gives torques, but what is left of its limits counts with them.
 void World::Impl::control_torque(const JointVector& asked) {
   update_dynamics();
   const JointMatrix& mass = arm_dynamics.mass();
-  const JointVector free = mass.ldlt().solve(asked);
+  const std::vector<double>& fictitious = body_slot(kRobot).tree->find_coriolis();
+  JointVector moving = asked;
+  for (std::size_t j = 0; j < arm_motors.size(); ++j)
+    moving[static_cast<Eigen::Index>(j)] -= fictitious[static_cast<std::size_t>(arm_motors[j]->dof)];
+  const JointVector free = mass.ldlt().solve(moving);
   foreseen.resize(0);
   give_torques(arm_dynamics.gravity() + asked + mass * (kept_safe(free, kMargin_rad) - free));
+}
+
+// What pushes an arm that an agent steers, and what turns as it goes, makes it no faster than it may be: in the same
+// step each joint holds against that, and all together for the tool.
+std::vector<SpeedBrake> World::Impl::speed_brakes(const TipJacobian& jacobian) const {
+  const std::vector<JointLimits>& limits = scene->robot.limits;
+  const auto dofs = static_cast<std::size_t>(body_slot(kRobot).tree->dofs());
+  const Vector3 ahead = (jacobian.topRows<3>() * arm_velocity_now()).normalized();
+  std::vector<SpeedBrake> brakes;
+  SpeedBrake tool{std::vector<double>(dofs), kBrakedToolSpeed, std::numeric_limits<double>::infinity()};
+  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
+    const auto dof = static_cast<std::size_t>(arm_motors[j]->dof);
+    const double lever = jacobian.col(static_cast<Eigen::Index>(j)).head<3>().dot(ahead);
+    tool.jacobian[dof] = lever;
+    if (lever != 0) tool.most_force = std::min(tool.most_force, effort_of(limits[j]) / std::abs(lever));
+    SpeedBrake joint{std::vector<double>(dofs), speed_of(limits[j]), effort_of(limits[j])};
+    joint.jacobian[dof] = 1;
+    brakes.push_back(std::move(joint));
+  }
+  brakes.insert(brakes.begin(), std::move(tool));  // which may make a joint faster
+  return brakes;
 }
 
 // The nearest acceleration that an arm may have which an agent steers.

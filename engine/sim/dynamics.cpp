@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "engine/sim/bullet_convert.h"
@@ -32,9 +33,10 @@ constexpr double kStopImpulse = 100;  // N s at most
 constexpr double kSettled = 1e-6;     // m/s or rad/s: an iteration that changes no more is the last
 // Where none was the last, what moves slowly without a robot keeps this share of its speed: it would rock for ever.
 constexpr double kUndecided = 0.95;
-constexpr double kBounceSpeed = 0.2;   // m/s: nothing bounces below
-constexpr double kFastestJoint = 100;  // m/s or rad/s
-constexpr double kSlowSpin = 1e-4;     // rad/s: gyroscopic torque is left out below
+constexpr double kBounceSpeed = 0.2;    // m/s: nothing bounces below
+constexpr double kFastestJoint = 100;   // m/s or rad/s
+constexpr double kNearlyTooFast = 0.5;  // share of what a brake allows: slower, it is left out
+constexpr double kSlowSpin = 1e-4;      // rad/s: gyroscopic torque is left out below
 // Points between two free bodies that lie further apart than this, across the longest way between two of them, resist
 // turning by themselves.
 constexpr double kNarrow_m = 0.008;
@@ -137,6 +139,9 @@ JointMotor& Dynamics::add_motor(Articulation& tree, int dof) {
 }
 
 void Dynamics::add_gear(Articulation& tree, const JointGear& gear) { mover_of(tree).gears.push_back(gear); }
+void Dynamics::set_brakes(Articulation& tree, std::vector<SpeedBrake> brakes) {
+  mover_of(tree).brakes = std::move(brakes);
+}
 void Dynamics::add_stop(Articulation& tree, const JointStop& stop) { mover_of(tree).stops.push_back(stop); }
 
 void Dynamics::step(int iterations) {
@@ -665,6 +670,17 @@ void Dynamics::add_joints(const Mover& mover) {
     motor_rows_.push_back({static_cast<int>(joints_.size()) - 1, motor});
   }
   start_motors(mover, first);
+  for (const SpeedBrake& brake : mover.brakes) {
+    const double speed = std::inner_product(brake.jacobian.begin(), brake.jacobian.end(), tree.velocity.begin(), 0.0);
+    if (std::abs(speed) < kNearlyTooFast * brake.most_speed) continue;
+    SolverRow& row = begin_row(joints_);
+    double* jacobian = add_side(row, mover);
+    for (std::size_t i = 0; i < brake.jacobian.size(); ++i)
+      jacobian[i] = std::copysign(1.0, -speed) * brake.jacobian[i];
+    respond(tree, jacobian);
+    end_row(row, -brake.most_speed);
+    row.upper = brake.most_force * dt_;
+  }
   for (const JointGear& gear : mover.gears) {
     SolverRow& row = add_row(gear.one, gear.other, gear.ratio);
     const double error = tree.position[static_cast<std::size_t>(gear.one)] - gear.offset -

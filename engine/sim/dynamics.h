@@ -56,6 +56,14 @@ struct JointMotor {
   bool saturated = false;  // in the last step, by one of both
 };
 
+// Keeps a tree from going faster than `most_speed` along `jacobian`, of which each entry is what a dof at unit speed
+// adds: of one joint, or of a point of a link. It gives no more than `most_force`, whatever pushes the tree. m/s and N,
+// or rad/s and N m.
+struct SpeedBrake {
+  std::vector<double> jacobian;
+  double most_speed = 0, most_force = 0;
+};
+
 // Keeps joint `one` of a tree at ratio * other + offset.
 struct JointGear {
   int one = 0, other = 0;  // dofs
@@ -96,6 +104,7 @@ class Dynamics {
   void add_object(btCollisionObject& object, Articulation& tree, int link);  // the object moves with the link
   JointMotor& add_motor(Articulation& tree, int dof);
   void add_gear(Articulation& tree, const JointGear& gear);
+  void set_brakes(Articulation& tree, std::vector<SpeedBrake> brakes);  // until they are set anew
   void add_stop(Articulation& tree, const JointStop& stop);
   Bond& add_bond(const Bond& bond);
   void place_bond(Bond& bond);  // puts the body where the joint at its position has it
@@ -135,6 +144,7 @@ class Dynamics {
     std::vector<JointMotor*> motors;
     std::vector<JointGear> gears;
     std::vector<JointStop> stops;
+    std::vector<SpeedBrake> brakes;
   };
   struct Node {  // what an object belongs to; nothing: it stands still
     int mover = -1, link = -1;

@@ -8,10 +8,10 @@ namespace stampede {
 namespace {
 
 constexpr double kLinear_s = 0.04;         // time constant of the last bit of the way
+constexpr double kToolSpeed = 1.6;         // m/s: a Panda's tool may move at 1.7
 constexpr double kUsualSpeed = 2;          // rad/s, where a robot states none
 constexpr double kUsualAcceleration = 10;  // rad/s^2, likewise
 constexpr double kUsualJerk = 5000;        // rad/s^3, likewise
-constexpr double kToolSpeed = 1.6;         // m/s: a Panda's tool may move at 1.7
 constexpr double kLongestGap_s = 0.2;      // between positions of a stream
 constexpr double kGentlest = 0.05;         // share of the acceleration
 constexpr double kOver_rad = 0.005;  // as far as a stream that ends at once takes a joint beyond its last position

@@ -2,7 +2,8 @@
 
 Each demo is gone back to and played three ways: by the keyframes that PerAct's rule finds in it (its poses, its hand and its
 `ignore_collisions`, as an agent that has learned it without error would predict them), by every sixth frame instead
-(--sixth), and by its joint positions. Prints one line a demo, and the shares.
+(--sixth), and by its joint positions. An arm that touches something goes carefully and may be late for its joint
+positions: the last of them is asked for up to two seconds on, and how long is said. Prints one line a demo, and the shares.
 """
 
 import argparse
@@ -16,6 +17,9 @@ from stampede.rlbench.backend.exceptions import DemoError, InvalidActionError
 from stampede.rlbench.environment import Environment
 from stampede.rlbench.observation_config import ObservationConfig
 from stampede.rlbench.tasks import task_of
+
+
+WAIT = 40  # frames of 50 ms
 
 
 class KeyframeMode(ActionMode):
@@ -88,7 +92,7 @@ def main() -> None:
     joints = Environment(MoveArmThenGripper(JointPosition(), Discrete()), obs_config=config)
     made = {"stop_at_vias": True} if not options.plain else {}
     counts = {"keyframes": 0, "sixth": 0, "joints": 0}
-    total = 0
+    total = waited = 0
     for name in options.tasks or poses.session.tasks():
         ways = poses.get_task(task_of(name))
         steps = joints.get_task(task_of(name))
@@ -105,17 +109,27 @@ def main() -> None:
             told = {"keyframes": reaches_goal(ways, demo, pose_actions(demo, found))}
             if options.sixth:
                 told["sixth"] = reaches_goal(ways, demo, pose_actions(demo, [*range(6, len(demo) - 1, 6), len(demo) - 1]))
-            told["joints"] = joints_replay(steps, demo)
+            told["joints"], late = joints_replay(steps, demo)
+            waited += late > 0
             for kind, why in told.items():
                 counts[kind] += not why
             words = ", ".join(f"{kind}: {why or 'done'}" for kind, why in told.items())
+            words += f" {late} frames late" if late else ""
             print(f"{name} {number}: {len(demo)} frames, {len(found)} keyframes {found}; {words}", flush=True)
     for kind, count in counts.items():
-        print(f"{kind}: {count} of {total}")
+        print(f"{kind}: {count} of {total}" + (f", {waited} of them late" if kind == "joints" else ""))
 
 
-def joints_replay(task, demo) -> str:
-    return reaches_goal(task, demo, [seen.misc["joint_position_action"] for seen in demo[1:]])
+def joints_replay(task, demo) -> tuple[str, int]:
+    """Why not, and how many frames late."""
+    actions = [seen.misc["joint_position_action"] for seen in demo[1:]]
+    why = reaches_goal(task, demo, actions)
+    if not why.startswith("not done"):
+        return why, 0
+    for late in range(1, WAIT + 1):
+        if task.step(actions[-1])[1] == 1.0:
+            return "", late
+    return why, 0
 
 
 main()

@@ -12,7 +12,7 @@ using operation::Servo;
 namespace {
 
 constexpr double kMostForce = 100;  // N, of a stiff arm that is steered, as demonstrations are
-constexpr double kStruck = 250;     // N, of one that is driven at random, and of one whose reference jumps
+constexpr double kStruck = 300;     // N, of one that is driven at random, and of one whose reference jumps
 constexpr double kLeaning = 85;     // N, of one that leans on something: mean over a frame
 constexpr double kToolSpeed = 1.7;  // m/s
 
@@ -77,11 +77,12 @@ TEST_CASE("an arm that is sent through the table meets it slowly, presses no har
 
 TEST_CASE("random positions, velocities and torques never whip the arm", "[sim]") {
   const auto of = GENERATE(Servo::Of::position, Servo::Of::velocity, Servo::Of::torque);
-  CAPTURE(static_cast<int>(of));
+  const int seed = GENERATE(range(0, 3));
+  CAPTURE(static_cast<int>(of), seed);
   Scene scene = table_scene(2);
   add_body(scene, box_body("pillar", {0.1, 0.1, 0.5}, {0.55, 0.3, 0.25}, 0));
   World world(shared(std::move(scene)));
-  Random random(RandomKey("whip").with(static_cast<std::int64_t>(of)));
+  Random random(RandomKey("whip").with(static_cast<std::int64_t>(of)).with(seed));
   Watch watch{world};
   for (int i = 0; i < 300; ++i) {
     if (i % 5 == 0) {
@@ -101,8 +102,8 @@ TEST_CASE("random positions, velocities and torques never whip the arm", "[sim]"
   CAPTURE(watch.force, watch.joint, watch.tool, watch.ahead);
   const bool torque = of == Servo::Of::torque;  // which says nothing of where the arm will be
   CHECK(watch.force < (torque ? kStruck : kMostForce));
-  CHECK(watch.joint < 1.2);
-  CHECK(watch.tool < (torque ? 1.1 : 1) * kToolSpeed);
+  CHECK(watch.joint < (torque ? 1.15 : 1.001));  // flung by contact, harder than a wrist's motor holds
+  CHECK(watch.tool < kToolSpeed);
   if (of != Servo::Of::torque) CHECK(watch.ahead < 0.11);
 }
 
