@@ -12,7 +12,7 @@
 
 #include "db/query.h"
 #include "engine/base/error.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "stampede/arrays.h"
 
 namespace stampede {

@@ -11,7 +11,7 @@
 
 #include "db/catalogue.h"
 #include "db/sqlite.h"
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 
 namespace stampede {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "db/catalogue.h"
-#include "engine/episode/episode_queue.h"
+#include "engine/record/episode_queue.h"
 
 namespace stampede {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 
 namespace stampede {
 

@@ -11,7 +11,7 @@
 
 namespace stampede {
 
-struct ImageRecord;  // engine/episode/observation.h
+struct ImageRecord;  // engine/record/observation.h
 
 // All statements are prepared once and kept: an episode has thousands of rows.
 class EpisodeWriter {

@@ -6,7 +6,7 @@
 
 #include "db/check_numbers.h"
 #include "db/episode_reader.h"
-#include "engine/episode/arrays.h"
+#include "engine/record/arrays.h"
 
 namespace stampede {
 namespace {

@@ -3,7 +3,7 @@
 #include "db/catalogue_impl.h"
 #include "db/episode_writer.h"
 #include "db/table_text.h"
-#include "engine/episode/agent_action.h"
+#include "engine/record/action_space.h"
 
 namespace stampede {
 namespace {

@@ -5,8 +5,8 @@
 #include "db/catalogue_impl.h"
 #include "db/count_visible.h"
 #include "db/episode_writer.h"
-#include "engine/episode/observation.h"
 #include "engine/model/camera.h"
+#include "engine/record/observation.h"
 
 namespace stampede {
 namespace {

@@ -1,8 +1,8 @@
 #include "engine/episode/account.h"
 
-#include "engine/episode/keyframes.h"
-#include "engine/episode/language.h"
-#include "engine/episode/planning.h"
+#include "engine/record/keyframes.h"
+#include "engine/start/language.h"
+#include "engine/start/planning.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

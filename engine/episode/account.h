@@ -1,9 +1,9 @@
 // What a record says of an episode beside its frames: written at its beginning and at its end, whoever drives it.
 #pragma once
 
-#include "engine/episode/rollout.h"
-#include "engine/episode/runner.h"
-#include "engine/episode/skill_call.h"
+#include "engine/rollout/rollout.h"
+#include "engine/rollout/skill_call.h"
+#include "engine/start/options.h"
 
 namespace stampede {
 

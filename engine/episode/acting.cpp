@@ -7,9 +7,9 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/episode/account.h"
-#include "engine/episode/agent_action.h"
-#include "engine/episode/call_motion.h"
-#include "engine/episode/call_settings.h"
+#include "engine/rollout/agent_action.h"
+#include "engine/rollout/call_motion.h"
+#include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

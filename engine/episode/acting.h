@@ -8,9 +8,9 @@
 
 #include "engine/episode/dense_reward.h"
 #include "engine/episode/episode_source.h"
-#include "engine/episode/observer.h"
-#include "engine/episode/skill_track.h"
-#include "engine/episode/start.h"
+#include "engine/rollout/observer.h"
+#include "engine/rollout/skill_track.h"
+#include "engine/start/start.h"
 
 namespace stampede {
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <vector>
 
-#include "engine/episode/assumptions.h"
-#include "engine/episode/rollout.h"
-#include "engine/episode/runner.h"
-#include "engine/episode/skill_call.h"
+#include "engine/rollout/assumptions.h"
+#include "engine/rollout/rollout.h"
+#include "engine/rollout/skill_call.h"
+#include "engine/start/options.h"
 
 namespace stampede {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/episode/effects.h"
+#include "engine/start/effects.h"
 #include "engine/symbolic/drawn_choice.h"
 
 namespace stampede {

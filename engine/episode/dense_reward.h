@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "engine/episode/planning.h"
-#include "engine/episode/rollout.h"
+#include "engine/rollout/rollout.h"
+#include "engine/start/planning.h"
 
 namespace stampede {
 

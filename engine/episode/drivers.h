@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/episode/current_plan.h"
-#include "engine/episode/skill_track.h"
+#include "engine/rollout/skill_track.h"
 
 namespace stampede {
 

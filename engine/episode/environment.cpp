@@ -8,9 +8,9 @@
 #include "engine/base/nearest.h"
 #include "engine/episode/account.h"
 #include "engine/episode/acting.h"
-#include "engine/episode/agent_action.h"
-#include "engine/episode/altered_task.h"
 #include "engine/episode/dense_reward.h"
+#include "engine/rollout/agent_action.h"
+#include "engine/start/altered_task.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/reason.h"
-#include "engine/episode/runner.h"
+#include "engine/start/options.h"
 #include "stampede/environment.h"
 
 namespace stampede {

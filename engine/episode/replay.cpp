@@ -1,9 +1,10 @@
 // Re-simulates a stored episode from its scene and its commands: no script, no planner.
 #include <algorithm>
 
-#include "engine/episode/arrays.h"
-#include "engine/episode/recorder.h"
 #include "engine/episode/runner.h"
+#include "engine/record/arrays.h"
+#include "engine/rollout/recorder.h"
+#include "engine/rollout/sensors.h"
 
 namespace stampede {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "engine/base/error.h"
 #include "engine/episode/account.h"
-#include "engine/episode/altered_task.h"
-#include "engine/episode/call_settings.h"
 #include "engine/episode/drivers.h"
+#include "engine/start/altered_task.h"
+#include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

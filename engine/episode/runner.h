@@ -2,90 +2,17 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
-#include <map>
 #include <string>
+#include <vector>
 
-#include "engine/episode/impasse.h"
-#include "engine/episode/interfaces.h"
-#include "engine/episode/observation.h"
-#include "engine/episode/perturbation.h"
-#include "engine/episode/sensors.h"
-#include "engine/model/randomise.h"
-#include "stampede/environment.h"
+#include "engine/start/options.h"
 
 namespace stampede {
-
-std::string_view to_string(OnFailure value);
-std::optional<OnFailure> on_failure_from(std::string_view text);
-
-std::string_view to_string(Behaviour value);
-std::optional<Behaviour> behaviour_from(std::string_view text);
-
-// A sentence that a model made and checks let pass. `of`: the variation; of a subgoal its name, a blank and the
-// variation (subgoal_key); of other levels the skill, predicate or kind of motion whose label it says in other words,
-// with the label's {slots}.
-struct MadeSentence {
-  LanguageLevel level = LanguageLevel::task;
-  std::string of, text;
-  LanguageGrain grain = LanguageGrain::goal;
-  std::string model;
-};
-
-// A task without variations: the name alone.
-inline std::string subgoal_key(const std::string& name, const std::string& variation) {
-  return variation.empty() ? name : name + " " + variation;
-}
-
-// Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
-struct RunOptions {
-  std::int64_t seed = 0;
-  Split split = Split::train;
-  OnFailure on_failure = OnFailure::undo;
-  int tries_per_skill = 6;  // runs of one skill before the one before it is undone too
-  int tries_per_episode = 60;
-  int plans = 4;                            // different plans tried
-  int draws = 100;                          // starts drawn until init holds
-  std::string controller;                   // empty: each skill's own
-  std::map<std::string, CallSettings> set;  // by skill: of all its calls, before what tasks and scripts say
-  std::optional<Formula> where;             // must hold at the start, beside the task's init
-  std::optional<Formula> goal;              // instead of the task's
-  Behaviour behaviour = Behaviour::plan;
-  int physics_hz = 0, frame_hz = 0;  // 0: the world's
-  double horizon_s = 0;              // 0: the task's
-  int skills = 20;                   // of a random behaviour: how many it draws
-  // Asked instead of our own planner; `planner_name` stands for it in the key.
-  std::function<PlanOutcome(const Domain& domain, const Problem& problem)> planner;
-  std::string planner_name;
-  // By name: bodies of skills. Their names and versions are in the key. Null: none but those that come with the engine.
-  std::shared_ptr<const std::map<std::string, PolicyEntry>> policies;
-  // Sensors of the program, likewise.
-  SensorEntries sensors;
-  ObservationChoice observation;
-  std::optional<Randomisation> randomise;                      // where the world has none of its own
-  Perturbation perturb;                                        // beside that
-  std::shared_ptr<const std::vector<MadeSentence>> sentences;  // beside the task's own; null: none
-  std::vector<Camera> cameras;   // beside those of the world, or instead of one of the same name
-  Renderer* renderer = nullptr;  // draws the images; null: one is made for the episode. Alters no data.
-  bool explain = false;          // every failed try says why, not only the first of its kind. Alters no data.
-  Witness witness;               // told of each step that finds no grasp or place. Alters no data.
-  int encoders = 0;              // threads that encode its images beside the drawing. Alters no data.
-  std::map<std::string, std::string> as_text() const;
-};
 
 // Runs one episode to its end, good or bad. Repeatable: the same record, bit for bit, but for host times.
 // `stop`: ends early with Reason::interrupted when true (checked between skills and every frame).
 EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& skills, const RunOptions& options,
                           const std::atomic<bool>* stop = nullptr);
-
-// Makes and settles a start in which init holds, without running it. Throws nothing; a reason when none was found.
-struct Start {
-  Reason reason = Reason::none;
-  std::string detail;  // which literal failed, and how often
-  std::shared_ptr<const Scene> scene;
-  int draws = 0;
-};
-Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options);
 
 // Re-simulates a stored episode from its scene and commands and compares every frame. Result: empty, or the first
 // difference in words (frame, value, stored, now).

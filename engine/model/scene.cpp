@@ -183,4 +183,10 @@ std::array<Vector3, 2> bounding_box(const Part& part) {
   return bounds;
 }
 
+std::vector<std::string> arm_joints(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const int part : robot.arm) names.push_back(robot.body.parts[static_cast<std::size_t>(part)].joint.name);
+  return names;
+}
+
 }  // namespace stampede

@@ -199,6 +199,7 @@ struct Robot {
   std::string hand = "hand";                       // its object's name is NAME.hand
   std::vector<std::pair<int, int>> checked_pairs;  // part pairs that self-collision tests; the rest never meet
 };
+std::vector<std::string> arm_joints(const Robot& robot);  // names in its URDF, from base to tip
 
 // What is measured beside the frames. kind `force_torque`: what contacts do to robot part `part` and all parts beyond
 // it (see World::contact_wrench), in that part's frame: force_x force_y force_z N, torque_x torque_y torque_z N m, the

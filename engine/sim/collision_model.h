@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/model/kinematics.h"
+#include "engine/model/part_ref.h"
 #include "engine/sim/convex.h"
-#include "engine/sim/part_ref.h"
 
 namespace stampede {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/model/kinematics.h"
-#include "engine/sim/part_ref.h"
+#include "engine/model/part_ref.h"
 
 namespace stampede {
 

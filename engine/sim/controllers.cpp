@@ -50,25 +50,6 @@ double effort_of(const JointLimits& limits) { return limits.effort > 0 ? limits.
 
 }  // namespace
 
-std::string_view to_string(ControllerKind kind) {
-  switch (kind) {
-    case ControllerKind::joint_position:
-      return "joint_position";
-    case ControllerKind::joint_impedance:
-      return "joint_impedance";
-    case ControllerKind::cartesian_impedance:
-      break;
-  }
-  return "cartesian_impedance";
-}
-
-std::optional<ControllerKind> controller_from(std::string_view name) {
-  for (const auto kind :
-       {ControllerKind::joint_position, ControllerKind::joint_impedance, ControllerKind::cartesian_impedance})
-    if (to_string(kind) == name) return kind;
-  return std::nullopt;
-}
-
 void World::Impl::build_robot_motors() {
   const Robot& robot = scene->robot;
   const BodySlot& robot_slot = body_slot(kRobot);

@@ -1,4 +1,5 @@
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/task_planner.h"
@@ -7,12 +8,6 @@ namespace stampede {
 namespace {
 
 using symbolic::View;
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
 
 // Why the step cannot be taken in `facts` (derived ones included); empty: it can.
 std::string fault(const Domain& domain, const Action& action, const PlanStep& step, const Facts& facts,

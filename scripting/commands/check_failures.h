@@ -11,8 +11,8 @@
 
 #include "db/query.h"
 #include "engine/base/output_file.h"
-#include "engine/episode/impasse.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
+#include "engine/start/impasse.h"
 
 namespace stampede::program {
 

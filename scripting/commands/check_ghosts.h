@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/impasse.h"
+#include "engine/start/impasse.h"
 
 namespace stampede::program {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/processor.h"
-#include "scripting/session/roots.h"
+#include "scripting/library/roots.h"
 
 namespace stampede::program {
 

@@ -1,12 +1,12 @@
 #include <filesystem>
 #include <ostream>
 
+#include "engine/base/text_file.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/annotations.h"
+#include "scripting/library/editor_files.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
-#include "scripting/session/editor_files.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

@@ -7,7 +7,8 @@
 #include "db/catalogue_writer.h"
 #include "db/table_text.h"
 #include "engine/base/text.h"
-#include "engine/episode/perturbation.h"
+#include "engine/sim/numerics.h"
+#include "engine/start/perturbation.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/picture_options.h"
@@ -16,7 +17,6 @@
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/session/evaluation.h"
-#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 namespace {

@@ -9,17 +9,17 @@
 #include "db/catalogue_writer.h"
 #include "engine/base/nearest.h"
 #include "engine/base/temporary_folder.h"
+#include "engine/base/text_file.h"
+#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
+#include "scripting/library/editor_files.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/bddl_task_file.h"
-#include "scripting/session/editor_files.h"
-#include "scripting/session/numerics.h"
 #include "scripting/session/run_job.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

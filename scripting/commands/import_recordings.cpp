@@ -4,13 +4,13 @@
 #include <ostream>
 
 #include "db/catalogue.h"
+#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
 #include "scripting/program/json_text.h"
 #include "scripting/recording/import_recording.h"
 #include "scripting/recording/label_file.h"
 #include "scripting/recording/recording_file.h"
-#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 namespace {

@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <ostream>
 
+#include "engine/base/text_file.h"
 #include "scripting/commands/commands.h"
+#include "scripting/library/editor_files.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
-#include "scripting/session/editor_files.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

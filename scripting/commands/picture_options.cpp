@@ -8,7 +8,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
-#include "engine/episode/sensors.h"
+#include "engine/rollout/sensors.h"
 #include "scripting/commands/torque_noise_file.h"
 
 namespace stampede::program {

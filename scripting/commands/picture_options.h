@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 #include "scripting/program/command.h"
 
 namespace stampede::program {

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "engine/base/text_file.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/plan_output.h"
@@ -10,7 +11,6 @@
 #include "scripting/session/constraints_fit.h"
 #include "scripting/session/start_question.h"
 #include "scripting/session/stored_symbols.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

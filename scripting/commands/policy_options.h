@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 #include "scripting/program/command.h"
 #include "scripting/session/policy_run.h"
 

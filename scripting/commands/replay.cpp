@@ -4,9 +4,9 @@
 
 #include "db/catalogue.h"
 #include "engine/episode/runner.h"
+#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "db/catalogue_writer.h"
+#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/language_options.h"
@@ -13,7 +14,6 @@
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/session/constraints_fit.h"
-#include "scripting/session/numerics.h"
 #include "scripting/session/run_job.h"
 
 namespace stampede::program {

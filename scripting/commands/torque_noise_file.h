@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "engine/episode/torque_noise.h"
+#include "engine/record/torque_noise.h"
 
 namespace stampede::program {
 

@@ -2,10 +2,10 @@
 
 #include <ostream>
 
+#include "engine/base/text_file.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::program {
 namespace {

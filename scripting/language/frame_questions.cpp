@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/base/random.h"
-#include "engine/episode/language.h"
+#include "engine/start/language.h"
 #include "scripting/language/lexicon.h"
 
 namespace stampede {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "engine/symbolic/symbols.h"
 
 namespace stampede {

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/episode/language.h"
+#include "engine/start/language.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/session/episode_job.h"
 #include "scripting/session/start_question.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/interfaces.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
+#include "engine/start/interfaces.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/language/lexicon.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/language/claims.h"
 #include "scripting/language/meaning.h"
 #include "scripting/language/reference_parser.h"

@@ -6,9 +6,9 @@
 
 #include "engine/base/read_file.h"
 #include "engine/base/read_json.h"
+#include "engine/base/text_file.h"
 #include "scripting/language/similarity.h"
 #include "scripting/session/episode_job.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

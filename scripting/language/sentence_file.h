@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/language/sentence_check.h"
 
 namespace stampede {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "engine/bddl/bddl.h"
-#include "engine/episode/call_settings.h"
+#include "engine/start/call_settings.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
 #include "scripting/library/source_lines.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 #include "engine/render/picture.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"

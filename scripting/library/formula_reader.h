@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/episode/interfaces.h"
+#include "engine/start/interfaces.h"
 #include "scripting/library/value.h"
 
 namespace stampede {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/episode/interfaces.h"
+#include "engine/start/interfaces.h"
 
 struct lua_State;
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/episode/goal_watch.h"
+#include "engine/rollout/goal_watch.h"
 #include "scripting/program/console.h"
 
 namespace stampede::program {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/episode/account.h"
-#include "engine/episode/keyframes.h"
-#include "engine/episode/observation.h"
+#include "engine/record/keyframes.h"
+#include "engine/record/observation.h"
 #include "scripting/recording/label_file.h"
 #include "scripting/recording/picture_stream.h"
 #include "scripting/recording/recording_scene.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "db/catalogue.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/library/library.h"
 
 namespace stampede {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/recording/recording_file.h"
 #include "scripting/recording/resample.h"
 

@@ -4,9 +4,9 @@
 
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
+#include "engine/base/text_file.h"
 #include "scripting/recording/csv_file.h"
 #include "scripting/recording/json_value.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/observation.h"
 #include "engine/model/camera.h"
+#include "engine/record/observation.h"
 #include "scripting/recording/recording_file.h"
 #include "scripting/recording/resample.h"
 

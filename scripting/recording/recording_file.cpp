@@ -6,9 +6,9 @@
 
 #include "engine/base/file_scope.h"
 #include "engine/base/nearest.h"
+#include "engine/base/text_file.h"
 #include "engine/render/png.h"
 #include "scripting/recording/json_value.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/reason.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/library/value.h"
 
 namespace stampede {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "engine/base/nearest.h"
+#include "engine/base/text_file.h"
 #include "engine/model/camera.h"
 #include "scripting/recording/picture_stream.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/episode/recorder.h"
 #include "engine/model/kinematics.h"
 #include "engine/model/scene_poses.h"
+#include "engine/rollout/recorder.h"
 
 namespace stampede {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/base/hash.h"
-#include "engine/episode/record.h"
 #include "engine/model/scene.h"
+#include "engine/record/record.h"
 #include "scripting/recording/resample.h"
 
 namespace stampede {

@@ -6,11 +6,11 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/scratch_folder.h"
+#include "engine/base/text_file.h"
 #include "scripting/research/answers.h"
 #include "scripting/research/computed_tables.h"
 #include "scripting/research/datasheet.h"
 #include "scripting/research/leaks.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::research {
 namespace {

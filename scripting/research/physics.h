@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
+#include "scripting/library/roots.h"
 #include "scripting/research/symbols_of.h"
-#include "scripting/session/roots.h"
 
 namespace stampede::research {
 

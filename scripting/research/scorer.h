@@ -7,9 +7,9 @@
 
 #include "db/plain_file.h"
 #include "engine/base/output_file.h"
+#include "scripting/library/roots.h"
 #include "scripting/research/answers.h"
 #include "scripting/research/problem.h"
-#include "scripting/session/roots.h"
 
 namespace stampede::research {
 

@@ -2,7 +2,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
-#include "engine/episode/call_settings.h"
+#include "engine/start/call_settings.h"
 #include "scripting/runtime/pose_binding.h"
 #include "scripting/runtime/robot_binding.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/episode/interfaces.h"
+#include "engine/start/interfaces.h"
 #include "scripting/library/library.h"
 
 namespace stampede {

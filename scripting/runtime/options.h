@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
-#include "engine/episode/world_view.h"
+#include "engine/start/world_view.h"
 #include "scripting/runtime/pose_binding.h"
 
 namespace stampede {

@@ -1,7 +1,7 @@
 // robot:follow { … } and robot:tilt(…): the pieces of a way, read from Lua.
 #pragma once
 
-#include "engine/episode/interfaces.h"
+#include "engine/start/interfaces.h"
 
 struct lua_State;
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/episode/interfaces.h"
+#include "engine/start/interfaces.h"
 #include "scripting/runtime/view_binding.h"
 
 namespace stampede {

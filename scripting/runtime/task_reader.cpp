@@ -4,8 +4,8 @@
 #include <lua.hpp>
 #include <set>
 
-#include "engine/episode/constraints.h"
 #include "engine/model/camera.h"
+#include "engine/start/constraints.h"
 #include "engine/symbolic/instances.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/variation.h"

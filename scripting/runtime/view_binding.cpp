@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
-#include "engine/episode/fact_tracker.h"
+#include "engine/start/fact_tracker.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/whitelist.h"
 #include "scripting/runtime/pose_binding.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/random.h"
-#include "engine/episode/world_view.h"
 #include "engine/motion/looked.h"
+#include "engine/start/world_view.h"
 
 struct lua_State;
 

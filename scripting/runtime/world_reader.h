@@ -1,8 +1,8 @@
 // Light, randomisation and observation as a world (or task) file says them.
 #pragma once
 
-#include "engine/episode/observation.h"
 #include "engine/model/randomise.h"
+#include "engine/record/observation.h"
 #include "scripting/runtime/body_builder.h"
 
 struct lua_State;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/episode/observation.h"
 #include "engine/model/scene_poses.h"
+#include "engine/record/observation.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/stored_symbols.h"
 

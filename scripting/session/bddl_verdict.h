@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/bddl/import.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 
 namespace stampede {
 

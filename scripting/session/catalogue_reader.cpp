@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "db/catalogue_set.h"
-#include "engine/episode/arrays.h"
+#include "engine/record/arrays.h"
 #include "engine/render/png.h"
 #include "scripting/session/studio.h"
 

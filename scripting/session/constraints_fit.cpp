@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "engine/episode/altered_task.h"
-#include "engine/episode/constraints.h"
+#include "engine/start/altered_task.h"
+#include "engine/start/constraints.h"
 #include "engine/symbolic/evaluation.h"
 #include "engine/symbolic/pddl.h"
 

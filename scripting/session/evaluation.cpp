@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/episode/perturbation.h"
+#include "engine/start/perturbation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/prepared_source.h"
 #include "stampede/environment.h"

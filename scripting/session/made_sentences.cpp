@@ -1,6 +1,6 @@
 #include "scripting/session/made_sentences.h"
 
-#include "engine/episode/language.h"
+#include "engine/start/language.h"
 
 namespace stampede {
 namespace {

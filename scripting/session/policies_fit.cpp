@@ -1,7 +1,7 @@
 #include "scripting/session/policies_fit.h"
 
 #include "engine/base/error.h"
-#include "engine/episode/skill_policy.h"
+#include "engine/rollout/skill_policy.h"
 #include "scripting/library/source_lines.h"
 #include "scripting/session/start_question.h"
 

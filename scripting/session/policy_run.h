@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/base/temporary_folder.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/session/episode_job.h"
 #include "scripting/session/policy_program.h"
 #include "stampede/environment.h"

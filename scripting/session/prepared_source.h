@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/episode/altered_task.h"
 #include "engine/episode/episode_source.h"
+#include "engine/start/altered_task.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede {

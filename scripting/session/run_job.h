@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/episode_queue.h"
+#include "engine/record/episode_queue.h"
 #include "scripting/session/episode_job.h"
 #include "stampede/episode.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "db/catalogue.h"
-#include "engine/episode/perturbation.h"
+#include "engine/start/perturbation.h"
 #include "scripting/session/studio.h"
 #include "stampede/arrays.h"
 #include "stampede/environment.h"

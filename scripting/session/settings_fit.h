@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/call_settings.h"
+#include "engine/start/call_settings.h"
 #include "scripting/library/library.h"
 
 namespace stampede {

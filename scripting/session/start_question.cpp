@@ -1,7 +1,8 @@
 #include "scripting/session/start_question.h"
 
-#include "engine/episode/altered_task.h"
-#include "engine/episode/assumptions.h"
+#include "engine/rollout/assumptions.h"
+#include "engine/start/altered_task.h"
+#include "engine/start/start.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

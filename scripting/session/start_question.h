@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/episode/abstract_state.h"
-#include "engine/episode/planning.h"
-#include "engine/episode/start.h"
+#include "engine/start/abstract_state.h"
+#include "engine/start/planning.h"
+#include "engine/start/start.h"
 #include "engine/symbolic/task_planner.h"
 #include "scripting/runtime/episode_scripts.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/bddl/export.h"
-#include "engine/episode/abstract_state.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
+#include "engine/start/abstract_state.h"
 #include "engine/symbolic/task_planner.h"
 
 namespace stampede {

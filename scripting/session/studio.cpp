@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "engine/episode/abstract_state.h"
 #include "engine/render/point_cloud.h"
+#include "engine/start/abstract_state.h"
 #include "scripting/session/render_thread.h"
 #include "scripting/session/stored_episode.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "stampede/picture.h"
 #include "stampede/world_state.h"
 

@@ -1,7 +1,7 @@
 // Episodes as arrays: from memory, and from a catalogue of 80,000 frames.
 #include <benchmark/benchmark.h>
 
-#include "engine/episode/arrays.h"
+#include "engine/record/arrays.h"
 #include "scripting/session/session_core.h"
 
 using namespace stampede;

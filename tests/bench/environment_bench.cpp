@@ -16,8 +16,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/episode/record.h"
 #include "engine/episode/runner.h"
+#include "engine/record/record.h"
 #include "scripting/session/session_core.h"
 
 namespace {

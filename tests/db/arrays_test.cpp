@@ -1,4 +1,4 @@
-#include "engine/episode/arrays.h"
+#include "engine/record/arrays.h"
 
 #include <sqlite3.h>
 

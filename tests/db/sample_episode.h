@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "db/catalogue.h"
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 
 namespace stampede::test {
 

@@ -8,9 +8,9 @@
 
 #include "db/catalogue.h"
 #include "engine/base/random.h"
-#include "engine/episode/arrays.h"
-#include "engine/episode/record.h"
 #include "engine/episode/runner.h"
+#include "engine/record/arrays.h"
+#include "engine/record/record.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 

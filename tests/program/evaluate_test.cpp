@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "db/catalogue.h"
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 #include "scripting/session/evaluation.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"

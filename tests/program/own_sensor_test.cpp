@@ -5,8 +5,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "engine/episode/record.h"
 #include "engine/episode/runner.h"
+#include "engine/record/record.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 

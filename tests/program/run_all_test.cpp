@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-#include "engine/episode/arrays.h"
-#include "engine/episode/record.h"
+#include "engine/record/arrays.h"
+#include "engine/record/record.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 

@@ -2,8 +2,8 @@
 #include <map>
 #include <set>
 
+#include "scripting/library/roots.h"
 #include "scripting/session/episode_job.h"
-#include "scripting/session/roots.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {

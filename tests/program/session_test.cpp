@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/episode/arrays.h"
+#include "engine/record/arrays.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/session/own_words.h"
 #include "scripting/session/session_core.h"

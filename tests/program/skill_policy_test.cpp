@@ -3,9 +3,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "engine/episode/priority_policy.h"
-#include "engine/episode/record.h"
 #include "engine/episode/runner.h"
+#include "engine/record/record.h"
+#include "engine/rollout/priority_policy.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 

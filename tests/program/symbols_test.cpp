@@ -3,10 +3,10 @@
 
 #include "db/catalogue.h"
 #include "engine/bddl/bddl.h"
-#include "engine/episode/abstract_state.h"
+#include "engine/start/abstract_state.h"
 #include "engine/symbolic/pddl.h"
+#include "scripting/library/roots.h"
 #include "scripting/session/constraints_fit.h"
-#include "scripting/session/roots.h"
 #include "scripting/session/session_core.h"
 #include "tests/program/say.h"
 

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "engine/sim/numerics.h"
 #include "scripting/program/console.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
-#include "scripting/session/numerics.h"
 
 namespace stampede::program {
 

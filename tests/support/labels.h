@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 
 namespace stampede::test {
 

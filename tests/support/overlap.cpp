@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "engine/episode/observation.h"
 #include "engine/model/scene_poses.h"
+#include "engine/record/observation.h"
 
 namespace stampede::test {
 namespace {

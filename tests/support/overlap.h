@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 
 namespace stampede::test {
 

@@ -1,7 +1,7 @@
 // What authors asked for: skills that know of their predicates, parts of variables, looks that follow facts.
 #include <catch2/catch.hpp>
 
-#include "engine/episode/observation.h"
+#include "engine/record/observation.h"
 #include "engine/render/renderer.h"
 #include "tests/tasks/run_task.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "db/catalogue.h"
-#include "engine/episode/abstract_state.h"
+#include "engine/start/abstract_state.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

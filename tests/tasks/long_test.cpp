@@ -3,7 +3,7 @@
 #include <chrono>
 #include <functional>
 
-#include "engine/episode/fact_tracker.h"
+#include "engine/start/fact_tracker.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

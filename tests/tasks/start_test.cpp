@@ -1,11 +1,11 @@
 // Starts that formulas in `init` draw: the same as --where, written in the task.
-#include "engine/episode/start.h"
+#include "engine/start/start.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <set>
 
-#include "engine/episode/abstract_state.h"
+#include "engine/start/abstract_state.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/episode/record.h"
+#include "engine/record/record.h"
 
 namespace stampede::test {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "engine/episode/skill_execution.h"
-#include "engine/episode/start.h"
+#include "engine/rollout/skill_execution.h"
+#include "engine/start/start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

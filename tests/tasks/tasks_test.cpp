@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "engine/episode/fact_tracker.h"
 #include "engine/episode/runner.h"
+#include "engine/start/fact_tracker.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/library.h"
 #include "scripting/runtime/episode_scripts.h"

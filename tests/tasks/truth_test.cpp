@@ -2,11 +2,12 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/episode/fact_tracker.h"
 #include "engine/model/camera.h"
 #include "engine/model/masks.h"
 #include "engine/model/scene_poses.h"
 #include "engine/render/renderer.h"
+#include "engine/start/fact_tracker.h"
+#include "engine/start/start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/engine/episode/plain_task.h"
 #include "tests/support/labels.h"
+#include "tests/support/plain_task.h"
 
 using namespace stampede;
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "engine/episode/language.h"
+#include "engine/start/language.h"
 #include "scripting/language/frame_questions.h"
 #include "scripting/session/episode_job.h"
 #include "scripting/session/made_sentences.h"

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/temporary_folder.h"
+#include "engine/base/text_file.h"
 #include "model_answers.h"
 #include "scripting/language/similarity.h"
-#include "scripting/session/text_file.h"
 #include "shipped.h"
 #include "stub_server.h"
 

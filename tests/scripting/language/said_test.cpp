@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "scripting/session/text_file.h"
+#include "engine/base/text_file.h"
 #include "shipped.h"
 
 using namespace stampede;

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "db/catalogue.h"
-#include "engine/episode/observation.h"
 #include "engine/model/kinematics.h"
+#include "engine/record/observation.h"
 #include "engine/render/png.h"
 #include "lab.h"
 #include "scripting/recording/export_recording.h"

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/temporary_folder.h"
-#include "scripting/session/text_file.h"
+#include "engine/base/text_file.h"
 
 namespace stampede::research {
 namespace {

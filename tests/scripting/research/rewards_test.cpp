@@ -3,11 +3,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/temporary_folder.h"
+#include "engine/base/text_file.h"
 #include "scripting/research/baseline.h"
 #include "scripting/research/dataset.h"
 #include "scripting/research/reward_distance.h"
 #include "scripting/research/scorer.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::research {
 namespace {

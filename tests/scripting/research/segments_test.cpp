@@ -5,9 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/temporary_folder.h"
+#include "engine/base/text_file.h"
 #include "scripting/research/dataset.h"
 #include "scripting/research/scorer.h"
-#include "scripting/session/text_file.h"
 
 namespace stampede::research {
 namespace {

@@ -1,7 +1,7 @@
 // Symbols beside the raw state: facts, what is known of them, and who may read them.
 #include <catch2/catch.hpp>
 
-#include "engine/episode/fact_tracker.h"
+#include "engine/start/fact_tracker.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/episode/world_view.h"
+#include "engine/start/world_view.h"
 #include "scripting/runtime/episode_scripts.h"
 
 namespace stampede::test {

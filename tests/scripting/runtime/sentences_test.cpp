@@ -3,9 +3,10 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
-#include "engine/episode/fact_tracker.h"
-#include "engine/episode/language.h"
 #include "engine/episode/runner.h"
+#include "engine/start/fact_tracker.h"
+#include "engine/start/language.h"
+#include "engine/start/start.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <set>
 
-#include "engine/episode/perturbation.h"
 #include "engine/model/randomise.h"
+#include "engine/start/perturbation.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;

@@ -1,0 +1,151 @@
+#include "engine/record/action_space.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+#include "engine/model/operation.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kToolSpeed = 1.7, kToolTurn = 2.5;            // m/s, rad/s
+constexpr double kReach_m = 1.5;                               // of any pose, from the robot's base
+constexpr double kFarthest_m = 3, kHalfTurn = 3.1416;          // of a path
+constexpr double kLeastStiffness = 10, kMostStiffness = 3000;  // N/m
+constexpr double kSlack = 1e-9;                                // of bounds: a sum of deltas may miss them by a digit
+
+using Components = std::vector<ActionComponent>;
+
+void add(Components& components, std::initializer_list<const char*> names, const char* unit, double most) {
+  for (const char* name : names) components.push_back({name, unit, -most, most});
+}
+
+Components pose_components(const Vector3& base) {
+  Components components;
+  const std::array<const char*, 3> names = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    components.push_back({names[static_cast<std::size_t>(i)], "m", base[i] - kReach_m, base[i] + kReach_m});
+  add(components, {"qx", "qy", "qz", "qw"}, "1", 1);
+  return components;
+}
+
+Components twist_components(const char* metres, double way, const char* radians, double turn) {
+  Components components;
+  add(components, {"x", "y", "z"}, metres, way);
+  add(components, {"rx", "ry", "rz"}, radians, turn);
+  return components;
+}
+
+struct NamedLimits {
+  std::string name;
+  JointLimits limits;
+};
+
+std::vector<ActionSpace> all_spaces(const std::vector<NamedLimits>& joints, const Vector3& base, double frame_s,
+                                    double opening_max) {
+  Components positions, deltas, velocities, torques;
+  for (const auto& [name, limits] : joints) {
+    positions.push_back({name, "rad", limits.lower, limits.upper});
+    deltas.push_back({name, "rad", -limits.velocity * frame_s, limits.velocity * frame_s});
+    velocities.push_back({name, "rad/s", -limits.velocity, limits.velocity});
+    torques.push_back({name, "N m", -limits.effort, limits.effort});
+  }
+  const Components pose = pose_components(base);
+  Components soft = pose;
+  soft.push_back({"stiffness", "N/m", kLeastStiffness, kMostStiffness});
+  return {{"joint_position", positions},
+          {"joint_delta", deltas},
+          {"joint_velocity", velocities},
+          {"joint_torque", torques},
+          {"tool_pose", pose},
+          {"tool_delta", twist_components("m", kToolSpeed * frame_s, "rad", kToolTurn * frame_s)},
+          {"tool_velocity", twist_components("m/s", kToolSpeed, "rad/s", kToolTurn)},
+          {"tool_impedance", soft},
+          {"tool_path", pose},
+          {"tool_path_delta", twist_components("m", kFarthest_m, "rad", kHalfTurn)},
+          {"gripper", {{"opening", "m", 0, opening_max}}},
+          {"release", {}},
+          {"hold", {}},
+          {"skill", {}},
+          {"go_on", {}}};
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
+}
+
+}  // namespace
+
+bool is_of_tool(std::string_view space) { return space.starts_with("tool_"); }
+
+bool is_planned(std::string_view space) { return space == "tool_path" || space == "tool_path_delta"; }
+
+bool lasts_a_frame(std::string_view space) {
+  return !is_planned(space) && space != "skill" && space != "hold" && space != "go_on";
+}
+
+std::vector<ActionSpace> action_spaces(const Scene& scene) {
+  std::vector<NamedLimits> joints;
+  for (std::size_t j = 0; j < scene.robot.arm.size(); ++j) {
+    const auto part = static_cast<std::size_t>(scene.robot.arm[j]);
+    joints.push_back({scene.robot.name + "." + scene.robot.body.parts[part].joint.name, scene.robot.limits[j]});
+  }
+  return all_spaces(joints, scene.robot.body.world_from_body.translation(), 1.0 / scene.frame_hz,
+                    scene.robot.opening_max);
+}
+
+std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints) {
+  std::vector<NamedLimits> limits;
+  for (const std::string& name : joints) limits.push_back({name, {}});
+  std::vector<ActionSpace> spaces = all_spaces(limits, Vector3::Zero(), 1, 0);
+  for (ActionSpace& space : spaces)
+    for (ActionComponent& one : space.components) one = {one.name, one.unit};
+  return spaces;
+}
+
+std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces) {
+  const auto space =
+      std::find_if(spaces.begin(), spaces.end(), [&](const ActionSpace& one) { return one.name == action.space; });
+  if (space == spaces.end()) {
+    std::vector<std::string> names;
+    for (const ActionSpace& one : spaces) names.push_back(one.name);
+    return ActionRefusal{"there is no action space '" + action.space + "'", did_you_mean(action.space, names)};
+  }
+  const bool pose = action.space == "tool_pose" || action.space == "tool_path" || action.space == "tool_impedance";
+  const bool relative = action.frame == "tool";
+  if (action.frame != "world" && action.frame != "tool")
+    return ActionRefusal{"there is no frame of reference '" + action.frame + "'", "say world or tool"};
+  if (action.values.size() != space->components.size())
+    return ActionRefusal{action.space + " has " + std::to_string(space->components.size()) + " values, not " +
+                             std::to_string(action.values.size()),
+                         "spaces() lists them"};
+  const auto check = [](const ActionComponent& component, double value) -> std::optional<ActionRefusal> {
+    if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
+    if (value >= component.lower - kSlack && value <= component.upper + kSlack) return std::nullopt;
+    return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
+                         "it goes from " + number(component.lower) + " to " + number(component.upper)};
+  };
+  for (std::size_t i = 0; i < action.values.size(); ++i) {
+    ActionComponent component = space->components[i];
+    if (pose && relative && i < 3) component.lower = -kReach_m, component.upper = kReach_m;
+    if (auto refusal = check(component, action.values[i])) return refusal;
+  }
+  if (pose && Eigen::Vector4d(action.values[3], action.values[4], action.values[5], action.values[6]).norm() < 1e-3)
+    return ActionRefusal{"its quaternion has no length", "x y z, then the quaternion x y z w: 0 0 0 1"};
+  if (action.gripper) {
+    const auto gripper =
+        std::find_if(spaces.begin(), spaces.end(), [](const ActionSpace& one) { return one.name == "gripper"; });
+    if (auto refusal = check(gripper->components.front(), *action.gripper)) return refusal;
+  }
+  if (!action.controller.empty() && !controller_from(action.controller))
+    return ActionRefusal{"there is no controller '" + action.controller + "'",
+                         did_you_mean(action.controller, controller_names())};
+  if (action.frames < 0) return ActionRefusal{"a number of frames is not negative", "0: to its end"};
+  return std::nullopt;
+}
+
+}  // namespace stampede

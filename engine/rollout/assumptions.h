@@ -1,0 +1,27 @@
+// Plans on what is known. Where that is not enough, what nobody could see so far is assumed.
+#pragma once
+
+#include <functional>
+
+#include "engine/base/random.h"
+#include "engine/start/planning.h"
+
+namespace stampede {
+
+// What may be assumed: facts that nobody could see so far, of things of which nothing is known that could change.
+Facts conceivable(const FactTracker& facts);
+
+// The start of `problem` as it is known, with what of `assumed` may still be so.
+void keep_known(Problem& problem, const FactTracker& facts, const Facts& assumed);
+
+struct AssumingPlan {
+  PlanOutcome outcome;
+  Facts assumed;  // what the plan rests on; empty: known facts alone
+};
+
+// A plan on what is known; failing that, on one conceivable fact of each thing too, combined in an order drawn from
+// `key`. What the plan does not need is not assumed. Without a plan: the outcome of what is known.
+AssumingPlan plan_assuming(const PlanningTask& known, const Facts& conceivable, RandomKey key,
+                           const std::function<PlanOutcome(const PlanningTask&)>& planner);
+
+}  // namespace stampede

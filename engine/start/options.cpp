@@ -1,0 +1,118 @@
+// Options of a run as text: what keys and catalogues hold.
+#include "engine/start/options.h"
+
+#include <array>
+#include <sstream>
+
+#include "engine/base/hash.h"
+#include "engine/start/call_settings.h"
+#include "engine/symbolic/pddl.h"
+
+namespace stampede {
+namespace {
+
+// All but what it reads.
+std::string text_of(const SensorEntry& entry) {
+  std::string text = entry.version + "; " + std::to_string(entry.rate_hz) + " Hz; " + entry.unit;
+  for (const std::string& component : entry.components) text += "; " + component;
+  return text;
+}
+
+std::string text_of(const Randomisation& ranges) {
+  std::ostringstream text;
+  text.precision(17);
+  const auto list = [&](const char* name, const std::vector<std::string>& words) {
+    text << name << '=';
+    for (const std::string& word : words) text << word << ',';
+    text << ' ';
+  };
+  const auto range = [&](const char* name, const Range& value) {
+    text << name << '=' << value[0] << ".." << value[1] << ' ';
+  };
+  list("looks", ranges.looks);
+  text << "colours=";
+  for (const Colour& c : ranges.colours) text << c.red << '/' << c.green << '/' << c.blue << '/' << c.alpha << ',';
+  text << ' ';
+  list("textures", ranges.textures);
+  range("ambient", ranges.ambient);
+  range("diffuse", ranges.diffuse);
+  text << "light_direction=" << ranges.light_direction_rad << " camera_position=" << ranges.camera_position_m
+       << " camera_rotation=" << ranges.camera_rotation_rad << ' ';
+  list("dynamics", ranges.dynamics);
+  range("mass", ranges.mass);
+  range("friction", ranges.friction);
+  range("damping", ranges.damping);
+  return text.str();
+}
+
+}  // namespace
+
+std::string_view to_string(OnFailure value) {
+  switch (value) {
+    case OnFailure::undo:
+      return "undo";
+    case OnFailure::stop:
+      return "stop";
+    case OnFailure::recover:
+      return "recover";
+  }
+  return "undo";
+}
+
+std::optional<OnFailure> on_failure_from(std::string_view text) {
+  for (const OnFailure value : {OnFailure::undo, OnFailure::stop, OnFailure::recover})
+    if (to_string(value) == text) return value;
+  return std::nullopt;
+}
+
+std::string_view to_string(Behaviour value) {
+  constexpr std::array<std::string_view, 3> kNames{"plan", "random_skills", "random_applicable"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
+std::optional<Behaviour> behaviour_from(std::string_view text) {
+  for (const Behaviour value : {Behaviour::plan, Behaviour::random_skills, Behaviour::random_applicable})
+    if (to_string(value) == text) return value;
+  return std::nullopt;
+}
+
+std::map<std::string, std::string> RunOptions::as_text() const {
+  std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},
+                                             {"tries_per_skill", std::to_string(tries_per_skill)},
+                                             {"tries_per_episode", std::to_string(tries_per_episode)},
+                                             {"plans", std::to_string(plans)},
+                                             {"draws", std::to_string(draws)}};
+  if (!controller.empty()) text["controller"] = controller;
+  if (!set.empty()) text["set"] = to_text(set);
+  if (where) text["where"] = to_pddl(*where);
+  if (goal) text["goal"] = to_pddl(*goal);
+  if (behaviour != Behaviour::plan) {
+    text["behaviour"] = to_string(behaviour);
+    text["skills"] = std::to_string(skills);
+  }
+  if (physics_hz > 0) text["physics_hz"] = std::to_string(physics_hz);
+  if (frame_hz > 0) text["frame_hz"] = std::to_string(frame_hz);
+  if (horizon_s > 0) text["horizon_s"] = std::to_string(horizon_s);
+  if (policies)
+    for (const auto& [name, entry] : *policies) text["policy_" + name] = entry.version;
+  if (sensors)
+    for (const auto& [name, entry] : *sensors) text["sensor_" + name] = text_of(entry);
+  if (planner) text["planner"] = planner_name;
+  text.merge(observation.as_text());
+  if (randomise) text["randomise"] = text_of(*randomise);
+  if (!perturb.empty()) text["perturb"] = to_text(perturb);
+  if (sentences && !sentences->empty()) {
+    Hasher hasher;
+    for (const MadeSentence& one : *sentences)
+      hasher.text(to_string(one.level)).text(one.of).text(one.text).text(to_string(one.grain)).text(one.model);
+    text["sentences"] = hasher.digest();
+  }
+  if (!cameras.empty()) {  // as their scene's document tells them apart, to the last bit
+    Scene scene;
+    scene.cameras = cameras;
+    text["cameras"] = content_hash(scene_to_document(scene));
+  }
+  return text;
+}
+
+}  // namespace stampede

@@ -1,0 +1,124 @@
+#include "engine/start/part_questions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/base/error.h"
+
+namespace stampede {
+namespace {
+
+constexpr double kFollowsReference = 0.02;  // rad: further off, contact holds the arm
+constexpr std::size_t kEnoughGrasps = 2;    // grasps: not by a hair
+
+void put(const WorldView& view, const std::string& part, double position, CollisionState& space) {
+  space.move_part(view.part_of(part), view.part_at(part, position) * view.world_from(part).inverse());
+}
+
+}  // namespace
+
+JointVector planning_start(const World& world, int robot) {
+  const JointVector reference = world.reference(robot).position, actual = world.arm_position(robot);
+  return (reference - actual).cwiseAbs().maxCoeff() > kFollowsReference ? actual : reference;
+}
+
+PartWay way_of_part(const WorldView& view, const std::string& name, double position, double pivot) {
+  const PartRef part = view.part_of(name);
+  const Joint& joint = view.scene().body_at(part.body).parts[static_cast<std::size_t>(part.part)].joint;
+  const double here = view.world().joint_position(part);
+  const Transform part_from_world = view.world_from(name).inverse();
+  PartWay way;
+  way.part = part;
+  way.pivot = pivot;
+  way.opening = view.world().opening();
+  way.moved = [&view, name, here, position, part_from_world](double share) {
+    return Transform(view.part_at(name, here + share * (position - here)) * part_from_world);
+  };
+  way.axis = view.world_from(name).linear() * joint.axis.normalized();
+  if (joint.kind != JointKind::slider) way.turn = position - here;
+  const double last = std::clamp(position, joint.lower, joint.upper);
+  if (last != position) way.stop = std::clamp((last - here) / (position - here), 0.0, 1.0);
+  return way;
+}
+
+std::vector<GraspCandidate> grasps_to_go(const WorldView& view, const CollisionState& space, const std::string& object,
+                                         const std::optional<PartWay>& follow, double from, double to, RandomKey key,
+                                         int most) {
+  const auto grasps = [&](const std::optional<PartWay>& way) {
+    return grasp_candidates(space, view.world(), view.object(object), planning_start(view.world()), key, most, way);
+  };
+  if (!follow) return grasps({});
+  for (const double share : {1.0, 0.75, 0.5, 0.25, 0.125}) {
+    // Of a straight way no second grip does what the first cannot: something is before it, and has to be found.
+    if (share < 1 && follow->turn == 0) break;
+    std::vector<GraspCandidate> found = grasps(first_of(*follow, share));
+    for (GraspCandidate& grasp : found) grasp.reach = share == 1 ? to : from + share * (to - from);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::optional<PartWay> way_to(const WorldView& view, const std::string& name, const std::string& to) {
+  const auto& numbers = view.object(name).numbers;
+  const auto found = numbers.find(to);
+  if (found == numbers.end()) return std::nullopt;
+  const auto pivot = numbers.find("pivot");
+  PartWay way = way_of_part(view, name, found->second, pivot == numbers.end() ? 0 : pivot->second);
+  way.retreat = 0.08;  // m: what is let go is then left
+  return way;
+}
+
+// Where a number of the part lies on its way from where its joint is to where another of its numbers says.
+static std::optional<double> share_of(const WorldView& view, const std::string& part, const std::string& to,
+                                      const std::string& number) {
+  const auto& numbers = view.object(part).numbers;
+  if (!numbers.contains(to) || !numbers.contains(number)) return std::nullopt;
+  const double from = view.joint(part);
+  return (numbers.at(number) - from) / (numbers.at(to) - from);
+}
+
+CollisionState WorldView::space_behind(const std::string& before) const {
+  CollisionState space = world_->collision_state();
+  if (before.empty()) return space;
+  const auto& numbers = object(before).numbers;
+  put(*this, before, numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second, space);
+  return space;
+}
+
+bool WorldView::can_grasp(const std::string& name, const std::string& before) const {
+  const CollisionState space = space_behind(before);
+  return std::ranges::all_of(std::array{"can_grasp", "again", "once more"}, [&](const char* draw) {
+    const auto grasps =
+        grasp_candidates(space, *world_, object(name), world_->arm_position(), RandomKey(draw), kEnoughGrasps);
+    return grasps.size() == kEnoughGrasps;
+  });
+}
+
+bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before,
+                         const std::string& enough) const {
+  constexpr int kMostGrips = 8;  // half of what a skill may take (worlds/lib/grips.lua): a start has something in hand
+  constexpr double kSlack = 0.03;  // of the way: what a handle gives in the hand
+  CollisionState space = space_behind(before);
+  // What else of the furniture is open may be shut first: that is for the plan to find.
+  for (const Object& other : scene().objects)
+    if (other.kind == ObjectKind::part && other.body == object(part).body && other.name != part &&
+        other.name != before && other.numbers.contains("closed_at"))
+      put(*this, other.name, other.numbers.at("closed_at"), space);
+  for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
+  const std::optional<PartWay> way = way_to(*this, part, to);
+  const auto needed = share_of(*this, part, to, enough.empty() ? to : enough);
+  if (!way || !needed) throw Error("can_move", "'" + part + "' has no number '" + (way ? enough : to) + "'");
+  const double least = std::min(1.0, *needed + kSlack);
+  double done = 0;  // share of the way, grip by grip
+  for (int grip = 0; grip < kMostGrips && done < least; ++grip) {
+    CollisionState there = space;
+    there.move_part(way->part, way->moved(done));
+    const std::size_t wanted = grip == 0 ? kEnoughGrasps : 1;
+    const auto found = grasps_to_go(*this, there, part, rest_of(*way, done), done, 1, RandomKey("can_move"), wanted);
+    if (found.size() < wanted) return false;
+    done = *found.front().reach;
+  }
+  return done >= least;
+}
+
+}  // namespace stampede

@@ -1,0 +1,73 @@
+// Plans that rest on what nobody has seen: as much as they need of it, drawn.
+#include "engine/rollout/assumptions.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/symbolic/pddl.h"
+
+using namespace stampede;
+
+namespace {
+
+const char* const kDomain = R"((define (domain finds) (:requirements :strips :typing)
+  (:types thing box - object)
+  (:predicates (in ?t - thing ?b - box) (open ?b - box) (locked ?b - box) (have ?t - thing))
+  (:action open-it :parameters (?b - box) :precondition (not (locked ?b)) :effect (open ?b))
+  (:action take :parameters (?t - thing ?b - box) :precondition (and (in ?t ?b) (open ?b)) :effect (have ?t))))";
+
+PlanningTask finds(const std::string& init, const std::string& goal) {
+  PlanningTask task;
+  task.domain = domain_from_pddl(kDomain, "domain");
+  task.problem = problem_from_pddl(
+      "(define (problem p) (:domain finds) (:objects key coin cap - thing low high - box)"
+      " (:init " +
+          init + ") (:goal (and " + goal + ")))",
+      "problem", task.domain);
+  return task;
+}
+
+Facts anywhere(const std::vector<std::string>& things) {
+  Facts facts;
+  for (const std::string& thing : things)
+    for (const char* box : {"low", "high"}) facts.insert({"in", {thing, box}});
+  return facts;
+}
+
+AssumingPlan find(const PlanningTask& task, const Facts& conceivable, std::int64_t seed) {
+  return plan_assuming(task, conceivable, RandomKey("test").with(seed),
+                       [](const PlanningTask& one) { return solve(one.domain, one.problem); });
+}
+
+}  // namespace
+
+TEST_CASE("a plan assumes one fact of each thing that it needs and nobody has seen, and none of another") {
+  const PlanningTask task = finds("", "(have key) (have coin)");
+  std::set<Facts> guesses;
+  for (std::int64_t seed = 0; seed < 40; ++seed) {
+    const AssumingPlan found = find(task, anywhere({"key", "coin", "cap"}), seed);
+    REQUIRE(found.outcome.solved);
+    REQUIRE(found.assumed.size() == 2);
+    CHECK(found.assumed.begin()->arguments[0] == "coin");
+    CHECK(found.assumed.rbegin()->arguments[0] == "key");
+    PlanningTask assumed = task;
+    CHECK_FALSE(validate(assumed.domain, assumed.problem, found.outcome.plan).valid);
+    assumed.problem.init.insert(found.assumed.begin(), found.assumed.end());
+    CHECK(validate(assumed.domain, assumed.problem, found.outcome.plan).valid);
+    guesses.insert(found.assumed);
+  }
+  CHECK(guesses.size() == 4);  // each of two things in each of two boxes
+}
+
+TEST_CASE("what is known goes first, and what makes no plan is not assumed") {
+  const AssumingPlan known = find(finds("(in key low)", "(have key)"), anywhere({"coin"}), 1);
+  CHECK(known.outcome.solved);
+  CHECK(known.assumed.empty());
+  for (std::int64_t seed = 0; seed < 10; ++seed) {
+    const AssumingPlan high = find(finds("(locked low)", "(have key) (have coin)"), anywhere({"key", "coin"}), seed);
+    CHECK(high.assumed == Facts{{"in", {"key", "high"}}, {"in", {"coin", "high"}}});
+    const AssumingPlan none = find(finds("(locked low) (locked high)", "(have key)"), anywhere({"key"}), seed);
+    CHECK_FALSE(none.outcome.solved);
+    CHECK(none.assumed.empty());
+    CHECK_FALSE(none.outcome.explanation.empty());
+  }
+}
