@@ -78,7 +78,7 @@ TEST_CASE("arrays of a catalogue are those of the episode in memory, to the last
 }
 
 TEST_CASE("the README describes the columns of sensors and cameras") {
-  std::ifstream file(std::string(STAMPEDE_SOURCE_DIR) + "/engine/episode/README.md");
+  std::ifstream file(std::string(STAMPEDE_SOURCE_DIR) + "/engine/record/README.md");
   const std::string readme{std::istreambuf_iterator<char>(file), {}};
   const auto described = [&](std::string name) {
     for (const char* camera : {"front", "wrist"})

@@ -81,7 +81,7 @@ TEST_CASE("every column has the shape that it says, a row a frame where its rate
 }
 
 TEST_CASE("the README describes every column that an episode has") {
-  const std::string readme = text_of_file(std::string(STAMPEDE_SOURCE_DIR) + "/engine/episode/README.md");
+  const std::string readme = text_of_file(std::string(STAMPEDE_SOURCE_DIR) + "/engine/record/README.md");
   for (const ArrayColumn& column : arrays().columns) {
     std::string name = column.name;
     if (const std::size_t slash = name.find('/'); slash != std::string::npos && !name.starts_with("action/"))
