@@ -199,7 +199,6 @@ void World::Impl::control_position(const JointState& now, const JointState& next
   const JointVector q = arm_position_now(), v = arm_velocity_now();
   const auto jacobian = arm.jacobian(q);
   const double press = kPress + kLoadRate * load_mass();
-  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes(jacobian));
   const std::vector<double> levers = reference.servo ? contact_levers() : std::vector<double>{};
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
