@@ -11,6 +11,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "catalogues hold little-endian numbers");
 constexpr std::uint8_t kVersion = 1;
+constexpr ControllerKind kControllers[] = {ControllerKind::joint_position, ControllerKind::joint_impedance,
+                                           ControllerKind::cartesian_impedance};
 
 class ByteWriter {
  public:
@@ -200,17 +202,14 @@ std::string_view to_string(ControllerKind kind) {
 }
 
 std::optional<ControllerKind> controller_from(std::string_view name) {
-  for (const auto kind :
-       {ControllerKind::joint_position, ControllerKind::joint_impedance, ControllerKind::cartesian_impedance})
+  for (const ControllerKind kind : kControllers)
     if (to_string(kind) == name) return kind;
   return std::nullopt;
 }
 
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;
-  for (const ControllerKind kind :
-       {ControllerKind::joint_position, ControllerKind::joint_impedance, ControllerKind::cartesian_impedance})
-    names.emplace_back(to_string(kind));
+  for (const ControllerKind kind : kControllers) names.emplace_back(to_string(kind));
   return names;
 }
 

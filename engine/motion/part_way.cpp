@@ -132,18 +132,10 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
     for (int j = -most; j <= most; ++j) {
       Node& node = layers[k][static_cast<std::size_t>(j + most)];
       const Transform tip = elbow_turns ? Transform(moved * held) : turned(moved * held, way.axis, j * step);
-      const auto bend_of = [&](int i) { return elbow_turns ? 0 : kPivotCost * step * (j - i); };
-      const auto least_cost = [&](int i) {
-        return before[static_cast<std::size_t>(i + most)].cost + bend_of(i) * bend_of(i);
-      };
-      std::vector<int> sources;  // the cheapest first: what costs more than the way that is found is left out
-      for (int i = std::max(-most, j - next); i <= std::min(most, j + next); ++i)
-        if (least_cost(i) < node.cost) sources.push_back(i);
-      std::ranges::stable_sort(sources, {}, least_cost);
-      for (const int i : sources) {
+      for (int i = std::max(-most, j - next); i <= std::min(most, j + next); ++i) {
         const Node& from = before[static_cast<std::size_t>(i + most)];
-        const double bend = bend_of(i);
-        if (least_cost(i) >= node.cost) break;
+        const double bend = elbow_turns ? 0 : kPivotCost * step * (j - i);
+        if (from.cost + bend * bend >= node.cost) continue;
         const JointVector guess = elbow_turns ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
         const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
         if (!q || joint_gap(*q, from.q) > kMostJump) continue;

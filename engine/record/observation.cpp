@@ -12,11 +12,6 @@ namespace {
 constexpr std::array<std::string_view, 3> kWhichNames{"none", "keyframes", "all"};
 constexpr const char* kPrefix = "observe_";
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};  // shortest exact
-}
-
 // The inverse of `joined`.
 std::vector<std::string> words_of(std::string_view text) {
   return text.empty() ? std::vector<std::string>{} : split(text, ',');
@@ -46,7 +41,7 @@ Number number_from(std::string_view text) {
 
 std::string text_of(const TorqueNoise& value) { return to_text(value); }
 std::string text_of(bool value) { return value ? "1" : "0"; }
-std::string text_of(double value) { return number(value); }
+std::string text_of(double value) { return number_text(value); }
 std::string text_of(WhichFrames value) { return std::string(to_string(value)); }
 std::string text_of(const std::vector<std::string>& value) { return joined(value, ","); }
 std::string text_of(const PictureKinds& value) { return kinds_text(value); }

@@ -249,7 +249,7 @@ void World::Impl::give_torques(JointVector torque) {
     body_slot(kRobot).tree->torque[static_cast<std::size_t>(arm_motors[j]->dof)] += torque[i];
   }
   arm_torque = torque;
-  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes(arm_dynamics.jacobian()));
+  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes());
 }
 
 // What is asked for, but for the part of it that would take a joint beyond its limits. Nobody takes off centrifugal and
@@ -268,22 +268,22 @@ void World::Impl::control_torque(const JointVector& asked) {
 
 // What pushes an arm that an agent steers, and what turns as it goes, makes it no faster than it may be: in the same
 // step each joint holds against that, and all together for the tool.
-std::vector<SpeedBrake> World::Impl::speed_brakes(const TipJacobian& jacobian) const {
+std::vector<SpeedBrake> World::Impl::speed_brakes() const {
+  const TipJacobian& jacobian = arm_dynamics.jacobian();
   const std::vector<JointLimits>& limits = scene->robot.limits;
   const auto dofs = static_cast<std::size_t>(body_slot(kRobot).tree->dofs());
   const Vector3 ahead = (jacobian.topRows<3>() * arm_velocity_now()).normalized();
-  std::vector<SpeedBrake> brakes;
-  SpeedBrake tool{std::vector<double>(dofs), kBrakedToolSpeed, std::numeric_limits<double>::infinity()};
+  std::vector<SpeedBrake> brakes(1 + arm_motors.size());
+  SpeedBrake& tool = brakes.front();  // before the joints', which it may make faster
+  tool = {std::vector<double>(dofs), kBrakedToolSpeed, std::numeric_limits<double>::infinity()};
   for (std::size_t j = 0; j < arm_motors.size(); ++j) {
     const auto dof = static_cast<std::size_t>(arm_motors[j]->dof);
     const double lever = jacobian.col(static_cast<Eigen::Index>(j)).head<3>().dot(ahead);
     tool.jacobian[dof] = lever;
     if (lever != 0) tool.most_force = std::min(tool.most_force, effort_of(limits[j]) / std::abs(lever));
-    SpeedBrake joint{std::vector<double>(dofs), speed_of(limits[j]), effort_of(limits[j])};
-    joint.jacobian[dof] = 1;
-    brakes.push_back(std::move(joint));
+    brakes[1 + j] = {std::vector<double>(dofs), speed_of(limits[j]), effort_of(limits[j])};
+    brakes[1 + j].jacobian[dof] = 1;
   }
-  brakes.insert(brakes.begin(), std::move(tool));  // which may make a joint faster
   return brakes;
 }
 

@@ -112,7 +112,7 @@ struct World::Impl {
   void control_cartesian_impedance(const JointState& next);
   void give_torques(JointVector torque);
   JointVector kept_safe(const JointVector& acceleration, double margin);
-  std::vector<SpeedBrake> speed_brakes(const TipJacobian& jacobian) const;
+  std::vector<SpeedBrake> speed_brakes() const;
   JointVector held_back(const JointVector& acceleration);
   double load_mass() const;
   Vector3 lever(std::size_t joint, const Vector3& point) const;

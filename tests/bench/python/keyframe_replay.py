@@ -57,19 +57,19 @@ def keyframes(demo) -> list[int]:
     return found
 
 
-def reaches_goal(task, demo, actions) -> str:
-    """Empty: it does."""
+def reaches_goal(task, demo, actions) -> tuple[str, int]:
+    """Why not, empty: it does; and after how many actions that was known."""
     task.reset_to_demo(demo)
-    for number, action in enumerate(actions):
+    for number, action in enumerate(actions, 1):
         try:
             _, reward, over = task.step(action)
         except InvalidActionError as error:
-            return f"action {number + 1} of {len(actions)}: {error}".split("\n")[0]
+            return f"action {number} of {len(actions)}: {error}".split("\n")[0], number
         if reward == 1.0:
-            return ""
+            return "", number
         if over:
-            return f"over after action {number + 1} of {len(actions)}"
-    return f"not done after {len(actions)}"
+            return f"over after action {number} of {len(actions)}", number
+    return f"not done after {len(actions)}", len(actions)
 
 
 def pose_actions(demo, frames) -> list[np.ndarray]:
@@ -106,9 +106,10 @@ def main() -> None:
                 continue
             total += 1
             found = keyframes(demo)
-            told = {"keyframes": reaches_goal(ways, demo, pose_actions(demo, found))}
+            told = {"keyframes": reaches_goal(ways, demo, pose_actions(demo, found))[0]}
             if options.sixth:
-                told["sixth"] = reaches_goal(ways, demo, pose_actions(demo, [*range(6, len(demo) - 1, 6), len(demo) - 1]))
+                sixth = [*range(6, len(demo) - 1, 6), len(demo) - 1]
+                told["sixth"] = reaches_goal(ways, demo, pose_actions(demo, sixth))[0]
             told["joints"], late = joints_replay(steps, demo)
             waited += late > 0
             for kind, why in told.items():
@@ -123,13 +124,8 @@ def main() -> None:
 def joints_replay(task, demo) -> tuple[str, int]:
     """Why not, and how many frames late."""
     actions = [seen.misc["joint_position_action"] for seen in demo[1:]]
-    why = reaches_goal(task, demo, actions)
-    if not why.startswith("not done"):
-        return why, 0
-    for late in range(1, WAIT + 1):
-        if task.step(actions[-1])[1] == 1.0:
-            return "", late
-    return why, 0
+    why, taken = reaches_goal(task, demo, actions + [actions[-1]] * WAIT)
+    return why, 0 if why else max(0, taken - len(actions))
 
 
 main()
