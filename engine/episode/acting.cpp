@@ -117,7 +117,9 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
   if (controlled) rollout.keep = world.grasped();
   const auto space = planning_space(rollout, {});
   const Transform target = tool_target(action, world);
-  PlannedMotion planned = plan_through(*space, planning_start(world), {{"goal", target}}, {},
+  MotionLimits limits;
+  limits.planner = rollout.task().motion_planner;
+  PlannedMotion planned = plan_through(*space, planning_start(world), {{"goal", target}}, limits,
                                        draw_key("path", record).with(rollout.step()));
   if (planned.reason != Reason::none) {
     rollout.keep = keep;
@@ -133,7 +135,7 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
                     (i == 0 || world.reference().velocity.cwiseAbs().maxCoeff() > 1e-9);
          ++i)
       to_frame(), one_frame({});
-    planned = plan_through(*planning_space(rollout, {}), planning_start(world), {{"goal", target}}, {},
+    planned = plan_through(*planning_space(rollout, {}), planning_start(world), {{"goal", target}}, limits,
                            draw_key("path", record).with(rollout.step()));
   }
   close_control();

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/nearest.h"
 #include "engine/motion/checker.h"
+#include "engine/motion/ompl_planners.h"
 #include "engine/motion/route.h"
 #include "engine/motion/rrt.h"
 
@@ -13,6 +15,7 @@ namespace stampede {
 namespace {
 
 constexpr double kShortestBlend = 1e-3;  // rad
+constexpr std::string_view kOmpl = "ompl:";
 
 void check_input(const CollisionState& state, const JointVector& q, std::string_view which) {
   if (q.size() == state.arm().joints() && q.allFinite()) return;
@@ -38,6 +41,22 @@ std::size_t blend_at(const std::vector<JointVector>& waypoints, const std::vecto
 }
 
 }  // namespace
+
+std::vector<std::string> motion_planner_names() {
+  std::vector<std::string> names;
+  for (const std::string& name : ompl_planner_names()) names.push_back(std::string(kOmpl) + name);
+  return names;
+}
+
+void check_motion_planner(const std::string& name, const std::string& place) {
+  const std::vector<std::string> names = motion_planner_names();
+  if (name.empty() || std::binary_search(names.begin(), names.end(), name)) return;
+  const std::string reason = name.starts_with(kOmpl) ? why_not_offered(name.substr(kOmpl.size())) : "";
+  if (!reason.empty())
+    throw Error(place, "'" + name + "' is not offered: " + reason, "ompl:RRTConnect, or leave it out");
+  const std::string meant = name.starts_with(kOmpl) ? name : std::string(kOmpl) + name;
+  throw Error(place, "there is no motion planner '" + name + "'", did_you_mean(meant, names));
+}
 
 double certified_step(const MotionLimits& limits) { return 0.25 * limits.resolution_rad; }
 
@@ -80,7 +99,10 @@ JointPath search_path(const CollisionState& state, const JointVector& start, con
       path.waypoints = {start, goal};
       return path;
     }
-    path.waypoints = grow_trees(checker, state.arm().limits(), start, goal, options, query.with("trees"));
+    const RandomKey trees = query.with("trees");
+    path.waypoints = limits.planner.empty() ? grow_trees(checker, state.arm().limits(), start, goal, options, trees)
+                                            : plan_with_ompl(limits.planner.substr(kOmpl.size()), checker,
+                                                             state.arm().limits(), start, goal, options, trees);
     if (path.waypoints.empty()) continue;
     path.waypoints = distinct(shorten(checker, path.waypoints, options));
     return path;

@@ -22,7 +22,13 @@ struct MotionLimits {
   int rounds = 5;                // of shortening, at most
   double tool_speed = 1.65;      // m/s of the tip, a little less than the 1.7 of a Panda: smoothing adds some
   double padding_m = 0.005;      // obstacles grow by this while planning; certification is without
+  std::string planner = {};      // of joint paths: empty, our own; else one of motion_planner_names()
 };
+
+// `ompl:BITstar` …, sorted: planners of joint paths beside our own.
+std::vector<std::string> motion_planner_names();
+// Throws Error at `place` for another name, with the nearest; for planners of OMPL that are not offered, why.
+void check_motion_planner(const std::string& name, const std::string& place);
 
 struct PlannedMotion {
   Reason reason = Reason::none;  // none: trajectory is valid

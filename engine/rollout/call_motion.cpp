@@ -36,7 +36,8 @@ std::int64_t lines_from(const PlannedMotion& planned, const std::string& kind) {
 // A motion as planned: where it is asked for, with stops.
 class Planned {
  public:
-  Planned(const World& world, bool stop) : world_(world), stop_(stop) {}
+  Planned(const Rollout& rollout, bool stop)
+      : world_(rollout.world()), planner_(rollout.task().motion_planner), stop_(stop) {}
   PlannedCall operator()(PlannedMotion planned, FollowOptions options) const {
     if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
     if (stop_)
@@ -46,9 +47,14 @@ class Planned {
     for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
     return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
   }
+  MotionLimits limits() const {
+    MotionLimits limits;
+    limits.planner = planner_;
+    return limits;
+  }
   // Of a motion that meets something or takes something along: with stops, an agent is to be able to do it again.
   MotionLimits in_contact(LineOptions& line) const {
-    MotionLimits limits;
+    MotionLimits limits = this->limits();
     if (!stop_) return limits;
     limits.speed = world_.grasped() ? kHoldingPace : kMeetingPace;
     line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
@@ -57,6 +63,7 @@ class Planned {
 
  private:
   const World& world_;
+  const std::string& planner_;
   bool stop_;
 };
 
@@ -132,7 +139,7 @@ PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, c
   line.keep_clear = call.keep_clear;
   if (call.as_far_as_it_goes) line.least_share = 0.5;
   const bool touches = call.stop_on_contact || call.most_force > 0 || call.press > 0;
-  const MotionLimits limits = touches ? from.in_contact(line) : MotionLimits{};
+  const MotionLimits limits = touches ? from.in_contact(line) : from.limits();
   return from(plan_line(state, start, call.target, line, limits, key), std::move(options));
 }
 
@@ -142,7 +149,7 @@ PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const 
   options.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
   set_contact(rollout, call.most_force, call.press, call.press_along, options);
   const auto pieces = tool_pieces(call, rollout.view(), rollout.world().arm(call.robot).world_from_tip(start));
-  return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, {}, key), std::move(options));
+  return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, from.limits(), key), std::move(options));
 }
 
 PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
@@ -211,7 +218,7 @@ bool moves_fingers(const RobotCall& call) {
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
                       bool stop_at_vias) {
   World& world = rollout.world();
-  const Planned from(world, stop_at_vias);
+  const Planned from(rollout, stop_at_vias);
   const int robot = robot_of(call);
   const JointVector start = planning_start(world, robot);
   FollowOptions options;
@@ -226,11 +233,11 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
       Overloaded{[&](const robot_call::MoveThrough& move) {
                    options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
                    if (move.then_part.empty())
-                     return from(plan_through(*free_space(), start, move.targets, {}, key), options);
+                     return from(plan_through(*free_space(), start, move.targets, from.limits(), key), options);
                    PartWay then = way_of_part(rollout.view(), move.then_part, move.position, move.pivot);
                    then.opening = move.opening;
                    then.retreat = move.retreat;
-                   return from(plan_through(*free_space(), start, move.targets, {}, key, &then), options);
+                   return from(plan_through(*free_space(), start, move.targets, from.limits(), key, &then), options);
                  },
                  [&](const robot_call::MoveLine& move) {
                    return plan_move_line(rollout, move, *space(), start, options, key, from);
@@ -240,7 +247,7 @@ PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector
                  },
                  [&](const robot_call::MoveJoints& move) {
                    options.kind = "move_joints";
-                   return from(plan_joints(*space(), start, move.target, {}, key), options);
+                   return from(plan_joints(*space(), start, move.target, from.limits(), key), options);
                  },
                  [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
                  [&](const robot_call::MovePart& move) {

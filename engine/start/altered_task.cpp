@@ -65,6 +65,7 @@ void set_goal(Task& task, const Formula& goal, const Symbols& symbols) {
 
 Task altered(Task task, const Symbols& symbols, const RunOptions& options) {
   set_rates(task, options);
+  if (!options.motion_planner.empty()) task.motion_planner = options.motion_planner;
   if (options.where) task.where = task.where ? conjunction({*options.where, *task.where}) : *options.where;
   if (options.goal) set_goal(task, *options.goal, symbols);
   const RandomKey key = RandomKey("perturb").with(task.name).with(task.variation).with(options.seed);

@@ -77,6 +77,7 @@ struct Task {
   std::vector<Subgoal> subgoals;  // in the order in which they come true
   double hold_s = 1.0;            // the goal must stay true for this long at the end
   double horizon_s = 120;
+  std::string motion_planner;             // of the world; empty: our own. What the run asks for goes before it
   std::vector<std::string> instructions;  // filled in for this variation
 
   // What only the running world tells. Empty: asks for nothing, never, 0.

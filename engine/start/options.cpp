@@ -83,6 +83,7 @@ std::map<std::string, std::string> RunOptions::as_text() const {
                                              {"plans", std::to_string(plans)},
                                              {"draws", std::to_string(draws)}};
   if (!controller.empty()) text["controller"] = controller;
+  if (!motion_planner.empty()) text["motion_planner"] = motion_planner;
   if (!set.empty()) text["set"] = to_text(set);
   if (where) text["where"] = to_pddl(*where);
   if (goal) text["goal"] = to_pddl(*goal);

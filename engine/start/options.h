@@ -51,6 +51,7 @@ struct RunOptions {
   int plans = 4;                            // different plans tried
   int draws = 100;                          // starts drawn until init holds
   std::string controller;                   // empty: each skill's own
+  std::string motion_planner;               // of joint paths, `ompl:RRTConnect`; empty: the world's, or our own
   std::map<std::string, CallSettings> set;  // by skill: of all its calls, before what tasks and scripts say
   std::optional<Formula> where;             // must hold at the start, beside the task's init
   std::optional<Formula> goal;              // instead of the task's

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "db/catalogue_writer.h"
+#include "engine/motion/planner.h"
 #include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
@@ -24,6 +25,8 @@ RunOptions run_options(const Arguments& arguments) {
   options.split = *split_from(arguments.text("--split"));
   options.on_failure = *on_failure_from(arguments.text("--on-failure"));
   options.controller = arguments.text("--controller");
+  options.motion_planner = arguments.text("--motion-planner");
+  check_motion_planner(options.motion_planner, "--motion-planner");
   read_symbol_options(arguments, options);
   options.observation = picture_choice(arguments, PictureUse::run);
   if (arguments.flag("--randomise")) options.randomise = default_randomisation();
@@ -160,6 +163,14 @@ CommandRow run_command() {
         Takes::text,
         "",
         {"joint_position", "joint_impedance", "cartesian_impedance"},
+        false},
+       {"--motion-planner",
+        "NAME",
+        "what finds the arm's way instead of our own planner: a geometric planner of OMPL, ompl:RRTConnect or "
+        "ompl:BITstar",
+        Takes::text,
+        "",
+        {},
         false},
        {"--sentences",
         "",

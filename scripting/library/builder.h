@@ -130,6 +130,7 @@ class LibraryBuilder {
   // check_worlds.cpp
   void check_worlds();
   void check_rates(const Definition& definition);
+  void check_motion(const Definition& definition);
   void check_sensors(const Definition& definition);
   void check_camera(const Definition& definition, const Value& camera, const std::string& path,
                     const SceneObjects& objects);

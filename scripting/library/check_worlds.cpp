@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/motion/planner.h"
 #include "engine/record/observation.h"
 #include "engine/render/picture.h"
 #include "scripting/library/builder.h"
@@ -67,6 +68,7 @@ void LibraryBuilder::check_worlds() {
     check_light(definition);
     check_randomise(definition, objects);
     check_observe(definition, node);
+    check_motion(definition);
   }
 }
 
@@ -81,6 +83,15 @@ void LibraryBuilder::check_rates(const Definition& definition) {
   if (physics > 0 && frames > 0 && physics % frames == 0) return;
   complain(definition, "frame_hz", std::to_string(frames) + " Hz does not divide " + std::to_string(physics) + " Hz",
            divisors_of(physics));
+}
+
+void LibraryBuilder::check_motion(const Definition& definition) {
+  const Value& planner = definition.node["motion"]["planner"];
+  if (planner.is_text()) try {
+      check_motion_planner(planner.text, "motion.planner");
+    } catch (const Error& error) {
+      complain(definition, "motion.planner", error.message(), error.hint());
+    }
 }
 
 void LibraryBuilder::check_sensors(const Definition& definition) {

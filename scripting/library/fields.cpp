@@ -295,6 +295,7 @@ const Record kWorld{
      {"light", "light", false, "{}", "", "one lamp far away and light from everywhere"},
      {"randomise", "randomise", false, "", "", "what --randomise draws for each episode"},
      {"observe", "observe", false, "{}", "", "pictures and sensors that its episodes record"},
+     {"motion", "motion", false, "{}", "", "how its arms find their way"},
      {"regions", "{region}", false, "{}", "", "fixed to the world"},
      {"gravity", "vector", false, "{ 0, 0, -9.81 }", "m/s^2", ""},
      {"physics_hz", "integer", false, "240", "Hz", "physics and control"},
@@ -331,6 +332,11 @@ const Record kLight{"light",
                      {"ambient", "number", false, "0.5", "", "share of full brightness from everywhere"},
                      {"diffuse", "number", false, "0.6", "", "share of full brightness where the lamp shines straight"},
                      {"specular", "number", false, "0.15", "", "share of full brightness in highlights"}}};
+
+const Record kMotion{
+    "motion",
+    "How arms find their way; --motion-planner goes before it",
+    {{"planner", "string", false, "our own", "", "a geometric planner of OMPL by its name", "\"ompl:RRTConnect\""}}};
 
 const Record kRandomise{
     "randomise",
@@ -404,10 +410,10 @@ const Record kRobot{
 }  // namespace
 
 const std::vector<Record>& records() {
-  static const std::vector<Record> kRecords = {kTask,   kProblem,   kSkill,   kPredicate,   kObject,  kWorld,  kRobot,
-                                               kEntry,  kPlace,     kCase,    kPart,        kJoint,   kLatch,  kFollows,
-                                               kRegion, kTip,       kGrasp,   kShape,       kTexture, kCamera, kSensor,
-                                               kLight,  kRandomise, kObserve, kObserveNoise};
+  static const std::vector<Record> kRecords = {
+      kTask,    kProblem, kSkill,  kPredicate, kObject,  kWorld,     kRobot,   kEntry,       kPlace,
+      kCase,    kPart,    kJoint,  kLatch,     kFollows, kRegion,    kTip,     kGrasp,       kShape,
+      kTexture, kCamera,  kSensor, kLight,     kMotion,  kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

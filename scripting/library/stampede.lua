@@ -104,6 +104,7 @@
 ---@field light? stampede.light  one lamp far away and light from everywhere (default {})
 ---@field randomise? stampede.randomise  what --randomise draws for each episode
 ---@field observe? stampede.observe  pictures and sensors that its episodes record (default {})
+---@field motion? stampede.motion  how its arms find their way (default {})
 ---@field regions? table<string, stampede.region>  fixed to the world (default {})
 ---@field gravity? number[]   [m/s^2] (default { 0, 0, -9.81 })
 ---@field physics_hz? integer  physics and control [Hz] (default 240)
@@ -302,6 +303,10 @@
 ---@field ambient? number  share of full brightness from everywhere (default 0.5)
 ---@field diffuse? number  share of full brightness where the lamp shines straight (default 0.6)
 ---@field specular? number  share of full brightness in highlights (default 0.15)
+
+-- How arms find their way; --motion-planner goes before it
+---@class stampede.motion
+---@field planner? string  a geometric planner of OMPL by its name (default our own)
 
 -- Domain randomisation: drawn for each episode from its seed, and stored with it
 ---@class stampede.randomise

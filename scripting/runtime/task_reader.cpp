@@ -69,6 +69,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   read_objects();
   add_clutter();
   read_looks(world, folder);
+  if (world["motion"]["planner"].present()) drawn_.task.motion_planner = world["motion"]["planner"].as_text();
   drawn_.task.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
   drawn_.task.unplaced = builder_->unplaced();
   drawn_.task.scene = builder_->build();

@@ -7,6 +7,7 @@
 
 #include "engine/base/processor.h"
 #include "engine/episode/episode_source.h"
+#include "engine/motion/planner.h"
 #include "engine/record/arrays.h"
 #include "engine/sim/numerics.h"
 #include "engine/symbolic/pddl.h"
@@ -60,6 +61,8 @@ RunOptions options_of(const EpisodeRequest& request) {
   options.skills = request.skills;
   options.on_failure = request.on_failure;
   options.controller = request.controller;
+  check_motion_planner(request.motion_planner, "EpisodeRequest::motion_planner");
+  options.motion_planner = request.motion_planner;
   if (request.pictures) options.observation = choice_of(*request.pictures);
   if (request.randomise) options.randomise = default_randomisation();
   options.split = request.seed >= kFirstTestSeed ? Split::test : Split::train;

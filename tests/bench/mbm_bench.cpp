@@ -1,5 +1,6 @@
 // MotionBenchMaker's problems for the Panda (Chamzas et al., IEEE RA-L 2022, doi:10.1109/LRA.2021.3133603) by
-// plan_path: search, shortening and certification. mbm_bench [PROBLEMS.json] [--json OUT.json] [--repeat N]
+// plan_path: search, shortening and certification.
+// mbm_bench [PROBLEMS.json] [--json OUT.json] [--repeat N] [--planner ompl:NAME|all]; all: a row for each planner.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -96,27 +97,20 @@ struct Tally {
   std::vector<double> ms, lengths;
 };
 
-}  // namespace
+void print_row(const std::string& name, const Tally& tally) {
+  std::printf("%-18s %8d %9d %6d %9.2f %8.2f %7.2f %8d\n", name.c_str(), tally.problems, tally.ends_free, tally.solved,
+              share(tally.ms, 0.5), share(tally.ms, 0.95), share(tally.lengths, 0.5), tally.touching);
+  std::fflush(stdout);
+}
 
-int main(int count, char** words) {
-  std::string path = "../shared/data/mbm_panda_dev.json", out;
-  int repeat = 1;
-  for (int i = 1; i < count; ++i) {
-    if (std::strcmp(words[i], "--json") == 0 && i + 1 < count)
-      out = words[++i];
-    else if (std::strcmp(words[i], "--repeat") == 0 && i + 1 < count)
-      repeat = std::max(1, std::atoi(words[++i]));
-    else
-      path = words[i];
-  }
-  if (!std::filesystem::exists(path)) {
-    std::fprintf(stderr, "%s is not there: give a file of MotionBenchMaker's problems\n", path.c_str());
-    return 0;
-  }
-  Json answers = Json::array();
-  std::map<std::string, Tally> tallies;
-  const Json file = Json::parse(std::ifstream(path));
-  for (const Json& problem : file["problems"]) {
+struct Answers {
+  std::map<std::string, Tally> tallies;  // by set of problems, and "all"
+  Json each = Json::array();
+};
+
+Answers answer(const Json& problems, const MotionLimits& limits, int repeat) {
+  Answers answers;
+  for (const Json& problem : problems) {
     const World world(std::make_shared<const Scene>(scene_of(problem)));
     CollisionState state = world.collision_state();
     state.set_opening(2 * kFinger);
@@ -126,21 +120,21 @@ int main(int count, char** words) {
     JointPath found;
     for (int i = 0; i < repeat; ++i) {
       const auto before = std::chrono::steady_clock::now();
-      found = plan_path(state, start, goal, {}, RandomKey("mbm").with(problem["id"].get<int>()));
+      found = plan_path(state, start, goal, limits, RandomKey("mbm").with(problem["id"].get<int>()));
       ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
     }
     const bool solved = found.reason == Reason::none;
     const std::string set = problem["set"];
-    if (ends_free && !solved)
+    if (ends_free && !solved && limits.planner.empty())
       std::fprintf(stderr, "%s %d: %s\n", set.c_str(), problem["id"].get<int>(), found.detail.c_str());
-    answers.push_back({{"set", set},
-                       {"id", problem["id"]},
-                       {"ends_free", ends_free},
-                       {"solved", solved},
-                       {"ms", share(ms, 0.5)},
-                       {"length", solved ? length(found.waypoints) : 0}});
+    answers.each.push_back({{"set", set},
+                            {"id", problem["id"]},
+                            {"ends_free", ends_free},
+                            {"solved", solved},
+                            {"ms", share(ms, 0.5)},
+                            {"length", solved ? length(found.waypoints) : 0}});
     for (const std::string& name : {set, std::string("all")}) {
-      Tally& tally = tallies[name];
+      Tally& tally = answers.tallies[name];
       ++tally.problems;
       tally.ends_free += ends_free;
       if (!ends_free) continue;
@@ -151,10 +145,43 @@ int main(int count, char** words) {
       tally.touching += touches(state, found.waypoints, 0.0025);
     }
   }
-  std::printf("%-18s %8s %9s %6s %9s %8s %7s %8s\n", "set", "problems", "ends free", "solved", "median ms", "95 % ms",
-              "rad", "touching");
-  for (const auto& [name, tally] : tallies)
-    std::printf("%-18s %8d %9d %6d %9.2f %8.2f %7.2f %8d\n", name.c_str(), tally.problems, tally.ends_free,
-                tally.solved, share(tally.ms, 0.5), share(tally.ms, 0.95), share(tally.lengths, 0.5), tally.touching);
-  if (!out.empty()) std::ofstream(out) << Json{{"problems", answers}}.dump(1) << '\n';
+  return answers;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  std::string path = "../shared/data/mbm_panda_dev.json", out, planner;
+  int repeat = 1;
+  for (int i = 1; i < count; ++i) {
+    if (std::strcmp(words[i], "--json") == 0 && i + 1 < count)
+      out = words[++i];
+    else if (std::strcmp(words[i], "--repeat") == 0 && i + 1 < count)
+      repeat = std::max(1, std::atoi(words[++i]));
+    else if (std::strcmp(words[i], "--planner") == 0 && i + 1 < count)
+      planner = words[++i];
+    else
+      path = words[i];
+  }
+  if (!std::filesystem::exists(path)) {
+    std::fprintf(stderr, "%s is not there: give a file of MotionBenchMaker's problems\n", path.c_str());
+    return 0;
+  }
+  const Json file = Json::parse(std::ifstream(path));
+  std::printf("%-18s %8s %9s %6s %9s %8s %7s %8s\n", planner == "all" ? "planner" : "set", "problems", "ends free",
+              "solved", "median ms", "95 % ms", "rad", "touching");
+  MotionLimits limits;
+  if (planner == "all") {
+    print_row("our own", answer(file["problems"], limits, repeat).tallies["all"]);
+    for (const std::string& name : motion_planner_names()) {
+      limits.planner = name;
+      print_row(name, answer(file["problems"], limits, repeat).tallies["all"]);
+    }
+    return 0;
+  }
+  check_motion_planner(planner, "--planner");
+  limits.planner = planner;
+  const Answers answers = answer(file["problems"], limits, repeat);
+  for (const auto& [name, tally] : answers.tallies) print_row(name, tally);
+  if (!out.empty()) std::ofstream(out) << Json{{"problems", answers.each}}.dump(1) << '\n';
 }

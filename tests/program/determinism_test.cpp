@@ -7,8 +7,9 @@
 namespace stampede::program {
 namespace {
 
-std::vector<std::string> run_words(const std::string& out, std::vector<std::string> more) {
-  std::vector<std::string> words = {"run", "reach_target", "--root", kRoot, "--out", out};
+std::vector<std::string> run_words(const std::string& out, std::vector<std::string> more,
+                                   const std::string& task = "reach_target") {
+  std::vector<std::string> words = {"run", task, "--root", kRoot, "--out", out};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -46,6 +47,26 @@ TEST_CASE("two workers write what one writes, a second run adds nothing, replay 
   const Said counted = say({"query", folder / "one.db", "SELECT count(*) AS n FROM episodes", "--format", "csv"});
   CHECK(counted.out == "n\n4\n");
   CHECK(say({"query", folder / "one.db", "DELETE FROM episode"}).code == kBadInput);
+}
+
+TEST_CASE("a planner of OMPL plans the same in any number of workers, and other ways than ours") {
+  const Folder folder;
+  const auto run = [&](const std::string& file, std::vector<std::string> more) {
+    more.insert(more.end(), {"--episodes", "2"});
+    REQUIRE(say(run_words(folder / file, more, "basketball_in_hoop")).code == kDone);
+    return say({"query", folder / file, "SELECT sum(action_j1) FROM steps GROUP BY episode", "--format", "csv"}).out;
+  };
+  const std::string ours = run("own.db", {}), theirs = run("one.db", {"--motion-planner", "ompl:PRM"});
+  CHECK(run("two.db", {"--motion-planner", "ompl:PRM", "--workers", "2"}) == theirs);
+  CHECK(hash_of(folder / "one.db") == hash_of(folder / "two.db"));
+  CHECK(ours != theirs);
+  CHECK(say({"replay", folder / "one.db"}).out.find("2 replayed bit for bit, 0 different") != std::string::npos);
+  const Said told =
+      say({"query", folder / "one.db", "SELECT options LIKE '%ompl:PRM%' AS told FROM episodes", "--format", "csv"});
+  CHECK(told.out == "told\n1\n1\n");
+  const Said wrong = say(run_words(folder / "no.db", {"--motion-planner", "RRTConnect"}));
+  CHECK(wrong.code == kBadInput);
+  CHECK(wrong.err.find("did you mean 'ompl:RRTConnect'?") != std::string::npos);
 }
 
 TEST_CASE("processors with AVX2 and without write the same catalogue, pictures included") {

@@ -31,6 +31,8 @@ struct EpisodeRequest {
   std::int64_t seed = 0;       // from 1'000'000 up: the test split
   OnFailure on_failure = OnFailure::undo;
   std::string controller = {};  // joint_position, joint_impedance, cartesian_impedance; empty: each skill's own
+  std::string motion_planner =
+      {};  // of joint paths, a planner of OMPL: ompl:RRTConnect; empty: the world's, or our own
   // Continuous parameters and controllers of skills, instead of what is drawn: `pick.height=0.2`, `push.direction=1,0`,
   // `push.direction.2=0.5`, `pick.controller=joint_impedance`.
   std::vector<std::string> set = {};

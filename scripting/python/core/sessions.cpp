@@ -89,6 +89,8 @@ EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
                             {{"undo", OnFailure::undo}, {"stop", OnFailure::stop}, {"recover", OnFailure::recover}});
     else if (name == "controller")
       request.controller = nb::cast<std::string>(value);
+    else if (name == "motion_planner")
+      request.motion_planner = nb::cast<std::string>(value);
     else if (name == "set")
       request.set = nb::cast<std::vector<std::string>>(value);
     else if (name == "pictures")
@@ -377,8 +379,8 @@ Threads that share one wait for each other.)")
           "task"_a, "request"_a,
           R"(Runs one episode. What the catalogue has already is given without running. Repeatable, bit for bit.
 
-variation, seed (from 1'000'000 up: the test split), on_failure (undo, stop, recover), controller, set (list such as
-`pick.height=0.2`), pictures (dict: frames none|keyframes|all, cameras, width, height, rgb, depth, mask,
+variation, seed (from 1'000'000 up: the test split), on_failure (undo, stop, recover), controller, motion_planner
+(`ompl:RRTConnect`), set (list such as `pick.height=0.2`), pictures (dict: frames none|keyframes|all, cameras, width, height, rgb, depth, mask,
 semantic_mask, points, shadows, rgb_noise, depth_noise), where and goal (PDDL), behaviour (plan, random_skills,
 random_applicable), skills, randomise.)")
       .def("run_all", &run_all, "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(),

@@ -208,6 +208,10 @@ TEST_CASE("golden: how a world is seen") {
   CHECK(has(lab("sensors = { margins = { \"joint_torque\" } }"), "the signed margins of facts are called so"));
   CHECK(lab("light = { ambiant = 0.5 }") ==
         "worlds/lab.lua:4: light.ambiant: a light has no field 'ambiant'\n    did you mean 'ambient'?\n");
+  CHECK(lab("motion = { planner = \"ompl:RRT*\" }") ==
+        "worlds/lab.lua:4: motion.planner: there is no motion planner 'ompl:RRT*'\n    did you mean 'ompl:RRT'?\n");
+  CHECK(has(lab("motion = { planner = \"ompl:CForest\" }"), "not offered: it runs in several threads"));
+  CHECK(lab("motion = { planner = \"ompl:RRTstar\" }").empty());
   CHECK(has(lab("light = { direction = { 0, 0, 0 } }"), "light.direction: has no length"));
   CHECK(has(lab("light = { diffuse = -1 }"), "is not negative"));
   CHECK(lab("randomise = { looks = { \"dsk\" } }") ==
