@@ -1,4 +1,4 @@
-#include "scripting/research/baseline.h"
+#include "db/research/baseline.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "scripting/research/dataset.h"
+#include "db/research/dataset.h"
 
 #include <fmt/format.h>
 

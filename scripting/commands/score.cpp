@@ -2,11 +2,12 @@
 
 #include <ostream>
 
+#include "db/research/dataset.h"
+#include "db/research/scorer.h"
+#include "db/research/timeline_svg.h"
 #include "scripting/commands/commands.h"
+#include "scripting/commands/held_out_runs.h"
 #include "scripting/program/json_text.h"
-#include "scripting/research/dataset.h"
-#include "scripting/research/scorer.h"
-#include "scripting/research/timeline_svg.h"
 
 namespace stampede::program {
 namespace {
@@ -57,8 +58,10 @@ ExitCode do_score(const Arguments& arguments, Console& console) {
     throw Error(hidden, "this is a data set of " + found + ", not of " + problem.name,
                 "name the problem or the folder that fits");
   research::ScoreOptions options;
-  options.roots = roots_of(arguments);
-  options.workers = workers_of(arguments);
+  options.run = [roots = roots_of(arguments), workers = workers_of(arguments)](const auto& episodes,
+                                                                               const auto& planner) {
+    return run_in_physics(episodes, roots, workers, planner);
+  };
   options.physics = physics;
   options.figure = arguments.text("--figure");
   const OutputRules rules = options.rules = output_rules(arguments, console);

@@ -1,6 +1,7 @@
 // MotionBenchMaker's problems for the Panda (Chamzas et al., IEEE RA-L 2022, doi:10.1109/LRA.2021.3133603) by
 // plan_path: search, shortening and certification.
-// mbm_bench [PROBLEMS.json] [--json OUT.json] [--repeat N] [--planner ompl:NAME|all]; all: a row for each planner.
+// mbm_bench [PROBLEMS.json] [--json OUT.json] [--repeat N] [--every N] [--planner ompl:NAME|all]
+// --every: each Nth problem alone; --planner all: a row for each planner.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -152,12 +153,14 @@ Answers answer(const Json& problems, const MotionLimits& limits, int repeat) {
 
 int main(int count, char** words) {
   std::string path = "../shared/data/mbm_panda_dev.json", out, planner;
-  int repeat = 1;
+  int repeat = 1, every = 1;
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(words[i], "--json") == 0 && i + 1 < count)
       out = words[++i];
     else if (std::strcmp(words[i], "--repeat") == 0 && i + 1 < count)
       repeat = std::max(1, std::atoi(words[++i]));
+    else if (std::strcmp(words[i], "--every") == 0 && i + 1 < count)
+      every = std::max(1, std::atoi(words[++i]));
     else if (std::strcmp(words[i], "--planner") == 0 && i + 1 < count)
       planner = words[++i];
     else
@@ -168,20 +171,23 @@ int main(int count, char** words) {
     return 0;
   }
   const Json file = Json::parse(std::ifstream(path));
+  Json problems = Json::array();
+  for (std::size_t i = 0; i < file["problems"].size(); i += static_cast<std::size_t>(every))
+    problems.push_back(file["problems"][i]);
   std::printf("%-18s %8s %9s %6s %9s %8s %7s %8s\n", planner == "all" ? "planner" : "set", "problems", "ends free",
               "solved", "median ms", "95 % ms", "rad", "touching");
   MotionLimits limits;
   if (planner == "all") {
-    print_row("our own", answer(file["problems"], limits, repeat).tallies["all"]);
+    print_row("our own", answer(problems, limits, repeat).tallies["all"]);
     for (const std::string& name : motion_planner_names()) {
       limits.planner = name;
-      print_row(name, answer(file["problems"], limits, repeat).tallies["all"]);
+      print_row(name, answer(problems, limits, repeat).tallies["all"]);
     }
     return 0;
   }
   check_motion_planner(planner, "--planner");
   limits.planner = planner;
-  const Answers answers = answer(file["problems"], limits, repeat);
+  const Answers answers = answer(problems, limits, repeat);
   for (const auto& [name, tally] : answers.tallies) print_row(name, tally);
   if (!out.empty()) std::ofstream(out) << Json{{"problems", answers.each}}.dump(1) << '\n';
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "db/catalogue.h"
+#include "db/research/answers.h"
 #include "engine/base/error.h"
 #include "engine/bddl/bddl.h"
 #include "engine/geometry/drawn_mesh.h"
@@ -20,7 +21,6 @@
 #include "fuzz_pddl.h"
 #include "scripting/library/library.h"
 #include "scripting/lua/sandbox.h"
-#include "scripting/research/answers.h"
 #include "tests/fuzz/catalogue.h"
 #include "tests/fuzz/schema.h"
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "db/plain_file.h"
+#include "db/research/dataset.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/research/dataset.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {

@@ -5,9 +5,9 @@
 
 #include "db/catalogue.h"
 #include "db/plain_file.h"
+#include "db/research/baseline.h"
+#include "db/research/dataset.h"
 #include "engine/base/scratch_folder.h"
-#include "scripting/research/baseline.h"
-#include "scripting/research/dataset.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {
