@@ -43,6 +43,7 @@ std::string text_of(const TorqueNoise& value) { return to_text(value); }
 std::string text_of(bool value) { return value ? "1" : "0"; }
 std::string text_of(double value) { return number_text(value); }
 std::string text_of(WhichFrames value) { return std::string(to_string(value)); }
+std::string text_of(DrawnBy value) { return std::string(to_string(value)); }
 std::string text_of(const std::vector<std::string>& value) { return joined(value, ","); }
 std::string text_of(const PictureKinds& value) { return kinds_text(value); }
 std::string text_of(const std::array<int, 2>& value) {
@@ -53,6 +54,7 @@ void read(const std::string& text, std::optional<bool>& value) { value = text ==
 void read(const std::string& text, std::optional<double>& value) { value = number_from<double>(text); }
 void read(const std::string& text, std::optional<TorqueNoise>& value) { value = torque_noise_from(text); }
 void read(const std::string& text, std::optional<WhichFrames>& value) { value = which_frames_from(text); }
+void read(const std::string& text, std::optional<DrawnBy>& value) { value = drawn_by_from(text); }
 void read(const std::string& text, std::optional<std::vector<std::string>>& value) { value = words_of(text); }
 void read(const std::string& text, std::optional<PictureKinds>& value) { value = kinds_from(text); }
 void read(const std::string& text, std::optional<std::array<int, 2>>& value) {
@@ -72,6 +74,7 @@ void each_option(Visit&& visit) {
   visit("kinds", &C::kinds, [](O& o, const PictureKinds& value) { o.kinds = value; });
   visit("points", &C::points, [](O& o, bool value) { o.points = value; });
   visit("shadows", &C::shadows, [](O& o, bool value) { o.shadows = value; });
+  visit("renderer", &C::renderer, [](O& o, DrawnBy value) { o.renderer = value; });
   visit("rgb_noise", &C::rgb_noise, [](O& o, double value) { o.noise.rgb = value; });
   visit("depth_noise", &C::depth_noise, [](O& o, double value) { o.noise.depth = value; });
   visit("torque_noise", &C::torque_noise, [](O& o, double value) { o.torque_noise = value; });

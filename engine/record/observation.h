@@ -27,6 +27,7 @@ struct ObservationChoice {
   std::optional<std::array<int, 2>> size;  // width, height
   std::optional<PictureKinds> kinds;
   std::optional<bool> points, shadows;
+  std::optional<DrawnBy> renderer;
   std::optional<double> rgb_noise, depth_noise, torque_noise;
   std::optional<TorqueNoise> torque_model;
   std::optional<std::vector<std::string>> channels;
@@ -42,6 +43,7 @@ struct Observation {
   PictureKinds kinds;
   bool points = false;  // point clouds too (kind `points`: binary PLY)
   bool shadows = false;
+  DrawnBy renderer = DrawnBy::own;
   CameraNoise noise;
   double torque_noise = 0;   // N m, standard deviation added to channel `joint_torque`
   TorqueNoise torque_model;  // of the arm, beside that; empty: none

@@ -107,6 +107,7 @@ EpisodePainter::EpisodePainter(Renderer& renderer, const EpisodeRecord& episode,
   impl_->options.kinds = observation.kinds;
   if (observation.points) impl_->options.kinds.depth = true;
   impl_->options.shadows = observation.shadows;
+  impl_->options.by = observation.renderer;
   if (observation.cameras.empty())
     for (std::size_t i = 0; i < impl_->scene->cameras.size(); ++i) impl_->cameras.push_back(static_cast<int>(i));
   std::set<int> named;

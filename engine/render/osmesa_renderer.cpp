@@ -288,6 +288,4 @@ void OsmesaRenderer::read_depth(const Camera& camera, Picture& picture) {
   for (float& depth : picture.depth) depth = depth > 0 ? product / (depth * range + near) : 0;
 }
 
-std::unique_ptr<Renderer> make_osmesa_renderer() { return std::make_unique<OsmesaRenderer>(); }
-
 }  // namespace stampede

@@ -2,19 +2,26 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/model/scene.h"
 #include "engine/model/scene_poses.h"
 #include "engine/render/picture.h"
+#include "stampede/picture.h"
 
 namespace stampede {
+
+std::string_view to_string(DrawnBy value);
+std::optional<DrawnBy> drawn_by_from(std::string_view name);
 
 struct DrawOptions {
   PictureKinds kinds;
   bool shadows = false;  // of the scene's light
   int samples = 1;       // rgb only: samples x samples a pixel, averaged; 1 … 4
+  DrawnBy by = DrawnBy::own;
 };
 
 // Lifetime: used and destroyed by the thread that made it. Repeatable: pixels depend on the arguments alone, not on
@@ -30,10 +37,8 @@ class Renderer {
                     std::vector<Picture>& pictures) = 0;
 };
 
-// Our own loops, in the calling thread. From the same triangles and poses, the same pixels on every processor.
+// Draws as DrawOptions::by says, in the calling thread; each is made when it is first asked for (the first of OSMesa's
+// sets LP_NUM_THREADS=0).
 std::unique_ptr<Renderer> make_renderer();
-
-// OpenGL core profile by Mesa's llvmpipe in the calling thread (LP_NUM_THREADS=0, set when the first is made).
-std::unique_ptr<Renderer> make_osmesa_renderer();
 
 }  // namespace stampede

@@ -369,6 +369,4 @@ void SoftwareRenderer::write_kinds(const PictureKinds& kinds, bool coloured, Pic
                      kinds.semantic ? picture.semantic.data() : nullptr);
 }
 
-std::unique_ptr<Renderer> make_renderer() { return std::make_unique<SoftwareRenderer>(pixel_kernels(), true); }
-
 }  // namespace stampede

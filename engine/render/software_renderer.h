@@ -1,5 +1,5 @@
-// The renderer that is used: triangles into pixels by our own loops. See renderer.h; README.md says how a picture comes
-// about.
+// The renderer that draws where nobody asks for another: triangles into pixels by our own loops. See renderer.h;
+// README.md says how a picture comes about.
 #pragma once
 
 #include <map>

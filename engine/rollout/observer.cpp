@@ -342,6 +342,7 @@ std::vector<Picture> Observer::draw(const std::vector<View>& views, const SceneP
   DrawOptions options;
   options.kinds = kinds;
   options.shadows = settings_.shadows;
+  options.by = settings_.renderer;
   std::vector<Picture> pictures;
   renderer_->draw(poses, views, options, pictures);
   return pictures;

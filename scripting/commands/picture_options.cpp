@@ -119,6 +119,13 @@ std::vector<OptionRow> picture_options(PictureUse use) {
                                    "torque=FILE.json: fitted to an arm"
                                  : "such as rgb=0.02,depth=kinect: deviations of 0 … 1 and 1/m"));
   rows.push_back({"--shadows", "", "the light casts shadows", Takes::flag, "", {}, false});
+  rows.push_back({"--renderer",
+                  "NAME",
+                  "who draws: own, or osmesa, Mesa's OpenGL, to compare with",
+                  Takes::text,
+                  "own",
+                  {"own", "osmesa"},
+                  false});
   rows.push_back({"--camera-file",
                   "FILE",
                   "cameras as they were calibrated (JSON); they go before the world's",
@@ -146,6 +153,7 @@ ObservationChoice picture_choice(const Arguments& arguments, PictureUse use) {
   if (arguments.has("--kinds")) read_kinds(arguments.text("--kinds"), choice);
   if (arguments.has("--noise")) read_noise(arguments.text("--noise"), use, choice);
   if (arguments.flag("--shadows")) choice.shadows = true;
+  if (arguments.has("--renderer")) choice.renderer = drawn_by_from(arguments.text("--renderer"));
   if (use == PictureUse::run && arguments.has("--channels"))
     choice.channels = channels_from(arguments.text("--channels"));
   return choice;

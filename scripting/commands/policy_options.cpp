@@ -73,6 +73,7 @@ std::optional<PolicySettings> policy_settings(const Arguments& arguments, const 
   environment.reward = reward_from(arguments.text("--reward"));
   if (pictures.size) environment.width = pictures.size->at(0), environment.height = pictures.size->at(1);
   environment.shadows = pictures.shadows.value_or(false);
+  environment.renderer = pictures.renderer.value_or(DrawnBy::own);
   environment.rgb_noise = pictures.rgb_noise.value_or(0);
   environment.depth_noise = pictures.depth_noise.value_or(0);
   environment.torque_noise = pictures.torque_noise.value_or(0);

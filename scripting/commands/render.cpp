@@ -118,6 +118,10 @@ std::string place_of(const Arguments& arguments) {
   for (const char* option : {"--kinds", "--noise"})
     if ((place == "--video" || place == "--sheet") && arguments.has(option))
       throw UsageError(std::string(option) + " is for --out and --into: films and sheets are for people");
+  if (place == "--into" && arguments.text("--renderer") != "own")
+    throw UsageError(
+        "--renderer osmesa --into: pictures of a catalogue are drawn again bit for bit, and Mesa's differ by version",
+        "say --out FOLDER");
   if (place == "--sheet" && arguments.has("--frames"))
     throw UsageError("--frames is not for --sheet: it shows the start, each skill and the end");
   return place;

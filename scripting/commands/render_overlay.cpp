@@ -93,7 +93,7 @@ void put(const CameraAlignment& one, JsonText& json) {
 ExitCode render_overlays(const Arguments& arguments, const RenderRequest& request, Console& console) {
   const fs::path folder = arguments.text("--overlay");
   const OutputRules rules = output_rules(arguments, console);
-  for (const char* option : {"--kinds", "--noise", "--size"})
+  for (const char* option : {"--kinds", "--noise", "--renderer", "--size"})
     if (arguments.has(option))
       throw UsageError(std::string(option) + " is not for --overlay: its pictures are those stored");
   const Catalogue catalogue = Catalogue::open(arguments.text("FILE"));

@@ -56,7 +56,8 @@ int PortraitPainter::height() const { return portrait_.observation.height; }
 
 void PortraitPainter::paint(std::int64_t frame, Canvas& canvas, int x, int y) {
   const ScenePoses poses = scene_poses(*portrait_.scene, state_at(*portrait_.scene, stored_.episode, frame));
-  const DrawOptions options{portrait_.observation.kinds, portrait_.observation.shadows, kSamples};
+  const DrawOptions options{portrait_.observation.kinds, portrait_.observation.shadows, kSamples,
+                            portrait_.observation.renderer};
   std::vector<View> views = painter_.views(frame);
   if (!portrait_.all) {
     const auto shot = std::find_if(shots_.begin(), shots_.end(), [&](const Shot& s) { return frame < s.end_frame; });

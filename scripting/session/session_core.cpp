@@ -47,6 +47,7 @@ ObservationChoice choice_of(const PictureStorage& wanted) {
   choice.kinds = PictureKinds{wanted.rgb, wanted.depth, wanted.instance, wanted.semantic};
   choice.points = wanted.points;
   choice.shadows = wanted.shadows;
+  if (wanted.renderer != DrawnBy::own) choice.renderer = wanted.renderer;
   choice.rgb_noise = wanted.rgb_noise;
   choice.depth_noise = wanted.depth_noise;
   return choice;

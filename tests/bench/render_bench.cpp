@@ -48,10 +48,9 @@ Scene scene_with_vases(int count, int triangles_each) {
   return scene;
 }
 
-void draw_frames(benchmark::State& state, Scene made, const DrawOptions& options,
-                 std::unique_ptr<Renderer> (*make)() = make_renderer) {
+void draw_frames(benchmark::State& state, Scene made, const DrawOptions& options) {
   const auto scene = std::make_shared<const Scene>(std::move(made));
-  const std::unique_ptr<Renderer> renderer = make();
+  const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->load(scene);
   SceneState moment = initial_state(*scene);
   std::vector<Picture> pictures;
@@ -78,10 +77,10 @@ void all_kinds_shadows(benchmark::State& state) {
   draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .shadows = true});
 }
 void all_kinds_opengl(benchmark::State& state) {
-  draw_frames(state, scene_with_five_cameras(10), {}, make_osmesa_renderer);
+  draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .by = DrawnBy::osmesa});
 }
 void all_kinds_shadows_opengl(benchmark::State& state) {
-  draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .shadows = true}, make_osmesa_renderer);
+  draw_frames(state, scene_with_five_cameras(10), {.kinds = {}, .shadows = true, .by = DrawnBy::osmesa});
 }
 void depth_only(benchmark::State& state) {
   draw_frames(state, scene_with_five_cameras(10), {.kinds = {false, true, false, false}});

@@ -92,6 +92,8 @@ TEST_CASE("render says what it needs") {
            {{d, "77", "--out", folder / "x"}, kBadInput, "77"},
            {{folder / "no.db", "--out", folder / "x"}, kCatalogue, "no.db"},
            {{d, "--into", folder / "no.db"}, kCatalogue, "no.db"},
+           {{d, "--into", d, "--renderer", "osmesa"}, kUsage, "drawn again bit for bit"},
+           {{d, "--out", folder / "x", "--renderer", "mesa"}, kUsage, "own, osmesa"},
            {{d, "--sheet", folder / "no/where.png"}, kBadInput, "where.png"},
            {{d, "--noise", "torque=1", "--out", folder / "x"}, kUsage, "no noise of 'torque' here"}}) {
     std::vector<std::string> words = one.words;

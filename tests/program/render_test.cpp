@@ -99,6 +99,41 @@ TEST_CASE("pictures rendered later are those that the run would have stored, byt
   }
 }
 
+TEST_CASE("OSMesa draws when asked: nearly our pictures, and the episode says who drew them") {
+  const Folder folder;
+  const std::vector<std::string> wanted = {"--images", "keyframes", "--camera", "front", "--kinds", "rgb,instance"};
+  run_into(folder / "own.db", wanted);
+  std::vector<std::string> by_mesa = wanted;
+  by_mesa.insert(by_mesa.end(), {"--renderer", "osmesa"});
+  run_into(folder / "mesa.db", by_mesa);
+  const auto own = images_of(folder / "own.db"), mesa = images_of(folder / "mesa.db");
+  REQUIRE(own.size() == mesa.size());
+  CHECK(own != mesa);
+  int other_ids = 0, other_colours = 0, pixels = 0;
+  for (const auto& [name, bytes] : own) {
+    const PictureKind kind = name.ends_with("rgb") ? PictureKind::rgb : PictureKind::instance;
+    Picture a, b;
+    from_png(bytes, kind, a);
+    from_png(mesa.at(name), kind, b);
+    pixels += kind == PictureKind::rgb ? a.width * a.height : 0;
+    for (std::size_t i = 0; i < a.instance.size(); ++i) other_ids += a.instance[i] != b.instance[i];
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) other_colours += std::abs(a.rgb[i] - b.rgb[i]) > 6;
+  }
+  CHECK(other_ids * 100 < pixels);
+  CHECK(other_colours * 50 < pixels);
+  CHECK(says(say({"query", folder / "mesa.db", "SELECT options FROM episodes", "--format", "csv"}).out, "osmesa"));
+  // Without further words as the run drew them, with --renderer own as ours.
+  const auto drawn = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.begin(), {folder / "mesa.db", "--frames", "0", "--out", folder / out});
+    REQUIRE(render(more).code == kDone);
+    return file_text(folder / (out + "/episode_000001/front/rgb/000000.png"));
+  };
+  const auto text = [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); };
+  const std::string first = mesa.begin()->first.substr(0, mesa.begin()->first.find(" 0 ")) + " 0 0 front rgb";
+  CHECK(drawn("again", {}) == text(mesa.at(first)));
+  CHECK(drawn("ours", {"--renderer", "own"}) == text(own.at(first)));
+}
+
 TEST_CASE("keyframes, one camera, some frames and two workers give pictures of the full set") {
   const Folder folder;
   const std::vector<std::string> noisy = small({"--episodes", "2", "--noise", "rgb=0.02,depth=kinect"});

@@ -178,13 +178,14 @@ TEST_CASE("a lamp shines from the frame on at which its button has been pressed"
   const Camera& camera = scene->cameras[static_cast<std::size_t>(1)];
   const std::vector<View> views{{camera, world_from_camera(*scene, poses, camera)}};
   std::vector<std::vector<Picture>> drawn;
-  for (const bool osmesa : {false, true}) {
-    const auto renderer = osmesa ? make_osmesa_renderer() : make_renderer();
+  for (const DrawnBy by : {DrawnBy::own, DrawnBy::osmesa}) {
+    const auto renderer = make_renderer();
     renderer->load(scene);
     for (int i = 0; i < 6; ++i) {
       poses.facts = i % 4 < 2 ? ShownFacts{} : lit;
       DrawOptions draw;
       draw.shadows = i == 5;
+      draw.by = by;
       renderer->draw(poses, views, draw, drawn.emplace_back());
     }
     const std::size_t first = drawn.size() - 6;

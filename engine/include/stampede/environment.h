@@ -78,6 +78,7 @@ struct EnvironmentSettings {
   int width = 0, height = 0;  // of pictures, pixels; 0: each camera's own
   std::map<std::string, PictureSize> picture_sizes = {};  // by camera, where it is another one
   bool shadows = false;
+  DrawnBy renderer = DrawnBy::own;
   std::map<std::string, double> picture_hz = {};  // by camera, where a picture need not be new at every frame
   double rgb_noise = 0, depth_noise = 0;          // as PictureStorage
   double torque_noise = 0;                        // N m, of the sensor `joint_torque`

@@ -10,6 +10,10 @@ namespace stampede {
 
 enum class PicturesOf { none, keyframes, all };  // frames
 
+// own: from the same scene the same pixels on every processor. osmesa: OpenGL by Mesa, a reference that nobody here
+// wrote; its pixels are those of its version and of the class of processor.
+enum class DrawnBy { own, osmesa };
+
 // What `run` stores beside the episode.
 struct PictureStorage {
   PicturesOf frames = PicturesOf::all;
@@ -20,6 +24,7 @@ struct PictureStorage {
   bool shadows = false;
   double rgb_noise = 0;    // standard deviation of each channel, of 0 … 1
   double depth_noise = 0;  // 1/m: deviation depth_noise * z^2; 0.00145 is a Kinect's
+  DrawnBy renderer = DrawnBy::own;
 };
 
 // One camera at one frame. What is false is not drawn.

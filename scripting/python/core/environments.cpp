@@ -322,6 +322,11 @@ EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
         settings.picture_sizes[camera] = {size.first, size.second};
     } else if (name == "shadows") {
       settings.shadows = nb::cast<bool>(value);
+    } else if (name == "renderer") {
+      const auto drawn_by = nb::cast<std::string>(value);
+      if (drawn_by != "own" && drawn_by != "osmesa")
+        throw Error(std::string(where) + "(renderer=)", "there is no renderer '" + drawn_by + "'", "own or osmesa");
+      settings.renderer = drawn_by == "osmesa" ? DrawnBy::osmesa : DrawnBy::own;
     } else if (name == "picture_hz") {
       settings.picture_hz = nb::cast<std::map<std::string, double>>(value);
     } else if (name == "rgb_noise") {

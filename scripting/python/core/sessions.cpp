@@ -63,13 +63,17 @@ PictureStorage pictures_from(const nb::dict& words) {
       pictures.points = nb::cast<bool>(value);
     else if (name == "shadows")
       pictures.shadows = nb::cast<bool>(value);
+    else if (name == "renderer")
+      pictures.renderer = one_of<DrawnBy>(nb::cast<std::string>(value), "pictures= renderer",
+                                          {{"own", DrawnBy::own}, {"osmesa", DrawnBy::osmesa}});
     else if (name == "rgb_noise")
       pictures.rgb_noise = nb::cast<double>(value);
     else if (name == "depth_noise")
       pictures.depth_noise = nb::cast<double>(value);
     else
       throw Error("pictures=", "there is no '" + name + "'",
-                  "one of frames, cameras, width, height, rgb, depth, mask, semantic_mask, points, shadows, rgb_noise, "
+                  "one of frames, cameras, width, height, rgb, depth, mask, semantic_mask, points, shadows, renderer, "
+                  "rgb_noise, "
                   "depth_noise");
   }
   return pictures;
@@ -381,7 +385,7 @@ Threads that share one wait for each other.)")
 
 variation, seed (from 1'000'000 up: the test split), on_failure (undo, stop, recover), controller, motion_planner
 (`ompl:RRTConnect`), set (list such as `pick.height=0.2`), pictures (dict: frames none|keyframes|all, cameras, width, height, rgb, depth, mask,
-semantic_mask, points, shadows, rgb_noise, depth_noise), where and goal (PDDL), behaviour (plan, random_skills,
+semantic_mask, points, shadows, renderer (own, osmesa), rgb_noise, depth_noise), where and goal (PDDL), behaviour (plan, random_skills,
 random_applicable), skills, randomise.)")
       .def("run_all", &run_all, "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(),
            "sink"_a = nb::none(), "request"_a,

@@ -72,6 +72,8 @@ TEST_CASE("A scene must be numbered, loaded and whole") {
   std::vector<Picture> pictures;
   CHECK_THAT(refusal([&] { empty->draw({}, {}, {}, pictures); }), Contains("load"));
   CHECK_THAT(refusal([&] { empty->load(nullptr); }), Contains("no scene"));
+  const DrawOptions by_mesa{.kinds = {}, .by = DrawnBy::osmesa};
+  CHECK_THAT(refusal([&] { make_renderer()->draw({}, {}, by_mesa, pictures); }), Contains("load"));
   Studio studio(all_shapes());
   const std::vector<View> views{view_of_shapes()};
   CHECK_THAT(refusal([&] { studio.renderer->draw({}, views, {}, pictures); }), Contains("another scene"));

@@ -111,13 +111,13 @@ TEST_CASE("Every set of instructions draws the same bytes") {
 TEST_CASE("OpenGL draws nearly the same") {
   const std::shared_ptr<const Scene> scene = busy_scene(6);
   const ScenePoses poses = scene_poses(*scene, initial_state(*scene));
-  const DrawOptions options{.kinds = {}, .shadows = GENERATE(false, true)};
+  DrawOptions options{.kinds = {}, .shadows = GENERATE(false, true)};
   std::vector<Picture> own, gl;
-  const std::unique_ptr<Renderer> renderer = make_renderer(), osmesa = make_osmesa_renderer();
+  const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->load(scene);
-  osmesa->load(scene);
   renderer->draw(poses, views_of(*scene, poses), options, own);
-  osmesa->draw(poses, views_of(*scene, poses), options, gl);
+  options.by = DrawnBy::osmesa;
+  renderer->draw(poses, views_of(*scene, poses), options, gl);
   for (std::size_t i = 0; i < own.size(); ++i) {
     int other_ids = 0, other_colours = 0;
     const auto pixels = static_cast<int>(own[i].instance.size());

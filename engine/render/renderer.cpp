@@ -1,0 +1,65 @@
+#include "engine/render/renderer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/render/osmesa_renderer.h"
+#include "engine/render/software_renderer.h"
+
+namespace stampede {
+namespace {
+
+constexpr std::array<std::string_view, 2> kDrawnBy{"own", "osmesa"};
+
+std::unique_ptr<Renderer> made_for(DrawnBy by) {
+  if (by == DrawnBy::osmesa) return std::make_unique<OsmesaRenderer>();
+  return std::make_unique<SoftwareRenderer>(pixel_kernels(), true);
+}
+
+class ChosenRenderer : public Renderer {
+ public:
+  void load(std::shared_ptr<const Scene> scene) override {
+    scene_ = std::move(scene);
+    for (BackEnd& one : back_ends_) one.loaded = false;
+    BackEnd& own = of(DrawnBy::own);  // what is wrong with a scene is told when it is loaded
+    own.renderer->load(scene_);
+    own.loaded = true;
+  }
+
+  void draw(const ScenePoses& poses, std::span<const View> views, const DrawOptions& options,
+            std::vector<Picture>& pictures) override {
+    BackEnd& one = of(options.by);
+    if (!one.loaded && scene_) one.renderer->load(scene_);
+    one.loaded = scene_ != nullptr;
+    one.renderer->draw(poses, views, options, pictures);
+  }
+
+ private:
+  struct BackEnd {
+    std::unique_ptr<Renderer> renderer;
+    bool loaded = false;
+  };
+
+  BackEnd& of(DrawnBy by) {
+    BackEnd& one = back_ends_.at(static_cast<std::size_t>(by));
+    if (!one.renderer) one.renderer = made_for(by);
+    return one;
+  }
+
+  std::shared_ptr<const Scene> scene_;
+  std::array<BackEnd, kDrawnBy.size()> back_ends_;
+};
+
+}  // namespace
+
+std::string_view to_string(DrawnBy value) { return kDrawnBy.at(static_cast<std::size_t>(value)); }
+
+std::optional<DrawnBy> drawn_by_from(std::string_view name) {
+  const auto found = std::find(kDrawnBy.begin(), kDrawnBy.end(), name);
+  if (found == kDrawnBy.end()) return std::nullopt;
+  return static_cast<DrawnBy>(found - kDrawnBy.begin());
+}
+
+std::unique_ptr<Renderer> make_renderer() { return std::make_unique<ChosenRenderer>(); }
+
+}  // namespace stampede
