@@ -6,7 +6,7 @@ return task {
   variations = { colour = colours.names },
   objects = function(v)
     return {
-      mat = { "pyramid_mat", at = { between(0.14, 0.24), between(-0.08, 0.08), 0.75 }, yaw = between(deg(-22), deg(22)) },
+      mat = { "pyramid_mat", at = on_table { between(0.14, 0.24), between(-0.08, 0.08) }, yaw = between(deg(-22), deg(22)) },
       block = { "cube", colour = v.colour, count = 6 },
       other = { "cube", colour = one_of(colours.except(v.colour)), count = 6 },
     }
@@ -15,7 +15,7 @@ return task {
     is.spaced("block*", "mat"), is.spaced("other*", "mat"), is.reachable("block*") },
   goal = {
     any_order("block*", 6, function(b, i) return is.inside(b[i], places[i]) end), -- which block is where is all the same
-    is.on("other*", "table"), is.hand_empty(),
+    stays("other*"),
   },
   horizon = 240, -- s
   instructions = {

@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { channel = { "next", "previous" } },
   objects = {
-    tv = { "television", place = places.beside_the_table(0.16, deg(45), 0.75, 0, nil, 0.52) },
+    tv = { "television", place = places.beside_the_table { gap = 0.16, turn = deg(45), wide = 0.52 } },
     remote = { "remote_control" },
   },
   init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"),
@@ -14,7 +14,7 @@ return task {
     local button, other = "remote.plus_button", "remote.minus_button"
     if v.channel == "previous" then button, other = other, button end
     return in_order { is.pointing_at("remote", "tv"),
-      all_of { is.pressed(button), is_not.pressed(other), is.pointing_at("remote", "tv"), is.hand_empty() } }
+      all_of { is.pressed(button), is_not.pressed(other), is.pointing_at("remote", "tv") } }
   end,
   instructions = function(v)
     local sign, way = v.channel == "next" and "plus" or "minus", v.channel == "next" and "up" or "down"

@@ -6,7 +6,7 @@ return task {
   variations = { level = { "bottom", "middle", "top" } },
   objects = function(v)
     return {
-      chest = { "chest", place = places.round_the_table(0.12, deg(22), 0.75, 0, 0.26),
+      chest = { "chest", place = places.round_the_table { gap = 0.12, turn = deg(22), wide = 0.26 },
         joints = { [v.level .. "_drawer"] = between(0.08, 0.14) } },
     }
   end,

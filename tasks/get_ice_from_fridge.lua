@@ -4,11 +4,12 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    fridge = { "ice_fridge", place = places.beside_the_table(0.15, deg(45), 0.75, 0, nil, 0.40) },
+    fridge = { "ice_fridge", place = places.beside_the_table { gap = 0.15, turn = deg(45), wide = 0.40 } },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = { is.on("cup", "table"), is_not.pressed("fridge.lever") },
   goal = { is.pressed_with("cup", "fridge.lever"), is.holding("cup"), is.lifted("cup") },
+  hand = "any",
   instructions = {
     "get ice from the fridge into the cup",
     "hold the cup against the lever of the fridge until ice comes",

@@ -4,7 +4,7 @@ local lamps = require "worlds.lib.lamps"
 return task {
   world = "tabletop",
   objects = {
-    lamp = { "table_lamp", shapes = lamps.shapes(true), at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 },
+    lamp = { "table_lamp", shapes = lamps.shapes(true), at = on_table { between(0.10, 0.30), between(-0.22, 0.22) },
       yaw = between(-math.pi, math.pi) },
   },
   init = { is_not.pressed("lamp.button") },

@@ -2,7 +2,7 @@
 return task {
   world = "tabletop",
   objects = {
-    lamp = { "table_lamp", at = { between(0.10, 0.30), between(-0.22, 0.22), 0.75 },
+    lamp = { "table_lamp", at = on_table { between(0.10, 0.30), between(-0.22, 0.22) },
       yaw = between(-math.pi, math.pi) },
   },
   init = { is_not.pressed("lamp.button") },

@@ -3,14 +3,14 @@ return task {
   world = "tabletop",
   variations = { colour = colours.names },
   objects = function(v)
-    local anywhere = { between(0.08, 0.32), between(-0.28, 0.28), 0.75 }
+    local anywhere = on_table { between(0.08, 0.32), between(-0.28, 0.28) }
     return {
       jar = { "jar", colour = v.colour, at = anywhere, yaw = between(-math.pi, math.pi) },
       other = { "jar", colour = one_of(colours.except(v.colour)), at = anywhere, yaw = between(-math.pi, math.pi) },
     }
   end,
   init = { is.spaced("jar", "other"), is.joined("jar.lid"), is.joined("other.lid") },
-  goal = { is.on("jar.lid", "table"), is.joined("other.lid"), is.hand_empty() },
+  goal = { is.on("jar.lid", "table"), stays("others") },
   instructions = {
     "open the {colour} jar",
     "unscrew the lid of the {colour} jar and put it on the table",

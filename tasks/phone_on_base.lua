@@ -3,7 +3,7 @@ return task {
   world = "tabletop",
   objects = { cradle = { "phone_cradle" }, phone = { "phone" } },
   init = { is.on("cradle", "table"), is.on("phone", "table"), is_not.crowds("cradle", "phone") },
-  goal = { is.in_slot("phone", "cradle.seat"), is.hand_empty() },
+  goal = { is.in_slot("phone", "cradle.seat") },
   instructions = {
     "return the handset to its charging cradle",
     "the phone has to charge: set it in its cradle",

@@ -6,7 +6,7 @@ return task {
       "teal", "azure", "violet", "rose", "black", "white" },
   },
   objects = function(v)
-    return { button = { "push_button", colour = v.colour, at = { between(0.06, 0.36), between(-0.32, 0.32), 0.75 },
+    return { button = { "push_button", colour = v.colour, at = on_table { between(0.06, 0.36), between(-0.32, 0.32) },
       yaw = between(-math.pi, math.pi) } }
   end,
   init = { is_not.pressed("button.cap") },

@@ -4,11 +4,11 @@ local places = require "worlds.lib.places"
 return task {
   world = "tabletop",
   objects = {
-    fridge = { "fridge", place = places.left_or_behind(0.13, deg(16), 0.75, -0.16) },
+    fridge = { "fridge", place = places.left_or_behind { gap = 0.13, turn = deg(16), lean = -0.16 } },
     bottle = { "water_bottle" },
   },
   init = { is.closed("fridge.door"), is.workable("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },
-  goal = { is.inside("bottle", "fridge.shelf"), is.hand_empty() },
+  goal = { is.inside("bottle", "fridge.shelf") },
   instructions = {
     "put the bottle in the fridge",
     "open the fridge and stand the bottle in it",

@@ -5,11 +5,11 @@ return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", place = places.beside_the_table(0.17, deg(45), 0.75, 0, nil, 0.38) },
+    safe = { "safe", place = places.beside_the_table { gap = 0.17, turn = deg(45), wide = 0.38 } },
     money = { "money" },
   },
   init = { is.on("money", "table") },
-  goal = function(v) return { is.inside("money", "safe." .. v.shelf .. "_shelf"), is.hand_empty() } end,
+  goal = function(v) return { is.inside("money", "safe." .. v.shelf .. "_shelf") } end,
   instructions = {
     "deposit the bundle of money on the {shelf} shelf inside the safe",
     "store the banknotes in the safe, {shelf} shelf",

@@ -3,17 +3,18 @@ return task {
   world = "tabletop",
   variations = { colour = colours.names },
   objects = function(v)
-    local anywhere, turn = { between(0.04, 0.32), between(-0.28, 0.28), 0.75 }, between(-math.pi, math.pi)
+    local anywhere, turn = on_table { between(0.04, 0.32), between(-0.28, 0.28) }, between(-math.pi, math.pi)
     return {
       target = { "patch", colour = v.colour, at = anywhere, yaw = turn },
       other = { "patch", count = 2, colour = sample_of(colours.except(v.colour), 2), at = anywhere, yaw = turn },
-      cube = { "waxed_cube", at = { between(0.04, 0.32), between(-0.28, 0.28), 0.781 }, yaw = turn },
+      cube = { "waxed_cube", at = on_table { between(0.04, 0.32), between(-0.28, 0.28), 0.031 }, yaw = turn },
       stick = { "stick" },
     }
   end,
-  init = { is.spaced("target", "other1"), is.spaced("target", "other2"), is.spaced("other1", "other2"),
+  init = { is.pairwise("spaced", "target", "other*"),
     is.on("cube", "table"), is.outside("cube", "target"), is.on("stick", "table"), is_not.crowds("cube", "stick") },
   goal = { is.covers("cube", "target"), is.on("cube", "table") },
+  hand = "any",
   also = function(w) return w:at_rest("cube") end,
   instructions = {
     "drag the cube onto the {colour} patch with the stick",

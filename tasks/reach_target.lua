@@ -9,7 +9,7 @@ return task {
       other = { "floating_target", count = 2, colour = one_of(colours.except(v.colour)), at = anywhere },
     }
   end,
-  init = { is.hand_empty(), is.spaced("target", "other1"), is.spaced("target", "other2"), is.spaced("other1", "other2") },
+  init = { is.hand_empty(), is.pairwise("spaced", "target", "other*") },
   goal = { is.at("target") },
   hold = 0.2, -- s
   instructions = {

@@ -16,7 +16,7 @@ return task {
   world = "tabletop",
   variations = { count = { 1, 2, 3 }, case = range(1, 6) },
   objects = function()
-    local objects = { board = { "chess_board", at = { between(0.16, 0.21), between(-0.07, 0.07), 0.75 + boards.high },
+    local objects = { board = { "chess_board", at = on_table { between(0.16, 0.21), between(-0.07, 0.07), boards.high },
       yaw = between(-math.pi, math.pi) } }
     for _, man in ipairs(men) do objects[man.name] = { "chess_" .. man.kind, colour = man.colour } end
     return objects
@@ -27,7 +27,7 @@ return task {
     return init
   end,
   goal = function()
-    local goal = { is.hand_empty() }
+    local goal = {}
     for _, man in ipairs(men) do goal[#goal + 1] = is.inside(man.name, "board." .. man.square) end
     return goal
   end,

@@ -2,11 +2,11 @@
 return task {
   world = "tabletop",
   objects = {
-    rack = { "wine_rack", at = { between(0.20, 0.30), between(-0.18, 0.18), 0.75 }, yaw = between(-math.pi / 4, math.pi / 4) },
+    rack = { "wine_rack", at = on_table { between(0.20, 0.30), between(-0.18, 0.18) }, yaw = between(-math.pi / 4, math.pi / 4) },
     bottle = { "wine_bottle" },
   },
   init = { is.on("bottle", "table"), is_not.crowds("rack", "bottle") },
-  goal = { is.in_slot("bottle", "rack.compartment"), is.hand_empty() },
+  goal = { is.in_slot("bottle", "rack.compartment") },
   instructions = {
     "put the wine into the rack",
     "the bottle belongs in the free compartment of the wine rack",

@@ -5,7 +5,7 @@ return task {
   world = "tabletop",
   variations = { shelf = { "bottom", "middle", "top" } },
   objects = {
-    safe = { "safe", place = places.beside_the_table(0.17, deg(45), 0.75, 0, nil, 0.38) },
+    safe = { "safe", place = places.beside_the_table { gap = 0.17, turn = deg(45), wide = 0.38 } },
     low = { "money" }, mid = { "money" }, high = { "money" },
   },
   init = function(v)
@@ -17,7 +17,7 @@ return task {
   end,
   goal = function(v)
     local stacks = { bottom = "low", middle = "mid", top = "high" }
-    local parts = { is.on(stacks[v.shelf], "table"), is.hand_empty() }
+    local parts = { is.on(stacks[v.shelf], "table") }
     for shelf, stack in pairs(stacks) do
       if shelf ~= v.shelf then parts[#parts + 1] = is.inside(stack, "safe." .. shelf .. "_shelf") end
     end

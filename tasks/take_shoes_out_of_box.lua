@@ -2,12 +2,12 @@
 return task {
   world = "tabletop",
   objects = {
-    box = { "lidded_box", at = { between(0.16, 0.26), between(-0.05, 0.05), 0.75 }, yaw = between(deg(-22), deg(22)) },
+    box = { "lidded_box", at = on_table { between(0.16, 0.26), between(-0.05, 0.05) }, yaw = between(deg(-22), deg(22)) },
     left = { "shoe" }, right = { "shoe" },
   },
   init = { is.closed("box.lid"), is.inside("left", "box"), is.inside("right", "box"), is.spaced("left", "right") },
   told = { is.inside("left", "box"), is.inside("right", "box") },
-  goal = { is.on("left", "table"), is.on("right", "table"), is.hand_empty() },
+  goal = { is.on("left", "table"), is.on("right", "table") },
   instructions = {
     "take the shoes out of the box",
     "open the box and put both shoes on the table",

@@ -2,11 +2,12 @@
 return task {
   world = "tabletop",
   objects = {
-    stand = { "umbrella_stand", at = { between(0.06, 0.28), between(-0.28, 0.28), 0.75 }, yaw = between(-math.pi, math.pi) },
+    stand = { "umbrella_stand", at = on_table { between(0.06, 0.28), between(-0.28, 0.28) }, yaw = between(-math.pi, math.pi) },
     umbrella = { "umbrella" },
   },
   init = { is.in_slot("umbrella", "stand.tube") },
   goal = { is_not.in_slot("umbrella", "stand.tube"), is.lifted("umbrella") },
+  hand = "any",
   instructions = {
     "draw the umbrella up out of its tube",
     "pull the umbrella up and clear of its stand",

@@ -2,7 +2,7 @@
 return task {
   world = "tabletop",
   objects = {
-    outlet = { "outlet", at = { between(0.18, 0.34), between(-0.20, 0.20), 0.75 }, yaw = between(-0.42 * math.pi, 0.42 * math.pi) },
+    outlet = { "outlet", at = on_table { between(0.18, 0.34), between(-0.20, 0.20) }, yaw = between(-0.42 * math.pi, 0.42 * math.pi) },
     charger = { "charger" },
   },
   init = { is.in_slot("charger", "outlet.socket") },

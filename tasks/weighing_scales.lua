@@ -3,13 +3,13 @@ return task {
   world = "tabletop",
   variations = { colour = { "green", "red", "yellow" } },
   objects = {
-    scales = { "kitchen_scales", at = { between(0.14, 0.30), between(-0.20, 0.20), 0.75 }, yaw = between(math.pi - 0.8, math.pi + 0.8) },
+    scales = { "kitchen_scales", at = on_table { between(0.14, 0.30), between(-0.20, 0.20) }, yaw = between(math.pi - 0.8, math.pi + 0.8) },
     green_pepper = { "green_pepper" }, red_pepper = { "red_pepper" }, yellow_pepper = { "yellow_pepper" },
   },
   init = { is.on("green_pepper", "table"), is.on("red_pepper", "table"), is.on("yellow_pepper", "table"),
     is.reachable("green_pepper"), is.reachable("red_pepper"), is.reachable("yellow_pepper") },
   goal = function(v)
-    local goal = { is.on(v.colour .. "_pepper", "scales.tray"), is.hand_empty() }
+    local goal = { is.on(v.colour .. "_pepper", "scales.tray") }
     for _, colour in ipairs { "green", "red", "yellow" } do
       if colour ~= v.colour then goal[#goal + 1] = is.on(colour .. "_pepper", "table") end
     end

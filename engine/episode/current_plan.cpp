@@ -68,8 +68,11 @@ AssumingPlan CurrentPlan::ask_planner() const {
                [&](const Obstruction& one) { return stands(one); });
   if (options_.planner)
     for (const PlanStep& step : forbidden) standing.push_back({step, {}, {}});
-  return plan_assuming(problem(standing, {}), conceivable(rollout_.facts()), key_of("assume"),
-                       [&](const PlanningTask& planning) { return ask(planning); });
+  AssumingPlan found = plan_assuming(problem(standing, {}), conceivable(rollout_.facts()), key_of("assume"),
+                                     [&](const PlanningTask& planning) { return ask(planning); });
+  if (!found.outcome.solved && rollout_.task().empty_hand)
+    found.outcome.explanation += "; the hand must be empty at the end, unless the task says hand = \"any\"";
+  return found;
 }
 
 // After `done` steps: what has come to light of all that was assumed. What undone steps showed is not known any more.

@@ -75,6 +75,7 @@ struct Task {
   std::vector<Formula> stages;  // in_order { … }; goal is their conjunction
   std::optional<std::vector<TaskStep>> steps;
   std::vector<Subgoal> subgoals;  // in the order in which they come true
+  bool empty_hand = false;        // the goal asks for it because all do, not by a word of its own
   double hold_s = 1.0;            // the goal must stay true for this long at the end
   double horizon_s = 120;
   std::string motion_planner;             // of the world; empty: our own. What the run asks for goes before it

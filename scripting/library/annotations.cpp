@@ -20,7 +20,8 @@ std::string one_type(std::string_view type) {
   if (type == "vector" || type == "range" || type == "size" || type == "numbers") return "number[]";
   if (type == "colour") return "string|number[]";
   if (type == "cover") return "string|" + class_name("texture");
-  if (type == "literal" || type == "formula" || type == "effect" || type == "call") return class_name(type);
+  if (type == "on_table" || type == "literal" || type == "formula" || type == "effect" || type == "call")
+    return class_name(type);
   return record(type) != nullptr ? class_name(type) : std::string(type);
 }
 

@@ -15,13 +15,17 @@ bool is_draw(const Value& node) {
 bool is_formula(const Value& node) {
   static const std::vector<std::string> kTags = {"literal", "all_of", "any_of",    "in_order", "not",
                                                  "forall",  "exists", "any_order", "at_least", "equal",
-                                                 "pddl",    "when",   "call"};
+                                                 "pddl",    "when",   "call",      "stays"};
   return std::find(kTags.begin(), kTags.end(), node.tag()) != kTags.end();  // which of them: the formula reader says
 }
 
-bool numbers(const Value& node, std::size_t least, std::size_t most) {
-  if (!node.is_table() || node.items.size() < least || node.items.size() > most || !node.tag().empty()) return false;
+bool all_numbers(const Value& node) {
   return std::all_of(node.items.begin(), node.items.end(), [](const Value& item) { return has_type(item, "number"); });
+}
+
+bool numbers(const Value& node, std::size_t least, std::size_t most) {
+  return node.is_table() && node.items.size() >= least && node.items.size() <= most && node.tag().empty() &&
+         all_numbers(node);
 }
 
 // A draw has a type when all that it may give has it.
@@ -39,6 +43,7 @@ bool has_plain_type(const Value& node, std::string_view type) {
   if (type == "integer") return node.is_number() && node.integer;
   if (type == "boolean") return node.kind == Value::Kind::boolean;
   if (type == "function") return node.is_function();
+  if (type == "on_table") return node.tag() == "on_table" && all_numbers(node);
   if (type == "vector") return numbers(node, 3, 3);
   if (type == "range" || type == "size") return numbers(node, 2, 2);
   if (type == "numbers") return numbers(node, 0, 1000);
@@ -81,17 +86,18 @@ std::string in_words(std::string_view type) {
     }
     const bool list = one.ends_with("[]");
     while (one.ends_with("[]")) one.remove_suffix(2);
-    const std::string word = one == "string"    ? "text"
-                             : one == "integer" ? "whole number"
-                             : one == "boolean" ? "true or false"
-                             : one == "vector"  ? "{ x, y, z }"
-                             : one == "range"   ? "{ lower, upper }"
-                             : one == "size"    ? "{ width, height }"
-                             : one == "numbers" ? "list of numbers"
-                             : one == "colour"  ? "colour (a name or { r, g, b })"
-                             : one == "texture" ? "texture such as checker { \"white\", \"black\" }"
-                             : one == "cover"   ? "texture (a kind, or texture { … })"
-                                                : std::string(one);
+    const std::string word = one == "string"     ? "text"
+                             : one == "integer"  ? "whole number"
+                             : one == "boolean"  ? "true or false"
+                             : one == "vector"   ? "{ x, y, z }"
+                             : one == "on_table" ? "on_table { x, y }"
+                             : one == "range"    ? "{ lower, upper }"
+                             : one == "size"     ? "{ width, height }"
+                             : one == "numbers"  ? "list of numbers"
+                             : one == "colour"   ? "colour (a name or { r, g, b })"
+                             : one == "texture"  ? "texture such as checker { \"white\", \"black\" }"
+                             : one == "cover"    ? "texture (a kind, or texture { … })"
+                                                 : std::string(one);
     text += list ? "a list of " + word : word;
   }
   return text;

@@ -51,13 +51,13 @@ int set_metatable(lua_State* state) {
   return 1;
 }
 
-// Arguments: bytecode, then the modules of colours.
+// Arguments: bytecode, whether there is a predicate hand_empty, then the modules of colours.
 int run_prelude(lua_State* state) {
   const auto* bytecode = static_cast<const std::string*>(lua_touserdata(state, 1));
   const int modules = lua_gettop(state);
   lua_newtable(state);
   const int colours = modules + 1;
-  for (int module = 2; module <= modules; ++module) {
+  for (int module = 3; module <= modules; ++module) {
     lua_getglobal(state, "require");
     lua_pushvalue(state, module);
     lua_call(state, 1, 1);
@@ -78,6 +78,8 @@ int run_prelude(lua_State* state) {
   lua_setfield(state, -2, "words");
   lua_pushvalue(state, colours);
   lua_setfield(state, -2, "colours");
+  lua_pushvalue(state, 2);
+  lua_setfield(state, -2, "hand_empty");
   lua_pushvalue(state, -1);
   lua_setfield(state, LUA_REGISTRYINDEX, kWordsKey);
   lua_call(state, 1, 0);
@@ -113,6 +115,7 @@ DefinitionState::DefinitionState(std::shared_ptr<const Library> library, const S
   lua_State* lua = state();
   lua_pushcfunction(lua, lua_function<run_prelude>);
   lua_pushlightuserdata(lua, const_cast<std::string*>(&prelude_bytecode()));
+  lua_pushboolean(lua, impl_->library->file(DefinitionKind::predicate, "hand_empty") != nullptr);
   int modules = 0;
   for (const ScriptFile* file : impl_->library->files(DefinitionKind::colours)) {
     std::string name = file->shown_path.substr(0, file->shown_path.rfind('.'));
@@ -120,7 +123,7 @@ DefinitionState::DefinitionState(std::shared_ptr<const Library> library, const S
     lua_pushlstring(lua, name.data(), name.size());
     ++modules;
   }
-  sandbox().call(1 + modules, 0);
+  sandbox().call(2 + modules, 0);
 }
 
 DefinitionState::~DefinitionState() = default;

@@ -20,6 +20,7 @@ const Record kTask{
       "facts of the start that the sentences tell, where nobody can see them: plans need not search",
       "{ is.inside(\"cup\", \"cupboard.top_shelf\") }", true},
      {"goal", "formula|formula[]", true, "", "", "what must hold at the end", "is.on(\"cup\", \"shelf\")", true},
+     {"hand", "string", false, "empty", "", "at the end: empty, or any where it may hold something", "\"any\""},
      {"skills", "string[]", false, "{}", "", "skills that extend or replace others, for this task", "{ \"my_open\" }"},
      {"steps", "call[]|call", false, "", "", "the skills to execute, instead of a plan", "{ act.pick(\"cup\") }", true},
      {"also", "function", false, "", "", "function(w): a further test beside the goal"},
@@ -46,23 +47,24 @@ const Record kProblem{
      {"names", "table", false, "{}", "", "its names, and ours where a thing has another one here",
       "{ main_table = \"table\" }"}}};
 
-const Record kEntry{"entry",
-                    "One line of a task's objects or a world's fixtures: a class and what differs from its file",
-                    {{"count", "integer", false, "", "", "makes a group name1 … namen (0: an empty one)", "4"},
-                     {"at", "vector", false, "", "m", "fixed position of the body in the world", "{ 0.1, 0, 0.75 }"},
-                     {"yaw", "number", false, "0", "rad", "turn about the vertical", "deg(90)"},
-                     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
-                     {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"},
-                     {"place", "place", false, "", "", "at and a turn together, where one draw chooses both",
-                      "one_of { { at = { 0.5, 0, 0.75 } }, { at = { 0.1, 0.5, 0.75 }, yaw = deg(90) } }"},
-                     {"joints", "table", false, "{}", "rad or m",
-                      "initial joint positions by part; of a robot, where its arm starts instead of at home",
-                      "{ top_drawer = between(0.08, 0.14) }"}},
-                    "string"};
+const Record kEntry{
+    "entry",
+    "One line of a task's objects or a world's fixtures: a class and what differs from its file",
+    {{"count", "integer", false, "", "", "makes a group name1 … namen (0: an empty one)", "4"},
+     {"at", "vector|on_table", false, "", "m", "fixed position of the body in the world", "on_table { 0.1, 0 }"},
+     {"yaw", "number", false, "0", "rad", "turn about the vertical", "deg(90)"},
+     {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
+     {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"},
+     {"place", "place", false, "", "", "at and a turn together, where one draw chooses both",
+      "one_of { { at = on_table { 0.5, 0 } }, { at = on_table { 0.1, 0.5 }, yaw = deg(90) } }"},
+     {"joints", "table", false, "{}", "rad or m",
+      "initial joint positions by part; of a robot, where its arm starts instead of at home",
+      "{ top_drawer = between(0.08, 0.14) }"}},
+    "string"};
 
 const Record kPlace{"place",
                     "Where something stands",
-                    {{"at", "vector", true, "", "m", "position of the body in the world"},
+                    {{"at", "vector|on_table", true, "", "m", "position of the body in the world"},
                      {"yaw", "number", false, "0", "rad", "turn about the vertical"},
                      {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
                      {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"}}};

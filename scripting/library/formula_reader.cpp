@@ -232,7 +232,7 @@ class Reader {
     const std::string& name = node["predicate"].text;
     const auto trait = std::find(domain_.traits.begin(), domain_.traits.end(), name);
     if (const Predicate* known = domain_.predicate(name)) {
-      if (known->kind == PredicateKind::start && context_.field != "init")
+      if (known->kind == PredicateKind::start && context_.field != "init" && !node["stays"].boolean)
         fail("'" + name + "' is only asked of starts and is no fact",
              "name it in init, or take start_only out of its file");
       return;
@@ -330,13 +330,14 @@ class Reader {
     const std::string& name = node["predicate"].text;
     const std::vector<Parameter> parameters = parameters_of(name);
     const int hand = hand_position(parameters, domain_);
-    const std::size_t given = node.items.size();
+    const std::size_t given = node["pairwise"].boolean ? parameters.size() : node.items.size();
     const bool fill = hand >= 0 && given + 1 == parameters.size();
     if (given != parameters.size() && !fill) {
       std::string hint = "is." + name + "(";
       for (std::size_t i = 0; i < parameters.size(); ++i) hint += (i > 0 ? ", " : "") + parameters[i].name;
       fail(shown(name, parameters.size()) + ", not " + std::to_string(given), "write " + hint + ")");
     }
+    if (node["pairwise"].boolean) return pairs_of(node, parameters);
     limit_members(node);
     std::vector<std::vector<Term>> tuples(1);
     std::size_t next = 0;
@@ -361,6 +362,30 @@ class Reader {
       }
       tuples = std::move(longer);
     }
+    return tuples;
+  }
+
+  // Of each two of the things and members of groups that are named, in their order.
+  std::vector<std::vector<Term>> pairs_of(const Value& node, const std::vector<Parameter>& parameters) {
+    const std::string& name = node["predicate"].text;
+    if (parameters.size() != 2)
+      fail("pairwise: " + shown(name, parameters.size()) + ", and is not said of two things",
+           "name a predicate of two, such as apart");
+    std::vector<std::string> things;
+    for (const Value& item : node.items) {
+      if (!is_group(item.text)) {
+        things.push_back(item.text);
+        continue;
+      }
+      const std::vector<std::string> names = members(item.text);
+      things.insert(things.end(), names.begin(), names.end());
+    }
+    if (things.size() < 2) fail("pairwise: there are no two things to say '" + name + "' of", "name another");
+    limit_written(name, things, static_cast<std::int64_t>(things.size() * (things.size() - 1) / 2));
+    std::vector<std::vector<Term>> tuples;
+    for (std::size_t i = 0; i < things.size(); ++i)
+      for (std::size_t k = i + 1; k < things.size(); ++k)
+        tuples.push_back({term(things[i], &parameters[0]), term(things[k], &parameters[1])});
     return tuples;
   }
 
@@ -405,6 +430,9 @@ class Reader {
     const std::string& name = node["predicate"].text;
     if (name == "same" && domain_.predicate(name) == nullptr) return equal(node);
     check_predicate(node);
+    if (const Predicate* known = domain_.predicate(name);
+        known != nullptr && known->kind == PredicateKind::start && context_.field != "init")
+      return {};  // of what stays: it is asked of starts alone
     const bool negated = node["negated"].boolean;
     std::vector<Formula> parts;
     for (std::vector<Term>& terms : expanded(node)) {
@@ -574,6 +602,7 @@ class Reader {
       fail("an effect cannot change the static predicate '" + name + "'", {});
     Effect result = frame;
     result.predicate = name;
+    if (node["pairwise"].boolean) fail("pairwise cannot stand in an effect", "write one literal for each two");
     result.terms = expanded(node).at(0);
     if (!parts_.empty())
       fail("an effect cannot name a part of a parameter: '" + parts_[0].whole.name + "." + parts_[0].name + "'",

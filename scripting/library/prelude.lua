@@ -2,6 +2,8 @@
 -- Every value that the engine must understand is a table with a field `tag`:
 --   definition  { kind = "task" | "skill" | …, line, <the author's fields> }        (kind instead of tag)
 --   literal     { tag = "literal", predicate, negated, line, "arg1", … }            is.on("a", "b")
+--               with `pairwise`: of each two of the arguments' members; `stays`: what init says, in a goal;
+--               `implied`: nobody wrote it
 --   call        { tag = "call", skill, line, "arg1", …, <named arguments>, set }    act.pick("a", "b", { height = 0.2 })
 --   formula     { tag = "all_of" | "any_of" | "in_order", line, part1, … }
 --               { tag = "not", line, part }
@@ -10,6 +12,7 @@
 --               { tag = "at_least", group, n, variables = { "?some" }, line, part }
 --               { tag = "when", condition, effects, line }                         effects only
 --               { tag = "equal", line, "a", "b" }   { tag = "pddl", text, line }
+--   place       { tag = "on_table", x, y, above }
 --   draw        { tag = "one_of", values }, { tag = "sample_of", values, n }, { tag = "between", low, high }
 --   stream      { tag = "stream", source = "grasps", object = "obj" } or { …, source = "sample", literal }
 --   shape       { tag = "shape", shape = "box", 1, 2, 3, at, rpy, yaw, colour, … }
@@ -120,8 +123,20 @@ local function parts_of(tag, ...)
   return value
 end
 
-words.is = setmetatable({}, { __index = by_name(function(name) return literal(name, false) end), __newindex = fixed })
-words.is_not = setmetatable({}, {
+-- is.pairwise("apart", "cup*", "plate"): of each two of them, in the order in which they are named.
+local function pairwise(negated)
+  return function(predicate, ...)
+    if type(predicate) ~= "string" or select("#", ...) == 0 then
+      say("pairwise takes a predicate and what it is said of: is.pairwise(\"apart\", \"cup*\")")
+    end
+    local value = literal(predicate, negated)(...)
+    value.pairwise = true
+    return value
+  end
+end
+
+words.is = setmetatable({ pairwise = pairwise(false) }, { __index = by_name(function(name) return literal(name, false) end), __newindex = fixed })
+words.is_not = setmetatable({ pairwise = pairwise(true) }, {
   __index = by_name(function(name) return literal(name, true) end),
   __newindex = fixed,
   __call = function(_, part) return { tag = "not", line = here(), one_part("is_not", part) } end,
@@ -210,6 +225,123 @@ function words.at_least(n, group, f)
   return value
 end
 
+-- Goals ----------------------------------------------------------------------------------------------------------------
+-- stays("cup", "box"): what `init` says of them, and of their parts, holds at the end too, but for what is asked of starts
+-- alone; stays("others"): of all that the goal does not speak of.
+function words.stays(...)
+  local value = { tag = "stays", line = here() }
+  for i = 1, select("#", ...) do
+    local name = (select(i, ...))
+    if type(name) ~= "string" then say("stays takes names of things, this is a %s", type(name)) end
+    value[i] = name
+  end
+  if #value == 0 then say("stays takes names of things: stays(\"cup\"), stays(\"others\")") end
+  return value
+end
+
+-- Calls visit(node) for each literal and each stays of a formula or list of them, also inside others.
+local function each_literal(node, visit)
+  if type(node) ~= "table" then return end
+  if node.tag == "literal" or node.tag == "stays" then return visit(node) end
+  for i = 1, #node do each_literal(node[i], visit) end
+end
+
+local function has(node, test)
+  local found = false
+  each_literal(node, function(one) found = found or test(one) end)
+  return found
+end
+local function is_stays(one) return one.tag == "stays" end
+
+local function begins(name, with) return string.sub(name, 1, #with) == with end
+local function belongs(name, to) return name == to or begins(name, to .. ".") end
+local function member(name, group)
+  local stem = string.sub(group, 1, -2)
+  return string.sub(group, -1) == "*" and begins(name, stem) and string.find(string.sub(name, #stem + 1), "^%d") ~= nil
+end
+-- A group and its members, a thing and its parts, either way.
+local function touches(name, other)
+  return belongs(name, other) or belongs(other, name) or member(name, other) or member(other, name)
+end
+
+-- The literals of `init` that a stays stands for.
+local function staying(stays, goal, init)
+  local spoken = {}
+  each_literal(goal, function(one)
+    for i = 1, #one do spoken[#spoken + 1] = one[i] end
+  end)
+  local kept = { tag = "all_of", line = stays.line }
+  for i = 1, #stays do
+    local name, found = stays[i], false
+    each_literal(init, function(one)
+      local of = one[1]
+      local meant = of and belongs(of, name)
+      if of and name == "others" then
+        meant = true
+        for _, other in ipairs(spoken) do meant = meant and not touches(of, other) end
+      end
+      if not meant or one.pairwise then return end
+      found = true
+      local copy = { tag = "literal", predicate = one.predicate, negated = one.negated, line = stays.line, stays = true }
+      for k = 1, #one do copy[k] = one[k] end
+      kept[#kept + 1] = copy
+    end)
+    if not found and name ~= "others" then
+      say("stays(\"%s\"): init says nothing of '%s' that could stay", name, name)
+    end
+  end
+  return kept
+end
+
+local function with_staying(node, goal, init)
+  if type(node) ~= "table" or node.tag == "literal" then return node end
+  if is_stays(node) then return staying(node, goal, init) end
+  local copy = {}
+  for key, value in pairs(node) do copy[key] = value end
+  for i = 1, #node do copy[i] = with_staying(node[i], goal, init) end
+  return copy
+end
+
+-- The hand is to be empty at the end, unless the task says hand = "any" or the goal speaks of the hand itself.
+local function with_empty_hand(goal)
+  local function speaks_of_it(one) return one.predicate == "hand_empty" end
+  if type(goal) ~= "table" or #goal == 0 or has(goal, speaks_of_it) then return goal end
+  local empty = { tag = "literal", predicate = "hand_empty", negated = false, line = goal.line, implied = true }
+  local whole = goal.tag == nil and #goal == 1 and type(goal[1]) == "table" and goal[1] or goal
+  if whole.tag ~= "in_order" and goal.tag ~= nil then return { tag = "all_of", line = goal.line, goal, empty } end
+  local parts = {}
+  for key, value in pairs(whole.tag == "in_order" and whole or goal) do parts[key] = value end
+  if whole.tag == "in_order" then
+    parts[#parts] = { tag = "all_of", line = whole.line, parts[#parts], empty }
+  else
+    parts[#parts + 1] = empty
+  end
+  return parts
+end
+
+local define_task = words.task
+function words.task(fields)
+  local definition = define_task(fields)
+  local goal, init = definition.goal, definition.init
+  local implied = api.hand_empty and definition.hand ~= "any"
+  local function finished(what, v)
+    if has(what, is_stays) then
+      local start = init
+      if type(init) == "function" then start = init(v) end
+      what = with_staying(what, what, start)
+    end
+    return implied and with_empty_hand(what) or what
+  end
+  if type(goal) == "function" then
+    definition.goal = function(v) return finished(goal(v), v) end
+  elseif has(goal, is_stays) and type(init) == "function" then
+    definition.goal = function(v) return finished(goal, v) end
+  else
+    definition.goal = finished(goal)
+  end
+  return definition
+end
+
 -- Effects and streams -------------------------------------------------------------------------------------------------
 function words.when(condition, effects)
   if is_value(effects) then effects = { effects } end
@@ -226,6 +358,13 @@ function words.stream(source, object, to)
     return { tag = "stream", source = "sample", literal = source, line = here() }
   end
   say("stream takes \"grasps\" or a literal such as is.on(\"obj\", \"to\")")
+end
+
+-- at = on_table { x, y }: on the top of the world's table, or `above` it: on_table { x, y, 0.2 }.
+function words.on_table(fields, ...)
+  if type(fields) ~= "table" then fields = { fields, ... } end
+  if #fields < 2 or #fields > 3 then say("on_table takes x and y, and how far above the table: on_table { 0.2, 0.1 }") end
+  return { tag = "on_table", line = here(), fields[1], fields[2], fields[3] }
 end
 
 -- Draws, per episode ----------------------------------------------------------------------------------------------------
@@ -369,5 +508,23 @@ function colours.except(...)
     if apart then result[#result + 1] = name end
   end
   return result
+end
+-- colours.apart(3, 50): 50 lists of three that nobody takes for one another (default: as many as there are colours), each
+-- colour as often the first as any other.
+function colours.apart(n, count)
+  if math.type(n) ~= "integer" or n < 1 or (count ~= nil and (math.type(count) ~= "integer" or count < 1)) then
+    say("colours.apart takes how many colours, and how many lists of them: colours.apart(3, 50)")
+  end
+  local lists, names = {}, colours.names
+  for i = 1, count or #names do
+    local list, round = { names[(i - 1) % #names + 1] }, (i - 1) // #names
+    for k = 2, n do
+      local left = colours.except(list)
+      if #left == 0 then say("colours.apart: there are no %d colours that far apart", n) end
+      list[k] = left[(i + 6 * (k - 1) + (2 * k - 1) * round) % #left + 1]
+    end
+    lists[i] = list
+  end
+  return lists
 end
 words.colours = setmetatable({}, { __index = colours, __newindex = fixed })

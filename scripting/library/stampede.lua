@@ -10,6 +10,7 @@
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
+---@field hand? string  at the end: empty, or any where it may hold something (default empty)
 ---@field skills? string[]  skills that extend or replace others, for this task (default {})
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
 ---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal
@@ -139,7 +140,7 @@
 ---@class stampede.entry: stampede.object
 ---@field [integer] stampede.object_name|string
 ---@field count? integer  makes a group name1 … namen (0: an empty one)
----@field at? number[]  fixed position of the body in the world [m]
+---@field at? number[]|stampede.on_table  fixed position of the body in the world [m]
 ---@field yaw? number  turn about the vertical [rad] (default 0)
 ---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
 ---@field quaternion? number[]  orientation x y z w, instead of yaw
@@ -148,7 +149,7 @@
 
 -- Where something stands
 ---@class stampede.place
----@field at number[]  position of the body in the world [m]
+---@field at number[]|stampede.on_table  position of the body in the world [m]
 ---@field yaw? number  turn about the vertical [rad] (default 0)
 ---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
 ---@field quaternion? number[]  orientation x y z w, instead of yaw

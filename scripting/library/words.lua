@@ -3,6 +3,7 @@
 -- the fields of each kind of file, names.lua the predicates, skills, types … that there are.
 
 ---@class stampede.draw
+---@class stampede.on_table
 ---@class stampede.formula
 ---@class stampede.effect
 ---@class stampede.literal: stampede.formula, stampede.effect
@@ -10,11 +11,13 @@
 
 -- Facts: is.on("cup", "table"). names.lua has the predicates
 ---@class stampede.is
+---@field pairwise fun(predicate: string, ...: string): stampede.formula  of each two: is.pairwise("apart", "cup*")
 ---@field [string] fun(...: string): stampede.literal
 is = {}
 
 -- Negated: is_not.on("cup", "table"), or is_not(any_of(…))
 ---@class stampede.is_not
+---@field pairwise fun(predicate: string, ...: string): stampede.formula  of no two
 ---@field [string] fun(...: string): stampede.literal
 ---@overload fun(part: stampede.formula): stampede.formula
 is_not = {}
@@ -54,6 +57,11 @@ function forall(...) end
 ---@return stampede.formula
 function exists(...) end
 
+-- In a goal: what init says of these things and their parts stays so; stays("others"): of all that the goal does not name
+---@param ... string
+---@return stampede.formula
+function stays(...) end
+
 -- n members of the group or more, whichever: at_least(4, "bean*", function(x) return is.inside(x, "bowl.space") end)
 ---@param n integer
 ---@param group string  such as "bean*"
@@ -89,6 +97,11 @@ function stream(source, object, to) end
 ---@param options? stampede.policy_options
 ---@return fun(robot: any, p: any, c: any)
 function policy(name, options) end
+
+-- at = on_table { x, y } or on_table { x, y, above }, m: on the top of the world's table, or above it
+---@param place number[]
+---@return stampede.on_table
+function on_table(place) end
 
 -- One of the values, drawn per episode
 ---@return any
@@ -137,6 +150,7 @@ function range(first, last, step) end
 -- The colours of worlds/colours.lua, by name
 ---@class stampede.colours
 ---@field names string[]  in alphabetical order
+---@field apart fun(n: integer, count?: integer): string[][]  lists of n that nobody takes for one another: of such length
 ---@field except fun(...: string|string[]): string[]  all others that nobody takes for one of these: at least 32 apart
 ---@field difference fun(first: string, second: string): number  how different they look: CIEDE2000, 0 … 100
 ---@field rgb fun(name: string): number[]  sRGB, 0 … 1

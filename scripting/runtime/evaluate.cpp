@@ -38,6 +38,22 @@ std::vector<std::string> sorted_keys(lua_State* state, int index, const std::str
 
 Value read(lua_State* state, int index, const Evaluation& how, const std::string& path, int depth);
 
+// { x, y } or { x, y, above } as { x, y, z }.
+Value on_table(Value value, const Evaluation& how) {
+  if (!how.table_top)
+    throw Error(value.place, "on_table stands where there is no table",
+                "it is for `at` of a task's objects, in a world whose fixtures have a table; else write { x, y, z }");
+  value.fields.clear();
+  double height = *how.table_top;
+  if (value.items.size() < 3)
+    value.items.push_back(value.items.at(1));
+  else
+    height += value.items[2].as_number();
+  value.items[2].number = height;
+  value.items[2].integer = false;
+  return value;
+}
+
 Value read_table(lua_State* state, int index, const Evaluation& how, const std::string& path, int depth) {
   Value value;
   value.kind = Value::Kind::table;
@@ -57,6 +73,7 @@ Value read_table(lua_State* state, int index, const Evaluation& how, const std::
     value.items.push_back(read(state, lua_gettop(state), how, joined(path, std::to_string(i)), depth + 1));
     lua_pop(state, 1);
   }
+  if (value.tag() == "on_table") return on_table(std::move(value), how);
   return is_draw(value) ? draw(value, how.key.with(path)) : value;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "engine/base/random.h"
@@ -15,9 +16,10 @@ namespace stampede {
 // changes no other.
 struct Evaluation {
   RandomKey key;
-  int variation = 0;              // stack index of v, the argument of functions; 0: functions are left out
-  std::string file;               // starts messages: `tasks/stack.lua`
-  std::vector<std::string> skip;  // fields of the outermost table that are left alone
+  int variation = 0;                     // stack index of v, the argument of functions; 0: functions are left out
+  std::string file;                      // starts messages: `tasks/stack.lua`
+  std::vector<std::string> skip;         // fields of the outermost table that are left alone
+  std::optional<double> table_top = {};  // height that on_table means, m; nothing: it means none here
 };
 
 // Reads the value at `index` (the stack is left as it was). `path` names it: `objects.block1`.

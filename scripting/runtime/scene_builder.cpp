@@ -7,6 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/model/camera.h"
+#include "engine/model/kinematics.h"
 #include "scripting/library/rates.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/world_reader.h"
@@ -87,6 +88,24 @@ void SceneBuilder::add_fixture(const ObjectSource& source) {
   BuiltObject built = build_object(source, colours_);
   if (built.body && built.body->free) built.body->free = false;
   add(std::move(built), fixtures_);
+}
+
+std::optional<double> SceneBuilder::top_of(const std::string& fixture) const {
+  const auto body =
+      std::find_if(fixtures_.begin(), fixtures_.end(), [&](const Body& one) { return one.name == fixture; });
+  if (body == fixtures_.end()) return std::nullopt;
+  std::optional<double> top;
+  std::vector<Transform> world_from_part;
+  forward_kinematics(*body, body->world_from_body, std::vector<double>(body->parts.size()), world_from_part);
+  for (std::size_t i = 0; i < body->parts.size(); ++i) {
+    const auto [lower, upper] = bounding_box(body->parts[i]);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3 point((corner & 1) != 0 ? upper.x() : lower.x(), (corner & 2) != 0 ? upper.y() : lower.y(),
+                          (corner & 4) != 0 ? upper.z() : lower.z());
+      top = std::max(top.value_or(-1e9), (world_from_part[i] * point).z());
+    }
+  }
+  return top;
 }
 
 void SceneBuilder::add_object(const ObjectSource& source) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,8 +30,9 @@ class SceneBuilder {
   void add_sensor(const std::string& name, const Value& fields);  // after the robot and the rates
   void set_light(const Value& fields);
   void add_drawn(const DrawnAssets& drawn) { drawn_.join(drawn); }
-  void set_classes(std::vector<std::string> classes);  // Scene::classes, in any order
-  void add_class(const std::string& name);             // behind those, where it is not among them
+  void set_classes(std::vector<std::string> classes);              // Scene::classes, in any order
+  void add_class(const std::string& name);                         // behind those, where it is not among them
+  std::optional<double> top_of(const std::string& fixture) const;  // highest z of its shapes, m; nothing: there is none
   std::string hand() const { return scene_.robot.name + "." + scene_.robot.hand; }
 
   std::vector<std::string> unplaced() const { return unplaced_; }

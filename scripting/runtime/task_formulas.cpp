@@ -49,11 +49,20 @@ void TaskReader::read_told() {
   lua_pop(state_, 1);
 }
 
+namespace {
+
+bool is_implied(const Value& formula) {
+  return formula["implied"].boolean || std::any_of(formula.items.begin(), formula.items.end(), is_implied);
+}
+
+}  // namespace
+
 void TaskReader::read_goal() {
   if (!push_field("goal")) throw Error(file_.shown_path, "a task needs a goal");
   const Value goal = value_as_written(state_, -1, file_.shown_path + ": goal");
   drawn_.task.goal = formula_from(goal, context_of("goal"));
   drawn_.task.stages = stages_from(goal, context_of("goal"));
+  drawn_.task.empty_hand = is_implied(goal);
   lua_pop(state_, 1);
 }
 

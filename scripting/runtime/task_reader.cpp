@@ -276,7 +276,7 @@ void TaskReader::read_objects() {
 // One thing, or with `count` a group of them, each with draws of its own. What sample_of drew for a field of a group
 // is dealt out: one value to each member.
 void TaskReader::add_group(const std::string& name, int index) {
-  const Evaluation how{key_, variation_, file_.shown_path, {}};
+  const Evaluation how{key_, variation_, file_.shown_path, {}, builder_->top_of("table")};
   const Value shared = read_value(state_, index, how, "objects." + name);
   if (!shared["count"].present()) {
     builder_->add_object(source_of(shared, name, "objects." + name));

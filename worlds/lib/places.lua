@@ -18,19 +18,20 @@ local function turned(turn, wide, make)
 end
 
 -- To the left (`sign` 1) or the right (-1).
-local function at_side(sign, gap, turn, z, lean, far, wide)
-  local yaw = sign * math.pi / 2 + (lean or 0)
-  return turned(turn, wide, function(from, to, further)
-    local close, away = 0.38 + gap + further, 0.38 + gap + further + 0.04
+local function at_side(sign, how)
+  local yaw = sign * math.pi / 2 + (how.lean or 0)
+  return turned(how.turn, how.wide, function(from, to, further)
+    local close, away = 0.38 + how.gap + further, 0.38 + how.gap + further + 0.04
     local y = sign > 0 and between(close, away) or between(-away, -close)
-    return { at = { between(0.06, far or 0.24), y, z }, yaw = between(yaw + from, yaw + to) }
+    return { at = on_table { between(0.06, how.far or 0.24), y, how.above or 0 }, yaw = between(yaw + from, yaw + to) }
   end)
 end
 
-local function behind(gap, turn, z, most, wide)
-  most = most or 0.22
-  return turned(turn, wide, function(from, to, further)
-    return { at = { between(0.40 + gap + further, 0.44 + gap + further), between(-most, most), z }, yaw = between(from, to) }
+local function behind(how)
+  local most = how.most or 0.22
+  return turned(how.turn, how.wide, function(from, to, further)
+    return { at = on_table { between(0.40 + how.gap + further, 0.44 + how.gap + further), between(-most, most), how.above or 0 },
+      yaw = between(from, to) }
   end)
 end
 
@@ -42,27 +43,23 @@ local function any_of_them(...)
   return one_of(all)
 end
 
--- To the left or right of the table. `gap`: from its edge to the middle of the thing, m; `turn`: how far it may be turned,
--- rad; `z`: of its frame, m. What is tall belongs there: behind the table it would hide everything from the camera in front.
--- `lean`: by how much what stands at a side is turned from facing straight across, rad: a door that opens wide has its hinge, to
--- the right of who stands before it, further from the arm then. `far`: its greatest x, m. `wide`: how wide its front is, m,
--- where it is turned so far that it must stand further away.
-function places.beside_the_table(gap, turn, z, lean, far, wide)
-  return any_of_them(at_side(1, gap, turn, z, lean, far, wide), at_side(-1, gap, turn, z, lean, far, wide))
-end
+-- Each takes `gap`: from the table's edge to the middle of the thing, m; `turn`: how far it may be turned, rad; and as wanted
+--   above  its frame above the table's top, m (0)
+--   wide   how wide its front is, m, where it is turned so far that it must stand further away
+--   lean   by how much what stands at a side is turned from facing straight across, rad: a door that opens wide has its
+--          hinge, to the right of who stands before it, further from the arm then (0)
+--   far    the greatest x of what stands at a side, m (0.24)
+--   most   how far from the middle of the edge what stands behind may be, m (0.22)
 
--- Behind the table, up to `most` m (default 0.22) from the middle of that edge.
-function places.behind_the_table(gap, turn, z, most, wide) return any_of_them(behind(gap, turn, z, most, wide)) end
+-- To the left or right of the table. What is tall belongs there: behind it, it would hide everything from the camera in front.
+function places.beside_the_table(how) return any_of_them(at_side(1, how), at_side(-1, how)) end
+
+function places.behind_the_table(how) return any_of_them(behind(how)) end
 
 -- To the left of the table or behind it: for what has a door that would be between the arm and its inside on the right.
-function places.left_or_behind(gap, turn, z, lean, wide)
-  return any_of_them(behind(gap, turn, z, nil, wide), at_side(1, gap, turn, z, lean, nil, wide))
-end
+function places.left_or_behind(how) return any_of_them(behind(how), at_side(1, how)) end
 
 -- At any of the three sides.
-function places.round_the_table(gap, turn, z, lean, wide)
-  return any_of_them(behind(gap, turn, z, nil, wide), at_side(1, gap, turn, z, lean, nil, wide),
-    at_side(-1, gap, turn, z, lean, nil, wide))
-end
+function places.round_the_table(how) return any_of_them(behind(how), at_side(1, how), at_side(-1, how)) end
 
 return places
