@@ -9,7 +9,6 @@ return task {
   },
   init = { is.on("cup", "table"), is_not.pressed("fridge.lever") },
   goal = { is.pressed_with("cup", "fridge.lever"), is.holding("cup"), is.lifted("cup") },
-  hand = "any",
   instructions = {
     "get ice from the fridge into the cup",
     "hold the cup against the lever of the fridge until ice comes",

@@ -10,7 +10,6 @@ return task {
   },
   init = { is.on("block1", "table"), is.on("block2", "table"), is.on("block3", "table") },
   goal = function(v) return { is.holding("block" .. v.digit), is.inside("block" .. v.digit, "space") } end,
-  hand = "any",
   instructions = {
     "raise the cube marked {digit} well off the table",
     "find the cube that says {digit} and raise it high",

@@ -11,7 +11,6 @@ return task {
   end,
   init = { is.on("target", "table"), is.on("other*", "table") },
   goal = { is.holding("target"), is.inside("target", "zone") },
-  hand = "any",
   hold = 0.5, -- s
   instructions = {
     "carry the {colour} block up into the green zone and keep it there",

@@ -15,7 +15,6 @@ return task {
   init = { is.on("small_cube", "table"), is.on("small_cylinder", "table"), is.on("small_prism", "table"),
     is.on("small_star", "table"), is.on("small_moon", "table") },
   goal = function(v) return { is.holding("small_" .. v.form), is.inside("small_" .. v.form, "zone") } end,
-  hand = "any",
   instructions = function(v)
     local what = words[v.form]
     return {

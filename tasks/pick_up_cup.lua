@@ -10,7 +10,6 @@ return task {
   end,
   init = { is.on("cup", "table"), is.on("other", "table"), is.apart("cup", "other") },
   goal = { is.holding("cup"), is.lifted("cup") },
-  hand = "any",
   also = function(w) return w:bottom("cup") > w:top("table") + 0.05 end, -- m: clear of where it stood
   instructions = {
     "take hold of the {colour} cup and keep it off the table",

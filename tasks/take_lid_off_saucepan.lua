@@ -7,7 +7,6 @@ return task {
   },
   init = { is.on("saucepan", "table"), is.on("lid", "saucepan") },
   goal = { is.holding("lid"), is.inside("lid", "saucepan.overhead_space"), is.on("saucepan", "table") },
-  hand = "any",
   instructions = {
     "open the pot by its knob and keep the lid in the air",
     "hold the lid of the saucepan up above it, by its knob",

@@ -7,7 +7,6 @@ return task {
   },
   init = { is.in_slot("umbrella", "stand.tube") },
   goal = { is_not.in_slot("umbrella", "stand.tube"), is.lifted("umbrella") },
-  hand = "any",
   instructions = {
     "draw the umbrella up out of its tube",
     "pull the umbrella up and clear of its stand",

@@ -122,6 +122,7 @@ FormulaContext LibraryBuilder::context(const Definition& definition, const std::
   result.file = definition.file->shown_path;
   result.field = field;
   result.domain = &library_->domain_;
+  result.traits = &library_->predicate_traits_;
   result.part_fault = [this](const std::string& part) { return part_fault(part); };
   return result;
 }

@@ -72,6 +72,10 @@ void LibraryBuilder::read_task(const Definition& definition) {
   guarded([&] {
     check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
   });
+  const Value& hand = definition.node["hand"];
+  if (hand.is_text() && hand.text != "empty" && hand.text != "any")
+    complain(definition, "hand", "at the end the hand is empty or any, not '" + hand.text + "'",
+             did_you_mean(hand.text, {"any", "empty"}));
   info.hand = hand_of(info.world);
   info.skills = chosen_skills(definition, info.world);
   const std::vector<Value> variations = variations_of(definition, state);

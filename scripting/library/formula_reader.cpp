@@ -26,7 +26,8 @@ std::string shown(const std::string& predicate, std::size_t count) {
 
 class Reader {
  public:
-  explicit Reader(const FormulaContext& context) : context_(context), domain_(*context.domain) {}
+  Reader(const FormulaContext& context, const Value& whole)
+      : context_(context), domain_(*context.domain), holds_something_(asks_for_held(whole)) {}
 
   Formula formula(const Value& node) {
     if (node.is_table() && node.tag().empty() && node.fields.empty()) {
@@ -354,8 +355,10 @@ class Reader {
       }
       std::vector<std::vector<Term>> longer;
       const std::vector<std::string> names = members(text);
+      const std::vector<Value>& except = node["except"].items;
       for (const auto& tuple : tuples) {
         for (const std::string& member : names) {
+          if (std::any_of(except.begin(), except.end(), [&](const Value& one) { return one.text == member; })) continue;
           longer.push_back(tuple);
           longer.back().push_back({false, member});
         }
@@ -430,6 +433,7 @@ class Reader {
     const std::string& name = node["predicate"].text;
     if (name == "same" && domain_.predicate(name) == nullptr) return equal(node);
     check_predicate(node);
+    if (node["implied"].boolean && holds_something_) return {};
     if (const Predicate* known = domain_.predicate(name);
         known != nullptr && known->kind == PredicateKind::start && context_.field != "init")
       return {};  // of what stays: it is asked of starts alone
@@ -611,6 +615,15 @@ class Reader {
     return result;
   }
 
+  // Does it say of something that it is held? Then nobody can want the hand to be empty as well.
+  bool asks_for_held(const Value& node) const {
+    if (node.tag() == "literal" && context_.traits != nullptr && !node["negated"].boolean) {
+      const auto traits = context_.traits->find(node["predicate"].text);
+      return traits != context_.traits->end() && traits->second.requires_pairs == Pairs::held;
+    }
+    return std::any_of(node.items.begin(), node.items.end(), [&](const Value& item) { return asks_for_held(item); });
+  }
+
   struct PartTerm {
     Term term, whole;
     std::string name;
@@ -619,6 +632,7 @@ class Reader {
 
   const FormulaContext& context_;
   const Domain& domain_;
+  bool holds_something_;                  // by what the whole formula asks for
   std::vector<PartTerm> parts_;           // that the literal being read names
   std::vector<std::string> scope_;        // quantified variables, outermost first
   std::vector<std::string> universal_;    // those of them that a forall binds
@@ -669,27 +683,27 @@ Parameter parameter_from(const std::string& text, const Domain& domain, const st
   return parameter;
 }
 
-Formula formula_from(const Value& node, const FormulaContext& context) { return Reader(context).formula(node); }
+Formula formula_from(const Value& node, const FormulaContext& context) { return Reader(context, node).formula(node); }
 
 std::vector<Formula> stages_from(const Value& node, const FormulaContext& context) {
   const bool wrapped = node.is_table() && node.tag().empty() && node.items.size() == 1;
   const Value& goal = wrapped ? node.items[0] : node;
   if (goal.tag() != "in_order") return {};
   std::vector<Formula> stages;
-  for (const Value& part : goal.items) stages.push_back(Reader(context).formula(part));
+  for (const Value& part : goal.items) stages.push_back(Reader(context, goal).formula(part));
   return stages;
 }
 
 std::vector<Effect> effects_from(const Value& node, const FormulaContext& context) {
   std::vector<Effect> result;
-  Reader(context).effects(node, result, {}, 0);
+  Reader(context, node).effects(node, result, {}, 0);
   return result;
 }
 
 Beginning beginning_from(const Value& node, const FormulaContext& context) {
   Beginning result;
   std::vector<Formula> others;
-  Reader(context).beginning(node, result.literals, others);
+  Reader(context, node).beginning(node, result.literals, others);
   if (!others.empty()) result.constraint = conjunction(std::move(others));
   return result;
 }

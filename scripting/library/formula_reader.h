@@ -20,7 +20,8 @@ struct FormulaContext {
   const Domain* domain = nullptr;
   bool schema = false;
   std::vector<Parameter> parameters;
-  std::string hand = "panda.hand";  // fills the place of a hand that the author left out
+  const std::map<std::string, PredicateTraits>* traits = nullptr;  // by predicate
+  std::string hand = "panda.hand";                                 // fills the place of a hand that the author left out
   std::function<std::vector<std::string>(const std::string& group)> expand;  // members of `block*`; throws Error
   std::function<std::optional<std::string>(const std::string& object)> object_fault;  // nothing: any name is fine
   std::function<std::optional<std::string>(const std::string& part)> part_fault;      // of `?x.part`

@@ -2,7 +2,7 @@
 -- Every value that the engine must understand is a table with a field `tag`:
 --   definition  { kind = "task" | "skill" | …, line, <the author's fields> }        (kind instead of tag)
 --   literal     { tag = "literal", predicate, negated, line, "arg1", … }            is.on("a", "b")
---               with `pairwise`: of each two of the arguments' members; `stays`: what init says, in a goal;
+--               with `pairwise`: of each two of the arguments' members; `stays`: what init says, in a goal (`except`: not of these);
 --               `implied`: nobody wrote it
 --   call        { tag = "call", skill, line, "arg1", …, <named arguments>, set }    act.pick("a", "b", { height = 0.2 })
 --   formula     { tag = "all_of" | "any_of" | "in_order", line, part1, … }
@@ -19,7 +19,7 @@
 --   texture     { tag = "texture", texture = "image", "file.png", size } or { …, texture = "checker", colour, colour }
 local api = ...
 local setmetatable, here, fail = api.setmetatable, api.here, api.fail
-local type, ipairs, pairs, tostring, select, math = type, ipairs, pairs, tostring, select, math
+local type, ipairs, pairs, tostring, tonumber, select, math = type, ipairs, pairs, tostring, tonumber, select, math
 local words = api.words
 
 local function say(format, ...) fail(string.format(format, ...)) end
@@ -257,52 +257,73 @@ local function begins(name, with) return string.sub(name, 1, #with) == with end
 local function belongs(name, to) return name == to or begins(name, to .. ".") end
 local function member(name, group)
   local stem = string.sub(group, 1, -2)
-  return string.sub(group, -1) == "*" and begins(name, stem) and string.find(string.sub(name, #stem + 1), "^%d") ~= nil
+  local rest = string.sub(name, #stem + 1)
+  local dot = string.find(rest, ".") -- finds plain text
+  return string.sub(group, -1) == "*" and begins(name, stem) and tonumber(dot and string.sub(rest, 1, dot - 1) or rest) ~= nil
 end
--- A group and its members, a thing and its parts, either way.
-local function touches(name, other)
-  return belongs(name, other) or belongs(other, name) or member(name, other) or member(other, name)
+
+-- What the goal speaks of.
+local function names_in(goal)
+  local names = {}
+  each_literal(goal, function(one)
+    for i = 1, one.tag == "literal" and #one or 0 do names[#names + 1] = one[i] end
+  end)
+  return names
+end
+
+-- Whether a literal of `init` is of the others, and which members of the group that it names are none of them.
+local function of_others(of, spoken)
+  local except = {}
+  for _, name in ipairs(spoken) do
+    if belongs(of, name) or belongs(name, of) or member(of, name) then return false end
+    if member(name, of) then except[#except + 1] = name end
+  end
+  return true, except
 end
 
 -- The literals of `init` that a stays stands for.
-local function staying(stays, goal, init)
-  local spoken = {}
-  each_literal(goal, function(one)
-    for i = 1, #one do spoken[#spoken + 1] = one[i] end
-  end)
-  local kept = { tag = "all_of", line = stays.line }
+local function staying(stays, spoken, init)
+  local kept = {}
   for i = 1, #stays do
-    local name, found = stays[i], false
+    local name, found = stays[i], stays[i] == "others"
     each_literal(init, function(one)
       local of = one[1]
-      local meant = of and belongs(of, name)
-      if of and name == "others" then
-        meant = true
-        for _, other in ipairs(spoken) do meant = meant and not touches(of, other) end
-      end
-      if not meant or one.pairwise then return end
+      if of == nil or one.pairwise then return end
+      local meant, except = belongs(of, name), nil
+      if name == "others" then meant, except = of_others(of, spoken) end
+      if not meant then return end
       found = true
-      local copy = { tag = "literal", predicate = one.predicate, negated = one.negated, line = stays.line, stays = true }
+      local copy = { tag = "literal", predicate = one.predicate, negated = one.negated, line = stays.line, stays = true,
+        except = except }
       for k = 1, #one do copy[k] = one[k] end
       kept[#kept + 1] = copy
     end)
-    if not found and name ~= "others" then
-      say("stays(\"%s\"): init says nothing of '%s' that could stay", name, name)
-    end
+    if not found then say("stays(\"%s\"): init says nothing of '%s' that could stay", name, name) end
   end
   return kept
 end
 
-local function with_staying(node, goal, init)
+local function with_staying(node, spoken, init)
   if type(node) ~= "table" or node.tag == "literal" then return node end
-  if is_stays(node) then return staying(node, goal, init) end
   local copy = {}
-  for key, value in pairs(node) do copy[key] = value end
-  for i = 1, #node do copy[i] = with_staying(node[i], goal, init) end
+  if is_stays(node) then
+    copy = staying(node, spoken, init)
+    copy.tag, copy.line = "all_of", node.line
+    return copy
+  end
+  for key, value in pairs(node) do
+    if math.type(key) ~= "integer" then copy[key] = value end
+  end
+  for i = 1, #node do
+    local part = with_staying(node[i], spoken, init)
+    local spread = type(node[i]) == "table" and is_stays(node[i]) and (node.tag == nil or node.tag == "all_of")
+    for k = 1, spread and #part or 1 do copy[#copy + 1] = spread and part[k] or part end
+  end
   return copy
 end
 
--- The hand is to be empty at the end, unless the task says hand = "any" or the goal speaks of the hand itself.
+-- The hand is to be empty at the end, unless the task says hand = "any" or the goal speaks of the hand itself, or (see
+-- formula_reader) of what it holds.
 local function with_empty_hand(goal)
   local function speaks_of_it(one) return one.predicate == "hand_empty" end
   if type(goal) ~= "table" or #goal == 0 or has(goal, speaks_of_it) then return goal end
@@ -328,7 +349,7 @@ function words.task(fields)
     if has(what, is_stays) then
       local start = init
       if type(init) == "function" then start = init(v) end
-      what = with_staying(what, what, start)
+      what = with_staying(what, names_in(what), start)
     end
     return implied and with_empty_hand(what) or what
   end

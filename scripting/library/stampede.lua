@@ -10,7 +10,7 @@
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
----@field hand? string  at the end: empty, or any where it may hold something (default empty)
+---@field hand? string  at the end: empty, or any; what the goal says of the hand or of things held goes before it (default empty)
 ---@field skills? string[]  skills that extend or replace others, for this task (default {})
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
 ---@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal

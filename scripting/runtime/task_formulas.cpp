@@ -22,6 +22,7 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
   context.file = file_.shown_path;
   context.field = field;
   context.domain = &scripts_.library().domain();
+  context.traits = &scripts_.library().predicate_traits();
   context.hand = drawn_.hand;
   context.expand = [this](const std::string& group) { return members(group); };
   context.object_fault = [this](const std::string& name) -> std::optional<std::string> {

@@ -1,0 +1,153 @@
+// What goals say without saying it: the empty hand, what stays; and where on_table is.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/error.h"
+#include "engine/symbolic/pddl.h"
+#include "scripts_fixture.h"
+
+using namespace stampede;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A task of the shipped world with these fields beside its world and sentences.
+class Written {
+ public:
+  explicit Written(const std::string& fields) {
+    std::string folder = (fs::temp_directory_path() / "stampede_goals_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = folder;
+    fs::create_directories(path_ / "tasks");
+    std::ofstream out(path_ / "tasks/written.lua");
+    out << "-- A task.\nreturn task {\n  world = \"tabletop\", instructions = { \"do it\" },\n";
+    if (fields.find("objects = ") == std::string::npos)
+      out << "  objects = { cup = { \"tumbler\" }, other = { \"cube\", count = 2 },\n"
+             "    box = { \"lidded_box\", at = on_table { 0.2, 0 } } },\n";
+    out << "  " << fields << "\n}\n";
+  }
+  ~Written() { fs::remove_all(path_); }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+  Task task() const {
+    EpisodeScripts scripts(Library::load({{STAMPEDE_SOURCE_DIR, path_}}), "written", "", 0);
+    return scripts.task()(0);
+  }
+  std::string goal() const { return to_pddl(task().goal); }
+  std::string complaints() const {
+    std::vector<Error> errors;
+    Library::load({{STAMPEDE_SOURCE_DIR, path_}}, errors, {"written"});
+    std::string text;
+    for (const Error& error : errors) text += std::string(error.what()) + "\n";
+    return text;
+  }
+
+ private:
+  fs::path path_;
+};
+
+const std::string kInit =
+    "init = { is.on(\"cup\", \"table\"), is.on(\"other*\", \"table\"), is.pairwise(\"spaced\", \"other*\", \"cup\"), "
+    "is.closed(\"box.lid\"), is.workable(\"box.lid\") }, ";
+const std::string kEmpty = "(hand_empty panda--hand)";
+
+}  // namespace
+
+TEST_CASE("the hand is empty at the end, unless the goal speaks of what it holds, or the task says otherwise") {
+  const auto goal = [](const std::string& fields) { return Written(kInit + fields).goal(); };
+  CHECK(goal("goal = is.on(\"cup\", \"table\")") == "(and (on cup table) " + kEmpty + ")");
+  CHECK(goal("goal = { is.on(\"cup\", \"table\"), is.open(\"box.lid\") }") ==
+        "(and (on cup table) (open box--lid) " + kEmpty + ")");
+  CHECK(goal("goal = function(v) return { is.on(\"cup\", \"table\") } end") == "(and (on cup table) " + kEmpty + ")");
+  CHECK(goal("goal = { is.hand_empty(), is.on(\"cup\", \"table\") }") == "(and " + kEmpty + " (on cup table))");
+  CHECK(goal("hand = \"any\", goal = is.on(\"cup\", \"table\")") == "(on cup table)");
+  CHECK(goal("goal = is.lifted(\"cup\")") == "(lifted cup)");
+  CHECK(goal("goal = { is.holding(\"cup\"), is.open(\"box.lid\") }") ==
+        "(and (holding panda--hand cup) (open box--lid))");
+  CHECK(goal("goal = any_of { is_not.lifted(\"cup\"), is.open(\"box.lid\") }") ==
+        "(and (or (not (lifted cup)) (open box--lid)) " + kEmpty + ")");
+  const Task ordered = Written(kInit + "goal = in_order { is.open(\"box.lid\"), is.closed(\"box.lid\") }").task();
+  REQUIRE(ordered.stages.size() == 2);
+  CHECK(to_pddl(ordered.stages[0]) == "(open box--lid)");
+  CHECK(to_pddl(ordered.stages[1]) == "(and (closed box--lid) " + kEmpty + ")");
+  CHECK(ordered.empty_hand);
+  CHECK(Written(kInit + "hand = \"full\", goal = is.on(\"cup\", \"table\")")
+            .complaints()
+            .find("hand: at the end the hand is empty or any, not 'full'") != std::string::npos);
+}
+
+TEST_CASE("stays says at the end what init says, but for what is asked of starts alone") {
+  const auto goal = [](const std::string& stays) {
+    return Written(kInit + "hand = \"any\", goal = { is.inside(\"other1\", \"box\"), " + stays + " }").goal();
+  };
+  CHECK(goal("stays(\"cup\")") == "(and (inside other1 box) (on cup table))");
+  CHECK(goal("stays(\"box\", \"cup\")") == "(and (inside other1 box) (closed box--lid) (on cup table))");
+  // Of the box and of other1 the goal speaks.
+  CHECK(goal("stays(\"others\")") == "(and (inside other1 box) (on cup table) (on other2 table))");
+  CHECK(goal("any_of { is.open(\"box.lid\"), stays(\"cup\") }") ==
+        "(and (inside other1 box) (or (open box--lid) (on cup table)))");
+  CHECK(Written("init = function(v) return { is.on(\"other*\", \"table\"), is.on(\"cup\", \"table\") } end, "
+                "hand = \"any\", goal = { is.inside(\"cup\", \"box\"), stays(\"others\") }")
+            .goal() == "(and (inside cup box) (and (on other1 table) (on other2 table)))");
+  CHECK(Written(kInit + "goal = { is.on(\"cup\", \"table\"), stays(\"cap\") }")
+            .complaints()
+            .find("init says nothing of 'cap' that could stay") != std::string::npos);
+  CHECK(Written(kInit + "goal = { is.on(\"cup\", \"table\"), stays(7) }")
+            .complaints()
+            .find("stays takes names of things") != std::string::npos);
+}
+
+TEST_CASE("pairwise says it of each two, in their order") {
+  const Task task = Written(kInit + "goal = is.on(\"cup\", \"table\")").task();
+  std::vector<std::string> pairs;
+  for (const Literal& one : task.init)
+    if (one.fact.predicate == "spaced") pairs.push_back(one.fact.arguments[0] + " " + one.fact.arguments[1]);
+  CHECK(pairs == std::vector<std::string>{"other1 other2", "other1 cup", "other2 cup"});
+  const auto said = [](const std::string& formula) {
+    return Written("init = { is.on(\"cup\", \"table\"), is.on(\"other*\", \"table\"), " + formula +
+                   " }, goal = is.on(\"cup\", \"table\")")
+        .complaints();
+  };
+  CHECK(said("is.pairwise(\"spaced\", \"other*\")").empty());
+  CHECK(said("is_not.pairwise(\"crowds\", \"other*\", \"cup\")").empty());
+  CHECK(said("is.pairwise(\"spaced\", \"cup\")").find("there are no two things to say 'spaced' of") !=
+        std::string::npos);
+  CHECK(said("is.pairwise(\"lifted\", \"other*\")").find("is not said of two things") != std::string::npos);
+  CHECK(said("is.pairwise(\"spacd\", \"other*\")").find("did you mean 'spaced'?") != std::string::npos);
+  CHECK(said("is.pairwise(\"spaced\", \"others*\")").find("there is no group 'others*'") != std::string::npos);
+  CHECK(said("is.pairwise(3)").find("pairwise takes a predicate") != std::string::npos);
+}
+
+TEST_CASE("on_table is the top of the world's table") {
+  const Scene scene = Written(kInit + "goal = is.on(\"cup\", \"table\")").task().scene;
+  const auto box =
+      std::find_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& one) { return one.name == "box"; });
+  REQUIRE(box != scene.bodies.end());
+  CHECK(box->world_from_body.translation() == Vector3(0.2, 0, 0.75));
+  const auto at = [](const std::string& place) {
+    return Written("objects = { box = { \"lidded_box\", " + place + " } }, goal = is.open(\"box.lid\")");
+  };
+  CHECK(at("at = on_table { 0.2, 0, 0.1 }").complaints().empty());
+  CHECK(at("at = on_table { 0.2 }").complaints().find("on_table takes x and y") != std::string::npos);
+  CHECK(at("at = on_table { 0.2, \"left\" }").complaints().find("box.at") != std::string::npos);
+  CHECK(at("at = { 0, 0, 0.7 }, yaw = on_table { 0.2, 0 }").complaints().find("box.yaw") != std::string::npos);
+}
+
+TEST_CASE("colours that lie apart: as many as asked for, and nobody takes one for another") {
+  const Written task(kInit +
+                     "where = function(v) return v.near end, variations = each(colours.apart(3, 50), function(c, i) "
+                     "return { i = i, first = c[1], near = colours.difference(c[1], c[2]) < 32 or "
+                     "colours.difference(c[1], c[3]) < 32 or colours.difference(c[2], c[3]) < 32 } end), "
+                     "goal = is.on(\"cup\", \"table\")");
+  CHECK(task.complaints().find("where leaves no variation") != std::string::npos);  // none of them is near another
+  const auto said = [](const std::string& lists) {
+    return Written(kInit + "variations = each(" + lists +
+                   ", function(c) return { a = c[1] } end), goal = is.on(\"cup\", \"table\")")
+        .complaints();
+  };
+  CHECK(said("colours.apart(2)").empty());
+  CHECK(said("colours.apart(30)").find("there are no 30 colours that far apart") != std::string::npos);
+  CHECK(said("colours.apart()").find("colours.apart takes how many colours") != std::string::npos);
+}
