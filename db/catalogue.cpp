@@ -1,6 +1,7 @@
 #include "db/catalogue.h"
 
 #include "db/catalogue_impl.h"
+#include "db/episode_reader.h"
 #include "db/episode_writer.h"
 
 namespace stampede {
@@ -115,8 +116,8 @@ std::vector<EpisodeSummary> Catalogue::episodes() const {
     EpisodeSummary& e = list.emplace_back();
     std::string outcome, reason;
     statement.read(e.id, e.key, e.task, e.variation, e.seed, outcome, reason, e.frames, e.duration_s);
-    e.outcome = outcome == "success" ? Outcome::success : Outcome::failure;
-    e.reason = reason_from(reason).value_or(Reason::none);
+    e.outcome = known_word(impl_->database, "outcome", outcome, outcome_from(outcome));
+    e.reason = known_word(impl_->database, "reason", reason, reason_from(reason));
   }
   return list;
 }

@@ -123,9 +123,9 @@ void EpisodeReader::read_episode() {
   require_within(database_.path(), here + "frames", frames, stored, stored);  // memory is taken for as many
   require_within(database_.path(), here + "steps", e.steps, 0, std::int64_t{1} << 40);
   e.physics_hz = static_cast<int>(physics_hz), e.frame_hz = static_cast<int>(frame_hz);
-  e.split = split_from(split).value_or(Split::train);
-  e.outcome = outcome_from(outcome);
-  e.reason = reason_from(reason).value_or(Reason::none);
+  e.split = known_word(database_, "split", split, split_from(split));
+  e.outcome = known_word(database_, "outcome", outcome, outcome_from(outcome));
+  e.reason = known_word(database_, "reason", reason, reason_from(reason));
   e.scene_document = unpack_scene(database_, scene);
   e.frames.resize(static_cast<std::size_t>(frames));
   sql::Statement axes(database_, "SELECT axis, value FROM variation_axis WHERE task = ?1 AND variation = ?2");

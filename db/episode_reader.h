@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +12,20 @@
 
 namespace stampede {
 
-inline Outcome outcome_from(const std::string& text) { return text == "success" ? Outcome::success : Outcome::failure; }
+// What a word in a column stands for. Throws CatalogueError for one that this release does not know: a later one may.
+template <typename Value>
+Value known_word(const sql::Database& database, const char* column, const std::string& word,
+                 std::optional<Value> value) {
+  if (value) return *value;
+  throw CatalogueError(database.path(), std::string(column) + " '" + word + "' is not one that this release knows",
+                       "read it with the release that wrote it, or a later one");
+}
+
+inline std::optional<Outcome> outcome_from(const std::string& text) {
+  if (text == "success") return Outcome::success;
+  if (text == "failure") return Outcome::failure;
+  return std::nullopt;
+}
 
 // What a real recording does not know is NULL in the file.
 inline double known_or_nan(const sql::Statement& row, int column) {

@@ -150,10 +150,10 @@ void ArrayReader::read_segment_heads() {
         std::string kind, arguments, outcome, reason;
         row.read(s.ordinal, s.parent, kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
                  outcome, reason, s.label);
-        s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
+        s.kind = known_word(database_, "kind", kind, segment_kind_from(kind));
         s.arguments = from_json_list(database_, arguments);
-        s.outcome = outcome_from(outcome);
-        s.reason = reason_from(reason).value_or(Reason::none);
+        s.outcome = known_word(database_, "outcome", outcome, outcome_from(outcome));
+        s.reason = known_word(database_, "reason", reason, reason_from(reason));
       });
 }
 

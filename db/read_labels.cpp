@@ -30,11 +30,11 @@ void read_segment(const sql::Database& database, sql::Statement& row, AttemptRec
   row.read(undone, s.ordinal, a.before_segment, a.try_number, kind, s.parent, s.robot, s.skill, s.case_name, arguments,
            s.controller, s.span.start_step, s.span.end_step, s.span.first_frame, s.span.end_frame, outcome, reason,
            s.detail, s.precondition_held, s.effect_held, missing, forgotten, searched, s.label, labelled_by);
-  s.labelled_by = labeller_from(labelled_by).value_or(Labeller::simulator);
-  s.kind = segment_kind_from(kind).value_or(SegmentKind::motion);
+  s.labelled_by = known_word(database, "labelled_by", labelled_by, labeller_from(labelled_by));
+  s.kind = known_word(database, "kind", kind, segment_kind_from(kind));
   s.arguments = from_json_list(database, arguments);
-  s.outcome = outcome_from(outcome);
-  s.reason = reason_from(reason).value_or(Reason::none);
+  s.outcome = known_word(database, "outcome", outcome, outcome_from(outcome));
+  s.reason = known_word(database, "reason", reason, reason_from(reason));
   s.missing_effects = from_json_list(database, missing);
   s.forgotten = from_json_list(database, forgotten);
   s.searched_for = from_json_list(database, searched);
@@ -72,7 +72,7 @@ void EpisodeReader::read_segment_details() {
          ParameterRecord p;
          std::string chosen_by;
          row.read(undone, segment, component, p.name, value, p.text, p.unit, p.frame, chosen_by);
-         p.chosen_by = chosen_by_from(chosen_by).value_or(ChosenBy::default_value);
+         p.chosen_by = known_word(database_, "chosen_by", chosen_by, chosen_by_from(chosen_by));
          auto& parameters = owner(undone, segment).parameters;
          if (component == 0) parameters.push_back(p);
          if (parameters.empty()) damaged("segment_parameter");
@@ -106,7 +106,7 @@ void EpisodeReader::read_facts() {
          std::string fact, labelled_by;
          row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
                   f.margin, labelled_by);
-         f.labelled_by = labeller_from(labelled_by).value_or(Labeller::simulator);
+         f.labelled_by = known_word(database_, "labelled_by", labelled_by, labeller_from(labelled_by));
          f.fact = fact_from(fact);
        });
   each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end", "observed_fact", "ordinal",
@@ -144,7 +144,7 @@ void EpisodeReader::read_documents() {
          DocumentRecord& d = record_.documents.emplace_back();
          std::string kind;
          row.read(kind, d.text);
-         d.kind = document_kind_from(kind).value_or(DocumentKind::plan);
+         d.kind = known_word(database_, "kind", kind, document_kind_from(kind));
        });
 }
 
@@ -154,9 +154,9 @@ void EpisodeReader::read_language() {
          LanguageRecord& l = record_.language.emplace_back();
          std::string level, source, grain;
          row.read(level, l.text, l.segment, source, grain, l.model);
-         l.level = language_level_from(level).value_or(LanguageLevel::task);
-         l.source = language_source_from(source).value_or(LanguageSource::pattern);
-         l.grain = language_grain_from(grain);
+         l.level = known_word(database_, "level", level, language_level_from(level));
+         l.source = known_word(database_, "source", source, language_source_from(source));
+         if (!grain.empty()) l.grain = known_word(database_, "grain", grain, language_grain_from(grain));
        });
   read_documents();
   each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {

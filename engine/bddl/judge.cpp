@@ -57,7 +57,7 @@ class Judge {
     const auto* names = scope_.instances(variable.type);
     if (names == nullptr) throw Error("goal", "no object is of the category `" + variable.type + "`");
     if (symbolic::is_wildcard(names->back())) {
-      throw Error("goal", "`" + names->back() + "` is not expanded", "call with_wildcards with the scene's counts");
+      throw Error("goal", "`" + names->back() + "` is not expanded", "write the instances that are meant in its place");
     }
     return *names;
   }

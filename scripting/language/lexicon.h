@@ -47,7 +47,6 @@ class Lexicon {
   std::string sense_of_noun(std::string_view word) const;
   // Which skills a verb may tell of; empty: none.
   const std::set<std::string>& skills_of(const std::string& verb) const;
-  bool knows_noun(const std::string& sense) const { return noun_senses_.contains(sense); }
 
  private:
   struct Entry {

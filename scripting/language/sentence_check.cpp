@@ -26,12 +26,6 @@ Verdict OneSentence::check() const {
 
 std::string_view to_string(Rejection reason) { return kRejections.at(static_cast<std::size_t>(reason)); }
 
-std::optional<Rejection> rejection_from(std::string_view name) {
-  for (std::size_t i = 0; i < kRejections.size(); ++i)
-    if (kRejections[i] == name) return static_cast<Rejection>(i);
-  return std::nullopt;
-}
-
 int most_words(Grain grain) { return grain == Grain::goal ? 40 : grain == Grain::steps ? 80 : 120; }
 
 SentenceChecker::SentenceChecker(Meaning meaning) : meaning_(std::move(meaning)), claims_(claims_of(meaning_)) {}

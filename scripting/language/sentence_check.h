@@ -41,7 +41,6 @@ enum class Rejection {
   no_answer,       // the model gave none that can be read
 };
 std::string_view to_string(Rejection reason);
-std::optional<Rejection> rejection_from(std::string_view name);
 
 using Grain = LanguageGrain;
 

@@ -187,19 +187,4 @@ void check_record(const Record& record, const Value& table, const std::string& p
   }
 }
 
-std::string field_help(const Record& record) {
-  std::string text = std::string(record.name) + ": " + record.description + "\n";
-  for (const Field& field : record.fields) {
-    std::string line = std::string("  ") + field.name;
-    line.resize(std::max<std::size_t>(line.size() + 1, 16), ' ');
-    line += in_words(field.type);
-    if (field.required) line += ", required";
-    if (*field.otherwise != 0) line += std::string(", default ") + field.otherwise;
-    if (*field.unit != 0) line += std::string(" [") + field.unit + "]";
-    if (*field.description != 0) line += std::string(": ") + field.description;
-    text += line + "\n";
-  }
-  return text;
-}
-
 }  // namespace stampede

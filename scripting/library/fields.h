@@ -44,6 +44,5 @@ void check_record(const Record& record, const Value& table, const std::string& p
                   const std::vector<std::string>& also_known = {});
 bool has_type(const Value& node, std::string_view type);
 
-std::string field_help(const Record& record);  // for people: one line a field
 
 }  // namespace stampede

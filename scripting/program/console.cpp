@@ -29,10 +29,6 @@ std::string padded(std::string_view text, int width) {
   return std::string(text) + std::string(static_cast<std::size_t>(std::max(0, width - display_width(text))), ' ');
 }
 
-std::string right_aligned(std::string_view text, int width) {
-  return std::string(static_cast<std::size_t>(std::max(0, width - display_width(text))), ' ') + std::string(text);
-}
-
 std::string wrapped(std::string_view text, int width, int indent) {
   std::string result;
   int column = indent;

@@ -20,6 +20,24 @@ std::filesystem::path changed_copy(const Folder& folder, const std::filesystem::
 
 }  // namespace
 
+TEST_CASE("a reason that this release does not know is an error with its word, not no reason") {
+  const Folder folder;
+  const auto good = folder / "good.db";
+  EpisodeRecord failed = sample_episode("lift", "colour=red", 1);
+  failed.outcome = Outcome::failure;
+  failed.reason = Reason::no_plan;
+  Catalogue::write(good).add(failed, kEngine);
+  const auto said = Contains("reason 'lost_balance' is not one that this release knows
+    read it with the release");
+  {
+    const Catalogue whole = Catalogue::open(changed_copy(folder, good, "UPDATE episode SET reason = 'lost_balance'"));
+    CHECK_THROWS_WITH(whole.episodes(), said);
+    CHECK_THROWS_WITH(whole.read_episode(1), said);
+  }
+  const std::string of_a_try = "UPDATE segment SET reason = 'lost_balance' WHERE undone = 1";
+  CHECK_THROWS_WITH(Catalogue::open(changed_copy(folder, good, of_a_try)).read_episode(1), said);
+}
+
 TEST_CASE("a number that cannot be is told with its place, whichever it is") {
   const Folder folder;
   const auto good = folder / "good.db";
