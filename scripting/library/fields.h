@@ -44,5 +44,4 @@ void check_record(const Record& record, const Value& table, const std::string& p
                   const std::vector<std::string>& also_known = {});
 bool has_type(const Value& node, std::string_view type);
 
-
 }  // namespace stampede

@@ -27,7 +27,7 @@ struct Console {
 int display_width(std::string_view text);
 // Cut to `width` columns, the last of them `…`, or padded with blanks.
 std::string clipped(std::string_view text, int width);
-std::string padded(std::string_view text, int width);         // blanks on the right
+std::string padded(std::string_view text, int width);  // blanks on the right
 // Words of a paragraph in lines of at most `width` columns, each line but the first led by `indent` blanks.
 std::string wrapped(std::string_view text, int width, int indent);
 std::string repeated(std::string_view piece, int times);

@@ -27,8 +27,7 @@ TEST_CASE("a reason that this release does not know is an error with its word, n
   failed.outcome = Outcome::failure;
   failed.reason = Reason::no_plan;
   Catalogue::write(good).add(failed, kEngine);
-  const auto said = Contains("reason 'lost_balance' is not one that this release knows
-    read it with the release");
+  const auto said = Contains("reason 'lost_balance' is not one that this release knows\n    read it with the release");
   {
     const Catalogue whole = Catalogue::open(changed_copy(folder, good, "UPDATE episode SET reason = 'lost_balance'"));
     CHECK_THROWS_WITH(whole.episodes(), said);
