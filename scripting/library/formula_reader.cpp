@@ -229,6 +229,19 @@ class Reader {
     return kind == Formula::Kind::conjunction ? conjunction(std::move(parts)) : disjunction(std::move(parts));
   }
 
+  // Of those that say a part of the name: `on` for on_top; else those that begin as it does: `inside` for in_container.
+  static std::string alike(const std::string& name, const std::vector<std::string>& known) {
+    const std::vector<std::string> words = split(name, '_');
+    std::vector<std::string> like;
+    for (const std::string& one : known)
+      if (std::find(words.begin(), words.end(), one) != words.end()) like.push_back(one);
+    if (like.empty())
+      std::copy_if(known.begin(), known.end(), std::back_inserter(like),
+                   [&](const std::string& one) { return words[0].size() > 1 && one.starts_with(words[0]); });
+    std::sort(like.begin(), like.end());
+    return like.empty() || like.size() > 6 ? "" : "there are: " + joined(like, ", ");
+  }
+
   void check_predicate(const Value& node) {
     const std::string& name = node["predicate"].text;
     const auto trait = std::find(domain_.traits.begin(), domain_.traits.end(), name);
@@ -242,6 +255,7 @@ class Reader {
     std::vector<std::string> known = domain_.traits;
     for (const Predicate& predicate : domain_.predicates) known.push_back(predicate.name);
     std::string hint = did_you_mean(name, known);
+    if (hint.empty()) hint = alike(name, known);
     if (domain_.types.contains(name)) hint = "it is a type: write exists(\"?x: " + name + "\", …)";
     fail("there is no predicate '" + name + "'", hint);
   }

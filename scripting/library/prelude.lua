@@ -388,23 +388,32 @@ function words.on_table(fields, ...)
   return { tag = "on_table", line = here(), fields[1], fields[2], fields[3] }
 end
 
+local draw = {} -- the metatable of draws: who reckons with one is told what it is
+for _, operator in ipairs { "__add", "__sub", "__mul", "__div", "__mod", "__pow", "__idiv", "__unm", "__concat", "__lt", "__le" } do
+  draw[operator] = function(a, b)
+    local word = type(a) == "table" and a.tag or b.tag
+    say("%s(…) has no value yet: it is drawn in each episode, anew wherever it stands. Reckon with its bounds: between(low + 0.1, high + 0.1)", word)
+  end
+end
+local function drawn(fields) return setmetatable(fields, draw) end
+
 -- Draws, per episode ----------------------------------------------------------------------------------------------------
 function words.one_of(...)
   local values = { ... }
   if #values == 1 and type(values[1]) == "table" and values[1].tag == nil then values = values[1] end
   if #values == 0 then say("one_of draws from nothing") end
-  return { tag = "one_of", values = values, line = here() }
+  return drawn { tag = "one_of", values = values, line = here() }
 end
 function words.sample_of(values, n)
   if type(values) ~= "table" or math.type(n) ~= "integer" then say("sample_of takes a list and a whole number") end
   if n > #values then say("sample_of draws %d of %d values", n, #values) end
-  return { tag = "sample_of", values = values, n = n, line = here() }
+  return drawn { tag = "sample_of", values = values, n = n, line = here() }
 end
 function words.between(low, high)
   if type(low) ~= "number" or type(high) ~= "number" or not (low <= high) then
     say("between takes two numbers, the lower one first")
   end
-  return { tag = "between", low = low, high = high, line = here() }
+  return drawn { tag = "between", low = low, high = high, line = here() }
 end
 
 -- Shapes ----------------------------------------------------------------------------------------------------------------

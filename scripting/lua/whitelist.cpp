@@ -1,9 +1,14 @@
 #include "scripting/lua/whitelist.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "engine/base/nearest.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {
@@ -315,9 +320,55 @@ int read_only(lua_State* state) {
   return luaL_error(state, "'%s' cannot be changed", lua_tostring(state, -1));
 }
 
-int unknown_word(lua_State* state) {
+// What people reach for and a sandbox does not have, and what there is in its place.
+std::string in_place_of(std::string_view name) {
+  static const std::string kDraws =
+      "between(low, high), one_of { … } and sample_of(list, n) draw in the fields of a file, rng in samplers: so an "
+      "episode can be made again";
+  static const std::string kPatterns =
+      "there are no patterns: find looks for plain text; sub, byte and format do the rest";
+  static const std::map<std::string, std::string, std::less<>> kInstead = {
+      {"math.pow", "write x ^ y"},
+      {"math.random", kDraws},
+      {"math.randomseed", kDraws},
+      {"math.round", "write math.floor(x + 0.5)"},
+      {"string.gmatch", kPatterns},
+      {"string.gsub", kPatterns},
+      {"string.match", kPatterns},
+      {"table.getn", "write #list"},
+      {"table.pack", "write { … }"},
+      {"io", "a script reads no files: tables of data stand in a module, which require finds"},
+      {"next", "pairs goes through a table"},
+      {"os", "a script knows no clock and no files: w:time() is the episode's"},
+      {"pcall", "a mistake ends the script; robot:fail(\"why\") gives a skill up"},
+      {"print", "a script prints nothing: error(\"what\") says it with its line"},
+      {"unpack", "write table.unpack"},
+  };
+  const auto found = kInstead.find(name);
+  return found == kInstead.end() ? "" : found->second;
+}
+
+// Names of the table at `index`.
+std::vector<std::string> names_in(lua_State* state, int index) {
+  std::vector<std::string> names;
+  for (lua_pushnil(state); lua_next(state, index) != 0; lua_pop(state, 1))
+    if (lua_type(state, -2) == LUA_TSTRING) names.emplace_back(lua_tostring(state, -2));
+  return names;
+}
+
+[[noreturn]] void say_unknown(lua_State* state, const std::string& before, const std::string& what) {
   push_plain_text(state, 2);
-  return luaL_error(state, "unknown name '%s'", lua_tostring(state, -1));
+  const std::string name = lua_tostring(state, -1);
+  std::string cure = in_place_of(before + name);
+  if (cure.empty()) cure = did_you_mean(name, names_in(state, 1));
+  throw std::runtime_error(what + " '" + before + name + "'" + (cure.empty() ? "" : ": " + cure));
+}
+
+int unknown_word(lua_State* state) { say_unknown(state, "", "unknown name"); }
+
+// Upvalue: the library's name.
+int unknown_function(lua_State* state) {
+  say_unknown(state, std::string(lua_tostring(state, lua_upvalueindex(1))) + ".", "there is no");
 }
 
 // Copies a field of the table on top to the table at `to`, through `wrapper` when there is one.
@@ -327,8 +378,14 @@ void copy_function(lua_State* state, int to, const char* name, lua_CFunction wra
   lua_setfield(state, to, name);
 }
 
-// Puts a read-only view of the table on top in its place: no file can change what another one calls.
-void protect(lua_State* state) {
+// Puts a read-only view of the table on top in its place: no file can change what another one calls. What it does not
+// have is a mistake that says so.
+void protect(lua_State* state, const char* library) {
+  lua_newtable(state);
+  lua_pushstring(state, library);
+  lua_pushcclosure(state, lua_function<unknown_function>, 1);
+  lua_setfield(state, -2, "__index");
+  lua_setmetatable(state, -2);
   lua_newtable(state);
   lua_newtable(state);
   lua_pushvalue(state, -3);
@@ -351,7 +408,7 @@ void install_string(lua_State* state, int globals) {
   lua_pop(state, 1);
   const LuaFunction own[] = {{"rep", lua_function<bounded_rep>}, {"find", lua_function<plain_find>}};
   set_functions(state, own);
-  protect(state);
+  protect(state, "string");
   lua_pushliteral(state, "");
   lua_getmetatable(state, -1);
   lua_pushvalue(state, -3);
@@ -382,7 +439,7 @@ void install_math(lua_State* state, int globals) {
   }
   for (const char* name : {"max", "min"}) copy_function(state, own, name, lua_function<of_short_numbers>);
   lua_pop(state, 1);
-  protect(state);
+  protect(state, "math");
   lua_setfield(state, globals, "math");
 }
 
@@ -447,7 +504,7 @@ void install_whitelist(lua_State* state) {
   lua_getfield(state, globals, "error");
   lua_call(state, 3, 0);
   lua_getfield(state, globals, "table");
-  protect(state);
+  protect(state, "table");
   lua_setfield(state, globals, "table");
   lua_newtable(state);
   lua_pushcfunction(state, lua_function<unknown_word>);

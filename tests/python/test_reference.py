@@ -132,6 +132,7 @@ def test_settings_are_taken_by_name_and_unknown_ones_are_not() -> None:
     session = stampede.Session()
     defaults = {"hidden": False, "reward": "sparse", "frame_hz": 0, "physics_hz": 0, "horizon_s": 0, "record": False}
     pictures = {"width": 0, "height": 0, "picture_sizes": {}, "shadows": False, "picture_hz": {}}
+    pictures["renderer"] = "own"
     noise = {"rgb_noise": 0, "depth_noise": 0, "torque_noise": 0, "torque_model": ""}
     given = {"channels": ["joint_positions"], **defaults, **pictures, **noise}
     assert set(given) == fields("environment.h", "EnvironmentSettings")
@@ -140,6 +141,8 @@ def test_settings_are_taken_by_name_and_unknown_ones_are_not() -> None:
         session.environment("reach_target", framehz=10)
     with pytest.raises(TypeError, match="no argument 'sed'"):
         session.run("reach_target", sed=1)
+    with pytest.raises(stampede.Error, match="own or osmesa"):
+        session.environment("reach_target", renderer="mesa")
     with pytest.raises(stampede.Error, match="one of sparse, dense, task"):
         session.environment("reach_target", reward="dens")
 

@@ -401,8 +401,8 @@ as of `run`; `seed` is the first one's.)")
           "task"_a, "settings"_a, R"(The task as an environment that the caller steps.
 
 channels, hidden, reward (sparse, dense, task), frame_hz, physics_hz, horizon_s, record, width, height, picture_sizes
-(dict by camera: width, height), shadows, picture_hz (dict by camera), rgb_noise, depth_noise, torque_noise,
-torque_model: see EnvironmentSettings of stampede/environment.h.)")
+(dict by camera: width, height), shadows, renderer (own, osmesa), picture_hz (dict by camera), rgb_noise, depth_noise,
+torque_noise, torque_model: see EnvironmentSettings of stampede/environment.h.)")
       .def(
           "plan",
           [](const PySession& self, const std::string& task, const nb::kwargs& words) {

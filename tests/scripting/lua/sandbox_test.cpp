@@ -59,8 +59,14 @@ TEST_CASE("what is not on the whitelist is not there") {
   for (const char* field : {"string.gsub", "string.gmatch", "string.match", "string.dump", "string.pack", "math.random",
                             "math.randomseed", "table.move", "table.pack"}) {
     INFO(field);
-    CHECK(fixture.run(std::string("return ") + field) == "nil");
+    CHECK(fixture.fault(std::string("return ") + field).find("test.lua:1: there is no '" + std::string(field) + "'") ==
+          0);
   }
+  CHECK(fixture.fault("return math.random(3)").find("': between(low, high), one_of") != std::string::npos);
+  CHECK(fixture.fault("return ('a'):gsub('a', 'b')").find("'string.gsub': there are no patterns") != std::string::npos);
+  CHECK(fixture.fault("return math.sine(1)").find("there is no 'math.sine': did you mean 'sin'?") != std::string::npos);
+  CHECK(fixture.fault("print('x')").find("unknown name 'print': a script prints nothing") != std::string::npos);
+  CHECK(fixture.fault("return ipair").find("unknown name 'ipair': did you mean 'ipairs'?") != std::string::npos);
 }
 
 TEST_CASE("globals and libraries cannot be changed") {
