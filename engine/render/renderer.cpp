@@ -19,11 +19,10 @@ std::unique_ptr<Renderer> made_for(DrawnBy by) {
 class ChosenRenderer : public Renderer {
  public:
   void load(std::shared_ptr<const Scene> scene) override {
+    of(DrawnBy::own).renderer->load(scene);  // throws for a scene that is wrong: the last one stays
     scene_ = std::move(scene);
     for (BackEnd& one : back_ends_) one.loaded = false;
-    BackEnd& own = of(DrawnBy::own);  // what is wrong with a scene is told when it is loaded
-    own.renderer->load(scene_);
-    own.loaded = true;
+    of(DrawnBy::own).loaded = true;
   }
 
   void draw(const ScenePoses& poses, std::span<const View> views, const DrawOptions& options,
