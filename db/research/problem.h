@@ -49,8 +49,8 @@ struct ResearchProblem {
   std::vector<AnswerColumn> answer = {};        // a row of the answers; empty: they are texts alone
   std::vector<AnswerColumn> answer_texts = {};  // beside the rows, such as a PDDL domain
   bool every_unit = true;                       // each test unit must be answered
-  std::string scoring;                          // how, in sentences
-  std::string scorer;                           // its name in all_scorers(); empty: measured by `stampede evaluate`
+  std::string scoring = {};                     // how, in sentences
+  std::string scorer = {};                      // its name in all_scorers(); empty: measured by `stampede evaluate`
 };
 
 const std::vector<ResearchProblem>& all_problems();

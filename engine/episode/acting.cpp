@@ -117,8 +117,7 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
   if (controlled) rollout.keep = world.grasped();
   const auto space = planning_space(rollout, {});
   const Transform target = tool_target(action, world);
-  MotionLimits limits;
-  limits.planner = rollout.task().motion_planner;
+  const MotionLimits limits = motion_limits(rollout);
   PlannedMotion planned = plan_through(*space, planning_start(world), {{"goal", target}}, limits,
                                        draw_key("path", record).with(rollout.step()));
   if (planned.reason != Reason::none) {

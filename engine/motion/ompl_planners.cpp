@@ -46,8 +46,6 @@
 #include <mutex>
 #include <utility>
 
-#include "engine/base/error.h"
-#include "engine/base/nearest.h"
 #include "engine/base/stopping.h"
 
 namespace stampede {
@@ -212,12 +210,6 @@ std::string why_not_offered(std::string_view planner) {
 std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& checker,
                                         const std::vector<JointLimits>& limits, const JointVector& start,
                                         const JointVector& goal, const TreeOptions& options, RandomKey key) {
-  const auto maker = makers().find(planner);
-  if (maker == makers().end()) {
-    const std::string reason = why_not_offered(planner);
-    throw Error("ompl:" + planner, reason.empty() ? "OMPL has no geometric planner of that name" : reason,
-                did_you_mean(planner, ompl_planner_names()));
-  }
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);  // process-wide; the library is silent
@@ -230,7 +222,7 @@ std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& che
   }
   const auto problem = std::make_shared<ob::ProblemDefinition>(space);
   problem->setStartAndGoalStates(from, to);
-  const ob::PlannerPtr search = maker->second(space);
+  const ob::PlannerPtr search = makers().at(planner)(space);
   search->setProblemDefinition(problem);
   search->setup();
   int left = std::max(1, options.iterations);

@@ -19,7 +19,7 @@ std::vector<std::string> ompl_planner_names();
 std::string why_not_offered(std::string_view planner);
 
 // Until the first path, or `options.iterations` turns of the planner's loop; optimising planners stop there too.
-// Result: waypoints from start to goal, not shortened; empty: none was found. Throws Error for an unknown name.
+// Result: waypoints from start to goal, not shortened; empty: none was found. `planner`: one of those names.
 // Repeatable: a pure function of its arguments; one at a time in a process, as OMPL seeds its generators in the order
 // in which they are made.
 std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& checker,

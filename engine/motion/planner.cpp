@@ -49,8 +49,9 @@ std::vector<std::string> motion_planner_names() {
 }
 
 void check_motion_planner(const std::string& name, const std::string& place) {
+  if (name.empty()) return;
   const std::vector<std::string> names = motion_planner_names();
-  if (name.empty() || std::binary_search(names.begin(), names.end(), name)) return;
+  if (std::binary_search(names.begin(), names.end(), name)) return;
   const std::string reason = name.starts_with(kOmpl) ? why_not_offered(name.substr(kOmpl.size())) : "";
   if (!reason.empty())
     throw Error(place, "'" + name + "' is not offered: " + reason, "ompl:RRTConnect, or leave it out");
@@ -84,6 +85,7 @@ JointPath check_ends(const CollisionState& state, const JointVector& start, cons
 
 JointPath search_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
                       const MotionLimits& limits, RandomKey key, int care) {
+  check_motion_planner(limits.planner, "MotionLimits::planner");
   static constexpr std::array<double, kMostCare + 1> kSpacing{5.0, 2.0, 1.0};
   const double step_rad = kSpacing[static_cast<std::size_t>(care)] * limits.resolution_rad;
   const RandomKey query = key.with(care);

@@ -36,8 +36,7 @@ std::int64_t lines_from(const PlannedMotion& planned, const std::string& kind) {
 // A motion as planned: where it is asked for, with stops.
 class Planned {
  public:
-  Planned(const Rollout& rollout, bool stop)
-      : world_(rollout.world()), planner_(rollout.task().motion_planner), stop_(stop) {}
+  Planned(const Rollout& rollout, bool stop) : world_(rollout.world()), limits_(motion_limits(rollout)), stop_(stop) {}
   PlannedCall operator()(PlannedMotion planned, FollowOptions options) const {
     if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
     if (stop_)
@@ -47,14 +46,10 @@ class Planned {
     for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
     return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
   }
-  MotionLimits limits() const {
-    MotionLimits limits;
-    limits.planner = planner_;
-    return limits;
-  }
+  const MotionLimits& limits() const { return limits_; }
   // Of a motion that meets something or takes something along: with stops, an agent is to be able to do it again.
   MotionLimits in_contact(LineOptions& line) const {
-    MotionLimits limits = this->limits();
+    MotionLimits limits = limits_;
     if (!stop_) return limits;
     limits.speed = world_.grasped() ? kHoldingPace : kMeetingPace;
     line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
@@ -63,7 +58,7 @@ class Planned {
 
  private:
   const World& world_;
-  const std::string& planner_;
+  MotionLimits limits_;
   bool stop_;
 };
 
@@ -174,6 +169,12 @@ static void allow_joined(const World& world, const std::optional<PartRef>& keep,
     if (body.name != held.joined_to || !world.joined({keep->body, 0})) continue;
     for (int part = 0; part < static_cast<int>(body.parts.size()); ++part) space.allow({i, part});
   }
+}
+
+MotionLimits motion_limits(const Rollout& rollout) {
+  MotionLimits limits;
+  limits.planner = rollout.task().motion_planner;
+  return limits;
 }
 
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {

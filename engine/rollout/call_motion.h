@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/motion/part_way.h"
+#include "engine/motion/planner.h"
 #include "engine/rollout/rollout.h"
 #include "engine/start/interfaces.h"
 #include "engine/start/part_questions.h"
@@ -34,6 +35,9 @@ bool moves_fingers(const RobotCall& call);
 
 // The world as the planner sees it: the held object moves with the tip, the fingers are as open as they are.
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable);
+
+// As the task and its world ask for motions: with their planner of joint paths.
+MotionLimits motion_limits(const Rollout& rollout);
 
 // How far a hand opens around what it holds, up to `wanted_m`: a finger must not press against a neighbour or a rim.
 // `lets_go`: a little further in any case.

@@ -27,7 +27,7 @@ std::string shown(const std::string& predicate, std::size_t count) {
 class Reader {
  public:
   Reader(const FormulaContext& context, const Value& whole)
-      : context_(context), domain_(*context.domain), holds_something_(asks_for_held(whole)) {}
+      : context_(context), domain_(*context.domain), holds_something_(asks_for_held(whole, context)) {}
 
   Formula formula(const Value& node) {
     if (node.is_table() && node.tag().empty() && node.fields.empty()) {
@@ -629,15 +629,6 @@ class Reader {
     return result;
   }
 
-  // Does it say of something that it is held? Then nobody can want the hand to be empty as well.
-  bool asks_for_held(const Value& node) const {
-    if (node.tag() == "literal" && context_.traits != nullptr && !node["negated"].boolean) {
-      const auto traits = context_.traits->find(node["predicate"].text);
-      return traits != context_.traits->end() && traits->second.requires_pairs == Pairs::held;
-    }
-    return std::any_of(node.items.begin(), node.items.end(), [&](const Value& item) { return asks_for_held(item); });
-  }
-
   struct PartTerm {
     Term term, whole;
     std::string name;
@@ -658,6 +649,15 @@ class Reader {
 };
 
 }  // namespace
+
+bool asks_for_held(const Value& node, const FormulaContext& context) {
+  if (node.tag() == "literal" && context.traits != nullptr && !node["negated"].boolean) {
+    const auto traits = context.traits->find(node["predicate"].text);
+    return traits != context.traits->end() && traits->second.requires_pairs == Pairs::held;
+  }
+  return std::any_of(node.items.begin(), node.items.end(),
+                     [&](const Value& item) { return asks_for_held(item, context); });
+}
 
 int hand_position(const std::vector<Parameter>& parameters, const Domain&) {
   int position = -1;

@@ -27,6 +27,10 @@ struct FormulaContext {
   std::function<std::optional<std::string>(const std::string& part)> part_fault;      // of `?x.part`
 };
 
+// Does it say of something that it is held? Then nobody can want the hand to be empty as well: what is `implied` in it
+// is left out.
+bool asks_for_held(const Value& node, const FormulaContext& context);
+
 // All throw Error (file:line: field: complaint, cure) at the first fault.
 Formula formula_from(const Value& node, const FormulaContext& context);
 std::vector<Formula> stages_from(const Value& node, const FormulaContext& context);  // in_order at the top; else empty

@@ -61,9 +61,10 @@ bool is_implied(const Value& formula) {
 void TaskReader::read_goal() {
   if (!push_field("goal")) throw Error(file_.shown_path, "a task needs a goal");
   const Value goal = value_as_written(state_, -1, file_.shown_path + ": goal");
-  drawn_.task.goal = formula_from(goal, context_of("goal"));
-  drawn_.task.stages = stages_from(goal, context_of("goal"));
-  drawn_.task.empty_hand = is_implied(goal);
+  const FormulaContext context = context_of("goal");
+  drawn_.task.goal = formula_from(goal, context);
+  drawn_.task.stages = stages_from(goal, context);
+  drawn_.task.empty_hand = is_implied(goal) && !asks_for_held(goal, context);
   lua_pop(state_, 1);
 }
 

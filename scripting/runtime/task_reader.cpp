@@ -146,6 +146,7 @@ void TaskReader::read_world(const std::string& name, const Value& world) {
   read_robot(world["robot"], true);
   for (const auto& [key, spec] : world["fixtures"].fields)
     builder_->add_fixture(source_of(spec, key, "fixtures." + key));
+  table_top_ = builder_->top_of("table");
   for (const auto& [key, region] : world["regions"].fields) builder_->add_region(key, region);
   for (const auto& [key, camera] : world["cameras"].fields) builder_->add_camera(key, camera);
   builder_->set_rates(static_cast<int>(world.number_or("physics_hz", 240)),
@@ -276,7 +277,7 @@ void TaskReader::read_objects() {
 // One thing, or with `count` a group of them, each with draws of its own. What sample_of drew for a field of a group
 // is dealt out: one value to each member.
 void TaskReader::add_group(const std::string& name, int index) {
-  const Evaluation how{key_, variation_, file_.shown_path, {}, builder_->top_of("table")};
+  const Evaluation how{key_, variation_, file_.shown_path, {}, table_top_};
   const Value shared = read_value(state_, index, how, "objects." + name);
   if (!shared["count"].present()) {
     builder_->add_object(source_of(shared, name, "objects." + name));

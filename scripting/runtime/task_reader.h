@@ -57,6 +57,7 @@ class TaskReader {
   int task_ = 0, variation_ = 0;  // stack indices
   Colours colours_;
   std::unique_ptr<SceneBuilder> builder_;
+  std::optional<double> table_top_;  // what on_table means in this world, m
   LuaTask::Drawn drawn_;
 };
 

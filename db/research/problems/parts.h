@@ -71,6 +71,17 @@ inline const std::string kActionScore =
     "measured with the policy in the loop: `stampede evaluate TASK --policy \"…\"`, with `--variation` for held-out "
     "values.";
 
+// What is answered by a PDDL domain of the facts' names.
+inline ResearchProblem by_a_domain(ResearchProblem problem) {
+  problem.hidden = Uses{{"skills"}} + kConditions + kPlanning + kSources;
+  problem.needs = kPlanned;
+  problem.answer_texts = {kDomain};
+  problem.every_unit = false;
+  problem.scoring = kOperatorScore;
+  problem.scorer = "operators";
+  return problem;
+}
+
 ResearchProblem abstractions_problem();
 ResearchProblem inventions_problem();
 ResearchProblem symbols_problem();

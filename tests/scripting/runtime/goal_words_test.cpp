@@ -73,6 +73,7 @@ TEST_CASE("the hand is empty at the end, unless the goal speaks of what it holds
   CHECK(to_pddl(ordered.stages[0]) == "(open box--lid)");
   CHECK(to_pddl(ordered.stages[1]) == "(and (closed box--lid) " + kEmpty + ")");
   CHECK(ordered.empty_hand);
+  CHECK_FALSE(Written(kInit + "goal = is.lifted(\"cup\")").task().empty_hand);  // no plan fails for want of that
   CHECK(Written(kInit + "hand = \"full\", goal = is.on(\"cup\", \"table\")")
             .complaints()
             .find("hand: at the end the hand is empty or any, not 'full'") != std::string::npos);
