@@ -44,7 +44,7 @@ return skill {
   label = "close the {part}",
   run = function(robot, p, c)
     local w = robot:view()
-    local pivot, gripped = w:number(p.part, "pivot", 0), w:number(p.part, "gripped", 0) > 0
+    local pivot, gripped = w:number(p.part, "pivot"), w:number(p.part, "gripped") > 0
     local o = { speed = c.speed, most_force = 30, pivot = pivot, away = away, opening = 0.06 }
     local function shut(grasp)
       if gripped then grips.take(robot, p.part, grasp, 0, o) else push(robot, p.part, grasp, c, pivot) end

@@ -14,7 +14,7 @@ return skill {
   label = "hang the {obj} on the {hook}",
   run = function(robot, p, c)
     local w = robot:view()
-    local up = w:number(p.hook, "lift", 0.01)                           -- what clears the tip of the hook
+    local up = w:number(p.hook, "lift")                           -- what clears the tip of the hook
     local _, _, length = w:size(p.hook)
     local hung = robot:tip_for(p.obj, c.spot)
     local over = hung:offset(0, 0, up)

@@ -24,7 +24,7 @@ return skill {
     }
     robot:move_line(seated, {
       speed = c.speed, keep_clear = true,                               -- of all but what it goes into
-      search = w:number(p.slot, "search", 0), pitch = w:number(p.slot, "pitch", 0.0008),
+      search = w:number(p.slot, "search"), pitch = w:number(p.slot, "pitch"),
     })
     robot:wait(0.1)
     robot:open_hand()

@@ -20,7 +20,7 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     robot:open_hand(0.05)
-    local pull, pivot = w:number(p.part, "pull"), w:number(p.part, "pivot", 0)
+    local pull, pivot = w:number(p.part, "pull"), w:number(p.part, "pivot")
     local o = { speed = c.speed, most_force = 40, pivot = pivot, away = 0.08, opening = 0.05 }
     local lever = lever_of(w, p.part)
     local first, to = lever or p.part, lever and w:number(lever, "turn_to") or c.grasp.reach or pull

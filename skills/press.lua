@@ -9,7 +9,7 @@ return skill {
   run = function(robot, p, c)
     local w = robot:view()
     robot:close_hand()
-    local spot, depth = p.button, w:number(p.button, "travel", c.depth)
+    local spot, depth = p.button, w:number(p.button, "travel") or c.depth
     if w:exists(p.button .. ".spot") then spot = p.button .. ".spot" end
     local x, y, z = w:position(spot)
     if spot == p.button then z = w:top(p.button) end

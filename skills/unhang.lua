@@ -14,7 +14,7 @@ return skill {
   label = "take the {obj} off the {hook}",
   run = function(robot, p, c)
     local w = robot:view()
-    local up = w:number(p.hook, "lift", 0.01)                           -- what frees it
+    local up = w:number(p.hook, "lift")                           -- what frees it
     local off = seats.way_out(w, p.hook, seats.loop(w, p.obj), c.clear)
     robot:open_hand(c.grasp.opening)
     robot:move_through {

@@ -34,6 +34,7 @@ void CollisionState::place(std::size_t piece, const Transform& world_from_part) 
 void CollisionState::hold(int body, const Transform& tip_from_body) {
   if (!scene().bodies.at(static_cast<std::size_t>(body)).free)
     throw Error("CollisionState::hold", "body " + std::to_string(body) + " is not free", "hold free bodies only");
+  each_piece_loaded_on({body, 0}, [&](std::size_t i) { place(i, translation(0, 0, -100)); });
   held_ = body;
   tip_from_held_ = tip_from_body;
 }
@@ -56,14 +57,27 @@ void CollisionState::each_piece_on(PartRef part, const Use& use) {
   }
 }
 
+template <typename Use>
+void CollisionState::each_piece_loaded_on(PartRef part, const Use& use) {
+  if (loads_.empty()) return;
+  for (const int body : borne_by(scene(), loads_, part)) {
+    const CollisionModel::Range range = model_->body_pieces[static_cast<std::size_t>(body)];
+    for (std::size_t i = range.begin; i < range.end; ++i) use(i);
+  }
+}
+
 void CollisionState::move_part(PartRef part, const Transform& motion) {
-  each_piece_on(part, [&](std::size_t i) {
+  const auto move = [&](std::size_t i) {
     place(i, motion * pieces_[i].world_from_shape * model_->bodies[i].part_from_shape.inverse());
-  });
+  };
+  each_piece_on(part, move);
+  each_piece_loaded_on(part, move);
 }
 
 void CollisionState::remove(PartRef part) {
-  each_piece_on(part, [&](std::size_t i) { place(i, translation(0, 0, -100)); });
+  const auto take_away = [&](std::size_t i) { place(i, translation(0, 0, -100)); };
+  each_piece_on(part, take_away);
+  each_piece_loaded_on(part, take_away);
 }
 
 void CollisionState::allow_touched(PartRef part, const JointVector& q) {

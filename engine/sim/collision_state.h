@@ -8,6 +8,7 @@
 
 #include "engine/model/kinematics.h"
 #include "engine/model/part_ref.h"
+#include "engine/sim/load.h"
 
 namespace stampede {
 
@@ -31,6 +32,8 @@ class CollisionState {
   const Scene& scene() const;
   const Arm& arm() const;
 
+  // What rests on what: move_part() and remove() take it along, and what is held holds its load, which does not collide.
+  void set_loads(std::vector<Borne> loads) { loads_ = std::move(loads); }
   // A free body that moves with the tip from now on and collides in the arm's stead. Throws for a body that is fixed.
   void hold(int body, const Transform& tip_from_body);
   void release() { held_.reset(); }
@@ -79,12 +82,15 @@ class CollisionState {
   void place(std::size_t piece, const Transform& world_from_part);
   template <typename Use>
   void each_piece_on(PartRef part, const Use& use);
+  template <typename Use>
+  void each_piece_loaded_on(PartRef part, const Use& use);
 
   std::shared_ptr<const CollisionModel> model_;
   std::vector<Placed> pieces_;             // of all bodies, in the model's order
   std::vector<Transform> body_from_part_;  // of all bodies, in body and part order
   std::vector<double> robot_positions_;    // of all robot parts
   double opening_ = 0;                     // m
+  std::vector<Borne> loads_;                // bodies, by what bears them
   std::vector<PartRef> allowed_;           // few: searched in order
   std::optional<int> held_;
   Transform tip_from_held_ = Transform::Identity();

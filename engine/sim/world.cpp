@@ -378,7 +378,11 @@ CollisionState World::Impl::now_for_planning() const {
   return {w.collision_model, world_from_part, std::move(robot_positions)};
 }
 
-CollisionState World::collision_state() const { return impl_->now_for_planning(); }
+CollisionState World::collision_state() const {
+  CollisionState state = impl_->now_for_planning();
+  state.set_loads(loads());
+  return state;
+}
 
 std::optional<PartRef> World::grasped(int robot) const {
   impl_->check_robot(robot);

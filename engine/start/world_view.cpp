@@ -234,10 +234,18 @@ WorldView::Judged WorldView::supports(std::string_view surface, std::string_view
   return {false, -away.norm()};
 }
 
+// What rests in or on it is its load: that touches it, and counts as a part of it.
 bool WorldView::touched_by_others(const Object& thing) const {
-  return std::any_of(world_->contacts().begin(), world_->contacts().end(), [&](const Contact& contact) {
-    return (owns(thing, contact.a) && contact.b.body >= 0) || (owns(thing, contact.b) && contact.a.body >= 0);
-  });
+  const auto touches = [&](const auto& is_own) {
+    return std::any_of(world_->contacts().begin(), world_->contacts().end(), [&](const Contact& contact) {
+      const bool a = is_own(contact.a), b = is_own(contact.b);
+      return a != b && (a ? contact.b : contact.a).body >= 0;
+    });
+  };
+  if (!touches([&](PartRef part) { return owns(thing, part); })) return false;
+  const std::vector<int> load = borne_by(scene(), world_->loads(), {body_of(thing), thing.part});
+  return touches(
+      [&](PartRef part) { return owns(thing, part) || std::find(load.begin(), load.end(), part.body) != load.end(); });
 }
 
 // From its lowest point to the highest shape below it, by bounding boxes.

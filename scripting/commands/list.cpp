@@ -6,8 +6,10 @@
 #include "db/table_text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/object_sheet.h"
+#include "scripting/commands/object_table.h"
 #include "scripting/commands/render_output.h"
 #include "scripting/library/naming.h"
+#include "scripting/runtime/object_scene.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::program {
@@ -22,10 +24,18 @@ constexpr Listing kShelves[] = {
     {"objects", DefinitionKind::object}, {"worlds", DefinitionKind::world}, {"robots", DefinitionKind::robot},
 };
 
+constexpr const char kNumbers[] = "numbers";
+
 const Listing* shelf_named(const std::string& name) {
   const auto* found =
       std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Listing& s) { return s.name == name; });
   return found == std::end(kShelves) ? nullptr : found;
+}
+
+std::vector<std::string> names_of(const Library& library, DefinitionKind kind) {
+  std::vector<std::string> names;
+  for (const ScriptFile* file : library.files(kind)) names.push_back(file->name);
+  return names;
 }
 
 QueryResult shelf_table(const Library& library, const Listing& shelf) {
@@ -45,6 +55,20 @@ QueryResult shelf_table(const Library& library, const Listing& shelf) {
     row.emplace_back(file->shown_path);
     table.rows.push_back(std::move(row));
   }
+  return table;
+}
+
+// What is read of a thing without it.
+SqlValue otherwise_of(const NumberInfo& number) {
+  if (number.otherwise) return *number.otherwise;
+  return std::string(number.optional ? "nothing" : "a mistake");
+}
+
+QueryResult numbers_table(const Numbers& numbers) {
+  QueryResult table;
+  table.columns = {"name", "unit", "without_it", "trait", "description", "declared_in"};
+  for (const auto& [name, number] : numbers)
+    table.rows.push_back({name, number.unit, otherwise_of(number), number.trait, number.description, number.place});
   return table;
 }
 
@@ -71,29 +95,51 @@ ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Co
   return kDone;
 }
 
+void draw(const std::shared_ptr<const Library>& library, const std::vector<std::string>& names,
+          const Arguments& arguments, Console& console) {
+  const std::string sheet = arguments.text("--sheet");
+  if (sheet.empty()) return;
+  const OutputRules rules = output_rules(arguments, console);
+  check_output(sheet, sheet_kind(), rules);
+  draw_objects(library, names, sheet, rules);
+}
+
+ExitCode print(const QueryResult& table, const Arguments& arguments, Console& console) {
+  console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
+  return kDone;
+}
+
+ExitCode list_object(const std::shared_ptr<const Library>& library, const ScriptFile& file, const Arguments& arguments,
+                     Console& console) {
+  library->require_sound({&file});
+  const QueryResult table = object_table(object_scene(library, file.name));
+  draw(library, {file.name}, arguments, console);
+  if (!arguments.flag("--json")) console.out << file.name << ": " << file.description << "\n\n";
+  return print(table, arguments, console);
+}
+
 ExitCode do_list(const Arguments& arguments, Console& console) {
   const auto library = load_library(arguments);
   const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
+  const ScriptFile* object = library->file(DefinitionKind::object, what);
+  const bool drawn = what == "objects" || object != nullptr;
+  if (!arguments.text("--sheet").empty() && !drawn)
+    throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
   if (const Listing* shelf = shelf_named(what)) {
-    if (const std::string sheet = arguments.text("--sheet"); !sheet.empty()) {
-      if (shelf->kind != DefinitionKind::object)
-        throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
-      const OutputRules rules = output_rules(arguments, console);
-      check_output(sheet, sheet_kind(), rules);
-      draw_objects(library, sheet, rules);
-    }
-    const QueryResult table = shelf_table(*library, *shelf);
-    console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
-    return kDone;
+    if (drawn) draw(library, names_of(*library, DefinitionKind::object), arguments, console);
+    return print(shelf_table(*library, *shelf), arguments, console);
   }
+  if (what == kNumbers) return print(numbers_table(library->numbers()), arguments, console);
   if (const Library::TaskInfo* task = library->task(what)) {
     if (!arguments.flag("--hash")) return list_task(*task, arguments, console);
     console.out << hash_of(library, *task) << "\n";
     return kDone;
   }
-  std::vector<std::string> names;
+  if (object != nullptr) return list_object(library, *object, arguments, console);
+  std::vector<std::string> names = names_of(*library, DefinitionKind::task);
+  for (const std::string& name : names_of(*library, DefinitionKind::object)) names.push_back(name);
+  names.emplace_back(kNumbers);
   for (const Listing& shelf : kShelves) names.emplace_back(shelf.name);
-  for (const ScriptFile* file : library->files(DefinitionKind::task)) names.push_back(file->name);
   throw UsageError("there is nothing to list by the name '" + what + "'", did_you_mean(what, names));
 }
 
@@ -102,12 +148,17 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
 CommandRow list_command() {
   return {
       "list",
-      "List tasks, skills, predicates, objects, worlds or robots, or the variations of a task",
-      "Without WHAT it lists the tasks. With the name of a task it lists the task's variations.",
-      {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, or the name of a task", false, false}},
-      {{"--sheet", "FILE", "objects only: a page of pictures of them all (PNG)", Takes::output, "", {}, false},
+      "List tasks, skills, predicates, objects, worlds, robots or numbers, or what one task or object is made of",
+      "Without WHAT it lists the tasks. With the name of a task it lists the task's variations, with that of "
+      "an object its parts and regions: what they are called, what can be done with them, how large they are, how they "
+      "move and which numbers they have. `numbers` are those "
+      "that "
+      "objects can have: what they say, and what is read of an object without them.",
+      {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, numbers, or the name of a task or object", false,
+        false}},
+      {{"--sheet", "FILE", "of objects, or of one: a page of pictures (PNG)", Takes::output, "", {}, false},
        {"--hash", "", "of a task: the hash of all files that its episodes are made of", Takes::flag, "", {}, false}},
-      {"stampede list", "stampede list skills", "stampede list stack_blocks",
+      {"stampede list", "stampede list skills", "stampede list stack_blocks", "stampede list chest",
        "stampede list objects --sheet objects.png"},
       do_list};
 }

@@ -82,20 +82,21 @@ Picture portrait(Renderer& renderer, Scene& scene, const Bounds& bounds) {
 
 }  // namespace
 
-void draw_objects(std::shared_ptr<const Library> library, const std::filesystem::path& file, const OutputRules& rules) {
-  const std::vector<const ScriptFile*> objects = library->files(DefinitionKind::object);
+void draw_objects(std::shared_ptr<const Library> library, const std::vector<std::string>& names,
+                  const std::filesystem::path& file, const OutputRules& rules) {
   const auto renderer = make_renderer();
-  const int count = static_cast<int>(objects.size());
-  const int columns = std::max(7, static_cast<int>(std::ceil(std::sqrt(1.4 * count))));  // about square
+  const int count = static_cast<int>(names.size());
+  const int square = static_cast<int>(std::ceil(std::sqrt(1.4 * count)));  // about
+  const int columns = std::min(count, std::max(7, square));
   const int rows = (count + columns - 1) / columns;
   Canvas canvas(columns * (kSide + kGap) + kGap, rows * (kSide + kCaption + kGap) + kGap, kPaper);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    Scene scene = object_scene(library, objects[i]->name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Scene scene = object_scene(library, names[i]);
     const Bounds bounds = bounds_of(scene, scene_poses(scene, initial_state(scene)));
     const int x = kGap + static_cast<int>(i) % columns * (kSide + kGap);
     const int y = kGap + static_cast<int>(i) / columns * (kSide + kCaption + kGap);
     canvas.put(x, y, portrait(*renderer, scene, bounds));
-    canvas.text(x, y + kSide + kLetters + 4, objects[i]->name, kLetters + 2, kInk);
+    canvas.text(x, y + kSide + kLetters + 4, names[i], kLetters + 2, kInk);
     const Vector3 size = 100 * (bounds.upper - bounds.lower);
     const double mass = mass_of(scene);
     const std::string facts = fmt::format("{:.3g} × {:.3g} × {:.3g} cm", size.x(), size.y(), size.z());

@@ -62,6 +62,7 @@ std::string type_of(const Field& field) {
   const std::string_view name = field.name;
   if (name == "world") return "stampede.world_name|string";
   if (name == "type") return "stampede.type_name|string";
+  if (name == "numbers") return class_name("numbers");
   if (name == "traits") return "(stampede.trait_name|string)[]";
   std::string type = lua_type(field.type);
   const std::size_t function = type.find("function");
@@ -101,6 +102,20 @@ std::set<std::string> names(const std::vector<const ScriptFile*>& files) {
   std::set<std::string> result;
   for (const ScriptFile* file : files) result.insert(file->name);
   return result;
+}
+
+// Those that things can have, and their names for w:number.
+std::string numbers_class(const Numbers& numbers) {
+  std::string text = "\n---@class " + class_name("numbers") + "\n";
+  std::set<std::string> all;
+  for (const auto& [name, number] : numbers) {
+    all.insert(name);
+    text += "---@field " + name + "? number  " + number.description;
+    if (!number.unit.empty()) text += " [" + number.unit + "]";
+    if (!number.trait.empty()) text += " (" + number.trait + ")";
+    text += "\n";
+  }
+  return text + alias("number_name", all);
 }
 
 // A field of `is`, `is_not` or `act`: its name, its parameters but for the hand, what it is in words.
@@ -158,6 +173,7 @@ std::string name_annotations(const Library& library) {
   std::string text = "---@meta\n-- Made by `stampede doc` from the Lua files: do not edit.\n";
   text += "\n---@class stampede.is\n" + literals + "\n---@class stampede.is_not\n" + literals;
   text += "\n---@class stampede.act\n" + calls;
+  text += numbers_class(library.numbers());
   text += alias("predicate_name", predicates) + alias("type_name", types) + alias("trait_name", traits);
   text += alias("world_name", names(library.files(DefinitionKind::world)));
   return text + alias("object_name", names(library.files(DefinitionKind::object)));

@@ -37,6 +37,7 @@ std::shared_ptr<Library> LibraryBuilder::build() {
   check_names();
   read_definitions();
   read_types();
+  declare_numbers();
   declare_predicates();
   declare_attributes();
   define_predicates();
@@ -45,6 +46,7 @@ std::shared_ptr<Library> LibraryBuilder::build() {
   check_worlds();
   read_skills();
   read_tasks();
+  check_reads();
   finish();
   return library_;
 }

@@ -1,6 +1,8 @@
 // Makes a Library: runs every file once, checks everything that can be checked without physics, collects complaints.
 #pragma once
 
+#include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <set>
@@ -99,6 +101,16 @@ class LibraryBuilder {
   std::vector<Parameter> parameters_of(const Definition& definition, bool add_hand);
   void check_label(const Definition& definition, const std::string& label, const std::vector<Parameter>& parameters);
 
+  // check_numbers.cpp
+  void declare_numbers();
+  void each_declaration(
+      const std::function<void(const Definition&, const std::string& path, const std::string& name,
+                               const Value& number, const std::string& trait)>& visit);
+  void check_entry_numbers(const Definition& definition, const Value& entry, const Value& node,
+                           const std::string& path);  // check_objects.cpp
+  void each_read(const std::function<void(const std::string& place, const std::string& name)>& visit) const;
+  void check_reads();
+
   // check_skills.cpp
   void read_skills();
   void read_skill(const Definition& definition);
@@ -161,6 +173,8 @@ class LibraryBuilder {
   std::shared_ptr<Library> library_;
   std::map<DefinitionKind, Definitions> definitions_;
   std::set<std::string> attributes_;
+  std::list<Definition> type_files_;  // worlds/types.lua of each root
+  NumberTable numbers_;
 };
 
 void push_node(lua_State* state, const Value& node);

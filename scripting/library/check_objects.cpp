@@ -18,6 +18,12 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::vector<std::string> names_in(const Value& table) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : table.fields) result.push_back(name);
+  return result;
+}
+
 constexpr std::array kMovingJoints{"slider", "hinge", "screw"};
 constexpr double kOpening = 0.08;  // m, of a robot that says nothing else
 
@@ -50,6 +56,7 @@ void LibraryBuilder::check_body(const Definition& definition, const Value& body,
       if (!has_type(value, wanted)) complain(definition, where, "this is " + value.type_name());
     }
   }
+  numbers_.check_values(body["numbers"], prefix + "numbers.", complainer(definition));
   for (const char* number : {"mass", "friction", "restitution"}) {
     if (body[number].is_number() && body[number].number < 0) complain(definition, prefix + number, "is negative");
   }
@@ -215,7 +222,11 @@ void LibraryBuilder::check_links(const Definition& definition, const Value& part
 void LibraryBuilder::check_objects() {
   for (const auto& [name, definition] : of(DefinitionKind::object)) {
     const Value& node = definition.node;
-    check_body(definition, node, {});
+    const auto check_thing = [&](const Value& thing, const std::string& path) {
+      check_body(definition, thing, path);
+      numbers_.check_needed(texts(thing["traits"]), names_in(thing["numbers"]), path, complainer(definition));
+    };
+    check_thing(node, {});
     check_shows(definition, node);
     check_tip(definition, node, {});
     check_assets(definition);
@@ -227,7 +238,7 @@ void LibraryBuilder::check_objects() {
     }
     for (const auto& [part_name, part] : node["parts"].fields) {
       const std::string path = "parts." + part_name;
-      check_body(definition, part, path);
+      check_thing(part, path);
       check_shows(definition, part);
       int joints = part["fixed"].present();
       for (const char* kind : kMovingJoints) joints += part[kind].present();
@@ -241,10 +252,9 @@ void LibraryBuilder::check_objects() {
       }
       check_links(definition, node["parts"], part_name);
       for (const auto& [region_name, region] : part["regions"].fields)
-        check_body(definition, region, path + ".regions." + region_name);
+        check_thing(region, path + ".regions." + region_name);
     }
-    for (const auto& [region_name, region] : node["regions"].fields)
-      check_body(definition, region, "regions." + region_name);
+    for (const auto& [region_name, region] : node["regions"].fields) check_thing(region, "regions." + region_name);
   }
 }
 
@@ -280,6 +290,7 @@ void LibraryBuilder::check_entry(const Definition& definition, const Value& entr
     if (const Value& value = entry[name]; value.present()) replaced.fields[name] = value;
   if (!robot) check_record(*record("object"), replaced, path, complainer(definition));
   check_body(definition, entry, path);
+  check_entry_numbers(definition, entry, found->second.node, path);
   check_tip(definition, entry, path);
   if (entry.items.size() > 1) complain(definition, path, "an entry has one class, this one lists more");
   if (robot) return check_start(definition, entry["joints"], found->second.node["arm"], path + ".joints");
@@ -291,6 +302,19 @@ void LibraryBuilder::check_entry(const Definition& definition, const Value& entr
     complain(definition, path + ".joints", "'" + class_name + "' has no part '" + part + "'",
              did_you_mean(part, names));
   }
+}
+
+// What an entry sets of its file's numbers, by their names; and what traits of its own need.
+void LibraryBuilder::check_entry_numbers(const Definition& definition, const Value& entry, const Value& node,
+                                         const std::string& path) {
+  Value own;
+  own.kind = Value::Kind::table;
+  for (const auto& [name, value] : node["numbers"].fields)
+    if (entry[name].present()) own.fields[name] = entry[name];
+  numbers_.check_values(own, path + ".", complainer(definition));
+  std::vector<std::string> has = names_in(node["numbers"]);
+  for (const std::string& name : names_in(entry["numbers"])) has.push_back(name);
+  numbers_.check_needed(texts(entry["traits"]), has, path, complainer(definition));
 }
 
 // Where an arm starts: its own joints, each once.

@@ -1,7 +1,6 @@
 // Types, traits, predicates, attributes.
 #include <algorithm>
 #include <functional>
-#include <list>
 
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
@@ -27,11 +26,10 @@ void predicates_in(const Formula& formula, bool negated, const std::function<voi
 // { cube = "block" }; traits by name or as a list.
 void LibraryBuilder::read_types() {
   library_->domain_.types = {{"hand", kRoot}, {"region", kRoot}};
-  std::list<Definition> files;
   TypeOrigins origins;
   for (const ScriptFile* file : library_->files(DefinitionKind::types)) {
     if (file->bytecode.empty()) continue;
-    Definition& definition = files.emplace_back(Definition{file, {}, field_lines(file->source)});
+    Definition& definition = type_files_.emplace_back(Definition{file, {}, field_lines(file->source)});
     const bool read = guarded([&] {
       DefinitionState state(library_);
       state.push(DefinitionKind::types, file->name);
@@ -59,6 +57,11 @@ void LibraryBuilder::declare_types(const Definition& definition, const std::stri
   std::vector<std::string> traits;
   for (const Value& item : node["traits"].items) traits.push_back(item.text);
   for (const auto& [name, description] : node["traits"].fields) traits.push_back(name);
+  for (const auto& [name, entry] : node["traits"].fields)
+    for (const auto& [key, value] : entry.fields)
+      if (key != "numbers")
+        complain(definition, prefix + "traits." + name + "." + key, "a trait has no field '" + key + "'",
+                 name + " = { \"what can be done with it\", numbers = { … } }");
   for (const std::string& name : traits) {
     const auto place = std::lower_bound(domain.traits.begin(), domain.traits.end(), name);
     if (place == domain.traits.end() || *place != name) domain.traits.insert(place, name);
@@ -68,9 +71,9 @@ void LibraryBuilder::declare_types(const Definition& definition, const std::stri
                "such as '" + proposed_name(name) + "'");
   }
   for (const auto& [key, value] : node.fields)
-    if (key != "types" && key != "traits")
-      complain(definition, prefix + key, "there is no field '" + key + "' beside types and traits",
-               did_you_mean(key, {"types", "traits"}));
+    if (key != "types" && key != "traits" && key != "numbers")
+      complain(definition, prefix + key, "there is no field '" + key + "' beside types, traits and numbers",
+               did_you_mean(key, {"types", "traits", "numbers"}));
 }
 
 void LibraryBuilder::check_type_tree(const TypeOrigins& origins) {

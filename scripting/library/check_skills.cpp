@@ -272,6 +272,8 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       if (!listed(names, one.object))
         complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
       if (node["to"].is_text()) one.to = node["to"].text;
+      if (!one.to.empty() && !library_->numbers_.contains(one.to))
+        add(unknown_number(error_at(definition, path, {}, {}).where(), one.to, numbers_.names()));
     } else if (node.tag() == "stream") {
       one.source = ContinuousInfo::Source::sample;
       FormulaContext where = context(definition, path);

@@ -171,9 +171,9 @@ void DefinitionState::push(DefinitionKind kind, std::string_view name) {
     lua_pushlstring(lua, name.data(), name.size());
     lua_setfield(lua, -2, "name");
   }
-  if (kind == DefinitionKind::skill) {
+  if (kind == DefinitionKind::skill || kind == DefinitionKind::predicate) {
     try {
-      extend_skill(*file);
+      extend(*file);
     } catch (const Error&) {
       lua_settop(lua, top);
       throw;
@@ -184,26 +184,29 @@ void DefinitionState::push(DefinitionKind kind, std::string_view name) {
   lua_remove(lua, -2);
 }
 
-// The skill on top of the stack gets what it leaves to the one that it extends.
-void DefinitionState::extend_skill(const ScriptFile& file) {
+// The skill or predicate on top of the stack gets what it leaves to the one that it extends.
+void DefinitionState::extend(const ScriptFile& file) {
   lua_State* lua = state();
   const bool extends = lua_getfield(lua, -1, "extends") == LUA_TSTRING;
   const std::string base = extends ? lua_tostring(lua, -1) : "";
   lua_pop(lua, 1);
   if (!extends) return;
   std::vector<std::string> known;
-  for (const ScriptFile* other : library().files(DefinitionKind::skill)) known.push_back(other->name);
-  if (library().file(DefinitionKind::skill, base) == nullptr)
-    throw Error(file.shown_path, "extends: there is no skill '" + base + "'", did_you_mean(base, known));
+  for (const ScriptFile* other : library().files(file.kind)) known.push_back(other->name);
+  if (library().file(file.kind, base) == nullptr)
+    throw Error(file.shown_path, "extends: there is no " + home_of(file.kind) + " '" + base + "'",
+                did_you_mean(base, known));
   if (std::find(extending_.begin(), extending_.end(), file.name) != extending_.end() || base == file.name)
     throw Error(file.shown_path, "extends: '" + file.name + "' extends itself",
-                "give it a name of its own, and name it in the skills of a task or world");
+                file.kind == DefinitionKind::skill
+                    ? "give it a name of its own, and name it in the skills of a task or world"
+                    : "extend a predicate that does not extend this one");
   extending_.push_back(file.name);
   lua_getfield(lua, LUA_REGISTRYINDEX, kWordsKey);
   lua_getfield(lua, -1, "extend");
   lua_remove(lua, -2);
   lua_pushvalue(lua, -2);
-  push(DefinitionKind::skill, base);
+  push(file.kind, base);
   sandbox().call(2, 0);
   extending_.pop_back();
 }

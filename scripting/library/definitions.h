@@ -26,11 +26,11 @@ class DefinitionState {
   void push(DefinitionKind kind, std::string_view name);
 
  private:
-  void extend_skill(const ScriptFile& file);
+  void extend(const ScriptFile& file);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  std::vector<std::string> extending_;  // skills, by those that extend them
+  std::vector<std::string> extending_;  // skills or predicates, by those that extend them
 };
 
 // A formula, literal or effect value on top of the stack (left there) as C++. `place` starts error messages.

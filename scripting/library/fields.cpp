@@ -86,6 +86,9 @@ const Record kSkill{
       "joint_position, joint_impedance or cartesian_impedance"},
      {"stiffness", "number", false, "0", "N/m or N m/rad", "of an impedance controller; 0: its default"},
      {"label", "string", true, "", "", "what it does in words, with {params}", "\"pick up the {obj}\""},
+     {"reads", "{declared_number}", false, "{}", "",
+      "numbers of its things that it reads, beside those of their traits",
+      "{ depth = { \"how far it goes down\", of = \"button\", unit = \"m\", default = 0.01 } }"},
      {"run", "function", true, "", "", "function(robot, p, c): p parameters, c continuous parameters"},
      {"forgets", "string[]", false, "{}", "", "predicates that contact leaves uncertain", "{ \"on\" }"},
      {"cost", "integer", false, "1", "", "of the action in a plan"},
@@ -100,6 +103,17 @@ const Record kSkill{
       "a skill whose place it takes in tasks and worlds that name it in their skills", "\"open\""},
      {"may_equal", "string[][]", false, "{}", "", "pairs of parameters that may be one object",
       "{ { \"from\", \"to\" } }"}}};
+
+const Record kDeclaredNumber{
+    "declared_number",
+    "A number that things can have, for w:number: what it says, its unit and what is read of things without it",
+    {{"of", "string|string[]", false, "", "", "the parameters whose things have it", "\"box\""},
+     {"unit", "string", false, "\"\"", "", "m, rad, m or rad, s, kg, N, N m, or none: a count"},
+     {"default", "number", false, "", "unit", "of things without it; none: they must have it"},
+     {"optional", "boolean", false, "false", "", "of things without it nil is read"},
+     {"min", "number", false, "", "unit", "the least that makes sense"},
+     {"max", "number", false, "", "unit", "the greatest"}},
+    "string"};
 
 const Record kCase{"case",
                    "One operator of a skill with several",
@@ -117,10 +131,16 @@ const Record kPredicate{
       "function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds"},
      {"derived", "formula", false, "", "", "the formula that it stands for, instead of holds",
       "is_not(exists(\"?y: movable\", is.on(\"?y\", \"x\")))"},
+     {"reads", "{declared_number}", false, "{}", "",
+      "numbers of its things that it reads, beside those of their traits",
+      "{ depth = { \"how far it goes down\", of = \"button\", unit = \"m\", default = 0.01 } }"},
      {"sample", "function", false, "", "", "function(w, …, rng): poses or joint positions that make it true"},
      {"static", "boolean", false, "false", "", "cannot change in an episode: read once, at the start"},
      {"start_only", "boolean", false, "false", "",
       "a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it"},
+     {"extends", "string", false, "", "",
+      "a predicate whose fields it has where it gives none itself; it holds where that one holds and its own test too",
+      "\"on\""},
      {"settle", "number", false, "0", "s", "a shorter change is noise"},
      {"momentary", "boolean", false, "false", "", "read at every physics step, without settle time"},
      {"remember", "boolean", false, "false", "", "stays true once true"},
@@ -175,7 +195,8 @@ const Record kObject{
          {"tip", "tip", false, "", "", "where a tool acts: the region OBJECT.tip, `{ tool = \"OBJECT\" }` of moves",
           "{ at = { 0, 0, -0.15 }, rpy = { math.pi, 0, 0 } }"},
          {"declares", "table", false, "{}", "",
-          "types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} }"}})};
+          "types, traits and numbers of its own, as worlds/types.lua does: { types = {…}, traits = {…}, numbers = {…} "
+          "}"}})};
 
 const Record kPart{
     "part", "A moving part of an object",

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/start/interfaces.h"
+#include "scripting/library/numbers.h"
 
 struct lua_State;
 
@@ -86,6 +87,7 @@ class Library {
   const std::map<std::string, PredicateTraits>& predicate_traits() const { return predicate_traits_; }
   bool can_hide(const std::string& predicate) const { return hiding_.contains(predicate); }  // its file: `observable`
   const SkillInfo* skill(std::string_view name) const;
+  const Numbers& numbers() const { return numbers_; }  // that things can have, as files declare them
 
   struct TaskInfo {
     std::string name, world, description;
@@ -109,6 +111,7 @@ class Library {
   std::map<std::vector<std::string>, Domain> domains_;  // by TaskInfo::skills, where there are some
   std::map<std::string, PredicateTraits> predicate_traits_;
   std::set<std::string> hiding_;
+  Numbers numbers_;
   std::map<std::string, SkillInfo, std::less<>> skills_;
   std::map<std::string, TaskInfo, std::less<>> tasks_;
 };

@@ -108,6 +108,70 @@
 ---@field unhang fun(obj: string|table, hook?: string): stampede.call  take the {obj} off the {hook} (obj: movable & graspable, hook: hook)
 ---@field unscrew fun(obj: string|table): stampede.call  unscrew the {obj} (obj: movable & threaded)
 
+---@class stampede.numbers
+---@field askew? number  how far out of its direction [rad] (slot)
+---@field behind? number  how far a hand that takes it leaning reaches over its -x [m] (movable)
+---@field closed_at? number  position up to which it is closed [m or rad] (openable)
+---@field deep? number  how far above its lower face the end of what is in it, or the loop on it, may be [m] (slot)
+---@field down? number  how far down from its middle things hang [m] (hook)
+---@field ends? number  2: it goes into a slot the other way round too (movable)
+---@field folds? number  how many ways round things lie in it, as the spot is turned; 0: any (container)
+---@field gap? number  from its lower face up to the end of what is in it [m] (slot)
+---@field grip? number  along +x from its middle to where it is taken from above [m] (movable)
+---@field gripped? number  1: it is swung shut by its grip, not pushed (openable)
+---@field hand_aside? number  least |y| of such, in a box that more than one thing goes into [m] (container)
+---@field hand_back? number  greatest x of such [m] (container)
+---@field hand_front? number  least x in its frame of things that a hand reaches from above [m] (container)
+---@field hand_side? number  greatest |y| of such [m] (container)
+---@field hand_turn? number  how far such things are turned out of its own directions, at most [rad] (container)
+---@field lift? number  how far up frees a loop from its tip [m] (hook)
+---@field on_at? number  position of its joint from which on it is pressed [m or rad] (pressable)
+---@field open_at? number  position of its joint from which on it is open [m or rad] (openable)
+---@field pitch? number  between the turns of that search [m] (slot)
+---@field pivot? number  how far the hand may turn about the handle on the way [rad] (openable)
+---@field play? number  how far beside its middle [m] (slot)
+---@field pull? number  position that a hand opens it to [m or rad] (openable)
+---@field room? number  from its middle to its neighbours' where it is put down, if there is as much [m] (movable)
+---@field search? number  how far around a hand feels its way where the object meets its edge [m] (slot)
+---@field stands? number  1: it is always put down on its foot (movable)
+---@field swing? number  how far it may be turned about its hook when it is let go: it swings to its rest [rad] (movable)
+---@field travel? number  how far the fingers press it down; else what the skill says [m] (pressable)
+---@field turn_to? number  position that a hand turns it to [rad] (turnable)
+---@field turned_at? number  position from which on it is turned [rad] (turnable)
+---@field turns? number  in a slot or on a hook it looks the same after a turn of 1 / turns (movable)
+
+---@alias stampede.number_name
+---| "askew"
+---| "behind"
+---| "closed_at"
+---| "deep"
+---| "down"
+---| "ends"
+---| "folds"
+---| "gap"
+---| "grip"
+---| "gripped"
+---| "hand_aside"
+---| "hand_back"
+---| "hand_front"
+---| "hand_side"
+---| "hand_turn"
+---| "lift"
+---| "on_at"
+---| "open_at"
+---| "pitch"
+---| "pivot"
+---| "play"
+---| "pull"
+---| "room"
+---| "search"
+---| "stands"
+---| "swing"
+---| "travel"
+---| "turn_to"
+---| "turned_at"
+---| "turns"
+
 ---@alias stampede.predicate_name
 ---| "apart"
 ---| "at"

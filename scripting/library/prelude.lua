@@ -57,8 +57,23 @@ local function with_conditions(fields, own)
   return result
 end
 
+local function together(first, second)
+  local result = {}
+  for _, fields in ipairs { first or {}, second or {} } do
+    for name, value in pairs(fields) do result[name] = value end
+  end
+  return result
+end
+
+local function take_rest(own, base)
+  for key, value in pairs(base) do
+    if own[key] == nil and key ~= "extends" and key ~= "replaces" then own[key] = value end
+  end
+end
+
 -- A skill that extends another: gets what it leaves out; conditions and effects add up, with cases: in each.
-function api.extend(own, base)
+local extend = {}
+function extend.skill(own, base)
   if own.cases ~= nil then say("a skill that extends another has no cases of its own") end
   if base.cases ~= nil then
     own.cases = {}
@@ -67,15 +82,35 @@ function api.extend(own, base)
   else
     own.precondition, own.effect = joined(base.precondition, own.precondition), joined(base.effect, own.effect)
   end
-  local continuous = {}
-  for _, fields in ipairs { base.continuous or {}, own.continuous or {} } do
-    for name, value in pairs(fields) do continuous[name] = value end
-  end
-  own.continuous = continuous
-  for key, value in pairs(base) do
-    if own[key] == nil and key ~= "extends" and key ~= "replaces" then own[key] = value end
+  own.continuous, own.reads = together(base.continuous, own.continuous), together(base.reads, own.reads)
+  take_rest(own, base)
+end
+
+-- Of two tests both; of their margins the lesser, where the first says one.
+local function both(first, second)
+  return function(...)
+    local held, margin = first(...)
+    if not held then return false, margin end
+    local also, other = second(...)
+    if margin == nil then return also end
+    return also, math.min(margin, other or also and margin or 0)
   end
 end
+
+-- A predicate that extends another: gets what it leaves out, and holds where that one holds and its own test too.
+function extend.predicate(own, base)
+  if own.params ~= nil and #own.params ~= #(base.params or {}) then
+    say("params: it takes as many things as '%s', which it extends: %d", own.extends, #(base.params or {}))
+  end
+  if own.derived ~= nil and base.derived ~= nil then own.derived = { tag = "all_of", line = own.line, base.derived, own.derived } end
+  if (own.derived ~= nil) ~= (base.derived ~= nil) and (own.holds ~= nil or own.derived ~= nil) then
+    say("'%s', which it extends, is made with %s: this one too", own.extends, base.derived and "derived" or "holds")
+  end
+  if own.holds ~= nil and base.holds ~= nil then own.holds = both(base.holds, own.holds) end
+  own.reads = together(base.reads, own.reads)
+  take_rest(own, base)
+end
+function api.extend(own, base) extend[own.kind](own, base) end
 
 -- Literals and calls --------------------------------------------------------------------------------------------------
 local nothing = { tag = "nothing" } -- b[0] of any_order: a literal that names it is left out

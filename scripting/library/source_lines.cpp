@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 namespace stampede {
@@ -46,8 +47,12 @@ class Scanner {
       if (peek() == '\\') advance();
       advance();
     }
-    note_text(source_.substr(start, at_ - start));
+    const std::string_view found = source_.substr(start, at_ - start);
+    note_text(found);
     advance();
+    const std::size_t next = source_.find_first_not_of(" \n", at_);
+    const bool whole = next != std::string_view::npos && (source_[next] == ')' || source_[next] == ',');
+    if (std::exchange(number_, 0) > 0 && whole) mentions_.numbers.emplace(found, line_);
   }
 
   void note_text(std::string_view text) {
@@ -65,6 +70,8 @@ class Scanner {
     if (before_dot_ == "act") mentions_.after_act.emplace(last_word_);
     before_dot_ = {};
     policy_ = last_word_ == "policy";
+    of_number_ = last_word_ == "number" && start > 0 && source_[start - 1] == ':';
+    number_ = 0;
     if (last_word_ == "return" && depth_ == 0) lines_[""] = line_;
   }
 
@@ -75,6 +82,15 @@ class Scanner {
       result += (result.empty() ? "" : ".") + key;
     }
     return result;
+  }
+
+  // The second argument of w:number( … ) that begins here is a text perhaps.
+  void brackets(char c) {
+    if (c == '(' && of_number_) call_ = round_ + 1;
+    of_number_ = false;
+    round_ += c == '(' ? 1 : c == ')' ? -1 : 0;
+    number_ = c == ',' && round_ == call_ ? round_ : 0;
+    if (number_ > 0 || round_ < call_) call_ = -1;
   }
 
   void step() {
@@ -114,6 +130,7 @@ class Scanner {
     } else {
       before_dot_ = c == '.' ? last_word_ : std::string_view{};
       policy_ = policy_ && c == '(';
+      brackets(c);
       advance();
     }
     last_word_ = {};
@@ -122,7 +139,9 @@ class Scanner {
   std::string_view source_;
   std::size_t at_ = 0;
   int line_ = 1, word_line_ = 1, depth_ = 0;
-  bool comment_ = false, policy_ = false;  // policy_: a text that follows is a policy's name
+  bool comment_ = false, policy_ = false;   // policy_: a text that follows is a policy's name
+  bool of_number_ = false;                  // the word before is the method `number`
+  int round_ = 0, call_ = -1, number_ = 0;  // depth in ( ); of the call of `number`; where its second argument begins
   std::string_view last_word_, before_dot_;
   std::string pending_;            // the key whose value begins
   std::vector<std::string> keys_;  // of the tables around

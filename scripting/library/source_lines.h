@@ -26,6 +26,7 @@ struct Mentions {
   std::set<std::string> texts;                // all texts, without their quotes
   std::set<std::string> fields;               // paths, as of field_lines
   std::set<std::string> policies;             // policy("NAME") and robot:policy("NAME")
+  std::map<std::string, int> numbers;         // w:number(…, "NAME"), and the line of the first
 };
 Mentions mentions_in(std::string_view source);
 

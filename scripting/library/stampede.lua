@@ -40,6 +40,7 @@
 ---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
 ---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
 ---@field label string  what it does in words, with {params}
+---@field reads? table<string, declared_number>  numbers of its things that it reads, beside those of their traits (default {})
 ---@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
 ---@field cost? integer  of the action in a plan (default 1)
@@ -54,9 +55,11 @@
 ---@field label string  the fact in words, with {params}
 ---@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds
 ---@field derived? stampede.formula  the formula that it stands for, instead of holds
+---@field reads? table<string, declared_number>  numbers of its things that it reads, beside those of their traits (default {})
 ---@field sample? (fun(w: stampede.world_view, ...: any): any)  function(w, …, rng): poses or joint positions that make it true
 ---@field static? boolean  cannot change in an episode: read once, at the start (default false)
 ---@field start_only? boolean  a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it (default false)
+---@field extends? string  a predicate whose fields it has where it gives none itself; it holds where that one holds and its own test too
 ---@field settle? number  a shorter change is noise [s] (default 0)
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
@@ -82,7 +85,7 @@
 ---@field colour? string|number[]  of every shape that has none; a name is an attribute too
 ---@field texture? stampede.texture  of every shape that has neither colour nor texture; colour tints it
 ---@field attributes? table  static facts: texts by name (default {})
----@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
+---@field numbers? stampede.numbers  numbers by name for predicates: w:number(obj, "open_at") (default {})
 ---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
 ---@field grasps? stampede.grasp[]  where a hand may take it; none: from its geometry (default {})
 ---@field size? number[]|number[]|number  edge lengths where a file builds its shape from them [m]
@@ -92,7 +95,7 @@
 ---@field parts? table<string, stampede.part>  articulated parts, addressed object.part (default {})
 ---@field urdf? string  a URDF file beside this one, instead of shapes
 ---@field tip? stampede.tip  where a tool acts: the region OBJECT.tip, `{ tool = "OBJECT" }` of moves
----@field declares? table  types and traits of its own, as worlds/types.lua does: { types = {…}, traits = {…} } (default {})
+---@field declares? table  types, traits and numbers of its own, as worlds/types.lua does: { types = {…}, traits = {…}, numbers = {…} } (default {})
 
 -- Where tasks take place: robot, fixtures, cameras, sensors, light
 ---@class stampede.world
@@ -175,7 +178,7 @@
 ---@field colour? string|number[]  of every shape that has none; a name is an attribute too
 ---@field texture? stampede.texture  of every shape that has neither colour nor texture; colour tints it
 ---@field attributes? table  static facts: texts by name (default {})
----@field numbers? table  numbers by name for predicates: w:number(obj, "open_at") (default {})
+---@field numbers? stampede.numbers  numbers by name for predicates: w:number(obj, "open_at") (default {})
 ---@field regions? table<string, stampede.region>  named boxes fixed to it, without mass (default {})
 ---@field grasps? stampede.grasp[]  where a hand may take it; none: from its geometry (default {})
 ---@field size? number[]|number[]|number  edge lengths where a file builds its shape from them [m]
@@ -226,7 +229,7 @@
 ---@field type? stampede.type_name|string  its class in the type tree (default "region")
 ---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field attributes? table  static facts (default {})
----@field numbers? table  numbers by name (default {})
+---@field numbers? stampede.numbers  numbers by name (default {})
 ---@field visible? boolean  drawn in pictures (default false)
 ---@field colour? string|number[]  when visible
 

@@ -11,20 +11,17 @@
 
 -- Facts: is.on("cup", "table"). names.lua has the predicates
 ---@class stampede.is
----@field pairwise fun(predicate: string, ...: string): stampede.formula  of each two: is.pairwise("apart", "cup*")
----@field [string] fun(...: string): stampede.literal
+---@field pairwise fun(predicate: stampede.predicate_name, ...: string): stampede.formula  of each two: is.pairwise("apart", "cup*")
 is = {}
 
 -- Negated: is_not.on("cup", "table"), or is_not(any_of(…))
 ---@class stampede.is_not
----@field pairwise fun(predicate: string, ...: string): stampede.formula  of no two
----@field [string] fun(...: string): stampede.literal
+---@field pairwise fun(predicate: stampede.predicate_name, ...: string): stampede.formula  of no two
 ---@overload fun(part: stampede.formula): stampede.formula
 is_not = {}
 
 -- Skills with their arguments: act.pick("cup"). names.lua has the skills
 ---@class stampede.act
----@field [string] fun(...: string): stampede.call
 act = {}
 
 ---@param ... stampede.formula|stampede.formula[]
@@ -351,12 +348,12 @@ function stampede_world_view:inside(region, thing, whole) end
 ---@param z? number
 ---@return number
 function stampede_world_view:region_distance(region, x, y, z) end
--- A number of its file
+-- A number of its file (`numbers`), of those that traits and `reads` declare; of a thing without it the declared default,
+-- or nil of an optional one
 ---@param thing string
----@param name string
----@param otherwise? number  where it has none of that name
+---@param name stampede.number_name
 ---@return number
-function stampede_world_view:number(thing, name, otherwise) end
+function stampede_world_view:number(thing, name) end
 ---@param thing string
 ---@param name string
 ---@return string|nil

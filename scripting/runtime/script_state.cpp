@@ -41,6 +41,7 @@ ScriptState::ScriptState(std::shared_ptr<const Library> library, std::string han
   lua_State* state = lua();
   lua_atpanic(state, outside_protection);
   view.hand = std::move(hand);
+  view.numbers = &library_->numbers();
   robot.view = &view;
   robot.library = library_.get();
   protect([&](lua_State* inner) {

@@ -180,18 +180,31 @@ int region_distance(lua_State* state) {
   return 1;
 }
 
-// An authored number, or the third argument where the object has none of that name.
+// A declared number of a thing; of one that does not have it the default, or nil where that is no mistake.
 int number(lua_State* state) {
-  const std::string_view name = check_text(state, 3);
-  const Object& object = view_of(state).object(check_text(state, 2));
-  const auto found = object.numbers.find(std::string(name));
+  const std::string name(check_text(state, 3));
+  const ViewContext& context = check_context(state);
+  const Object& object = context.view->object(check_text(state, 2));
+  const auto declared = context.numbers->find(name);
+  if (declared == context.numbers->end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, info] : *context.numbers) known.push_back(other);
+    throw unknown_number("w:number", name, known);
+  }
+  if (!lua_isnoneornil(state, 4))
+    throw Error("w:number", "takes a thing and the name of a number: what is read of things without it is declared",
+                name + " is declared in " + declared->second.place + ": default = …, or optional = true");
+  const auto found = object.numbers.find(name);
   if (found != object.numbers.end()) {
     lua_pushnumber(state, found->second);
-  } else if (lua_isnoneornil(state, 4)) {
-    throw Error(object.name, "has no number '" + std::string(name) + "'",
-                "add numbers = { " + std::string(name) + " = … } to its file, or hand w:number a third argument");
+  } else if (declared->second.otherwise) {
+    lua_pushnumber(state, *declared->second.otherwise);
+  } else if (declared->second.optional) {
+    lua_pushnil(state);
   } else {
-    lua_pushvalue(state, 4);
+    throw Error(object.name, "has no number '" + name + "': " + declared->second.description,
+                "add numbers = { " + name + " = … } to its file, or a default where it is declared (" +
+                    declared->second.place + ")");
   }
   return 1;
 }

@@ -7,6 +7,7 @@
 #include "engine/base/random.h"
 #include "engine/motion/looked.h"
 #include "engine/start/world_view.h"
+#include "scripting/library/numbers.h"
 
 struct lua_State;
 
@@ -21,6 +22,7 @@ struct ViewContext {
   std::vector<Looked>* turned_down = nullptr;  // while sampling, where somebody asks: places that cannot be
   bool facts = false;                          // may the facts be read? Not by predicates: facts are made of these
   std::string hand;                            // `panda.hand`
+  const Numbers* numbers = nullptr;            // what is declared of things' numbers
 };
 
 // Sets a context for a scope. Scopes nest.

@@ -109,6 +109,19 @@ TEST_CASE("what eight tries of authors look like now: each is done, with one see
   }
 }
 
+TEST_CASE("contents are load: a full beaker is lifted, a drawer is shut with what lies in it") {
+  const EpisodeRecord beaker = run_task("lift_the_full_beaker", "", {});
+  INFO(verdict(beaker));
+  CHECK(beaker.outcome == Outcome::success);
+  CHECK(beaker.attempts.empty());  // nothing undone
+  for (const char* level : {"level=bottom", "level=middle", "level=top"}) {
+    const EpisodeRecord drawer = run_task("store_and_shut", level, {}, authors());
+    INFO(std::string(level) + ": " + verdict(drawer));
+    CHECK(drawer.outcome == Outcome::success);
+    CHECK(drawer.attempts.empty());
+  }
+}
+
 TEST_CASE("a third step that can never be grasped is not tried for ever") {
   const auto failed = [](const EpisodeRecord& episode) {
     int count = 0;

@@ -22,11 +22,11 @@ function seats.with_part_at(w, obj, place, wanted) return wanted * w:pose(place)
 -- All poses at which it looks the same there: turned about the way in or along the rod as often as its number `turns`
 -- says (1: not at all), and the other way round where its number `ends` is 2.
 function seats.all_with_part_at(w, obj, place, wanted)
-  local poses, turns = {}, w:number(obj, "turns", 1)
+  local poses, turns = {}, w:number(obj, "turns")
   for turn = 0, turns - 1 do
     local turned = wanted:rotated(0, 0, 2 * math.pi * turn / turns)
     poses[#poses + 1] = seats.with_part_at(w, obj, place, turned)
-    if w:number(obj, "ends", 1) == 2 then
+    if w:number(obj, "ends") == 2 then
       poses[#poses + 1] = seats.with_part_at(w, obj, place, turned:rotated(math.pi, 0, 0))
     end
   end
@@ -76,8 +76,8 @@ function seats.seated(w, obj, place, region, deep, askew, either_way)
   local straight = math.max(-1, math.min(up - z, 1))
   if either_way then straight = math.abs(straight) end
   local _, _, length = w:size(region)
-  return math.min(-distance, w:number(region, "deep", deep) - z - length / 2,
-    w:number(region, "play", 1) - math.sqrt(x ^ 2 + y ^ 2), 0.1 * (w:number(region, "askew", askew) - math.acos(straight)))
+  return math.min(-distance, (w:number(region, "deep") or deep) - z - length / 2,
+    (w:number(region, "play") or 1) - math.sqrt(x ^ 2 + y ^ 2), 0.1 * ((w:number(region, "askew") or askew) - math.acos(straight)))
 end
 
 -- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.

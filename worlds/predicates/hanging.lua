@@ -13,8 +13,8 @@ return predicate {
     return hangs, hangs and on or math.min(on, 0)
   end,
   sample = function(w, obj, hook) -- in the middle of the hook, or as far down it as its number `down` says
-    local there = w:pose(hook):along(0, 0, -w:number(hook, "down", 0))
-    if w:number(obj, "swing", 0) > 0 then return seats.all_swinging(w, obj, seats.loop(w, obj), there) end
+    local there = w:pose(hook):along(0, 0, -w:number(hook, "down"))
+    if w:number(obj, "swing") > 0 then return seats.all_swinging(w, obj, seats.loop(w, obj), there) end
     return seats.all_with_part_at(w, obj, seats.loop(w, obj), there)
   end,
 }

@@ -68,8 +68,8 @@ end
 -- greatest x in its frame, `hand_side`: greatest |y|, m), turned at most `hand_turn` (rad) out of its own directions, so that
 -- the palm has room.
 local function handy(w, obj, box, spots)
-  local front, back, side = w:number(box, "hand_front", -1), w:number(box, "hand_back", 1), w:number(box, "hand_side", 1)
-  local turn = w:number(box, "hand_turn", math.pi)
+  local front, back, side = w:number(box, "hand_front") or -1, w:number(box, "hand_back") or 1, w:number(box, "hand_side") or 1
+  local turn = w:number(box, "hand_turn") or math.pi
   local kept, from = {}, w:pose(box):inverse()
   for _, spot in ipairs(spots) do
     local inside = from:times(spot)
@@ -90,7 +90,7 @@ local function handed(w, obj, box, rng)
   local finger_x, finger_y = w:tip():along(0, 1, 0):position()
   local _, _, yaw = w:pose(obj):rpy()
   local off = yaw - math.atan(finger_y - y, finger_x - x) + math.pi / 2 -- of the object, its fingers to either side of the box
-  local least, most, turn = w:number(box, "hand_aside", 0), w:number(box, "hand_side"), w:number(box, "hand_turn")
+  local least, most, turn = w:number(box, "hand_aside"), w:number(box, "hand_side"), w:number(box, "hand_turn")
   local poses = {}
   for i = 1, 48 do
     local quarter = (i % 2 * 2 + (i > 24 and 1 or 0)) * math.pi / 2
@@ -125,9 +125,9 @@ return predicate {
   end,
   sample = function(w, obj, box, rng)
     if w:has_trait(box, "shelf") then return shelf_spots(w, obj, box, rng) end
-    local folds = w:number(box, "folds", 0)
+    local folds = w:number(box, "folds")
     if folds > 0 then return aligned(w, obj, box, folds, rng) end
-    if w:grasped(obj) and w:number(box, "hand_side", 0) > 0 then return handed(w, obj, box, rng) end
+    if w:grasped(obj) and w:number(box, "hand_side") then return handed(w, obj, box, rng) end
     return handy(w, obj, box, w:region_spots(inner(w, box), obj, rng))
   end,
 }

@@ -3,7 +3,7 @@
 -- First the spots with room for fingers around them, where the object asks for it (number `room`: m from centre to centre,
 -- and most of it to the edge of what stands up beside it), then the others.
 local function roomy(w, obj, below, spots)
-  local room = w:number(obj, "room", 0)
+  local room = w:number(obj, "room")
   if room == 0 or #spots == 0 then return spots end
   local _, _, z = spots[1]:position()
   local others, edges, kept, rest = {}, {}, {}, {}
@@ -33,7 +33,7 @@ end
 
 -- What always stands on its foot (number `stands`) does so however the hand holds it.
 local function standing(w, obj, below, spots, rng)
-  if w:number(obj, "stands", 0) == 0 then return spots end
+  if w:number(obj, "stands") == 0 then return spots end
   return each(spots, function(spot)
     local x, y = spot:position()
     return pose(x, y, w:top(below) + w:below(obj) + 0.001, 0, 0, rng:between(-math.pi, math.pi))

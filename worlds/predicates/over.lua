@@ -41,7 +41,7 @@ return predicate {
   sample = function(w, obj, box) -- as it is turned now, or turned as little as will do
     local inside = box .. ".inside"
     local _, _, middle = w:position(obj)
-    local z = w:top(inside) + middle - w:bottom(obj) + w:number(box, "gap", 0.015)
+    local z = w:top(inside) + middle - w:bottom(obj) + 0.015
     local poses = {}
     for _, place in ipairs(places(w, obj, inside)) do
       local pose = w:pose(obj):with_position(place[1], place[2], z)

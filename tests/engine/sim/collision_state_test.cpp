@@ -162,6 +162,47 @@ TEST_CASE("a held body collides in the arm's stead", "[sim]") {
   CHECK_FALSE(state.held());
 }
 
+TEST_CASE("what rests in or on a thing goes with it", "[sim]") {
+  Scene scene = table_scene(0);
+  add_body(scene, chest({0.6, 0, 0.05}));
+  for (const double height : {0.10, 0.15}) {  // one in the drawer, one on that
+    Body block = box_body(height < 0.12 ? "lower" : "upper", Vector3::Constant(0.04), {0.6, 0, height}, 0.1);
+    block.free = true;
+    add_body(scene, block);
+  }
+  Body stray = box_body("stray", Vector3::Constant(0.04), {0.3, 0.3, 0.03}, 0.1);
+  stray.free = true;
+  add_body(scene, stray);
+  World world(shared(scene));
+  CHECK(world.loads().empty());  // nothing has touched yet
+  run(world, 0.5);
+  const int lower = body_index(world, "lower"), upper = body_index(world, "upper"),
+            furniture = body_index(world, "chest");
+  const PartRef drawer{furniture, 1};
+  CHECK(borne_by(world.scene(), world.loads(), drawer) == std::vector<int>{lower, upper});
+  CHECK(borne_by(world.scene(), world.loads(), {lower, 0}) == std::vector<int>{upper});
+  CHECK(borne_by(world.scene(), world.loads(), {upper, 0}).empty());
+  CHECK(borne_by(world.scene(), world.loads(), {furniture, 0}) == std::vector<int>{lower, upper});
+
+  // Where the block was is room once the drawer is out, and where it has gone to there is none.
+  const int probe = body_index(world, "stray");
+  const Transform there = world.world_from_part({lower, 0}), away = translation(0, 0.5, 0) * there;
+  CollisionState state = world.collision_state();
+  state.move_part(drawer, translation(0, 0.5, 0));
+  CHECK_FALSE(state.body_free(probe, away, 0));
+  CHECK_FALSE(state.body_free(probe, translation(0, 0, 0.04) * away, 0));
+  state.move_part({furniture, 0}, translation(0, 0, 5));  // and all that is left of the chest
+  CHECK(state.body_free(probe, there, 0));
+  CollisionState held = world.collision_state();
+  held.remove(drawer);
+  held.move_part({furniture, 0}, translation(0, 0, 5));
+  CHECK(held.body_free(probe, there, 0));
+  held = world.collision_state();
+  held.hold(lower, Transform::Identity());
+  CHECK_FALSE(world.collision_state().body_free(probe, world.world_from_part({upper, 0}), 0));
+  CHECK(held.body_free(probe, world.world_from_part({upper, 0}), 0));
+}
+
 TEST_CASE("an arm folded into itself is not free", "[sim]") {
   World world(shared(table_scene(0)));
   CollisionState state = world.collision_state();

@@ -359,6 +359,100 @@ TEST_CASE("golden: skills that extend or replace others") {
             .find("ends_when: only what holds by itself can end so") != std::string::npos);
 }
 
+TEST_CASE("golden: predicates that extend others") {
+  Files files = sound_files();
+  files["worlds/predicates/under_all.lua"] =
+      "-- Under.\nreturn predicate {\n  extends = \"on\", label = \"the {obj} is under all on the {surface}\",\n"
+      "  holds = function(w, a, b) return true end,\n}\n";
+  files["worlds/predicates/quite_clear.lua"] =
+      "-- Clear.\nreturn predicate {\n  extends = \"clear\",\n  derived = is_not(exists(\"?h: hand\", "
+      "is.holding(\"?h\", \"x\"))),\n}\n";
+  CHECK(Root(files).complaints().empty());
+  const auto with = [&](const std::string& file, const std::string& from, const std::string& to) {
+    Files changed = files;
+    std::string& text = changed[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return Root(changed).complaints();
+  };
+  CHECK(with("worlds/predicates/under_all.lua", "\"on\"", "\"onn\"")
+            .find("worlds/predicates/under_all.lua: extends: there is no predicate 'onn'\n    did you mean 'on'?") ==
+        0);
+  CHECK(with("worlds/predicates/on.lua", "  label", "  extends = \"under_all\",\n  label")
+            .find("extends: 'on' extends itself\n    extend a predicate that does not extend this one") !=
+        std::string::npos);
+  CHECK(with("worlds/predicates/under_all.lua", "label", "params = { \"obj: movable\" }, label")
+            .find("params: it takes as many things as 'on', which it extends: 2") != std::string::npos);
+  CHECK(with("worlds/predicates/quite_clear.lua", "\"clear\"", "\"on\"")
+            .find("'on', which it extends, is made with holds: this one too") != std::string::npos);
+}
+
+TEST_CASE("golden: numbers that things have and scripts read") {
+  Files files = sound_files();
+  files["worlds/types.lua"] =
+      "-- Types.\nreturn {\n  types = { thing = {}, cube = { parent = \"thing\" }, fixture = {} },\n"
+      "  traits = { movable = \"m\", surface = \"s\", openable = { \"o\", numbers = {\n"
+      "    open_at = { \"where it is open\", unit = \"m or rad\" } } } },\n}\n";
+  files["worlds/objects/chest.lua"] =
+      "-- A chest.\nreturn object {\n  type = \"fixture\", traits = {}, fixed = true, shape = box { 0.1, 0.1, 0.1 },\n"
+      "  parts = { lid = { type = \"fixture\", traits = { \"openable\" }, mass = 0.1, shape = box { 0.1, 0.1, 0.01 },\n"
+      "    hinge = { range = { 0, 1 } }, numbers = { open_at = 0.8, give = 0.01 } } },\n}\n";
+  files["worlds/predicates/open.lua"] =
+      "-- Open.\nreturn predicate {\n  params = { \"part: openable\" }, label = \"{part} open\",\n"
+      "  reads = { give = { \"how far it springs back\", of = \"part\", unit = \"m\", default = 0 } },\n"
+      "  holds = function(w, part) return w:joint(part) > w:number(part, \"open_at\") - w:number(part, \"give\") "
+      "end,\n}\n";
+  CHECK(Root(files).complaints().empty());
+  const auto with = [&](const std::string& file, const std::string& from, const std::string& to) {
+    Files changed = files;
+    std::string& text = changed[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return Root(changed).complaints();
+  };
+  CHECK(with("worlds/objects/chest.lua", "open_at =", "opn_at =")
+            .find("worlds/objects/chest.lua:5: parts.lid.numbers.opn_at: nobody declares a number 'opn_at'\n"
+                  "    did you mean 'open_at'?") != std::string::npos);
+  CHECK(
+      with("worlds/objects/chest.lua", "open_at = 0.8,", "")
+          .find("worlds/objects/chest.lua:4: parts.lid: what is openable needs the number 'open_at': where it is open "
+                "[m or rad]") != std::string::npos);
+  CHECK(with("worlds/objects/chest.lua", "0.8", "45")
+            .find("parts.lid.numbers.open_at: 45 lies outside -12.5664 … 12.5664 m or rad\n"
+                  "    a slider's position is in m, mm(60); a hinge's in rad, deg(60)") != std::string::npos);
+  CHECK(with("worlds/objects/chest.lua", "give = 0.01", "give = 10")
+            .find("give: 10 lies outside -5 … 5 m\n    lengths are in m") != std::string::npos);
+  CHECK(with("worlds/predicates/open.lua", "w:number(part, \"give\")", "w:number(part, \"giv\")") ==
+        "worlds/predicates/open.lua:5: nobody declares a number 'giv'\n    did you mean 'give'?\n");
+  CHECK(with("worlds/predicates/open.lua", "unit = \"m\"", "unit = \"mm\"")
+            .find("worlds/predicates/open.lua:4: reads.give.unit: 'mm' is none of the units") == 0);
+  CHECK(with("worlds/predicates/open.lua", "of = \"part\"", "of = \"prt\"")
+            .find("reads.give.of: there is no parameter 'prt'\n    did you mean 'part'?") != std::string::npos);
+  CHECK(with("worlds/predicates/open.lua", "\"how far it springs back\", of", "of")
+            .find("reads.give: a declared number begins with what it says") != std::string::npos);
+  CHECK(with("worlds/predicates/open.lua", "default = 0", "default = 0, optional = true")
+            .find("reads.give: a number with a default is there for all things") != std::string::npos);
+  CHECK(with("worlds/predicates/open.lua", "reads = {", "reads = { open_at = { \"x\", unit = \"m\" },")
+            .find("reads.open_at: 'open_at' is another number here (m) than in worlds/types.lua:5 (m or rad)") !=
+        std::string::npos);
+  CHECK(with("worlds/predicates/open.lua", "reads = {", "reads = { open_at = {}, close_at = {},")
+            .find("worlds/predicates/open.lua:4: reads.close_at: no other file declares the number 'close_at'") == 0);
+  // Read and had, but declared by nobody: no mistake. Read and not had: one.
+  Files own = files;
+  own["worlds/objects/wire.lua"] =
+      "-- A wire.\nreturn object { type = \"fixture\", traits = {}, fixed = true, shape = box { 0.1, 0.1, 0.1 }, "
+      "numbers = { "
+      "points = 4 } }\n";
+  CHECK(Root(own).complaints().find("numbers.points: nobody declares a number 'points'") != std::string::npos);
+  own["tasks/take.lua"].replace(own["tasks/take.lua"].find("  goal"), 6,
+                                "  also = function(w) return w:number(\"wire\", \"points\") > 3 end,\n  goal");
+  CHECK(Root(own).complaints().empty());
+  own.erase("worlds/objects/wire.lua");
+  CHECK(Root(own).complaints().find("tasks/take.lua:7: nobody declares a number 'points'") == 0);
+  // A name that is put together is not read.
+  CHECK(with("worlds/predicates/open.lua", "\"give\")", "\"gi\" .. \"ve\")").empty());
+}
+
 TEST_CASE("golden: screws, and joints that let go") {
   const auto lid = [](const std::string& joint) {
     return said(

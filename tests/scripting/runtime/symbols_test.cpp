@@ -25,6 +25,24 @@ TEST_CASE("a classifier reads the world, and its second result is the margin") {
   CHECK(*higher.margin == Approx(0.1));
 }
 
+TEST_CASE("a predicate that extends another holds where both do, with the lesser margin and the other's samples") {
+  SmallWorld small;
+  Symbols& symbols = small.scripts.symbols();
+  const auto value = [&] { return symbols.value({"much_higher", {"top", "cube"}}, small.view); };
+  const int top = small.world.scene().body_index("top");
+  CHECK_FALSE(value().holds);
+  small.world.apply(operation::Place{top, translation(0.2, 0.1, 0.54)});
+  CHECK_FALSE(value().holds);  // higher, but not by as much
+  CHECK(*value().margin == Approx(-0.02));
+  small.world.apply(operation::Place{top, translation(0.2, 0.1, 0.58)});
+  CHECK(value().holds);
+  CHECK(*value().margin == Approx(0.02));
+  small.world.apply(operation::Place{top, translation(0.2, 0.1, 0.50)});
+  CHECK(*value().margin == Approx(-0.02));  // of the first test, which fails
+  const CollisionState state = small.world.collision_state();
+  CHECK(symbols.sample({"much_higher", {"cube", "top"}}, small.view, state, RandomKey("test"), 8).size() == 2);
+}
+
 TEST_CASE("joints, numbers and the hand are read by name") {
   SmallWorld small;
   Symbols& symbols = small.scripts.symbols();

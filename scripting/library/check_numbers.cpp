@@ -1,0 +1,87 @@
+// Who declares numbers, and which scripts read them.
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "engine/base/nearest.h"
+#include "scripting/library/builder.h"
+#include "scripting/library/source_lines.h"
+
+namespace stampede {
+namespace {
+
+// Of a body and its regions.
+void add_names(const Value& body, std::set<std::string>& names) {
+  for (const auto& [name, value] : body["numbers"].fields) names.insert(name);
+  for (const auto& [region, box] : body["regions"].fields)
+    for (const auto& [name, value] : box["numbers"].fields) names.insert(name);
+}
+
+}  // namespace
+
+void LibraryBuilder::each_declaration(
+    const std::function<void(const Definition&, const std::string& path, const std::string& name, const Value& number,
+                             const std::string& trait)>& visit) {
+  const auto of_traits = [&](const Definition& definition, const std::string& prefix, const Value& node) {
+    for (const auto& [name, number] : node["numbers"].fields)
+      visit(definition, prefix + "numbers." + name, name, number, {});
+    for (const auto& [trait, entry] : node["traits"].fields)
+      for (const auto& [name, number] : entry["numbers"].fields)
+        visit(definition, prefix + "traits." + trait + ".numbers." + name, name, number, trait);
+  };
+  for (const Definition& definition : type_files_) of_traits(definition, {}, definition.node);
+  for (const auto& [name, definition] : of(DefinitionKind::object))
+    of_traits(definition, "declares.", definition.node["declares"]);
+  for (const DefinitionKind kind : {DefinitionKind::predicate, DefinitionKind::skill})
+    for (const auto& [name, definition] : of(kind))
+      for (const auto& [read, number] : definition.node["reads"].fields)
+        visit(definition, "reads." + read, read, number, {});
+}
+
+// Of worlds/types.lua and of objects' `declares`: traits = { hook = { "…", numbers = { lift = {…} } } }, numbers = {…};
+// of predicates and skills: reads = {…}.
+void LibraryBuilder::declare_numbers() {
+  each_declaration([&](const Definition& definition, const std::string& path, const std::string& name,
+                       const Value& number, const std::string& trait) {
+    if (NumberTable::is_reference(number)) return;
+    const std::string place = error_at(definition, path, {}, {}).where();
+    numbers_.declare(name, number, trait, path, place, complainer(definition));
+  });
+  each_declaration([&](const Definition& definition, const std::string& path, const std::string& name,
+                       const Value& number, const std::string& trait) {
+    if (NumberTable::is_reference(number)) numbers_.refer(name, trait, path, complainer(definition));
+    const Value& of = number["of"];
+    std::vector<std::string> parameters;
+    for (const Value& text : definition.node["params"].items)
+      parameters.push_back(text.text.substr(0, text.text.find(':')));
+    for (const Value& parameter : of.is_text() ? std::vector<Value>{of} : of.items)
+      if (std::find(parameters.begin(), parameters.end(), parameter.text) == parameters.end())
+        complain(definition, path + ".of", "there is no parameter '" + parameter.text + "'",
+                 did_you_mean(parameter.text, parameters));
+  });
+  std::set<std::string> had;
+  for (const auto& [name, definition] : of(DefinitionKind::object)) {
+    add_names(definition.node, had);
+    for (const auto& [part, body] : definition.node["parts"].fields) add_names(body, had);
+  }
+  each_read([&](const std::string& place, const std::string& name) {
+    if (had.contains(name)) numbers_.take_read(name, place);
+  });
+  library_->numbers_ = numbers_.all();
+}
+
+// w:number(…, "name") in any script.
+void LibraryBuilder::each_read(
+    const std::function<void(const std::string& place, const std::string& name)>& visit) const {
+  for (const ScriptFile& file : library_->files_)
+    for (const auto& [name, line] : mentions_in(file.source).numbers)
+      visit(file.shown_path + ":" + std::to_string(line), name);
+}
+
+void LibraryBuilder::check_reads() {
+  each_read([&](const std::string& place, const std::string& name) {
+    if (!numbers_.all().contains(name)) add(unknown_number(place, name, numbers_.names()));
+  });
+}
+
+}  // namespace stampede
