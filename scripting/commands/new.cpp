@@ -7,6 +7,7 @@
 #include "scripting/library/editor_files.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
+#include "scripting/library/new_robot.h"
 #include "scripting/program/json_text.h"
 
 namespace stampede::program {
@@ -23,7 +24,8 @@ constexpr Kind kKinds[] = {{"task", "tasks", DefinitionKind::task},
                            {"skill", "skills", DefinitionKind::skill},
                            {"predicate", "worlds/predicates", DefinitionKind::predicate},
                            {"object", "worlds/objects", DefinitionKind::object},
-                           {"world", "worlds", DefinitionKind::world}};
+                           {"world", "worlds", DefinitionKind::world},
+                           {"robot", "worlds/robots", DefinitionKind::robot}};
 
 void check_name(const std::string& name) {
   if (const auto fault = name_fault(name)) {
@@ -61,6 +63,13 @@ void add_word(const fs::path& path, const std::string& kind, const std::string& 
   write_text_file(path, text);
 }
 
+// A URDF of that name is read; where there is none, a small arm's is written first.
+std::string robot_beside(const fs::path& path, const std::string& name) {
+  const fs::path urdf = fs::path(path).replace_extension(".urdf");
+  if (!fs::exists(urdf)) write_text_file(urdf, small_arm_urdf(name));
+  return robot_file(urdf);
+}
+
 ExitCode do_new(const Arguments& arguments, Console& console) {
   const std::string kind_name = arguments.text("KIND"), name = arguments.text("NAME");
   const auto* kind =
@@ -68,7 +77,7 @@ ExitCode do_new(const Arguments& arguments, Console& console) {
   const bool word = kind_name == "type" || kind_name == "trait";
   if (kind == std::end(kKinds) && !word) {
     throw UsageError("there is no kind of file '" + kind_name + "'",
-                     "it is one of task, skill, predicate, object, world, type, trait");
+                     "it is one of task, skill, predicate, object, world, robot, type, trait");
   }
   check_name(name);
   make_own_folder(arguments);
@@ -80,7 +89,8 @@ ExitCode do_new(const Arguments& arguments, Console& console) {
     add_word(path, kind_name, name);
   } else {
     if (fs::exists(path)) throw UsageError("'" + path.string() + "' exists already", "take another name");
-    write_text_file(path, new_file(kind->kind, name));
+    const bool robot = kind->kind == DefinitionKind::robot;
+    write_text_file(path, robot ? robot_beside(path, name) : new_file(kind->kind, name));
   }
   if (!arguments.list("--path").empty()) {
     write_editor_files(root, *Library::load(roots_of(arguments), complaints));
@@ -101,13 +111,17 @@ CommandRow new_command() {
       "Write the smallest file of a kind that passes `stampede check`",
       "The file goes to its place under the last --path, or under --root where there is none. A type or trait becomes "
       "a "
-      "line of worlds/types.lua there, which adds to the library's. Names that are "
+      "line of worlds/types.lua there, which adds to the library's. A robot's file is made from the URDF of that name "
+      "beside "
+      "it (worlds/robots/NAME.urdf): its arm, fingers, tip and a pose to start from; where there is none, a small "
+      "six-axis arm's is written. Names that are "
       "taken, are words of Lua or PDDL, or do not match [a-z][a-z0-9_]* are refused, with a proposal. Under a --path, "
       "what editors read (LuaLS: .luarc.json, .stampede/) is kept current as `stampede doc --path` does.",
-      {{"KIND", "task, skill, predicate, object, world, type or trait", true, false},
+      {{"KIND", "task, skill, predicate, object, world, robot, type or trait", true, false},
        {"NAME", "its name", true, false}},
       {},
-      {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks"},
+      {"stampede new task sort_cups", "stampede new predicate upright --path ~/my_tasks",
+       "stampede new robot my_arm --path ~/my_tasks"},
       do_new};
 }
 

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <map>
 #include <set>
 
+#include "engine/base/text_file.h"
 #include "scripting/library/roots.h"
 #include "scripting/session/episode_job.h"
 #include "tests/program/say.h"
@@ -315,6 +317,43 @@ TEST_CASE("new keeps what editors read in an own folder current, and leaves thei
   const Said elsewhere = say({"doc", "--root", mine.text()});
   CHECK(elsewhere.code == kUsage);
   CHECK(says(elsewhere.err, "--path"));
+}
+
+TEST_CASE("a new robot is made from its URDF, or from a small arm's, and does a task") {
+  const Folder mine;
+  const auto made = [&](const std::string& name) {
+    return say({"new", "robot", name, "--root", kRoot, "--path", mine.text()});
+  };
+  const std::filesystem::path robots = mine / "worlds/robots";
+  REQUIRE(made("own_arm").code == kDone);
+  CHECK(std::filesystem::exists(robots / "own_arm.urdf"));
+  std::filesystem::create_directories(mine / "tasks");
+  std::ofstream(mine / "worlds/cell.lua")
+      << "-- A table with that arm.\nreturn world {\n"
+         "  robot = { \"own_arm\", at = { -0.30, 0, 0.75 } },\n"
+         "  fixtures = { table = { \"work_table\", at = { 0.19, 0, 0.75 } } },\n}\n";
+  std::ofstream(mine / "tasks/take_it.lua")
+      << "-- Take the cube.\nreturn task {\n  world = \"cell\", objects = { item = { \"cube\" } },\n"
+         "  init = { is.on(\"item\", \"table\") }, goal = is.lifted(\"item\"), instructions = { \"take the cube\" "
+         "},\n}\n";
+  const Said checked = say({"check", "--root", kRoot, "--path", mine.text()});
+  CHECK(says(checked.out, " 0 mistakes"));
+  CHECK(say({"run", "take_it", "--root", kRoot, "--path", mine.text()}).code == kDone);
+
+  std::filesystem::copy_file(std::filesystem::path(kRoot) / "worlds/robots/panda.urdf", robots / "copy.urdf");
+  REQUIRE(made("copy").code == kDone);
+  const std::string copy = read_text_file(robots / "copy.lua");
+  CHECK(says(copy, "arm = { \"joint1\", \"joint2\", \"joint3\", \"joint4\", \"joint5\", \"joint6\", \"joint7\" }"));
+  CHECK(says(copy, "pads = { \"left_finger\", \"right_finger\" }"));
+  CHECK(says(copy, "tip = { link = \"hand\", at = { 0, 0, 0.10"));
+
+  std::ofstream(robots / "post.urdf") << "<robot name=\"post\"><link name=\"base\"/></robot>";
+  const Said post = made("post");
+  CHECK(post.code == kBadInput);
+  CHECK(says(post.err, "post.urdf: nothing in it turns or slides"));
+  CHECK_FALSE(std::filesystem::exists(robots / "post.lua"));
+  std::ofstream(robots / "torn.urdf") << "<robot name=\"torn\"><link";
+  CHECK(made("torn").code == kBadInput);
 }
 
 }  // namespace stampede::program
