@@ -94,29 +94,56 @@ double turn_step(const PartWay& way) {
 // Steps that the handle may turn in the hand, either way.
 int most_turns(const PartWay& way) { return way.turn == 0 ? 0 : static_cast<int>(way.pivot / turn_step(way)); }
 
-// `elbows`: steps either way that the elbow may be turned, where the handle does not turn in the hand.
-std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
-                             bool whole, int elbows) {
-  const Arm& arm = state.arm();
-  const Transform held = arm.world_from_tip(start);
-  const std::size_t count = layers_of(way);
-  const double step = turn_step(way);
-  const bool elbow_turns = elbows > 0;
-  const int most = elbow_turns ? elbows : most_turns(way), next = elbow_turns ? 1 : kMostTurns;
-  const std::size_t width = static_cast<std::size_t>(2 * most) + 1;
-  std::vector<std::vector<Node>> layers(count + 1, std::vector<Node>(width));
-  layers[0][static_cast<std::size_t>(most)] = {start, elbow_turns ? elbow_of(arm, start, {}) : JointVector{}, 0, -1};
-  const CollisionState holding = with_part_held(state, start, way);
-  CollisionQuery links(holding);
-  for (std::size_t k = 1; k <= count; ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(count);
-    const Transform moved = way.moved(share);
+// Dynamic programming over layers, places of the part on its way; a layer has a node for each turn of the handle in the
+// hand or, where `elbows` says so, for each of that many steps of the elbow either way.
+class WaySearch {
+ public:
+  WaySearch(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key, int elbows)
+      : arm_(state.arm()),
+        start_(start),
+        way_(way),
+        key_(key),
+        held_(arm_.world_from_tip(start)),
+        count_(layers_of(way)),
+        step_(turn_step(way)),
+        elbow_turns_(elbows > 0),
+        most_(elbow_turns_ ? elbows : most_turns(way)),
+        next_(elbow_turns_ ? 1 : kMostTurns),
+        layers_(count_ + 1, std::vector<Node>(static_cast<std::size_t>(2 * most_) + 1)),
+        holding_(with_part_held(state, start, way)),
+        links_(holding_) {
+    layers_[0][static_cast<std::size_t>(most_)] = {start, elbow_turns_ ? elbow_of(arm_, start, {}) : JointVector{}, 0,
+                                                   -1};
+  }
+
+  std::optional<ArmWay> find(bool whole) {
+    for (std::size_t k = 1; k <= count_ && grow(k); ++k) {
+    }
+    // The last layer, or the last one from which the hand gets away.
+    for (std::size_t end = count_; end > 0; --end) {
+      if (const auto best = best_end(end)) return traced_back(end, *best);
+      if (whole) break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double share_of(std::size_t layer) const { return static_cast<double>(layer) / static_cast<double>(count_); }
+
+  CollisionState with_part_at(double place) const {
+    CollisionState there = holding_;
+    if (way_.part.body >= 0) there.move_part(way_.part, way_.moved(place));
+    return there;
+  }
+
+  // Finds the nodes of a layer; false: there are none.
+  bool grow(std::size_t k) {
+    const double share = share_of(k), last = share_of(k - 1);
+    const Transform moved = way_.moved(share);
     const auto at = [&](double place) {
-      CollisionState there = holding;
-      if (way.part.body >= 0) there.move_part(way.part, way.moved(place));
-      return share > way.stop ? space_of_line(there, false) : there;
+      CollisionState there = with_part_at(place);
+      return share > way_.stop ? space_of_line(there, false) : there;
     };
-    const double last = static_cast<double>(k - 1) / static_cast<double>(count);
     const std::array third{1.0 / 3, 2.0 / 3, 1.0};
     const std::array<CollisionState, 3> on_the_way{at(last + (share - last) / 3), at(last + 2 * (share - last) / 3),
                                                    at(share)};
@@ -127,55 +154,75 @@ std::optional<ArmWay> search(const CollisionState& state, const JointVector& sta
         if (queries[i].touches(from + third[i] * (to - from))) return false;
       return true;
     };
-    const std::vector<Node>& before = layers[k - 1];
     bool any = false;
-    for (int j = -most; j <= most; ++j) {
-      Node& node = layers[k][static_cast<std::size_t>(j + most)];
-      const Transform tip = elbow_turns ? Transform(moved * held) : turned(moved * held, way.axis, j * step);
-      for (int i = std::max(-most, j - next); i <= std::min(most, j + next); ++i) {
-        const Node& from = before[static_cast<std::size_t>(i + most)];
-        const double bend = elbow_turns ? 0 : kPivotCost * step * (j - i);
-        if (from.cost + bend * bend >= node.cost) continue;
-        const JointVector guess = elbow_turns ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
-        const auto q = arm.solve(tip, guess, key.with(static_cast<std::int64_t>(k)), 0);
-        if (!q || joint_gap(*q, from.q) > kMostJump) continue;
-        const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-        if (cost >= node.cost || links.links_within(*q, kLinksApart) || !free(from.q, *q)) continue;
-        node = {*q, elbow_turns ? elbow_of(arm, *q, from.elbow) : JointVector{}, cost, i + most};
-      }
+    for (int j = -most_; j <= most_; ++j) {
+      Node& node = layers_[k][static_cast<std::size_t>(j + most_)];
+      const Transform tip = elbow_turns_ ? Transform(moved * held_) : turned(moved * held_, way_.axis, j * step_);
+      for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i)
+        try_step(k, i, j, tip, free, node);
       any = any || node.from >= 0;
     }
-    if (!any) break;
+    return any;
   }
-  // The last layer, or the last one from which the hand gets away.
-  for (std::size_t end = count; end > 0; --end) {
-    std::vector<Node>& ends = layers[end];
-    const auto best_end = [&] {
-      return std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
-    };
-    auto best = best_end();
-    CollisionState there = holding;
-    if (way.part.body >= 0) there.move_part(way.part, way.moved(static_cast<double>(end) / static_cast<double>(count)));
-    for (; best->from >= 0 && !can_retreat(there, best->q, way.retreat, key.with("retreat")); best = best_end())
+
+  // From node `i` of the layer before to node `j`, if that costs less than how it is reached so far.
+  template <typename Free>
+  void try_step(std::size_t k, int i, int j, const Transform& tip, const Free& free, Node& node) {
+    const Node& from = layers_[k - 1][static_cast<std::size_t>(i + most_)];
+    const double bend = elbow_turns_ ? 0 : kPivotCost * step_ * (j - i);
+    if (from.cost + bend * bend >= node.cost) return;
+    const JointVector guess = elbow_turns_ ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
+    const auto q = arm_.solve(tip, guess, key_.with(static_cast<std::int64_t>(k)), 0);
+    if (!q || joint_gap(*q, from.q) > kMostJump) return;
+    const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
+    if (cost >= node.cost || links_.links_within(*q, kLinksApart) || !free(from.q, *q)) return;
+    node = {*q, elbow_turns_ ? elbow_of(arm_, *q, from.elbow) : JointVector{}, cost, i + most_};
+  }
+
+  // The cheapest node of a layer from which the hand gets away.
+  std::optional<int> best_end(std::size_t end) {
+    std::vector<Node>& ends = layers_[end];
+    const CollisionState there = with_part_at(share_of(end));
+    for (;;) {
+      const auto best =
+          std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
+      if (best->from < 0) return std::nullopt;
+      if (can_retreat(there, best->q, way_.retreat, key_.with("retreat"))) return static_cast<int>(best - ends.begin());
       *best = {};
-    if (best->from < 0) {
-      if (whole) break;
-      continue;
     }
+  }
+
+  ArmWay traced_back(std::size_t end, int at) const {
     std::vector<double> turns(end + 1);
-    std::vector<JointVector> arm_at(end + 1, start);
-    int at = static_cast<int>(best - ends.begin());
+    std::vector<JointVector> arm_at(end + 1, start_);
     for (std::size_t k = end; k > 0; --k) {
-      const Node& node = layers[k][static_cast<std::size_t>(at)];
-      turns[k] = elbow_turns ? 0 : (at - most) * step;
+      const Node& node = layers_[k][static_cast<std::size_t>(at)];
+      turns[k] = elbow_turns_ ? 0 : (at - most_) * step_;
       arm_at[k] = node.q;
       at = node.from;
     }
     smooth(turns);
-    const double reach = end == count ? 1.0 : static_cast<double>(end) / static_cast<double>(count);
-    return ArmWay{tip_way(first_of(way, reach), held, std::move(turns)), std::move(arm_at), reach};
+    const double reach = end == count_ ? 1.0 : share_of(end);
+    return ArmWay{tip_way(first_of(way_, reach), held_, std::move(turns)), std::move(arm_at), reach};
   }
-  return std::nullopt;
+
+  const Arm& arm_;
+  const JointVector& start_;
+  const PartWay& way_;
+  RandomKey key_;
+  Transform held_;  // world_from_tip at the start
+  std::size_t count_;
+  double step_;  // rad, from a turn of the handle to the next
+  bool elbow_turns_;
+  int most_, next_;  // steps either way in all, and from a layer to the next
+  std::vector<std::vector<Node>> layers_;
+  CollisionState holding_;
+  CollisionQuery links_;
+};
+
+std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
+                             bool whole, int elbows) {
+  return WaySearch(state, start, way, key, elbows).find(whole);
 }
 
 // Where the handle cannot turn in the hand, the elbow is all that an arm can choose.

@@ -72,34 +72,48 @@ CollisionState obstacles_ahead(const CollisionState& state, const PartWay* pushe
   return then;
 }
 
+// A straight line of the tool between two targets, its joints close together.
+struct Line {
+  Reason reason = Reason::none;
+  std::string detail;
+  std::vector<JointVector> dense;  // the first: where it begins
+};
+
+Line straight_line(const CollisionState& state, const JointVector& first, const ToolTarget& from, const ToolTarget& to,
+                   const MotionLimits& limits, RandomKey key) {
+  const Transform here = from.world_from_tip, there = to.world_from_tip;
+  const ToolPath path = follow_tool(
+      state.arm(), first, [&](double s) { return between(here, there, s); }, samples_between(here, there), key);
+  if (path.reason != Reason::none) return {path.reason, path.detail, {}};
+  Line line{Reason::none, {}, {first}};
+  line.dense.insert(line.dense.end(), path.waypoints.begin(), path.waypoints.end());
+  Checker checker(state, 0, {});
+  if (const auto touch = first_touch(checker, line.dense, certified_step(limits)))
+    return {Reason::no_path, checker.contact(*touch), {}};
+  return line;
+}
+
 Tail make_tail(const CollisionState& state, const JointVector& first, const std::vector<ToolTarget>& targets,
                const PartWay* then, const MotionLimits& limits, RandomKey key) {
   Tail tail;
   tail.waypoints = {first};
   tail.at_target = {first};
-  if (const std::string contact = describe_contact(state, first); !contact.empty()) {
-    tail.reason = Reason::no_path;
-    tail.detail = "at " + targets[0].name + " " + contact;
+  const auto refuse = [&](Reason reason, std::string detail) {
+    tail.reason = reason;
+    tail.detail = std::move(detail);
     return tail;
-  }
+  };
+  if (const std::string contact = describe_contact(state, first); !contact.empty())
+    return refuse(Reason::no_path, "at " + targets[0].name + " " + contact);
+  const auto line_to = [&](std::size_t i, const CollisionState& free, const JointVector& from) {
+    return straight_line(free, from, targets[i - 1], targets[i], limits, key.with(static_cast<std::int64_t>(i)));
+  };
   std::size_t i = 1;
   for (; i < targets.size() && !targets[i].ahead; ++i) {
-    const Transform from = targets[i - 1].world_from_tip, to = targets[i].world_from_tip;
-    const ToolPath line = follow_tool(
-        state.arm(), tail.waypoints.back(), [&](double s) { return between(from, to, s); }, samples_between(from, to),
-        key.with(static_cast<std::int64_t>(i)));
-    tail.reason = line.reason;
-    tail.detail = "on the way to " + targets[i].name + ": " + line.detail;
-    if (tail.reason != Reason::none) return tail;
-    std::vector<JointVector> dense{tail.waypoints.back()};
-    dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
-    Checker checker(state, 0, {});
-    if (const auto touch = first_touch(checker, dense, certified_step(limits))) {
-      tail.reason = Reason::no_path;
-      tail.detail = "on the way to " + targets[i].name + ": " + checker.contact(*touch);
-      return tail;
-    }
-    const std::vector<JointVector> sparse = decimate(dense, kLineError);
+    const Line line = line_to(i, state, tail.waypoints.back());
+    if (line.reason != Reason::none)
+      return refuse(line.reason, "on the way to " + targets[i].name + ": " + line.detail);
+    const std::vector<JointVector> sparse = decimate(line.dense, kLineError);
     tail.waypoints.insert(tail.waypoints.end(), sparse.begin() + 1, sparse.end());
     tail.at_target.push_back(tail.waypoints.back());
   }
@@ -107,32 +121,13 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
   std::optional<CollisionState> then_free;
   for (; i < targets.size(); ++i) {
     if (!then_free) then_free = obstacles_ahead(state, then);
-    const Transform here = targets[i - 1].world_from_tip, there = targets[i].world_from_tip;
-    const ToolPath line = follow_tool(
-        state.arm(), from, [&](double s) { return between(here, there, s); }, samples_between(here, there),
-        key.with(static_cast<std::int64_t>(i)));
-    tail.reason = line.reason;
-    tail.detail = "on from " + targets[i - 1].name + ": ";
-    if (tail.reason != Reason::none) {
-      tail.detail += line.detail;
-      return tail;
-    }
-    std::vector<JointVector> dense{from};
-    dense.insert(dense.end(), line.waypoints.begin(), line.waypoints.end());
-    Checker checker(*then_free, 0, {});
-    if (const auto touch = first_touch(checker, dense, certified_step(limits))) {
-      tail.reason = Reason::no_path;
-      tail.detail += checker.contact(*touch);
-      return tail;
-    }
-    from = line.waypoints.back();
+    const Line line = line_to(i, *then_free, from);
+    if (line.reason != Reason::none) return refuse(line.reason, "on from " + targets[i - 1].name + ": " + line.detail);
+    from = line.dense.back();
   }
   if (then != nullptr && !way_with_part(state, from, *then, key.with("then"))) {
-    tail.reason = Reason::unreachable;
-    tail.detail = "from " + targets.back().name + " the arm cannot go with what it takes hold of";
-    return tail;
+    return refuse(Reason::unreachable, "from " + targets.back().name + " the arm cannot go with what it takes hold of");
   }
-  tail.detail.clear();
   return tail;
 }
 

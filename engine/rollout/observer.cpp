@@ -473,6 +473,36 @@ std::vector<std::string> Observer::plan() {
   return plan_ = names_of(found.outcome.plan);
 }
 
+namespace {
+
+void fill_jacobian(const World& world, ChannelValue& value) {
+  const auto jacobian = world.arm().jacobian(world.arm_position());
+  std::vector<double> data;
+  for (Eigen::Index row = 0; row < 6; ++row)
+    for (Eigen::Index joint = 0; joint < jacobian.cols(); ++joint) data.push_back(jacobian(row, joint));
+  value.shape = {6, count_of(static_cast<std::size_t>(jacobian.cols()))};
+  value.unit = "m/rad, 1";
+  value.frame = "world";
+  value.data = std::move(data);
+}
+
+// Of `NAME/OTHER`: where a thing is as seen from another.
+void fill_pose_in(const WorldView& view, const std::string& pair, const std::set<std::string>& hidden,
+                  ChannelValue& value) {
+  const std::size_t slash = pair.find('/');
+  const std::string thing = pair.substr(0, slash), other = pair.substr(slash + 1);
+  const Pose pose = to_pose(view.world_from(other).inverse() * view.world_from(thing));
+  std::vector<double> data(pose.position.begin(), pose.position.end());
+  data.insert(data.end(), pose.quaternion.begin(), pose.quaternion.end());
+  if (hidden.contains(thing) || hidden.contains(other)) data.assign(7, kUnknown);
+  value.shape = {7};
+  value.unit = "m, 1";
+  value.frame = other;
+  value.data = std::move(data);
+}
+
+}  // namespace
+
 ChannelValue Observer::abstract(const std::string& name) {
   ChannelValue value;
   value.name = name;
@@ -513,32 +543,14 @@ ChannelValue Observer::abstract(const std::string& name) {
   } else if (name == "plan") {
     texts(plan());
   } else if (name == "tool_jacobian") {
-    const auto jacobian = rollout_.world().arm().jacobian(rollout_.world().arm_position());
-    std::vector<double> data;
-    for (Eigen::Index row = 0; row < 6; ++row)
-      for (Eigen::Index joint = 0; joint < jacobian.cols(); ++joint) data.push_back(jacobian(row, joint));
-    value.shape = {6, count_of(static_cast<std::size_t>(jacobian.cols()))};
-    value.unit = "m/rad, 1";
-    value.frame = "world";
-    value.data = std::move(data);
+    fill_jacobian(rollout_.world(), value);
   } else if (name == "progress") {
     value.data = std::vector<double>{progress()};
   } else if (name == "goal") {
     value.shape = {count_of(atoms_.size())};
     value.data = goal();
   } else {  // object_pose_in/NAME/OTHER
-    const std::string pair = name.substr(kPoseIn.size());
-    const std::size_t slash = pair.find('/');
-    const std::string thing = pair.substr(0, slash), other = pair.substr(slash + 1);
-    const bool unseen = hidden_.contains(thing) || hidden_.contains(other);
-    const Pose pose = to_pose(rollout_.view().world_from(other).inverse() * rollout_.view().world_from(thing));
-    std::vector<double> data(pose.position.begin(), pose.position.end());
-    data.insert(data.end(), pose.quaternion.begin(), pose.quaternion.end());
-    if (unseen) data.assign(7, kUnknown);
-    value.shape = {7};
-    value.unit = "m, 1";
-    value.frame = other;
-    value.data = std::move(data);
+    fill_pose_in(rollout_.view(), name.substr(kPoseIn.size()), hidden_, value);
   }
   return value;
 }

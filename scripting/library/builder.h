@@ -121,6 +121,8 @@ class LibraryBuilder {
   std::vector<std::string> chosen_skills(const Definition& task, const std::string& world);
   void make_domains();
   void read_continuous(const Definition& definition, SkillInfo& info);
+  void read_stream(const Definition& definition, const std::string& path, const SkillInfo& info, ContinuousInfo& one);
+  void read_value(const Definition& definition, const std::string& path, const Value& node, ContinuousInfo& one);
 
   // check_objects.cpp
   void check_objects();
@@ -148,7 +150,6 @@ class LibraryBuilder {
                     const SceneObjects& objects);
   void check_light(const Definition& definition);
   void check_randomise(const Definition& definition, const SceneObjects& objects);
-  void check_setting(const SkillInfo& skill, const std::string& name, const Value& value, const std::string& place);
   void check_observe(const Definition& definition, const Value& world);
   void check_one_of(const Definition& definition, const std::string& path, const Value& text, const char* what,
                     const std::vector<std::string>& known);
@@ -162,9 +163,7 @@ class LibraryBuilder {
   void check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
                        const std::string& text);
   Value field_for(const Definition& definition, DefinitionState& state, const char* field, const Value& variation);
-  void check_task_formulas(const Definition& definition, const std::map<std::string, Value>& fields,
-                           const SceneObjects& objects, const std::map<std::string, std::vector<std::string>>& groups);
-  void check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects, int line);
+  class TaskFormulas;  // task_formulas.h
   void check_instructions(const Definition& definition, const Value& texts, const Value& variation);
   void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 

@@ -254,8 +254,6 @@ void LibraryBuilder::read_action(const Definition& definition, const SkillInfo& 
 }
 
 void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& info) {
-  const double infinite = std::numeric_limits<double>::infinity();
-  const std::vector<std::string> names = names_of(info.parameters);
   for (const auto& [name, node] : definition.node["continuous"].fields) {
     const std::string path = "continuous." + name;
     ContinuousInfo one;
@@ -266,56 +264,68 @@ void LibraryBuilder::read_continuous(const Definition& definition, SkillInfo& in
       complain(definition, path, "'" + name + "' is a continuous parameter of every skill already",
                "set the field " + name + " of the skill");
     }
-    if (node.tag() == "stream" && node["source"].text == "grasps") {
-      one.source = ContinuousInfo::Source::grasps;
-      one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
-      if (!listed(names, one.object))
-        complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
-      if (node["to"].is_text()) one.to = node["to"].text;
-      if (!one.to.empty() && !library_->numbers_.contains(one.to))
-        add(unknown_number(error_at(definition, path, {}, {}).where(), one.to, numbers_.names()));
-    } else if (node.tag() == "stream") {
-      one.source = ContinuousInfo::Source::sample;
-      FormulaContext where = context(definition, path);
-      where.schema = true;
-      where.parameters = info.parameters;
-      const Formula literal = formula_from(node["literal"], where);
-      one.literal.predicate = literal.predicate;
-      for (const Term& term : literal.terms) one.literal.arguments.push_back(term.name);
-      const auto predicate = of(DefinitionKind::predicate).find(literal.predicate);
-      if (predicate == of(DefinitionKind::predicate).end() || !predicate->second.node["sample"].present()) {
-        complain(definition, path, "the predicate '" + literal.predicate + "' has no sample to draw from",
-                 "give it one, or a fixed value here");
-      }
+    if (node.tag() == "stream") {
+      read_stream(definition, path, info, one);
     } else if (node.is_number() || (node.is_table() && node.tag().empty())) {
-      if (node.is_number()) one.initial = {node.number};
-      const bool vector = !node.items.empty() && node.items.front().is_table();  // { { x, y, z }, unit = … }
-      for (const Value& item : vector ? node.items.front().items : node.items) {
-        if (item.is_number()) one.initial.push_back(item.number);
-      }
-      if (one.initial.empty())
-        complain(definition, path, "a continuous parameter begins with its default",
-                 "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");
-      one.lower = bound(node["min"], one.initial.size(), -infinite);
-      one.upper = bound(node["max"], one.initial.size(), infinite);
-      one.unit = node["unit"].text;
-      one.frame = node["frame"].text;
-      for (std::size_t i = 0; i < one.initial.size(); ++i) {
-        if (one.initial[i] < one.lower[i] || one.initial[i] > one.upper[i]) {
-          complain(definition, path, "its default " + std::to_string(one.initial[i]) + " lies outside min and max");
-        }
-      }
-      const std::vector<std::string> known = {"min", "max", "unit", "frame"};
-      for (const auto& [key, value] : node.fields) {
-        if (!listed(known, key))
-          complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'",
-                   did_you_mean(key, known));
-      }
+      read_value(definition, path, node, one);
     } else {
       complain(definition, path, "a continuous parameter is a number, a list or a stream, this is " + node.type_name());
     }
     info.continuous.push_back(std::move(one));
   }
+}
+
+// stream("grasps", "part", "pull") or stream("sample", is.on("obj", "to")).
+void LibraryBuilder::read_stream(const Definition& definition, const std::string& path, const SkillInfo& info,
+                                 ContinuousInfo& one) {
+  const Value& node = definition.node["continuous"][one.name];
+  if (node["source"].text == "grasps") {
+    const std::vector<std::string> names = names_of(info.parameters);
+    one.source = ContinuousInfo::Source::grasps;
+    one.object = node["object"].is_text() ? node["object"].text : names.empty() ? "" : names[0];
+    if (!listed(names, one.object))
+      complain(definition, path, "there is no parameter '" + one.object + "'", did_you_mean(one.object, names));
+    one.to = node["to"].text;
+    if (!one.to.empty() && !library_->numbers_.contains(one.to))
+      add(unknown_number(error_at(definition, path, {}, {}).where(), one.to, numbers_.names()));
+    return;
+  }
+  one.source = ContinuousInfo::Source::sample;
+  FormulaContext where = context(definition, path);
+  where.schema = true;
+  where.parameters = info.parameters;
+  const Formula literal = formula_from(node["literal"], where);
+  one.literal.predicate = literal.predicate;
+  for (const Term& term : literal.terms) one.literal.arguments.push_back(term.name);
+  const auto predicate = of(DefinitionKind::predicate).find(literal.predicate);
+  if (predicate == of(DefinitionKind::predicate).end() || !predicate->second.node["sample"].present())
+    complain(definition, path, "the predicate '" + literal.predicate + "' has no sample to draw from",
+             "give it one, or a fixed value here");
+}
+
+// 0.1, { 0.1, min = 0, max = 0.3, unit = "m" } or { { x, y, z }, unit = "m" }.
+void LibraryBuilder::read_value(const Definition& definition, const std::string& path, const Value& node,
+                                ContinuousInfo& one) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (node.is_number()) one.initial = {node.number};
+  const bool vector = !node.items.empty() && node.items.front().is_table();
+  for (const Value& item : vector ? node.items.front().items : node.items)
+    if (item.is_number()) one.initial.push_back(item.number);
+  if (one.initial.empty())
+    complain(definition, path, "a continuous parameter begins with its default",
+             "such as { 0.1, min = 0, max = 0.3, unit = \"m\" }");
+  one.lower = bound(node["min"], one.initial.size(), -kInfinite);
+  one.upper = bound(node["max"], one.initial.size(), kInfinite);
+  one.unit = node["unit"].text;
+  one.frame = node["frame"].text;
+  for (std::size_t i = 0; i < one.initial.size(); ++i)
+    if (one.initial[i] < one.lower[i] || one.initial[i] > one.upper[i])
+      complain(definition, path, "its default " + std::to_string(one.initial[i]) + " lies outside min and max");
+  const std::vector<std::string> known = {"min", "max", "unit", "frame"};
+  for (const auto& [key, value] : node.fields)
+    if (!listed(known, key))
+      complain(definition, path + "." + key, "a continuous parameter has no field '" + key + "'",
+               did_you_mean(key, known));
 }
 
 }  // namespace stampede

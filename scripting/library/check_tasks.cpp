@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "engine/bddl/bddl.h"
-#include "engine/start/call_settings.h"
 #include "scripting/library/builder.h"
 #include "scripting/library/naming.h"
 #include "scripting/library/source_lines.h"
+#include "scripting/library/task_formulas.h"
 
 namespace stampede {
 namespace {
@@ -121,7 +121,7 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
     fields[field.name] = value;
   }
   SceneObjects objects = world_objects(definition.node["world"].text);
-  std::map<std::string, std::vector<std::string>> groups;
+  Groups groups;
   for (const auto& [name, entry] : fields["objects"].fields) {
     const std::string path = "objects." + name;
     if (const auto fault = name_fault(name))
@@ -146,173 +146,11 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
       add_object(objects, member, entry);
     }
   }
-  check_task_formulas(definition, fields, objects, groups);
+  TaskFormulas(*this, definition, fields, objects, groups).check();
   if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
   if (fields.contains("subgoals"))
     for (const Value& one : fields["subgoals"].items)
       if (one.items.size() > 2) check_slots(definition, "subgoals", one.items[2].text, variation);
-}
-
-void LibraryBuilder::check_task_formulas(const Definition& definition, const std::map<std::string, Value>& fields,
-                                         const SceneObjects& objects,
-                                         const std::map<std::string, std::vector<std::string>>& groups) {
-  std::vector<std::string> known;
-  for (const auto& [name, unused] : objects) known.push_back(name);
-  FormulaContext where = context(definition, "init");
-  where.hand = hand_of(definition.node["world"].text);
-  where.expand = [&](const std::string& group) {
-    if (const auto found = groups.find(group); found != groups.end()) {
-      if (found->second.empty() && (where.field == "goal" || where.field == "subgoals"))
-        throw Error({}, "the group '" + group + "' has no members, so what is asked of them says nothing",
-                    "give it a count of at least 1, or leave the test out where there are none");
-      return found->second;
-    }
-    std::vector<std::string> names;
-    for (const auto& [name, unused] : groups) names.push_back(name);
-    const std::string single = group.substr(0, group.size() - 1);
-    throw Error({}, "there is no group '" + group + "'",
-                objects.contains(single) ? "'" + single + "' is one object: give it count = n to make a group"
-                                         : did_you_mean(group, names));
-  };
-  where.object_fault = [&](const std::string& name) -> std::optional<std::string> {
-    if (objects.contains(name)) return std::nullopt;
-    if (groups.contains(name + "*")) return "'" + name + "' is a group: write \"" + name + "*\" or \"" + name + "1\"";
-    return did_you_mean(name, known);
-  };
-  std::vector<std::string> placed;
-  const auto init = fields.find("init");
-  bool init_sound = true;
-  if (init != fields.end()) {
-    init_sound = guarded([&] {
-      const Beginning beginning = beginning_from(init->second, where);
-      if (beginning.constraint)
-        check_arguments(definition, *beginning.constraint, objects, line_of(definition.lines, "init"));
-      for (const Literal& literal : beginning.literals) {
-        std::vector<Term> terms;
-        for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
-        check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "init"));
-        const auto predicate = of(DefinitionKind::predicate).find(literal.fact.predicate);
-        const bool places = !literal.negated && predicate != of(DefinitionKind::predicate).end() &&
-                            predicate->second.node["sample"].present();
-        for (const std::string& argument : literal.fact.arguments) {
-          if (argument == where.hand) continue;
-          if (places) placed.push_back(argument);
-          break;
-        }
-      }
-    });
-  }
-  for (const auto& [name, object] : objects) {
-    if (!init_sound || !object.free || object.positioned ||
-        std::find(placed.begin(), placed.end(), name) != placed.end())
-      continue;
-    complain(definition, "init", "nothing places the free object '" + name + "'",
-             "name it in init, such as is.on(\"" + name + "\", \"table\"), or give it at = { x, y, z }");
-  }
-  if (const auto told = fields.find("told"); told != fields.end()) {
-    where.field = "told";
-    guarded([&] {
-      for (const Literal& literal : beginning_from(told->second, where).literals) {
-        std::vector<Term> terms;
-        for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
-        check_arguments(definition, atom(literal.fact.predicate, terms), objects, line_of(definition.lines, "told"));
-      }
-    });
-  }
-  for (const char* field : {"goal", "subgoals"}) {
-    const auto found = fields.find(field);
-    if (found == fields.end()) continue;
-    where.field = field;
-    std::vector<const Value*> formulas;
-    if (field == std::string_view("goal")) formulas.push_back(&found->second);
-    if (field == std::string_view("subgoals")) {
-      for (const auto& [name, formula] : found->second.fields) formulas.push_back(&formula);
-      for (const Value& one : found->second.items)
-        if (one.items.size() > 1) formulas.push_back(&one.items[1]);
-    }
-    for (const Value* formula : formulas) {
-      guarded([&] {
-        check_arguments(definition, formula_from(*formula, where), objects, line_of(definition.lines, field));
-      });
-    }
-  }
-  const auto steps = fields.find("steps");
-  if (steps == fields.end()) return;
-  const std::vector<Value> single = {steps->second};
-  std::vector<std::string> skills;
-  for (const ScriptFile* file : library_->files(DefinitionKind::skill)) skills.push_back(file->name);
-  for (const Value& call : steps->second.tag() == "call" ? single : steps->second.items) {
-    const std::string place = definition.file->shown_path + ":" +
-                              std::to_string(call.line() > 0 ? call.line() : line_of(definition.lines, "steps"));
-    const std::string& name = call["skill"].text;
-    const SkillInfo* skill = library_->skill(name);
-    if (skill == nullptr) {
-      if (std::find(skills.begin(), skills.end(), name) == skills.end())
-        add(Error(place, "steps: there is no skill '" + name + "'", did_you_mean(name, skills)));
-      continue;
-    }
-    const std::vector<std::string> chosen = chosen_skills(definition, definition.node["world"].text);
-    for (const std::string& one : chosen)
-      if (library_->skill(one)->replaces == name)
-        add(Error(place, "steps: '" + one + "' takes the place of '" + name + "' here", "write act." + one));
-    if (!skill->replaces.empty() && std::find(chosen.begin(), chosen.end(), name) == chosen.end())
-      add(Error(place, "steps: '" + name + "' is not among this task's skills", "add skills = { \"" + name + "\" }"));
-    if (call.items.size() > skill->parameters.size()) {
-      add(Error(place, "steps: " + name + " takes " + std::to_string(skill->parameters.size()) + " arguments, not " +
-                           std::to_string(call.items.size())));
-    }
-    for (const Value& argument : call.items) {
-      if (objects.contains(argument.text)) continue;
-      add(Error(place, "steps: there is no object '" + argument.text + "'", did_you_mean(argument.text, known)));
-    }
-    for (const auto& [parameter, value] : call["set"].fields) check_setting(*skill, parameter, value, place);
-  }
-}
-
-// Poses are read when the task is.
-void LibraryBuilder::check_setting(const SkillInfo& skill, const std::string& name, const Value& value,
-                                   const std::string& place) {
-  CallSettings set;
-  try {
-    if (value.is_text()) {
-      add_setting(name, value.text, set, place + ": steps");
-    } else if (value.is_number()) {
-      set.values.push_back({name, 0, {value.number}});
-    } else if (value.is_table() && !value.items.empty()) {
-      set.values.push_back({name, 0, {}});
-      for (const Value& item : value.items) set.values.back().values.push_back(item.number);
-    }
-    check_settings(skill, set, place + ": steps");
-  } catch (const Error& error) {
-    add(error);
-  }
-}
-
-// Objects named in an atom must have the type and traits that its predicate asks for.
-void LibraryBuilder::check_arguments(const Definition& definition, const Formula& formula, const SceneObjects& objects,
-                                     int line) {
-  for (const Formula& part : formula.parts) check_arguments(definition, part, objects, line);
-  const Predicate* predicate =
-      formula.kind == Formula::Kind::atom ? library_->domain_.predicate(formula.predicate) : nullptr;
-  if (predicate == nullptr || predicate->parameters.size() != formula.terms.size()) return;
-  for (std::size_t i = 0; i < formula.terms.size(); ++i) {
-    const auto object = objects.find(formula.terms[i].name);
-    if (formula.terms[i].variable || object == objects.end() || !object->second.known) continue;
-    const Parameter& parameter = predicate->parameters[i];
-    const std::string place = definition.file->shown_path + ":" + std::to_string(line);
-    const std::string what = "is." + formula.predicate + ": '" + object->first + "' ";
-    if (!parameter.type.empty() && !object->second.type.empty() &&
-        !library_->domain_.is_a(object->second.type, parameter.type)) {
-      add(Error(place,
-                what + "is a " + object->second.type + ", the " + parameter.name + " must be a " + parameter.type));
-    }
-    for (const std::string& trait : parameter.traits) {
-      const auto& traits = object->second.traits;
-      if (std::find(traits.begin(), traits.end(), trait) != traits.end()) continue;
-      add(Error(place, what + "has not the trait '" + trait + "', which the " + parameter.name + " must have",
-                "add it to the traits of its object file, or name another object"));
-    }
-  }
 }
 
 void LibraryBuilder::check_instructions(const Definition& definition, const Value& texts, const Value& variation) {

@@ -71,6 +71,15 @@ void in_parallel(std::size_t count, int workers, const std::atomic<bool>* stop, 
   if (first) std::rethrow_exception(first);
 }
 
+RunOptions options_for(const EpisodeJob& job, const RunSettings& settings) {
+  RunOptions options = settings.options;
+  if (const auto found = settings.cameras.find(job.task); found != settings.cameras.end())
+    options.cameras = found->second;
+  if (const auto found = settings.sentences.find(job.task); found != settings.sentences.end())
+    options.sentences = sentences_for(found->second, job.variation);
+  return options;
+}
+
 void count_episode(const EpisodeRecord& episode, RunTally& tally) {
   const bool success = episode.outcome == Outcome::success;
   TaskTally& task = tally.tasks[episode.task];
@@ -97,17 +106,6 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
   const std::atomic<bool>* stop = settings.stop;
   const auto busy = static_cast<int>(std::clamp<std::int64_t>(jobs.size(), 1, settings.workers));
   const int encoders = settings.helpers + settings.workers - busy;
-  const auto options_for = [&](const EpisodeJob& job, Renderer& renderer) {
-    const std::string& task = job.task;
-    RunOptions options = settings.options;
-    options.renderer = &renderer;
-    options.encoders = encoders;
-    if (const auto found = settings.cameras.find(task); found != settings.cameras.end())
-      options.cameras = found->second;
-    if (const auto found = settings.sentences.find(task); found != settings.sentences.end())
-      options.sentences = sentences_for(found->second, job.variation);
-    return options;
-  };
   if (!settings.act) check_policies(library, jobs.first_of_each_task(), settings.options, stop);
   std::mutex mutex;
   std::set<std::string> remarked;
@@ -122,7 +120,10 @@ RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, c
     try {
       const EpisodeJob job = jobs[place];
       if (!bench.assets) bench.assets = std::make_shared<Assets>(FileScope(library->roots().folders));
-      PreparedEpisode prepared(library, job, options_for(job, bench.renderer), bench.assets);
+      RunOptions options = options_for(job, settings);
+      options.renderer = &bench.renderer;
+      options.encoders = encoders;
+      PreparedEpisode prepared(library, job, std::move(options), bench.assets);
       pass_on(bench.assets->remarks());
       const auto is_there = [&](const std::string& key) {
         if (!sink || !sink->has(key)) return false;

@@ -191,10 +191,33 @@ std::vector<Figure> score_facts(const ScoringJob& job) {
   return figures;
 }
 
+namespace {
+
+using Lifted = std::pair<std::string, std::size_t>;      // name, arguments
+using Extent = std::map<Lifted, std::set<std::string>>;  // where each holds: piece, moment and arguments
+
+// F1 of each predicate (row) with each symbol (column) of as many arguments; 0 with others.
+Eigen::MatrixXd agreements(const Extent& truth, const Extent& answers) {
+  Eigen::MatrixXd f1 =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(truth.size()), static_cast<Eigen::Index>(answers.size()));
+  Eigen::Index row = 0;
+  for (const auto& [predicate, there] : truth) {
+    Eigen::Index column = 0;
+    for (const auto& [symbol, said] : answers) {
+      Agreement agreement;
+      if (symbol.second == predicate.second) count(agreement, there, said);
+      if (symbol.second == predicate.second) f1(row, column) = agreement.f1();
+      ++column;
+    }
+    ++row;
+  }
+  return f1;
+}
+
+}  // namespace
+
 std::vector<Figure> score_symbols(const ScoringJob& job) {
   const std::set<std::int64_t> tests(job.test_units.begin(), job.test_units.end());
-  using Lifted = std::pair<std::string, std::size_t>;      // name, arguments
-  using Extent = std::map<Lifted, std::set<std::string>>;  // where each holds: piece, moment and arguments
   const auto add = [](Extent& extent, std::int64_t piece, const std::string& moment,
                       const std::vector<std::string>& words) {
     std::string place = std::to_string(piece) + " " + moment;
@@ -226,19 +249,7 @@ std::vector<Figure> score_symbols(const ScoringJob& job) {
     if (!add(answers, at.first, moment, words)) refuse_twice(where, rows.text(i, "symbol"), at, "piece");
   }
   refuse_silence(job, asked, answered, "piece", "symbol");
-  Eigen::MatrixXd f1 =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(truth.size()), static_cast<Eigen::Index>(answers.size()));
-  Eigen::Index row = 0;
-  for (const auto& [predicate, there] : truth) {
-    Eigen::Index column = 0;
-    for (const auto& [symbol, said] : answers) {
-      Agreement agreement;
-      if (symbol.second == predicate.second) count(agreement, there, said);
-      if (symbol.second == predicate.second) f1(row, column) = agreement.f1();
-      ++column;
-    }
-    ++row;
-  }
+  const Eigen::MatrixXd f1 = agreements(truth, answers);
   const std::vector<int> match = best_matching(f1);
   std::vector<Figure> figures;
   double sum = 0;

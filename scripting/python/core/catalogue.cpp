@@ -85,7 +85,7 @@ NumpyArray pictures_of(const PyReader& self, std::int64_t episode, const std::st
   return std::visit([&](auto& values) { return numpy_array(std::move(values), all.shape); }, all.data);
 }
 
-void bind_arrays(nb::module_& module) {
+void bind_columns(nb::module_& module) {
   nb::class_<PyColumn>(module, "Column", "One array of an episode, with what it means.")
       .def_prop_ro("name", [](const PyColumn& c) { return c.column->name; })
       .def_prop_ro(
@@ -129,6 +129,9 @@ void bind_arrays(nb::module_& module) {
       .def("__repr__", [](const ArrayPictures& p) {
         return "PictureColumn('" + p.name + "', " + shape_text(p.shape) + " " + p.type + ")";
       });
+}
+
+void bind_whole_arrays(nb::module_& module) {
   nb::class_<SharedArrays>(module, "EpisodeArrays", R"(One episode as named numpy arrays: `arrays["joint_positions"]`.
 
 Names, shapes, units and frames of reference: engine/episode/README.md. Memory is shared, read-only.)")
@@ -171,6 +174,11 @@ Names, shapes, units and frames of reference: engine/episode/README.md. Memory i
             return numpy_array(std::get<std::vector<double>>(std::move(column.data)), column.shape);
           },
           "object"_a, "reference"_a, "frames x 7: where an object was as seen from another, or from a camera.");
+}
+
+void bind_arrays(nb::module_& module) {
+  bind_columns(module);
+  bind_whole_arrays(module);
 }
 
 void bind_states(nb::module_& module) {
@@ -221,18 +229,10 @@ NamedArrays points_object(CameraPoints points) {
   return result;
 }
 
-void bind_catalogue(nb::module_& module) {
-  bind_arrays(module);
-  bind_states(module);
-  nb::class_<ReadyQuestion>(module, "ReadyQuestion")
-      .def_ro("name", &ReadyQuestion::name)
-      .def_ro("description", &ReadyQuestion::description)
-      .def_ro("sql", &ReadyQuestion::sql);
-  module.def("ready_questions", &ready_questions, "Questions that have a name.");
-  nb::class_<PyReader>(
-      module, "CatalogueReader",
-      "A catalogue, or several, to be read, in one process; threads that share it wait for each other.")
-      .def(nb::init<const std::filesystem::path&>(), "file"_a)
+namespace {
+
+void bind_reading(nb::class_<PyReader>& reader) {
+  reader.def(nb::init<const std::filesystem::path&>(), "file"_a)
       .def(nb::init<const std::vector<std::filesystem::path>&>(), "files"_a, "Several, read as one.")
       .def(
           "query",
@@ -266,7 +266,11 @@ void bind_catalogue(nb::module_& module) {
       .def("pictures", &pictures_of, "episode"_a, "column"_a, "frames"_a, "draw"_a = false, "threads"_a = 1,
            R"(What one camera saw at some frames: frames x height x width (x 3 for colours).
 
-uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not stored raise Error, or are drawn now.)")
+uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not stored raise Error, or are drawn now.)");
+}
+
+void bind_views(nb::class_<PyReader>& reader) {
+  reader
       .def(
           "picture",
           [](const PyReader& self, std::int64_t episode, std::int64_t frame, const std::string& camera, int width,
@@ -306,6 +310,23 @@ uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not sto
             return self->state(episode, frame);
           },
           "episode"_a, "frame"_a);
+}
+
+}  // namespace
+
+void bind_catalogue(nb::module_& module) {
+  bind_arrays(module);
+  bind_states(module);
+  nb::class_<ReadyQuestion>(module, "ReadyQuestion")
+      .def_ro("name", &ReadyQuestion::name)
+      .def_ro("description", &ReadyQuestion::description)
+      .def_ro("sql", &ReadyQuestion::sql);
+  module.def("ready_questions", &ready_questions, "Questions that have a name.");
+  nb::class_<PyReader> reader(
+      module, "CatalogueReader",
+      "A catalogue, or several, to be read, in one process; threads that share it wait for each other.");
+  bind_reading(reader);
+  bind_views(reader);
 }
 
 }  // namespace stampede::python

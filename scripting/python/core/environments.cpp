@@ -34,7 +34,7 @@ nb::dict parameters_of(const AgentAction& action) {
   return all;
 }
 
-void bind_actions(nb::module_& module) {
+void bind_spaces(nb::module_& module) {
   nb::class_<ActionComponent>(module, "ActionComponent", "One number of an action.")
       .def_ro("name", &ActionComponent::name, "`panda.joint1`, `x`")
       .def_ro("unit", &ActionComponent::unit)
@@ -46,6 +46,9 @@ void bind_actions(nb::module_& module) {
       .def("__repr__", [](const ActionSpace& space) {
         return "ActionSpace('" + space.name + "', " + std::to_string(space.components.size()) + " components)";
       });
+}
+
+void bind_action(nb::module_& module) {
   nb::class_<AgentAction>(module, "Action", R"(What an agent asks of the robot for one step.
 
 space: joint_position (rad), joint_delta (rad), joint_velocity (rad/s), joint_torque (N m), tool_pose (x y z m,
@@ -98,6 +101,9 @@ own. frames: the step ends after so many, and `Action("go_on")` goes on; 0: at t
         }
         return text + ")";
       });
+}
+
+void bind_asked(nb::module_& module) {
   nb::class_<AskedAction>(module, "AskedAction", "What an episode keeps of an action that was not refused.")
       .def_ro("asked", &AskedAction::asked)
       .def_ro("first_frame", &AskedAction::first_frame)
@@ -106,6 +112,9 @@ own. frames: the step ends after so many, and `Action("go_on")` goes on; 0: at t
       .def_ro("reward", &AskedAction::reward)
       .def_ro("terminated", &AskedAction::terminated)
       .def_ro("truncated", &AskedAction::truncated);
+}
+
+void bind_skills(nb::module_& module) {
   nb::class_<SkillChoice>(module, "SkillChoice", "A ground skill, and whether its precondition holds now.")
       .def_ro("skill", &SkillChoice::skill)
       .def_ro("arguments", &SkillChoice::arguments)
@@ -132,7 +141,14 @@ in m as eighth, and no bounds.)")
       .def_ro("controller", &SkillDescription::controller);
 }
 
-void bind_results(nb::module_& module) {
+void bind_actions(nb::module_& module) {
+  bind_spaces(module);
+  bind_action(module);
+  bind_asked(module);
+  bind_skills(module);
+}
+
+void bind_changes(nb::module_& module) {
   nb::class_<StateFact>(module, "Fact", "A ground atom: `(on cup shelf)` is Fact.predicate `on`, arguments cup, shelf.")
       .def_ro("predicate", &StateFact::predicate)
       .def_ro("arguments", &StateFact::arguments)
@@ -163,6 +179,9 @@ void bind_results(nb::module_& module) {
       .def("__repr__", [](const SkillEnd& end) {
         return "SkillEnd(" + call_text(end.skill, end.arguments) + ": " + (end.success ? "success" : end.reason) + ")";
       });
+}
+
+void bind_steps(nb::module_& module) {
   nb::class_<Step>(module, "Step", "What a step led to.")
       .def_prop_ro(
           "observation", [](const Step& s) { return s.observation; }, "channel -> numpy array, or list of str")
@@ -199,6 +218,11 @@ void bind_results(nb::module_& module) {
                (s.rest.truncated ? ", truncated" : "") + ")";
       });
   nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.");
+}
+
+void bind_results(nb::module_& module) {
+  bind_changes(module);
+  bind_steps(module);
 }
 
 class PythonPolicy : public Policy {
@@ -344,9 +368,9 @@ EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
   return settings;
 }
 
-void bind_environments(nb::module_& module) {
-  bind_actions(module);
-  bind_results(module);
+namespace {
+
+void bind_requests(nb::module_& module) {
   nb::class_<ResetRequest>(module, "Reset", R"(Which start an environment makes.
 
 variation: canonical text, or axes of it; empty: the first. seed: of all draws; from 1'000'000 up: the test split.
@@ -384,11 +408,10 @@ frame of an episode of this engine. channels: observed from now on; None: as bef
       .def_ro("skill", &PolicyCall::skill, "empty: a whole episode")
       .def_ro("arguments", &PolicyCall::arguments, "parameter -> object")
       .def_ro("parameters", &PolicyCall::parameters, "continuous ones");
-  nb::class_<PyEnvironment>(module, "Environment", nb::type_slots(kEnvironmentSlots),
-                            R"(A task that the caller steps; made by Session.environment.
+}
 
-One thread at a time: another one, meanwhile, gets an Error. An action that cannot be done gives a Step with a
-`refusal`, and nothing changed.)")
+void bind_stepping(nb::class_<PyEnvironment>& environment) {
+  environment
       .def(
           "reset",
           [](PyEnvironment& self, const ResetRequest& request) {
@@ -431,7 +454,11 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
             return to_python(std::move(seen));
           },
           "camera"_a, "width"_a = 0, "height"_a = 0,
-          "What a camera sees now, without noise: height x width x 3, uint8. 0: the size that its channels have.")
+          "What a camera sees now, without noise: height x width x 3, uint8. 0: the size that its channels have.");
+}
+
+void bind_asking(nb::class_<PyEnvironment>& environment) {
+  environment
       .def_prop_ro(
           "frame_hz", [](const PyEnvironment& self) { return asked(self, "frame_hz", &Environment::frame_hz); },
           "Steps of set-points a second.")
@@ -461,7 +488,11 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
           [](const PyEnvironment& self) { return asked(self, "skill_descriptions", &Environment::skill_descriptions); })
       .def(
           "atoms", [](const PyEnvironment& self) { return asked(self, "atoms", &Environment::atoms); },
-          "Ground atoms of the channels `facts` and `known`, in their order.")
+          "Ground atoms of the channels `facts` and `known`, in their order.");
+}
+
+void bind_saving(nb::class_<PyEnvironment>& environment) {
+  environment
       .def(
           "save",
           [](PyEnvironment& self) {
@@ -485,6 +516,22 @@ One thread at a time: another one, meanwhile, gets an Error. An action that cann
             return self->episode();
           },
           "The episode so far; it ends here. With `record` it is kept, in the session's catalogue where there is one.");
+}
+
+}  // namespace
+
+void bind_environments(nb::module_& module) {
+  bind_actions(module);
+  bind_results(module);
+  bind_requests(module);
+  nb::class_<PyEnvironment> environment(module, "Environment", nb::type_slots(kEnvironmentSlots),
+                                        R"(A task that the caller steps; made by Session.environment.
+
+One thread at a time: another one, meanwhile, gets an Error. An action that cannot be done gives a Step with a
+`refusal`, and nothing changed.)");
+  bind_stepping(environment);
+  bind_asking(environment);
+  bind_saving(environment);
 }
 
 }  // namespace stampede::python

@@ -239,7 +239,7 @@ std::string row_text(const EvaluationRow& row) {
 
 std::string per_cent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
-void bind_answers(nb::module_& module) {
+void bind_runs(nb::module_& module) {
   nb::class_<Episode>(module, "Episode", "An episode that was run.")
       .def_ro("id", &Episode::id, "in the catalogue; 0: there is none")
       .def_ro("key", &Episode::key)
@@ -275,6 +275,9 @@ void bind_answers(nb::module_& module) {
                " succeeded, " + std::to_string(tally.existing) + " were there" +
                (tally.interrupted ? ", interrupted)" : ")");
       });
+}
+
+void bind_evaluations(nb::module_& module) {
   nb::class_<EvaluationRow>(module, "EvaluationRow", "Of a task, or of its variations with one value on one axis.")
       .def_ro("task", &EvaluationRow::task, "empty: all")
       .def_ro("perturbation", &EvaluationRow::perturbation)
@@ -310,6 +313,9 @@ void bind_answers(nb::module_& module) {
                "<th>success</th></tr>" +
                rows + "</table>";
       });
+}
+
+void bind_plans(nb::module_& module) {
   nb::class_<TaskPlanStep>(module, "PlanStep")
       .def_ro("action", &TaskPlanStep::action)
       .def_ro("arguments", &TaskPlanStep::arguments)
@@ -331,31 +337,14 @@ void bind_answers(nb::module_& module) {
       });
 }
 
-}  // namespace
-
-PySession::PySession(SessionOptions options)
-    : Owned("Session", Turn::Others::wait, options), catalogue(options.catalogue) {
-  if (has_catalogue()) turn.stay_in_this_process();
+void bind_answers(nb::module_& module) {
+  bind_runs(module);
+  bind_evaluations(module);
+  bind_plans(module);
 }
 
-void bind_sessions(nb::module_& module) {
-  bind_answers(module);
-  bind_sensors(module);
-  module.def(
-      "plan_pddl",
-      [](const std::string& domain, const std::string& problem) {
-        const Calling call;
-        const Released free;
-        return plan_pddl(domain, problem);
-      },
-      "domain"_a, "problem"_a,
-      "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
-  nb::class_<PySession>(module, "Session", nb::type_slots(kSessionSlots),
-                        R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
-
-root: holds tasks/, skills/, worlds/; None: those that came with the package. paths: further folders of the same shape,
-whose files win. catalogue: a file, where episodes go; None: each is kept by the Episode that `run` gives.
-Threads that share one wait for each other.)")
+void bind_making(nb::class_<PySession>& session) {
+  session
       .def(
           "__init__",
           [](PySession* self, const std::optional<std::filesystem::path>& root,
@@ -371,7 +360,11 @@ Threads that share one wait for each other.)")
           "tasks", [](const PySession& self) { return self->tasks(); }, "Names.")
       .def(
           "variations", [](const PySession& self, const std::string& task) { return self->variations(task); }, "task"_a,
-          "Canonical texts, in the task's order.")
+          "Canonical texts, in the task's order.");
+}
+
+void bind_running(nb::class_<PySession>& session) {
+  session
       .def(
           "run",
           [](PySession& self, const std::string& task, const nb::kwargs& words) {
@@ -402,7 +395,11 @@ as of `run`; `seed` is the first one's.)")
 
 channels, hidden, reward (sparse, dense, task), frame_hz, physics_hz, horizon_s, record, width, height, picture_sizes
 (dict by camera: width, height), shadows, renderer (own, osmesa), picture_hz (dict by camera), rgb_noise, depth_noise,
-torque_noise, torque_model: see EnvironmentSettings of stampede/environment.h.)")
+torque_noise, torque_model: see EnvironmentSettings of stampede/environment.h.)");
+}
+
+void bind_planning(nb::class_<PySession>& session) {
+  session
       .def(
           "plan",
           [](const PySession& self, const std::string& task, const nb::kwargs& words) {
@@ -425,7 +422,11 @@ torque_noise, torque_model: see EnvironmentSettings of stampede/environment.h.)"
             }
             return nb::make_tuple(rows.columns, rows_of(rows));
           },
-          "question"_a, "parameters"_a = nb::tuple(), "Names of columns, and rows. parameters: for ?1, ?2 …")
+          "question"_a, "parameters"_a = nb::tuple(), "Names of columns, and rows. parameters: for ?1, ?2 …");
+}
+
+void bind_reading(nb::class_<PySession>& session) {
+  session
       .def(
           "arrays",
           [](const PySession& self, const Episode& episode, std::vector<std::string> columns) {
@@ -478,7 +479,11 @@ torque_noise, torque_model: see EnvironmentSettings of stampede/environment.h.)"
           },
           "episode"_a, "frame"_a, "camera"_a = "front", "width"_a = 0, "height"_a = 0, "rgb"_a = true, "mask"_a = false,
           "semantic_mask"_a = false,
-          "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.")
+          "Points that a camera sees, world: positions (n x 3, m), colours, mask, semantic_mask.");
+}
+
+void bind_own(nb::class_<PySession>& session) {
+  session
       .def(
           "add_sensor",
           [](PySession& self, const std::string& name, nb::callable read, std::vector<std::string> components,
@@ -519,6 +524,38 @@ frame, and if it likes `begin(call)`. version is part of an episode's key: anoth
 
 policy() gives an object with `act` and `begin`, one an episode, as of `add_policy`. Other arguments are those of
 `environment`: what it observes, rates, horizon.)");
+}
+
+}  // namespace
+
+PySession::PySession(SessionOptions options)
+    : Owned("Session", Turn::Others::wait, options), catalogue(options.catalogue) {
+  if (has_catalogue()) turn.stay_in_this_process();
+}
+
+void bind_sessions(nb::module_& module) {
+  bind_answers(module);
+  bind_sensors(module);
+  module.def(
+      "plan_pddl",
+      [](const std::string& domain, const std::string& problem) {
+        const Calling call;
+        const Released free;
+        return plan_pddl(domain, problem);
+      },
+      "domain"_a, "problem"_a,
+      "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
+  nb::class_<PySession> session(module, "Session", nb::type_slots(kSessionSlots),
+                                R"(Runs tasks of Lua scripts and keeps their episodes in a catalogue.
+
+root: holds tasks/, skills/, worlds/; None: those that came with the package. paths: further folders of the same shape,
+whose files win. catalogue: a file, where episodes go; None: each is kept by the Episode that `run` gives.
+Threads that share one wait for each other.)");
+  bind_making(session);
+  bind_running(session);
+  bind_planning(session);
+  bind_reading(session);
+  bind_own(session);
 }
 
 }  // namespace stampede::python
