@@ -47,6 +47,7 @@ std::shared_ptr<Library> LibraryBuilder::build() {
   read_skills();
   read_tasks();
   check_reads();
+  check_scripts();
   finish();
   return library_;
 }

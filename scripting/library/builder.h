@@ -111,6 +111,10 @@ class LibraryBuilder {
   void each_read(const std::function<void(const std::string& place, const std::string& name)>& visit) const;
   void check_reads();
 
+  // check_scripts.cpp
+  void check_scripts();
+  void check_run(const Definition& definition);
+
   // check_skills.cpp
   void read_skills();
   void read_skill(const Definition& definition);

@@ -1,5 +1,6 @@
 // Validation against the field tables.
 #include <algorithm>
+#include <cmath>
 
 #include "scripting/library/fields.h"
 #include "scripting/library/naming.h"
@@ -108,6 +109,19 @@ std::string with_article(std::string_view word) {
   return (vowel ? "an " : "a ") + std::string(word);
 }
 
+// 90 where deg(90) was meant: nothing is turned by more than two turns.
+void check_angle(const Field& field, const Value& value, const std::string& path, const Complain& complain) {
+  constexpr double kMost = 12.6;  // rad
+  if (field.unit != std::string_view("rad")) return;
+  const auto check = [&](const Value& one) {
+    if (!one.is_number() || std::abs(one.number) <= kMost) return;
+    const std::string number = plain_text(one);
+    complain(path, number + " rad are more than two turns", "angles are in rad: deg(" + number + ")");
+  };
+  check(value);
+  for (const Value& item : value.items) check(item);
+}
+
 // Records inside a field's value.
 void check_inner(const Field& field, const Value& node, const std::string& path, const Complain& complain) {
   for (std::string_view type : alternatives(field.type)) {
@@ -183,6 +197,7 @@ void check_record(const Record& record, const Value& table, const std::string& p
           std::string_view(field.example).empty() ? "" : std::string("such as ") + field.name + " = " + field.example);
       continue;
     }
+    check_angle(field, value, prefix + field.name, complain);
     check_inner(field, value, prefix + field.name, complain);
   }
 }

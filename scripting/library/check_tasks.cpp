@@ -145,6 +145,11 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
       }
       add_object(objects, member, entry);
     }
+    const SceneObject* one = members.empty() ? nullptr : &objects.at(members.front());
+    if (one != nullptr && one->known && !one->free && !one->positioned)
+      complain(definition, path,
+               "nothing says where '" + members.front() + "' is, and what does not move is not placed by init",
+               "at = on_table { 0.2, 0 }");
   }
   TaskFormulas(*this, definition, fields, objects, groups).check();
   if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);

@@ -70,8 +70,13 @@ class Scanner {
     if (before_dot_ == "act") mentions_.after_act.emplace(last_word_);
     before_dot_ = {};
     policy_ = last_word_ == "policy";
-    of_number_ = last_word_ == "number" && start > 0 && source_[start - 1] == ':';
+    const char before = start > 0 ? source_[start - 1] : ' ';
+    of_number_ = last_word_ == "number" && before == ':';
     number_ = 0;
+    if (before == ':' && !owner_.empty()) mentions_.methods.emplace(std::pair(owner_, last_word_), line_);
+    if (before == '.' && !owner_.empty()) mentions_.members.emplace(std::pair(owner_, last_word_), line_);
+    alone_ = before != '.' && before != ':';
+    owner_ = {};
     if (last_word_ == "return" && depth_ == 0) lines_[""] = line_;
   }
 
@@ -129,6 +134,7 @@ class Scanner {
       return;  // `name =` has space between
     } else {
       before_dot_ = c == '.' ? last_word_ : std::string_view{};
+      owner_ = alone_ && (c == '.' || c == ':') ? last_word_ : std::string_view{};
       policy_ = policy_ && c == '(';
       brackets(c);
       advance();
@@ -143,6 +149,8 @@ class Scanner {
   bool of_number_ = false;                  // the word before is the method `number`
   int round_ = 0, call_ = -1, number_ = 0;  // depth in ( ); of the call of `number`; where its second argument begins
   std::string_view last_word_, before_dot_;
+  bool alone_ = true;              // the last word: nothing and a dot or colon before it
+  std::string_view owner_;         // such a word before the dot or colon here
   std::string pending_;            // the key whose value begins
   std::vector<std::string> keys_;  // of the tables around
 };

@@ -27,6 +27,8 @@ struct Mentions {
   std::set<std::string> fields;               // paths, as of field_lines
   std::set<std::string> policies;             // policy("NAME") and robot:policy("NAME")
   std::map<std::string, int> numbers;         // w:number(…, "NAME"), and the line of the first
+  using Members = std::map<std::pair<std::string, std::string>, int>;
+  Members methods, members;  // OWNER:NAME and OWNER.NAME, where OWNER stands alone, and the line of the first
 };
 Mentions mentions_in(std::string_view source);
 

@@ -359,6 +359,51 @@ TEST_CASE("golden: skills that extend or replace others") {
             .find("ends_when: only what holds by itself can end so") != std::string::npos);
 }
 
+TEST_CASE("golden: what scripts call and what does not exist") {
+  const auto with = [](const std::string& file, const std::string& from, const std::string& to) {
+    Files changed = sound_files();
+    std::string& text = changed[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return Root(changed).complaints();
+  };
+  const auto run = [&](const std::string& body) {
+    return with("skills/pick.lua", "function(robot, p, c) end", "function(robot, p, c)\n    " + body + "\n  end");
+  };
+  CHECK(run("local w = robot:view() robot:lift(0.1) robot:move_to(c.spot, { about = p.obj, by = p.hand })").empty());
+  CHECK(run("robot:lft(0.1)") == "skills/pick.lua:9: robot has no method 'lft'\n    did you mean 'lift'?\n");
+  CHECK(run("robot:view():pos(p.obj)").empty());  // of what a call gives nothing is known
+  CHECK(run("local w = robot:view() w:positon(p.obj)")
+            .find("skills/pick.lua:9: w has no method 'positon'\n    did you mean 'position'?") == 0);
+  CHECK(run("robot:lift(c.hight)")
+            .find("skills/pick.lua:9: run: c.hight is nothing that the skill declares in continuous") == 0);
+  CHECK(run("robot:wait(0.1) -- robot:lft(c.hight)").empty());
+  CHECK(run("robot:close_hand(p.object)").find("run: p.object is nothing that the skill declares in params") !=
+        std::string::npos);
+  CHECK(run("local c = {} robot:wait(c.own)").empty());
+  CHECK(run("robot:wait(other.c.own or 1)").empty());
+  CHECK(with("worlds/predicates/on.lua", "return true", "return w:toching(a, b)")
+            .find("worlds/predicates/on.lua:5: w has no method 'toching'\n    did you mean 'touching'?") == 0);
+}
+
+TEST_CASE("golden: angles in degrees, and things that stand nowhere") {
+  const auto with = [](const std::string& to) {
+    Files changed = sound_files();
+    std::string& text = changed["tasks/take.lua"];
+    const std::string from = "lone = { \"cube\" }";
+    text.replace(text.find(from), from.size(), from + ", " + to);
+    return Root(changed).complaints();
+  };
+  CHECK(with("side = { \"desk\", at = { 1, 0, 0 }, yaw = math.rad(90) }").empty());
+  CHECK(with("side = { \"desk\", at = { 1, 0, 0 }, yaw = 90 }") ==
+        "tasks/take.lua:5: objects.side.yaw: 90 rad are more than two turns\n    angles are in rad: deg(90)\n");
+  CHECK(with("side = { \"desk\", at = { 1, 0, 0 }, rpy = { 0, 45, 0 } }").find("45 rad are more than two turns") !=
+        std::string::npos);
+  CHECK(with("side = { \"desk\" }") ==
+        "tasks/take.lua:5: objects.side: nothing says where 'side' is, and what does not move is not placed by init\n"
+        "    at = on_table { 0.2, 0 }\n");
+}
+
 TEST_CASE("golden: predicates that extend others") {
   Files files = sound_files();
   files["worlds/predicates/under_all.lua"] =
