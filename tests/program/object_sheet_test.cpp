@@ -33,7 +33,7 @@ TEST_CASE("an object's parts and regions are listed as scripts name them") {
   };
   CHECK(row("chest")["moves"] == "stands still");
   CHECK(row("chest.top_drawer")["kind"] == "part");
-  CHECK(row("chest.top_drawer")["traits"] == "openable container reach_in");
+  CHECK(row("chest.top_drawer")["traits"] == "container openable reach_in");
   CHECK(row("chest.top_drawer")["moves"] == "slides 0 … 0.2 m");
   CHECK(row("chest.top_drawer")["numbers"].get<std::string>().find("open_at 0.15") != std::string::npos);
   CHECK(row("chest.top_drawer.inside")["size_m"] == "0.190 0.200 0.064");
