@@ -32,7 +32,8 @@ class CollisionState {
   const Scene& scene() const;
   const Arm& arm() const;
 
-  // What rests on what: move_part() and remove() take it along, and what is held holds its load, which does not collide.
+  // What rests on what: move_part() and remove() take it along, and what is held holds its load, which does not
+  // collide.
   void set_loads(std::vector<Borne> loads) { loads_ = std::move(loads); }
   // A free body that moves with the tip from now on and collides in the arm's stead. Throws for a body that is fixed.
   void hold(int body, const Transform& tip_from_body);
@@ -90,7 +91,7 @@ class CollisionState {
   std::vector<Transform> body_from_part_;  // of all bodies, in body and part order
   std::vector<double> robot_positions_;    // of all robot parts
   double opening_ = 0;                     // m
-  std::vector<Borne> loads_;                // bodies, by what bears them
+  std::vector<Borne> loads_;               // bodies, by what bears them
   std::vector<PartRef> allowed_;           // few: searched in order
   std::optional<int> held_;
   Transform tip_from_held_ = Transform::Identity();

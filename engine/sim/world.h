@@ -97,8 +97,8 @@ class World {
   // within 45 degrees. Nothing: std::nullopt.
   std::optional<PartRef> grasped(int robot = 0) const;
 
-  // What rests on what, in the last window: of each free body that the hand does not hold what bears most of it, a quarter of
-  // its weight at least. Contents are load: they go with what bears them.
+  // What rests on what, in the last window: of each free body that the hand does not hold what bears most of it, a
+  // quarter of its weight at least. Contents are load: they go with what bears them.
   std::vector<Borne> loads() const;
 
   // What contacts did in the last step to `robot_part` and all parts beyond it, from the outside: the hand, the fingers

@@ -103,9 +103,8 @@ class LibraryBuilder {
 
   // check_numbers.cpp
   void declare_numbers();
-  void each_declaration(
-      const std::function<void(const Definition&, const std::string& path, const std::string& name,
-                               const Value& number, const std::string& trait)>& visit);
+  void each_declaration(const std::function<void(const Definition&, const std::string& path, const std::string& name,
+                                                 const Value& number, const std::string& trait)>& visit);
   void check_entry_numbers(const Definition& definition, const Value& entry, const Value& node,
                            const std::string& path);  // check_objects.cpp
   void each_read(const std::function<void(const std::string& place, const std::string& name)>& visit) const;
@@ -168,6 +167,8 @@ class LibraryBuilder {
                        const std::string& text);
   Value field_for(const Definition& definition, DefinitionState& state, const char* field, const Value& variation);
   class TaskFormulas;  // task_formulas.h
+  void check_stands(const Definition& definition, const Value& entry, const SceneObject& object,
+                    const std::string& path);
   void check_instructions(const Definition& definition, const Value& texts, const Value& variation);
   void check_slots(const Definition& definition, const char* field, const std::string& text, const Value& variation);
 

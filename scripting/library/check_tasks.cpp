@@ -145,17 +145,23 @@ void LibraryBuilder::check_variation(const Definition& definition, DefinitionSta
       }
       add_object(objects, member, entry);
     }
-    const SceneObject* one = members.empty() ? nullptr : &objects.at(members.front());
-    if (one != nullptr && one->known && !one->free && !one->positioned)
-      complain(definition, path,
-               "nothing says where '" + members.front() + "' is, and what does not move is not placed by init",
-               "at = on_table { 0.2, 0 }");
+    if (!members.empty()) check_stands(definition, entry, objects.at(members.front()), path);
   }
   TaskFormulas(*this, definition, fields, objects, groups).check();
   if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
   if (fields.contains("subgoals"))
     for (const Value& one : fields["subgoals"].items)
       if (one.items.size() > 2) check_slots(definition, "subgoals", one.items[2].text, variation);
+}
+
+// What does not move stands where its entry says; a place in the air may also be one that init chooses.
+void LibraryBuilder::check_stands(const Definition& definition, const Value& entry, const SceneObject& object,
+                                  const std::string& path) {
+  if (!object.known || object.free || object.positioned || entry["region"].present()) return;
+  const auto found = of(DefinitionKind::object).find(entry.items.front().text);
+  if (found != of(DefinitionKind::object).end() && found->second.node["region"].present()) return;
+  complain(definition, path, "nothing says where it is, and what does not move is not placed by init",
+           "at = on_table { 0.2, 0 }");
 }
 
 void LibraryBuilder::check_instructions(const Definition& definition, const Value& texts, const Value& variation) {

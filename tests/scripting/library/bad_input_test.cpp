@@ -400,7 +400,7 @@ TEST_CASE("golden: angles in degrees, and things that stand nowhere") {
   CHECK(with("side = { \"desk\", at = { 1, 0, 0 }, rpy = { 0, 45, 0 } }").find("45 rad are more than two turns") !=
         std::string::npos);
   CHECK(with("side = { \"desk\" }") ==
-        "tasks/take.lua:5: objects.side: nothing says where 'side' is, and what does not move is not placed by init\n"
+        "tasks/take.lua:5: objects.side: nothing says where it is, and what does not move is not placed by init\n"
         "    at = on_table { 0.2, 0 }\n");
 }
 
