@@ -22,20 +22,21 @@ void add_names(const Value& body, std::set<std::string>& names) {
 void LibraryBuilder::each_declaration(
     const std::function<void(const Definition&, const std::string& path, const std::string& name, const Value& number,
                              const std::string& trait)>& visit) {
+  const auto each = [&](const Definition& definition, const Value& numbers, const std::string& path,
+                        const std::string& trait) {
+    for (const auto& [name, number] : numbers.fields)
+      guarded([&, &name = name, &number = number] { visit(definition, path + name, name, number, trait); });
+  };
   const auto of_traits = [&](const Definition& definition, const std::string& prefix, const Value& node) {
-    for (const auto& [name, number] : node["numbers"].fields)
-      visit(definition, prefix + "numbers." + name, name, number, {});
+    each(definition, node["numbers"], prefix + "numbers.", {});
     for (const auto& [trait, entry] : node["traits"].fields)
-      for (const auto& [name, number] : entry["numbers"].fields)
-        visit(definition, prefix + "traits." + trait + ".numbers." + name, name, number, trait);
+      each(definition, entry["numbers"], prefix + "traits." + trait + ".numbers.", trait);
   };
   for (const Definition& definition : type_files_) of_traits(definition, {}, definition.node);
   for (const auto& [name, definition] : of(DefinitionKind::object))
     of_traits(definition, "declares.", definition.node["declares"]);
   for (const DefinitionKind kind : {DefinitionKind::predicate, DefinitionKind::skill})
-    for (const auto& [name, definition] : of(kind))
-      for (const auto& [read, number] : definition.node["reads"].fields)
-        visit(definition, "reads." + read, read, number, {});
+    for (const auto& [name, definition] : of(kind)) each(definition, definition.node["reads"], "reads.", {});
 }
 
 // Of worlds/types.lua and of objects' `declares`: traits = { hook = { "…", numbers = { lift = {…} } } }, numbers = {…};
@@ -43,6 +44,7 @@ void LibraryBuilder::each_declaration(
 void LibraryBuilder::declare_numbers() {
   each_declaration([&](const Definition& definition, const std::string& path, const std::string& name,
                        const Value& number, const std::string& trait) {
+    if (!path.starts_with("reads.")) check_record(*record("declared_number"), number, path, complainer(definition));
     if (NumberTable::is_reference(number)) return;
     const std::string place = error_at(definition, path, {}, {}).where();
     numbers_.declare(name, number, trait, path, place, complainer(definition));
@@ -73,9 +75,11 @@ void LibraryBuilder::declare_numbers() {
 // w:number(…, "name") in any script.
 void LibraryBuilder::each_read(
     const std::function<void(const std::string& place, const std::string& name)>& visit) const {
-  for (const ScriptFile& file : library_->files_)
+  for (const ScriptFile& file : library_->files_) {
+    if (file.source.find(":number(") == std::string::npos) continue;
     for (const auto& [name, line] : mentions_in(file.source).numbers)
       visit(file.shown_path + ":" + std::to_string(line), name);
+  }
 }
 
 void LibraryBuilder::check_reads() {

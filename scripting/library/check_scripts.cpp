@@ -62,6 +62,7 @@ void LibraryBuilder::check_scripts() {
     for (const auto& [call, line] : mentions_in(file.source).methods) {
       const auto owner = known.find(call.first);
       if (owner == known.end() || contains(owner->second, call.second)) continue;
+      if (file.source.find("function " + call.first + ":") != std::string::npos) continue;  // its own, of that name
       add(Error(file.shown_path + ":" + std::to_string(line), call.first + " has no method '" + call.second + "'",
                 did_you_mean(call.second, owner->second)));
     }

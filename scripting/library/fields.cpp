@@ -435,9 +435,9 @@ const Record kRobot{
 
 const std::vector<Record>& records() {
   static const std::vector<Record> kRecords = {
-      kTask,    kProblem, kSkill,  kPredicate, kObject,  kWorld,     kRobot,   kEntry,       kPlace,
-      kCase,    kPart,    kJoint,  kLatch,     kFollows, kRegion,    kTip,     kGrasp,       kShape,
-      kTexture, kCamera,  kSensor, kLight,     kMotion,  kRandomise, kObserve, kObserveNoise};
+      kTask,           kProblem, kSkill,  kPredicate, kObject, kWorld,   kRobot,     kEntry,   kPlace,
+      kDeclaredNumber, kCase,    kPart,   kJoint,     kLatch,  kFollows, kRegion,    kTip,     kGrasp,
+      kShape,          kTexture, kCamera, kSensor,    kLight,  kMotion,  kRandomise, kObserve, kObserveNoise};
   return kRecords;
 }
 

@@ -90,6 +90,7 @@ void NumberTable::declare(const std::string& name, const Value& node, const std:
   info.trait = trait;
   info.place = place;
   const Unit* unit = unit_named(info.unit);
+  if (unit == nullptr) info.unit.clear();  // so that values have one that there is
   info.most = node.number_or("max", unit == nullptr ? kUnits[0].most : unit->most);
   info.least = node.number_or("min", -info.most);
   const auto fault = [&](const char* field, const std::string& what, const std::string& cure) {
@@ -100,7 +101,7 @@ void NumberTable::declare(const std::string& name, const Value& node, const std:
     return fault("", "a declared number begins with what it says",
                  name + " = { \"how deep a thing goes in\", unit = \"m\", default = 0 }");
   if (unit == nullptr)
-    return fault(".unit", "'" + info.unit + "' is none of the units that numbers are in",
+    return fault(".unit", "'" + node["unit"].text + "' is none of the units that numbers are in",
                  "m, rad, m or rad, s, kg, N, N m, or none for a count; write mm(5), cm(5), deg(5) in values");
   if (info.least > info.most) return fault(".min", "is greater than max", "turn them round");
   if (info.otherwise && info.optional)

@@ -40,7 +40,7 @@
 ---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
 ---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
 ---@field label string  what it does in words, with {params}
----@field reads? table<string, declared_number>  numbers of its things that it reads, beside those of their traits (default {})
+---@field reads? table<string, stampede.declared_number>  numbers of its things that it reads, beside those of their traits (default {})
 ---@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
 ---@field cost? integer  of the action in a plan (default 1)
@@ -55,7 +55,7 @@
 ---@field label string  the fact in words, with {params}
 ---@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds
 ---@field derived? stampede.formula  the formula that it stands for, instead of holds
----@field reads? table<string, declared_number>  numbers of its things that it reads, beside those of their traits (default {})
+---@field reads? table<string, stampede.declared_number>  numbers of its things that it reads, beside those of their traits (default {})
 ---@field sample? (fun(w: stampede.world_view, ...: any): any)  function(w, …, rng): poses or joint positions that make it true
 ---@field static? boolean  cannot change in an episode: read once, at the start (default false)
 ---@field start_only? boolean  a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it (default false)
@@ -156,6 +156,16 @@
 ---@field yaw? number  turn about the vertical [rad] (default 0)
 ---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
 ---@field quaternion? number[]  orientation x y z w, instead of yaw
+
+-- A number that things can have, for w:number: what it says, its unit and what is read of things without it
+---@class stampede.declared_number
+---@field [integer] string
+---@field of? string|string[]  the parameters whose things have it
+---@field unit? string  m, rad, m or rad, s, kg, N, N m, or none: a count (default "")
+---@field default? number  of things without it; none: they must have it [unit]
+---@field optional? boolean  of things without it nil is read (default false)
+---@field min? number  the least that makes sense [unit]
+---@field max? number  the greatest [unit]
 
 -- One operator of a skill with several
 ---@class stampede.case

@@ -471,6 +471,17 @@ TEST_CASE("golden: numbers that things have and scripts read") {
         "worlds/predicates/open.lua:5: nobody declares a number 'giv'\n    did you mean 'give'?\n");
   CHECK(with("worlds/predicates/open.lua", "unit = \"m\"", "unit = \"mm\"")
             .find("worlds/predicates/open.lua:4: reads.give.unit: 'mm' is none of the units") == 0);
+  CHECK(with("worlds/predicates/open.lua", "default = 0", "defalt = 0")
+            .find("reads.give.defalt: a declared_number has no field 'defalt'\n    did you mean 'default'?") !=
+        std::string::npos);
+  // What is said of a faulty declaration is all that comes of it.
+  CHECK(with("worlds/predicates/open.lua", "unit = \"m\"", "unit = \"mm\", max = 0.001").find("is none of the units") !=
+        std::string::npos);
+  CHECK(with("worlds/types.lua", "unit = \"m or rad\"", "unit = \"m or rad\", max = \"far\"")
+            .find("traits.openable.numbers.open_at.max: expects number, this is the text \"far\"") !=
+        std::string::npos);
+  CHECK(with("worlds/types.lua", "{ \"where it is open\", unit = \"m or rad\" }", "7")
+            .find("worlds/types.lua:5: traits.openable.numbers.open_at") != std::string::npos);
   CHECK(with("worlds/predicates/open.lua", "of = \"part\"", "of = \"prt\"")
             .find("reads.give.of: there is no parameter 'prt'\n    did you mean 'part'?") != std::string::npos);
   CHECK(with("worlds/predicates/open.lua", "\"how far it springs back\", of", "of")

@@ -85,3 +85,21 @@ TEST_CASE("lines of fields are those of the source") {
   CHECK(line_of(lines, "a.y.deep") == 5);
   CHECK(line_of(lines, "missing") == 3);
 }
+
+TEST_CASE("every type that a field names is one that there is") {
+  const std::set<std::string> plain = {"string",  "number", "integer", "boolean", "function", "vector",
+                                       "range",   "size",   "numbers", "colour",  "on_table", "literal",
+                                       "formula", "effect", "call",    "cover",   "table",    "any"};
+  for (const Record& one : records())
+    for (const Field& field : one.fields) {
+      std::string_view types = field.type;
+      while (!types.empty()) {
+        std::string_view type = types.substr(0, types.find('|'));
+        types.remove_prefix(std::min(type.size() + 1, types.size()));
+        while (type.ends_with("[]")) type.remove_suffix(2);
+        if (type.starts_with('{')) type = type.substr(1, type.size() - 2);
+        INFO(one.name << "." << field.name << ": " << type);
+        CHECK((plain.contains(std::string(type)) || record(type) != nullptr));
+      }
+    }
+}
