@@ -81,18 +81,20 @@ std::string hash_of(const std::shared_ptr<const Library>& library, const Library
   return definitions_hash(all);
 }
 
+ExitCode print(const QueryResult& table, const Arguments& arguments, Console& console) {
+  console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
+  return kDone;
+}
+
 ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Console& console) {
   QueryResult table;
   table.columns = {"variation"};
   for (const std::string& text : task.variation_texts) table.rows.push_back({text});
-  if (arguments.flag("--json")) {
-    console.out << to_json(table);
-    return kDone;
-  }
+  if (arguments.flag("--json")) return print(table, arguments, console);
   console.out << task.name << ": " << task.description << "\n";
   for (const std::string& instruction : task.instructions) console.out << "  “" << instruction << "”\n";
-  console.out << "\n" << to_table(table);
-  return kDone;
+  console.out << "\n";
+  return print(table, arguments, console);
 }
 
 void draw(const std::shared_ptr<const Library>& library, const std::vector<std::string>& names,
@@ -102,11 +104,6 @@ void draw(const std::shared_ptr<const Library>& library, const std::vector<std::
   const OutputRules rules = output_rules(arguments, console);
   check_output(sheet, sheet_kind(), rules);
   draw_objects(library, names, sheet, rules);
-}
-
-ExitCode print(const QueryResult& table, const Arguments& arguments, Console& console) {
-  console.out << (arguments.flag("--json") ? to_json(table) : to_table(table));
-  return kDone;
 }
 
 ExitCode list_object(const std::shared_ptr<const Library>& library, const ScriptFile& file, const Arguments& arguments,

@@ -19,6 +19,16 @@ std::pair<std::string, int> place_of(const Error& error) {
 
 }  // namespace
 
+bool listed(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> parameter_names(const Value& definition) {
+  std::vector<std::string> names;
+  for (const Value& text : definition["params"].items) names.push_back(text.text.substr(0, text.text.find(':')));
+  return names;
+}
+
 LibraryBuilder::LibraryBuilder(const Roots& roots, std::vector<Error>& complaints, BuilderOptions options)
     : options_(std::move(options)), complaints_(complaints), library_(std::make_shared<Library>()) {
   library_->roots_ = roots;
@@ -46,7 +56,6 @@ std::shared_ptr<Library> LibraryBuilder::build() {
   check_worlds();
   read_skills();
   read_tasks();
-  check_reads();
   check_scripts();
   finish();
   return library_;

@@ -107,8 +107,7 @@ class LibraryBuilder {
                                                  const Value& number, const std::string& trait)>& visit);
   void check_entry_numbers(const Definition& definition, const Value& entry, const Value& node,
                            const std::string& path);  // check_objects.cpp
-  void each_read(const std::function<void(const std::string& place, const std::string& name)>& visit) const;
-  void check_reads();
+  void check_reads(const std::set<std::string>& had);
 
   // check_scripts.cpp
   void check_scripts();
@@ -182,6 +181,8 @@ class LibraryBuilder {
 };
 
 void push_node(lua_State* state, const Value& node);
-std::string variation_text(const Value& variation);  // `colour=red,height=3`
+bool listed(const std::vector<std::string>& names, std::string_view name);
+std::vector<std::string> parameter_names(const Value& definition);  // of `params`, as they are written
+std::string variation_text(const Value& variation);                 // `colour=red,height=3`
 
 }  // namespace stampede

@@ -1,5 +1,4 @@
 // Who declares numbers, and which scripts read them.
-#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -53,11 +52,9 @@ void LibraryBuilder::declare_numbers() {
                        const Value& number, const std::string& trait) {
     if (NumberTable::is_reference(number)) numbers_.refer(name, trait, path, complainer(definition));
     const Value& of = number["of"];
-    std::vector<std::string> parameters;
-    for (const Value& text : definition.node["params"].items)
-      parameters.push_back(text.text.substr(0, text.text.find(':')));
+    const std::vector<std::string> parameters = parameter_names(definition.node);
     for (const Value& parameter : of.is_text() ? std::vector<Value>{of} : of.items)
-      if (std::find(parameters.begin(), parameters.end(), parameter.text) == parameters.end())
+      if (!listed(parameters, parameter.text))
         complain(definition, path + ".of", "there is no parameter '" + parameter.text + "'",
                  did_you_mean(parameter.text, parameters));
   });
@@ -66,26 +63,24 @@ void LibraryBuilder::declare_numbers() {
     add_names(definition.node, had);
     for (const auto& [part, body] : definition.node["parts"].fields) add_names(body, had);
   }
-  each_read([&](const std::string& place, const std::string& name) {
-    if (had.contains(name)) numbers_.take_read(name, place);
-  });
+  check_reads(had);
   library_->numbers_ = numbers_.all();
 }
 
-// w:number(…, "name") in any script.
-void LibraryBuilder::each_read(
-    const std::function<void(const std::string& place, const std::string& name)>& visit) const {
+// w:number(…, "name") in any script. `had`: names of the numbers that some object has.
+void LibraryBuilder::check_reads(const std::set<std::string>& had) {
   for (const ScriptFile& file : library_->files_) {
     if (file.source.find(":number(") == std::string::npos) continue;
-    for (const auto& [name, line] : mentions_in(file.source).numbers)
-      visit(file.shown_path + ":" + std::to_string(line), name);
+    for (const auto& [name, line] : mentions_in(file.source).numbers) {
+      if (numbers_.all().contains(name)) continue;
+      const std::string place = file.shown_path + ":" + std::to_string(line);
+      if (had.contains(name)) {
+        numbers_.take_read(name, place);
+      } else {
+        add(unknown_number(place, name, numbers_.names()));
+      }
+    }
   }
-}
-
-void LibraryBuilder::check_reads() {
-  each_read([&](const std::string& place, const std::string& name) {
-    if (!numbers_.all().contains(name)) add(unknown_number(place, name, numbers_.names()));
-  });
 }
 
 }  // namespace stampede

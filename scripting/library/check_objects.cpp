@@ -14,10 +14,6 @@ std::vector<std::string> texts(const Value& list) {
   return result;
 }
 
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 std::vector<std::string> names_in(const Value& table) {
   std::vector<std::string> result;
   for (const auto& [name, value] : table.fields) result.push_back(name);
@@ -43,7 +39,7 @@ void LibraryBuilder::check_body(const Definition& definition, const Value& body,
              did_you_mean(body["type"].text, known));
   }
   for (const std::string& trait : texts(body["traits"])) {
-    if (!contains(domain.traits, trait)) {
+    if (!listed(domain.traits, trait)) {
       complain(definition, prefix + "traits", "there is no trait '" + trait + "'", did_you_mean(trait, domain.traits));
     }
   }
@@ -182,7 +178,7 @@ void LibraryBuilder::check_shows(const Definition& definition, const Value& body
         say("there is no predicate '" + name + "'", did_you_mean(name, predicates));
       else if (predicate->parameters.size() != 1 || shows.items.size() != 1)
         say("'" + name + "' is no fact of one thing", example);
-      else if (!contains(known, shows.items[0].text))
+      else if (!listed(known, shows.items[0].text))
         say("the object has no part or region '" + shows.items[0].text + "'", did_you_mean(shows.items[0].text, known));
     }
   }
@@ -352,7 +348,7 @@ void LibraryBuilder::add_object(SceneObjects& objects, const std::string& name, 
   object.traits = texts(either("traits"));
   object.positioned = entry["at"].present() || entry["place"].present();
   const bool fixed =
-      either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !contains(object.traits, "movable");
+      either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !listed(object.traits, "movable");
   object.free = found != nullptr && !fixed && !region;
   objects[name] = object;
   const auto add_regions = [&](const std::string& owner, const Value& regions) {

@@ -21,10 +21,6 @@ std::vector<std::string> methods_of(std::string_view of) {
   return names;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // The names of a function's parameters: `run = function(robot, p, c)`.
 std::vector<std::string> parameters_of_run(std::string_view source) {
   std::vector<std::string> names;
@@ -61,7 +57,7 @@ void LibraryBuilder::check_scripts() {
     if (file.kind == DefinitionKind::object || file.kind == DefinitionKind::world) continue;
     for (const auto& [call, line] : mentions_in(file.source).methods) {
       const auto owner = known.find(call.first);
-      if (owner == known.end() || contains(owner->second, call.second)) continue;
+      if (owner == known.end() || listed(owner->second, call.second)) continue;
       if (file.source.find("function " + call.first + ":") != std::string::npos) continue;  // its own, of that name
       add(Error(file.shown_path + ":" + std::to_string(line), call.first + " has no method '" + call.second + "'",
                 did_you_mean(call.second, owner->second)));
@@ -74,14 +70,14 @@ void LibraryBuilder::check_scripts() {
 void LibraryBuilder::check_run(const Definition& definition) {
   const std::string& source = definition.file->source;
   const std::vector<std::string> names = parameters_of_run(source);
-  std::vector<std::string> parameters = {"hand"}, continuous = {"controller", "stiffness"};
-  for (const Value& text : definition.node["params"].items)
-    parameters.push_back(text.text.substr(0, text.text.find(':')));
+  const Mentions mentions = mentions_in(source);
+  std::vector<std::string> parameters = parameter_names(definition.node), continuous = {"controller", "stiffness"};
+  parameters.emplace_back("hand");
   for (const auto& [name, value] : definition.node["continuous"].fields) continuous.push_back(name);
   const auto check = [&](std::size_t place, const std::vector<std::string>& known, const char* field) {
     if (names.size() <= place || is_local(source, names[place])) return;
-    for (const auto& [member, line] : mentions_in(source).members)
-      if (member.first == names[place] && !contains(known, member.second))
+    for (const auto& [member, line] : mentions.members)
+      if (member.first == names[place] && !listed(known, member.second))
         add(Error(definition.file->shown_path + ":" + std::to_string(line),
                   "run: " + member.first + "." + member.second + " is nothing that the skill declares in " + field,
                   did_you_mean(member.second, known)));

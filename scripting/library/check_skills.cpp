@@ -14,10 +14,6 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
-bool listed(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // A bound: one number for all components, or one each.
 std::vector<double> bound(const Value& node, std::size_t count, double otherwise) {
   std::vector<double> result(count, node.is_number() ? node.number : otherwise);
