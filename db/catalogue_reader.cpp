@@ -88,12 +88,10 @@ std::string numbered(const std::string& name, std::size_t count) {
   return text;
 }
 
-void EpisodeReader::take_part(const sql::Statement& row, int column, std::size_t part, std::size_t a_row,
-                              std::span<double> all, const char* table, sql::UnknownValues unknown) const {
+void EpisodeReader::take_values(const sql::Statement& row, int column, std::span<double> places, const char* table,
+                                sql::UnknownValues unknown) const {
   const bool complete = unknown == sql::UnknownValues::refused && !record_.real;
-  const std::size_t first = part * a_row;
-  if (part >= all.size() || first >= all.size()) damaged(table);
-  for (double& value : all.subspan(first, std::min(a_row, all.size() - first))) {
+  for (double& value : places) {
     if (sqlite3_column_type(row.handle(), column) == SQLITE_NULL && complete) damaged(table);
     value = known_or_nan(row, column++);
   }
@@ -165,10 +163,7 @@ void EpisodeReader::read_objects() {
     Object& o = record_.objects.emplace_back();
     std::string kind;
     row.read(o.name, kind, o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(), o.size.z());
-    o.kind = kind == "part"     ? ObjectKind::part
-             : kind == "region" ? ObjectKind::region
-             : kind == "hand"   ? ObjectKind::hand
-                                : ObjectKind::body;
+    o.kind = known_word(database_, "kind", kind, object_kind_from(kind));
   });
   each("object, trait", "object_trait", "object, ordinal", [&](sql::Statement& row) {
     std::int64_t object = 0;
@@ -235,8 +230,7 @@ void EpisodeReader::read_channels() {
          if (part >= width || part * kComponentsARow >= width) damaged("sample");
          const std::size_t values = std::min(kComponentsARow, width - part * kComponentsARow);
          owner.values.resize(owner.values.size() + values);
-         take_part(row, 3, 0, kComponentsARow, std::span(owner.values).last(values), "sample",
-                   unknown_values_of(owner, record_));
+         take_values(row, 3, std::span(owner.values).last(values), "sample", unknown_values_of(owner, record_));
        });
 }
 
@@ -263,7 +257,7 @@ void EpisodeReader::read_frames() {
          FrameRecord& f = at(record_.frames, frame, "joint_state");
          int column = 2;
          for (std::vector<double>* values : {&f.joint_position, &f.joint_velocity, &f.joint_effort}) {
-           take_part(row, column, part, kJointsARow, *values, "joint_state");
+           take_values(row, column, part_in(*values, part, kJointsARow, "joint_state"), "joint_state");
            column += static_cast<int>(kJointsARow);
          }
        });

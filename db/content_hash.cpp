@@ -43,9 +43,9 @@ class EpisodeHasher {
   explicit EpisodeHasher(const sql::Database& database) : tables_(data_tables()) {
     std::erase_if(tables_, [](const Table& table) { return !table.of_episode; });
     for (const Table& table : tables_)
-      statements_.emplace_back(database, "SELECT " + joined(table.columns) + " FROM " + table.name + " WHERE " +
+      statements_.emplace_back(database, "SELECT " + quoted_columns(table.columns) + " FROM " + table.name + " WHERE " +
                                              (table.name == "episode" ? "id" : "episode") + " = ?1 ORDER BY " +
-                                             joined(table.order));
+                                             quoted_columns(table.order));
   }
   std::string digest(std::int64_t id) {
     Hasher hasher;
@@ -65,8 +65,8 @@ std::string Catalogue::content_hash() const {
   Hasher hasher;
   for (const Table& table : data_tables()) {
     if (table.of_episode) continue;
-    sql::Statement rows(database,
-                        "SELECT " + joined(table.columns) + " FROM " + table.name + " ORDER BY " + joined(table.order));
+    sql::Statement rows(database, "SELECT " + quoted_columns(table.columns) + " FROM " + table.name + " ORDER BY " +
+                                      quoted_columns(table.order));
     hash_rows(hasher, table, rows.start());
   }
   EpisodeHasher episodes(database);

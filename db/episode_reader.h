@@ -82,9 +82,15 @@ class EpisodeReader {
                          "the file is damaged: generate it again");
   }
 
-  // The values of a row's part, from `column` on, among all: each must be there, but where NULL is `allowed`.
-  void take_part(const sql::Statement& row, int column, std::size_t part, std::size_t a_row, std::span<double> all,
-                 const char* table, sql::UnknownValues unknown = sql::UnknownValues::refused) const;
+  // The places of a row's part among all.
+  std::span<double> part_in(std::span<double> all, std::size_t part, std::size_t a_row, const char* table) const {
+    const std::size_t first = part * a_row;
+    if (part >= all.size() || first >= all.size()) damaged(table);
+    return all.subspan(first, std::min(a_row, all.size() - first));
+  }
+  // From `column` on: each value must be there, but where NULL is `allowed`.
+  void take_values(const sql::Statement& row, int column, std::span<double> places, const char* table,
+                   sql::UnknownValues unknown = sql::UnknownValues::refused) const;
   // Of a row of action whose values begin at column 2: channel(which, value) for each that it has.
   template <typename Channel>
   void each_channel(const sql::Statement& row, std::size_t part, const std::vector<ActionChannel>& channels,

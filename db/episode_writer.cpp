@@ -1,38 +1,12 @@
 #include "db/episode_writer.h"
 
-#include <cmath>
+#include <set>
 
 #include "db/catalogue_impl.h"
-#include "db/table_text.h"
-#include "engine/base/hash.h"
-#include "engine/model/camera.h"
+#include "db/insert.h"
 
 namespace stampede {
 namespace {
-
-// Seed and split are columns of episode: with them, hardly two episodes would share an engine run.
-std::string options_text(const EpisodeRecord& episode) {
-  std::string text = "{";
-  for (const auto& [name, value] : episode.options) {
-    if (name == "seed" || name == "split") continue;
-    text += (text.size() > 1 ? "," : "") + json_text(name) + ":" + json_text(value);
-  }
-  return text + "}";
-}
-
-std::string_view name_of(ObjectKind kind) {
-  switch (kind) {
-    case ObjectKind::body:
-      return "body";
-    case ObjectKind::part:
-      return "part";
-    case ObjectKind::region:
-      return "region";
-    case ObjectKind::hand:
-      return "hand";
-  }
-  return "body";
-}
 
 void require(bool condition, const EpisodeRecord& episode, const std::string& complaint) {
   if (!condition)
@@ -69,119 +43,98 @@ void check_record(const EpisodeRecord& episode) {
                  "episode of " + episode.task + ", seed " + std::to_string(episode.seed));
 }
 
+EpisodeWriter::EpisodeWriter(const sql::Database& database)
+    : shared_(database),
+      cameras_(database),
+      frames_(database, cameras_),
+      images_(database, cameras_),
+      labels_(database),
+      episode_(insert(database, "episode",
+                      "id, key, task, world, variation, seed, split, outcome, reason, detail, beside_goal, frames, "
+                      "steps, duration_s, physics_hz, frame_hz, draws, state_hash, source, scene, engine_run")),
+      timing_(insert(database, "timing", "episode, wall_s, physics_wall_s")),
+      object_(insert(database, "object",
+                     "episode, ordinal, name, kind, class, type, body, part, size_x, size_y, size_z, mask_id")),
+      object_trait_(insert(database, "object_trait", "episode, object, ordinal, trait")),
+      object_attribute_(insert(database, "object_attribute", "episode, object, name, value")),
+      posed_(insert(database, "posed", "episode, ordinal, name")),
+      joint_(insert(database, "joint", "episode, ordinal, name, body, part, kind, unit, lower, upper, driven")),
+      hand_(insert(database, "hand", "episode, ordinal, name")),
+      stream_(insert(database, "stream",
+                     "episode, ordinal, kind, name, file, clock, offset_s, drift_ppm, reference_s, origin_s, rate_hz, "
+                     "readings, longest_gap_s, missing, rule")),
+      image_time_(insert(database, "image_time", "episode, frame, camera, kind, time_s")) {}
+
 void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const EngineInfo& engine) {
-  id_ = id;
-  write_variation(episode);
-  write_episode(episode, engine);
-  write_masks(episode);
-  write_objects(episode);
-  write_names(episode);
-  write_cameras(episode);  // their mounts are named by masks and objects
-  write_frames(episode);
-  write_images(episode);
-  write_streams(episode);
-  write_labels(episode);
+  shared_.write_variation(episode);
+  write_episode(id, episode, engine);
+  images_.write_masks(id, episode);
+  write_objects(id, episode);
+  write_names(id, episode);
+  int ordinal = 0;  // of cameras, whose mounts are named by masks and objects
+  for (const Camera& camera : episode.cameras) cameras_.write(id, ordinal++, camera);
+  frames_.write(id, episode);
+  images_.write(id, episode);
+  write_streams(id, episode);
+  labels_.write(id, episode);
 }
 
-void EpisodeWriter::write_streams(const EpisodeRecord& episode) {
-  int ordinal = 0;
-  for (const StreamRecord& s : episode.streams)
-    stream_.run(id_, ordinal++, s.kind, s.name, s.file, s.clock, s.offset_s, s.drift_ppm, s.reference_s, s.origin_s,
-                s.rate_hz, s.readings, s.longest_gap_s, s.missing, s.rule);
-  for (const ImageTimeRecord& i : episode.image_times) image_time_.run(id_, i.frame, i.camera, i.kind, i.time_s);
+void EpisodeWriter::set_labels(std::int64_t id, const EpisodeRecord& episode) {
+  labels_.replace(id, episode);
+  frames_.set_running(id, episode);
 }
 
-void EpisodeWriter::write_variation(const EpisodeRecord& episode) {
-  if (episode.real) return;
-  variation_.run(episode.task, episode.variation);
-  for (const auto& [axis, value] : episode.axes) variation_axis_.run(episode.task, episode.variation, axis, value);
+AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
+                                      const std::vector<CameraTrack>& cameras) {
+  return images_.add(id, images, cameras);
 }
 
-std::string EpisodeWriter::write_engine_run(const EpisodeRecord& episode, const EngineInfo& engine) {
-  const std::string options = options_text(episode);
-  Hasher hasher;
-  hasher.text(engine.version).text(engine.numerics).text(options);
-  std::set<std::tuple<std::string, std::string, std::string>> names;  // in one order, whatever the record's
-  for (const DefinitionRecord& d : episode.definitions) names.emplace(d.kind, d.name, d.hash);
-  for (const auto& [kind, name, hash] : names) hasher.text(kind).text(name).text(hash);
-  for (const auto& [name, kind] : episode.predicates) hasher.text(name).text(kind);
-  const std::string run = hasher.digest();
-  engine_run_.run(run, engine.version, engine.numerics, options);
-  if (sqlite3_changes(database_.handle()) == 0) return run;
-  for (const DefinitionRecord& d : episode.definitions) {
-    definition_.run(d.kind, d.name, d.hash, d.path, d.source);
-    engine_run_definition_.run(run, d.kind, d.name, d.hash);
-  }
-  for (const auto& [name, kind] : episode.predicates) predicate_.run(run, name, kind);
-  return run;
-}
-
-std::string EpisodeWriter::write_scene(const std::string& document) {
-  const std::string hash = content_hash(document);
-  const PackedScene packed = pack_scene(document);
-  scene_.run(hash, packed.document);
-  if (sqlite3_changes(database_.handle()) == 0) return hash;
-  for (const auto& [asset, body] : packed.assets) asset_.run(asset, body);
-  return hash;
-}
-
-std::string EpisodeWriter::write_text(const std::string& text) {
-  const std::string hash = content_hash(text);
-  text_store_.run(hash, text);
-  return hash;
-}
-
-void EpisodeWriter::write_episode(const EpisodeRecord& e, const EngineInfo& engine) {
-  const std::string run = write_engine_run(e, engine);
+void EpisodeWriter::write_episode(std::int64_t id, const EpisodeRecord& e, const EngineInfo& engine) {
+  const std::string run = shared_.write_engine_run(e, engine);
   std::optional<std::string> scene;  // a start that could not be made has none
-  if (!e.scene_document.empty()) scene = write_scene(e.scene_document);
+  if (!e.scene_document.empty()) scene = shared_.write_scene(e.scene_document);
   const double duration = e.duration_s();
   const auto simulated = [&](const auto& value) { return e.real ? std::nullopt : std::optional(value); };
   const auto variation = simulated(e.variation), state_hash = simulated(e.state_hash);
-  episode_.run(id_, e.key, e.task, e.world, variation, simulated(e.seed), to_string(e.split),
+  episode_.run(id, e.key, e.task, e.world, variation, simulated(e.seed), to_string(e.split),
                e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
                e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, simulated(e.draws), state_hash,
                e.real ? "real" : "sim", scene, run);
-  timing_.run(id_, e.wall_s, e.physics_wall_s);
+  timing_.run(id, e.wall_s, e.physics_wall_s);
 }
 
-void EpisodeWriter::write_objects(const EpisodeRecord& episode) {
+void EpisodeWriter::write_objects(std::int64_t id, const EpisodeRecord& episode) {
   std::map<std::string, int> masks;
   for (const MaskEntry& mask : episode.masks) masks.emplace(mask.name, mask.instance);
   int ordinal = 0;
   for (const Object& o : episode.objects) {
     const auto mask = masks.find(o.name);
-    object_.run(id_, ordinal, o.name, name_of(o.kind), o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(),
+    object_.run(id, ordinal, o.name, to_string(o.kind), o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(),
                 o.size.z(), mask == masks.end() ? 0 : mask->second);
     int place = 0;
-    for (const std::string& trait : o.traits) object_trait_.run(id_, ordinal, place++, trait);
-    for (const auto& [name, value] : o.attributes) object_attribute_.run(id_, ordinal, name, value);
-    for (const auto& [name, value] : o.numbers) object_attribute_.run(id_, ordinal, name, value);
+    for (const std::string& trait : o.traits) object_trait_.run(id, ordinal, place++, trait);
+    for (const auto& [name, value] : o.attributes) object_attribute_.run(id, ordinal, name, value);
+    for (const auto& [name, value] : o.numbers) object_attribute_.run(id, ordinal, name, value);
     ++ordinal;
   }
 }
 
-void EpisodeWriter::write_names(const EpisodeRecord& episode) {
+void EpisodeWriter::write_names(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const std::string& name : episode.posed) posed_.run(id_, ordinal++, name);
+  for (const std::string& name : episode.posed) posed_.run(id, ordinal++, name);
   ordinal = 0;
-  for (const std::string& name : episode.hands) hand_.run(id_, ordinal++, name);
+  for (const std::string& name : episode.hands) hand_.run(id, ordinal++, name);
   ordinal = 0;
   for (const JointName& j : episode.joints)
-    joint_.run(id_, ordinal++, j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
+    joint_.run(id, ordinal++, j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
 }
 
-void EpisodeWriter::write_cameras(const EpisodeRecord& episode) {
+void EpisodeWriter::write_streams(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const Camera& camera : episode.cameras) write_camera(ordinal++, camera);
-}
-
-void EpisodeWriter::write_camera(int ordinal, const Camera& c) {
-  const auto& [k1, k2, p1, p2, k3] = c.distortion;
-  const std::string link = mount_link(c), matrix = matrix_text(c.mount_from_camera);
-  camera_.run(id_, ordinal, c.name, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y, k1, k2, p1, p2, k3,
-              c.near_m, c.far_m, c.mount_body, c.mount_part, link, vertical_field_of_view(c), matrix,
-              to_pose(c.mount_from_camera));
+  for (const StreamRecord& s : episode.streams)
+    stream_.run(id, ordinal++, s.kind, s.name, s.file, s.clock, s.offset_s, s.drift_ppm, s.reference_s, s.origin_s,
+                s.rate_hz, s.readings, s.longest_gap_s, s.missing, s.rule);
+  for (const ImageTimeRecord& i : episode.image_times) image_time_.run(id, i.frame, i.camera, i.kind, i.time_s);
 }
 
 }  // namespace stampede

@@ -24,8 +24,13 @@ class ArrayReader : private EpisodeReader {
   EpisodeArrays read(const ArrayRequest& request);
 
  private:
-  double* slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items, std::size_t width,
-               const char* name) const;
+  // So many items a frame, each so wide.
+  struct ItemTable {
+    std::vector<double>& values;
+    std::size_t items, width;
+    const char* name;
+  };
+  double* slot(const ItemTable& table, std::int64_t frame, std::int64_t which) const;
   void read_head();
   void read_frame_rows();
   void read_joint_rows();
@@ -37,12 +42,11 @@ class ArrayReader : private EpisodeReader {
   FrameTables tables_;
 };
 
-// Place of (frame, which) in a table of `which` items a frame, each `width` wide.
-double* ArrayReader::slot(std::vector<double>& table, std::int64_t frame, std::int64_t which, std::size_t items,
-                          std::size_t width, const char* name) const {
+// Where an item of a frame is.
+double* ArrayReader::slot(const ItemTable& table, std::int64_t frame, std::int64_t which) const {
   const auto row = static_cast<std::size_t>(frame), item = static_cast<std::size_t>(which);  // huge where negative
-  if (row >= tables_.frames || item >= items || width == 0) damaged(name);
-  return &table[(row * items + item) * width];
+  if (row >= tables_.frames || item >= table.items || table.width == 0) damaged(table.name);
+  return &table.values[(row * table.items + item) * table.width];
 }
 
 void ArrayReader::read_head() {
@@ -86,8 +90,8 @@ void ArrayReader::read_joint_rows() {
          row.read(frame, part);
          int column = 2;
          for (auto* table : {&tables_.joint_position, &tables_.joint_velocity, &tables_.joint_effort}) {
-           take_part(row, column, part, kJointsARow, {slot(*table, frame, 0, 1, joints, "joint_state"), joints},
-                     "joint_state");
+           const std::span<double> all(slot({*table, 1, joints, "joint_state"}, frame, 0), joints);
+           take_values(row, column, part_in(all, part, kJointsARow, "joint_state"), "joint_state");
            column += static_cast<int>(kJointsARow);
          }
        });
@@ -101,7 +105,7 @@ void ArrayReader::read_hand_rows() {
            ", linear_x, linear_y, linear_z, angular_x, angular_y, angular_z, opening, touch_1, touch_2",
        "hand_state", "frame, hand", [&](sql::Statement& row) {
          const std::int64_t frame = sqlite3_column_int64(row.handle(), 0), hand = sqlite3_column_int64(row.handle(), 1);
-         take(row, 2, kWidth, slot(tables_.hand, frame, hand, hands, kWidth, "hand_state"));
+         take(row, 2, kWidth, slot({tables_.hand, hands, kWidth, "hand_state"}, frame, hand));
        });
 }
 
@@ -112,7 +116,7 @@ void ArrayReader::read_pose_rows(const std::string& which, const char* table, st
   poses.assign(tables_.frames * items * kWidth, kUnknown);
   each(which + ", frame, " + kPoseColumns, table, which + ", frame", [&](sql::Statement& row) {
     const std::int64_t item = sqlite3_column_int64(row.handle(), 0), frame = sqlite3_column_int64(row.handle(), 1);
-    take(row, 2, kWidth, slot(poses, frame, item, items, kWidth, table));
+    take(row, 2, kWidth, slot({poses, items, kWidth, table}, frame, item));
   });
   const std::size_t stride = items * kWidth;
   for (std::size_t i = stride; i < poses.size(); i += kWidth)
@@ -132,7 +136,7 @@ void ArrayReader::read_action_rows() {
     row.read(frame, part);
     each_channel(row, part, channels, [&](const ActionChannel& channel, double value) {
       const auto put = [&](std::vector<double>& table, std::size_t width) {
-        *slot(table, frame, static_cast<std::int64_t>(channel.component), width, 1, "action") = value;
+        *slot({table, width, 1, "action"}, frame, static_cast<std::int64_t>(channel.component)) = value;
       };
       if (channel.space == "joint_position") put(tables_.action_joint_position, joints);
       if (channel.space == "tool_pose") put(tables_.action_tool_pose, kWidth);

@@ -35,7 +35,7 @@ std::vector<std::string> derived(const sql::Database& database) {
 
 }  // namespace
 
-std::string joined(const std::vector<std::string>& words) {
+std::string quoted_columns(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + sql::quoted_name(word);
   return text;

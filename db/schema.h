@@ -16,7 +16,7 @@ struct Table {
   std::vector<std::string> columns, order;  // but the episode's number; of the key, or all
   bool of_episode = false;                  // has a column `episode`, or is the table of episodes
 };
-std::string joined(const std::vector<std::string>& columns);  // quoted, with commas
+std::string quoted_columns(const std::vector<std::string>& columns);  // with commas
 
 const std::string& current_tables_hash();                 // of the files in db/schema, but for comments and spaces
 const std::vector<Table>& current_tables();               // by name: as we declare them, whatever a file says

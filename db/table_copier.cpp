@@ -4,7 +4,7 @@ namespace stampede {
 
 TableCopier::TableCopier(const sql::Database& from, const sql::Database& to, const Table& table)
     : columns_(static_cast<int>(table.columns.size())) {
-  const std::string columns = joined(table.columns);
+  const std::string columns = quoted_columns(table.columns);
   std::string read = "SELECT " + columns + " FROM " + table.name, write = "INSERT INTO main." + table.name + " (";
   if (table.of_episode) {
     const std::string number = table.name == "episode" ? "id" : "episode";

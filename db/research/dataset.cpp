@@ -64,8 +64,9 @@ bool takes(Part part, const std::string& split) {
 // Rows of a SELECT into a table, with the unit's number before each; what is written is hashed.
 class TableFiller : public RowReceiver {
  public:
-  TableFiller(PlainFileWriter* file, Hasher& hasher) : file_(file), hasher_(hasher) {}
-  void begin(const std::string& table, const char* unit) { table_ = table, unit_ = unit, names_.clear(); }
+  // `unit`: the number's column. `file`: null where it is only hashed.
+  TableFiller(const char* unit, PlainFileWriter* file, Hasher& hasher) : unit_(unit), file_(file), hasher_(hasher) {}
+  void begin(const std::string& table) { table_ = table, names_.clear(); }
   void of_unit(std::int64_t number) { number_ = number; }
   void columns(const std::vector<std::string>& names) override {
     if (names == names_) return;
@@ -96,10 +97,10 @@ class TableFiller : public RowReceiver {
     if (const auto* blob = std::get_if<SqlBlob>(&value)) hasher_.text(blob->bytes);
   }
 
+  const char* unit_;
   PlainFileWriter* file_;
   Hasher& hasher_;
   std::string table_;
-  const char* unit_ = "";
   std::vector<std::string> names_;
   std::vector<SqlValue> row_;
   std::int64_t number_ = 0, rows_ = 0;
@@ -171,12 +172,11 @@ void check_needs(const Catalogue& catalogue, const ResearchProblem& problem, con
     }
 }
 
-std::int64_t fill(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<TableUse>& uses,
-                  const std::vector<Member>& members, PlainFileWriter* file, Hasher& hasher) {
-  TableFiller filler(file, hasher);
+std::int64_t fill(const Catalogue& catalogue, const std::vector<TableUse>& uses, const std::vector<Member>& members,
+                  TableFiller filler) {
   std::string table;
   for (const TableUse& use : uses) {
-    if (use.table() != table) filler.begin(table = use.table(), unit_column(problem));
+    if (use.table() != table) filler.begin(table = use.table());
     for (const Member& one : members) {
       if (!takes(use.part, one.split)) continue;
       filler.of_unit(one.number);
@@ -272,8 +272,9 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
   std::optional<PlainFileWriter> hidden;
   if (!request.hidden.empty()) hidden.emplace(request.hidden / kHiddenFile);
   DatasetReport report;
-  report.given_rows = fill(catalogue, problem, problem.given, members, &given, hasher);
-  report.hidden_rows = fill(catalogue, problem, problem.hidden, members, hidden ? &*hidden : nullptr, hasher);
+  const char* unit = unit_column(problem);
+  report.given_rows = fill(catalogue, problem.given, members, TableFiller(unit, &given, hasher));
+  report.hidden_rows = fill(catalogue, problem.hidden, members, TableFiller(unit, hidden ? &*hidden : nullptr, hasher));
   report.id = hasher.digest();
   std::vector<std::int64_t> tests;
   for (const Member& one : members) {

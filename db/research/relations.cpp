@@ -46,9 +46,10 @@ struct SceneThing {
   Eigen::RowVector3d size = Eigen::RowVector3d::Zero();
   Eigen::MatrixXd at;  // a row a frame, m; empty: it has no pose
 };
+using Things = std::map<std::string, SceneThing>;
 
 // Where the sentences name colours, things are meant by theirs, and others by what they are called.
-void mark_asked(std::map<std::string, SceneThing>& things, const Sentences& sentences) {
+void mark_asked(Things& things, const Sentences& sentences) {
   std::set<std::string> by_colour;  // types
   for (auto& [name, thing] : things)
     if (!thing.colour.empty() && sentences.words.contains(thing.colour))
@@ -69,9 +70,8 @@ void mark_asked(std::map<std::string, SceneThing>& things, const Sentences& sent
   }
 }
 
-std::map<std::string, SceneThing> things_of(const PlainFile& given, std::int64_t episode, const Sentences& sentences,
-                                            Eigen::Index frames) {
-  std::map<std::string, SceneThing> things;
+Things things_of(const PlainFile& given, std::int64_t episode, const Sentences& sentences, Eigen::Index frames) {
+  Things things;
   const Rows rows = given.query("SELECT * FROM objects WHERE episode = ?1 ORDER BY object", {episode});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SceneThing& thing = things[rows.text(i, "object")];
@@ -107,54 +107,67 @@ bool lies_within(const SceneThing& inner, const SceneThing& outer, Eigen::Index 
   return ((inner.at.row(frame) - outer.at.row(frame)).cwiseAbs().array() < outer.size.array() / 2).all();
 }
 
-}  // namespace
-
-Eigen::MatrixXd relations(const PlainFile& given, const Signals& signals) {
-  constexpr double kMoved = 0.02, kReach = 0.06, kFar = 1, kHeld = 0.5;  // m, m, m, N
+// Columns of things that are asked for; then the same of all others.
+struct Of {
   enum { moved, rise, near, held, inside, on_asked, on_other, joints, most_joints, each };
-  const Eigen::Index frames = signals.hand.rows();
-  Eigen::MatrixXd features = Eigen::MatrixXd::Zero(frames, 2 * each + 5);
-  const Sentences sentences = sentences_of(given, signals.unit);
-  const std::map<std::string, SceneThing> things = things_of(given, signals.unit, sentences, frames);
-  for (Eigen::Index frame = 0; frame < frames; ++frame) {
+};
+
+void add_things(const Things& things, const Signals& signals, Eigen::MatrixXd& features) {
+  constexpr double kMoved = 0.02, kReach = 0.06, kFar = 1, kHeld = 0.5;  // m, m, m, N
+  for (Eigen::Index frame = 0; frame < features.rows(); ++frame) {
     auto row = features.row(frame);
     const auto hand = signals.hand.row(frame);
     const double force = std::min(hand(14), hand(15));
-    row(near) = row(each + near) = -kFar;
+    row(Of::near) = row(Of::each + Of::near) = -kFar;
     for (const auto& [name, thing] : things) {
       if (!thing.movable || thing.at.size() == 0) continue;
-      auto of = row.segment(thing.asked ? 0 : each, each);
+      auto of = row.segment(thing.asked ? 0 : Of::each, Of::each);
       const Eigen::RowVector3d way = thing.at.row(frame) - thing.at.row(0);
       const double distance = (thing.at.row(frame) - hand.head(3)).norm();
-      of(moved) += way.norm() > kMoved ? 1 : 0;
-      of(rise) = std::max(of(rise), way.z());
-      of(near) = std::max(of(near), -distance);
-      if (distance < kReach && force > kHeld) of(held) = 1;
+      of(Of::moved) += way.norm() > kMoved ? 1 : 0;
+      of(Of::rise) = std::max(of(Of::rise), way.z());
+      of(Of::near) = std::max(of(Of::near), -distance);
+      if (distance < kReach && force > kHeld) of(Of::held) = 1;
       bool within = false;
       for (const auto& [other_name, other] : things) {
         if (&other == &thing || other.at.size() == 0) continue;
         within = within || ((other.region || other.container) && lies_within(thing, other, frame));
-        if (other.movable && lies_on(thing, other, frame)) ++of(other.asked ? on_asked : on_other);
+        if (other.movable && lies_on(thing, other, frame)) ++of(other.asked ? Of::on_asked : Of::on_other);
       }
-      of(inside) += within ? 1 : 0;
+      of(Of::inside) += within ? 1 : 0;
     }
     row.tail(4) << signals.opening()(frame), force, hand(2), hand.segment(7, 3).norm();
   }
+}
+
+void add_joints(const PlainFile& given, std::int64_t episode, const Things& things, Eigen::MatrixXd& features) {
   const Rows rows = given.query(
       "SELECT frame, joint, position, first_value(position) OVER (PARTITION BY joint ORDER BY frame) AS start "
       "FROM object_joints WHERE episode = ?1 ORDER BY joint, frame",
-      {signals.unit});
+      {episode});
   double most = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::int64_t frame = rows.integer(i, "frame");
     const auto thing = things.find(rows.text(i, "joint"));
     const double way = std::abs(rows.real(i, "position") - rows.real(i, "start"));
     most = frame == 0 ? way : std::max(most, way);
-    if (frame >= frames) continue;
-    auto of = features.row(frame).segment(thing != things.end() && thing->second.asked ? 0 : each, each);
-    of(joints) += way, of(most_joints) += most;
+    if (frame >= features.rows()) continue;
+    auto of = features.row(frame).segment(thing != things.end() && thing->second.asked ? 0 : Of::each, Of::each);
+    of(Of::joints) += way, of(Of::most_joints) += most;
   }
-  if (sentences.number > 1) features.col(2 * each) = (sentences.number - 1 - features.col(on_asked).array()).max(0);
+}
+
+}  // namespace
+
+Eigen::MatrixXd relations(const PlainFile& given, const Signals& signals) {
+  const Eigen::Index frames = signals.hand.rows();
+  Eigen::MatrixXd features = Eigen::MatrixXd::Zero(frames, 2 * Of::each + 5);
+  const Sentences sentences = sentences_of(given, signals.unit);
+  const Things things = things_of(given, signals.unit, sentences, frames);
+  add_things(things, signals, features);
+  add_joints(given, signals.unit, things, features);
+  if (sentences.number > 1)
+    features.col(2 * Of::each) = (sentences.number - 1 - features.col(Of::on_asked).array()).max(0);
   return features;
 }
 

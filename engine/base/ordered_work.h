@@ -14,18 +14,22 @@
 
 namespace stampede {
 
-// For i = 0 … count-1: take(i, make(worker, i)), take in this order and one at a time, make in `workers` threads, each
-// with a worker of its own that start() made there. Who is ahead waits, so at most one result a thread is kept.
-// Ends early when `stop` is set: what was being made is taken no more. Throws what the first i of these threw, whoever
-// was quicker.
+struct Crew {
+  int workers = 1;
+  const std::atomic<bool>* stop = nullptr;  // set: all of them end early
+};
+
+// For i = 0 … count-1: take(i, make(worker, i)), take in this order and one at a time, make in as many threads as the
+// crew has workers, each with one of its own that start() made there. Who is ahead waits, so at most one result a
+// thread is kept. When the crew is stopped, what was being made is taken no more. Throws what the first i of these
+// threw, whoever was quicker.
 template <typename Start, typename Make, typename Take>
-void in_order(std::size_t count, int workers, const std::atomic<bool>* stop, const Start& start, const Make& make,
-              const Take& take) {
+void in_order(std::size_t count, const Crew& crew, const Start& start, const Make& make, const Take& take) {
   std::mutex mutex;
   std::condition_variable moved;
   std::size_t next = 0, turn = 0;
   std::exception_ptr first;
-  const auto over = [&] { return first || (stop && stop->load()); };
+  const auto over = [&] { return first || (crew.stop && crew.stop->load()); };
   const auto work = [&] {
     auto worker = start();
     while (true) {
@@ -64,7 +68,7 @@ void in_order(std::size_t count, int workers, const std::atomic<bool>* stop, con
     moved.notify_all();  // who waits for this thread's turn sees that it is over
   };
   std::vector<std::thread> threads;
-  const auto wanted = std::min(count, static_cast<std::size_t>(std::max(1, workers)));
+  const auto wanted = std::min(count, static_cast<std::size_t>(std::max(1, crew.workers)));
   for (std::size_t t = 1; t < wanted; ++t) threads.emplace_back(loop);
   loop();
   for (std::thread& thread : threads) thread.join();

@@ -57,45 +57,65 @@ bool BddlExpression::fixed(const std::string& predicate) const {
   return std::find(domain_.traits.begin(), domain_.traits.end(), predicate) != domain_.traits.end();
 }
 
+// Within a region of theirs that has ranges: those are flat.
+bool BddlExpression::within_flat(const std::string& predicate, const BddlThing* last) const {
+  return mapping_.dialect == BddlDialect::libero && predicate == mapping_.within && last != nullptr &&
+         last->kind == BddlThing::Kind::region && !last->area.empty();
+}
+
+BddlFormula BddlExpression::atom_by(const BddlPredicateRule& rule, const std::vector<std::string>& names) {
+  BddlFormula atom;
+  atom.predicate = rule.theirs;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names.at(rule.order.empty() ? i : static_cast<std::size_t>(rule.order.at(i)));
+    const bool variable = name.starts_with('?');
+    atom.terms.push_back({variable, variable ? name.substr(1) : naming_.theirs(name)});
+    if (mapping_.dialect == BddlDialect::libero) naming_.declare(name);
+  }
+  return atom;
+}
+
+void BddlExpression::put_on_fixture(const std::string& ours, const BddlThing& fixture, BddlFormula& atom) {
+  if (fixture.area.empty()) {
+    naming_.remark(ours + ": no area is known, so theirs asks that the centres are within 3 cm of one another");
+  } else {
+    atom.terms.back().name = naming_.surface(fixture);
+  }
+}
+
+// How far theirs means the same. `last`: the literal's last argument, where it is a thing.
+BddlNote BddlExpression::note_of(const BddlPredicateRule& rule, const std::string& predicate, const BddlThing* last,
+                                 bool negated) const {
+  const bool their_negation = rule.negated != negated;
+  BddlNote note{(their_negation ? "not " : "") + rule.theirs, (negated ? "not " : "") + predicate,
+                negated ? opposite(rule.meaning) : rule.meaning, rule.why};
+  if (within_flat(predicate, last)) {
+    note.meaning = negated ? BddlMeaning::stronger : BddlMeaning::weaker;
+    note.why = "theirs asks also for contact with what the region lies on";
+  }
+  const bool libero = mapping_.dialect == BddlDialect::libero;
+  if (libero || last == nullptr || last->kind != BddlThing::Kind::part) return note;
+  note.why += "; the part is folded into its body, whose other parts count there too";
+  // Their `open` of the whole is weaker still; their `not open` needs all parts shut, which ours of one part does not.
+  if (their_negation || note.meaning == BddlMeaning::equal) note.meaning = BddlMeaning::incomparable;
+  return note;
+}
+
 BddlFormula BddlExpression::literal(const std::string& predicate, const std::vector<std::string>& names, bool negated) {
   const std::string ours = to_text(Fact{predicate, names});
   const BddlThing* last = names.empty() ? nullptr : naming_.thing(names.back());
-  const bool libero = mapping_.dialect == BddlDialect::libero;
-  const bool flat = libero && last != nullptr && last->kind == BddlThing::Kind::region && !last->area.empty();
-  const bool over_region = flat && predicate == mapping_.within;  // their regions with ranges are flat
+  const bool over_region = within_flat(predicate, last);
   const BddlPredicateRule* rule = mapping_.from_ours(over_region ? mapping_.support : predicate, negated);
   if (rule == nullptr) {
     throw Refusal{ours + ": " + std::string(to_string(mapping_.dialect)) + " has no predicate for `" + predicate +
                   "`; add one to the mapping, or leave it out of the goal"};
   }
-  const bool their_negation = rule->negated != negated;
-  BddlFormula formula;
-  formula.predicate = rule->theirs;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string& name = names.at(rule->order.empty() ? i : static_cast<std::size_t>(rule->order.at(i)));
-    const bool variable = name.starts_with('?');
-    formula.terms.push_back({variable, variable ? name.substr(1) : naming_.theirs(name)});
-    if (libero) naming_.declare(name);
-  }
-  const bool on_fixture = libero && last != nullptr && last->kind == BddlThing::Kind::fixture &&
-                          predicate == mapping_.support && names.size() == 2;
-  if (on_fixture && !last->area.empty()) formula.terms.back().name = naming_.surface(*last);
-  if (on_fixture && last->area.empty()) {
-    naming_.remark(ours + ": no area is known, so theirs asks that the centres are within 3 cm of one another");
-  }
-  BddlNote note{(their_negation ? "not " : "") + rule->theirs, (negated ? "not " : "") + predicate,
-                negated ? opposite(rule->meaning) : rule->meaning, rule->why};
-  const bool folded = !libero && last != nullptr && last->kind == BddlThing::Kind::part;
-  if (folded) note.why += "; the part is folded into its body, whose other parts count there too";
-  if (folded && note.meaning == BddlMeaning::equal) note.meaning = BddlMeaning::incomparable;
-  // Their `open` of the whole is weaker still; their `not open` needs all parts shut, which ours of one part does not.
-  if (folded && their_negation && note.meaning != BddlMeaning::incomparable) note.meaning = BddlMeaning::incomparable;
-  if (over_region) {
-    note.meaning = negated ? BddlMeaning::stronger : BddlMeaning::weaker;
-    note.why = "theirs asks also for contact with what the region lies on";
-  }
-  result_.notes.insert(note);
-  if (!their_negation) return formula;
+  BddlFormula formula = atom_by(*rule, names);
+  const bool on_fixture = mapping_.dialect == BddlDialect::libero && last != nullptr &&
+                          last->kind == BddlThing::Kind::fixture && predicate == mapping_.support && names.size() == 2;
+  if (on_fixture) put_on_fixture(ours, *last, formula);
+  result_.notes.insert(note_of(*rule, predicate, last, negated));
+  if (rule->negated == negated) return formula;
   BddlFormula negation;
   negation.kind = Kind::negation;
   negation.parts = {formula};

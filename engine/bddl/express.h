@@ -46,6 +46,11 @@ class BddlExpression {
   BddlFormula literal(const std::string& predicate, const std::vector<std::string>& names, bool negated);
 
  private:
+  bool within_flat(const std::string& predicate, const BddlThing* last) const;
+  BddlFormula atom_by(const BddlPredicateRule& rule, const std::vector<std::string>& names);
+  void put_on_fixture(const std::string& ours, const BddlThing& fixture, BddlFormula& atom);
+  BddlNote note_of(const BddlPredicateRule& rule, const std::string& predicate, const BddlThing* last,
+                   bool negated) const;
   BddlFormula join(std::vector<BddlFormula> parts, bool all) const;
   BddlFormula atom_formula(const Formula& formula, bool negated);
   BddlFormula quantified(const Formula& formula, bool negated);

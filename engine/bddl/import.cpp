@@ -249,31 +249,31 @@ bool mentions(const BddlFormula& formula, const std::string& predicate) {
 
 }  // namespace
 
-BddlVerdicts judge_both(const BddlProblem& problem, const BddlValues& values, const BddlTask& task, const Facts& facts,
-                        const Domain& domain, const std::vector<TypedObject>& objects) {
+BddlVerdicts judge_both(const BddlProblem& problem, const BddlValues& values, const BddlTask& task,
+                        const symbolic::View& ours) {
   if (!task.refusal.empty() || task.goal_parts.size() != problem.goal.size()) {
     throw Error(task.name, "has no goal of ours to judge by: " + task.refusal, "judge by theirs alone");
   }
+  const auto holds_here = [&](const Formula& formula) { return holds(formula, ours.facts, ours.domain, ours.objects); };
   BddlVerdicts verdicts{true, true, {}};
   std::set<std::string> literals;
   for (std::size_t i = 0; i < problem.goal.size(); ++i) {
-    const bool theirs = judge(problem.goal[i], problem, values),
-               ours = holds(task.goal_parts[i], facts, domain, objects);
-    verdicts.theirs = verdicts.theirs && theirs;
-    verdicts.ours = verdicts.ours && ours;
-    if (theirs == ours) continue;
+    const bool by_them = judge(problem.goal[i], problem, values), by_us = holds_here(task.goal_parts[i]);
+    verdicts.theirs = verdicts.theirs && by_them;
+    verdicts.ours = verdicts.ours && by_us;
+    if (by_them == by_us) continue;
     const std::size_t before = literals.size();
     for (const auto& [literal, formula] : task.literals) {
       const auto& [atom, negated] = literal;
       if (!mentions(problem.goal[i], atom.predicate)) continue;
-      const bool by_them = values.value(atom) != negated, by_us = holds(formula, facts, domain, objects);
-      if (by_them == by_us) continue;
+      const bool to_them = values.value(atom) != negated, to_us = holds_here(formula);
+      if (to_them == to_us) continue;
       literals.insert(literal_text(atom, negated) + ": " + std::string(to_string(problem.dialect)) + " says " +
-                      yes_no(by_them) + ", we say " + yes_no(by_us));
+                      yes_no(to_them) + ", we say " + yes_no(to_us));
     }
     verdicts.disagreements.push_back(
-        to_text(problem.goal[i]) + ": " + std::string(to_string(problem.dialect)) + " says " + yes_no(theirs) +
-        ", we say " + yes_no(ours) +
+        to_text(problem.goal[i]) + ": " + std::string(to_string(problem.dialect)) + " says " + yes_no(by_them) +
+        ", we say " + yes_no(by_us) +
         (literals.size() == before ? "; the atoms are the same, pairs are counted otherwise" : ""));
   }
   verdicts.disagreements.insert(verdicts.disagreements.end(), literals.begin(), literals.end());

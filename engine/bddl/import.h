@@ -6,6 +6,7 @@
 
 #include "engine/bddl/judge.h"
 #include "engine/bddl/mapping.h"
+#include "engine/symbolic/evaluation.h"
 
 namespace stampede {
 
@@ -53,9 +54,9 @@ struct BddlVerdicts {
   std::vector<std::string> disagreements;  // parts of the goal and ground literals on which the two differ
 };
 
-// `values`: their predicates in the state; `facts`: ours in the same state, derived ones included, under the names
+// `values`: their predicates in the state; `ours`: our facts in the same state, derived ones included, under the names
 // of task.names. Parts may differ where both verdicts agree; they are listed too.
-BddlVerdicts judge_both(const BddlProblem& problem, const BddlValues& values, const BddlTask& task, const Facts& facts,
-                        const Domain& domain, const std::vector<TypedObject>& objects);
+BddlVerdicts judge_both(const BddlProblem& problem, const BddlValues& values, const BddlTask& task,
+                        const symbolic::View& ours);
 
 }  // namespace stampede

@@ -217,22 +217,24 @@ std::optional<Complaint> BddlScope::quantifier(const BddlFormula& formula, const
   return std::nullopt;
 }
 
+std::optional<Complaint> BddlScope::goal_atom(const BddlFormula& formula, const std::vector<Parameter>& bound) const {
+  std::vector<std::string> arguments;
+  for (const Term& term : formula.terms) {
+    const auto is_bound = [&](const Parameter& v) { return v.name == term.name; };
+    if (term.variable != std::any_of(bound.begin(), bound.end(), is_bound)) {
+      return Complaint{"`?" + term.name + "` is bound by nothing around it", "name an object or add a quantifier"};
+    }
+    arguments.push_back(term.name);
+  }
+  for (const std::string& argument : arguments) {
+    if (is_wildcard(argument)) return Complaint{"the wildcard `" + argument + "` in the goal", "name its instances"};
+  }
+  return atom(formula.predicate, arguments, bound);
+}
+
 std::optional<Complaint> BddlScope::node(const BddlFormula& formula, const std::vector<Parameter>& bound) const {
   using Kind = BddlFormula::Kind;
-  if (formula.kind == Kind::atom) {
-    std::vector<std::string> arguments;
-    for (const Term& term : formula.terms) arguments.push_back(term.name);
-    for (const Term& term : formula.terms) {
-      const auto is_bound = [&](const Parameter& v) { return v.name == term.name; };
-      if (term.variable != std::any_of(bound.begin(), bound.end(), is_bound)) {
-        return Complaint{"`?" + term.name + "` is bound by nothing around it", "name an object or add a quantifier"};
-      }
-    }
-    for (const std::string& argument : arguments) {
-      if (is_wildcard(argument)) return Complaint{"the wildcard `" + argument + "` in the goal", "name its instances"};
-    }
-    return atom(formula.predicate, arguments, bound);
-  }
+  if (formula.kind == Kind::atom) return goal_atom(formula, bound);
   if (problem_.dialect == BddlDialect::libero) {
     const std::string text = to_text(formula);
     return Complaint{

@@ -32,6 +32,7 @@ class BddlScope {
   const std::vector<std::string>* instances(const std::string& category) const;
 
  private:
+  std::optional<Complaint> goal_atom(const BddlFormula& formula, const std::vector<Parameter>& bound) const;
   std::optional<Complaint> atom(const std::string& predicate, const std::vector<std::string>& arguments,
                                 const std::vector<Parameter>& bound) const;
   std::optional<Complaint> quantifier(const BddlFormula& formula, const std::vector<Parameter>& bound) const;

@@ -108,12 +108,29 @@ void check_formula(const BddlProblem& problem, const symbolic::BddlScope& scope,
   for (const BddlFormula& part : formula.parts) check_formula(problem, scope, part, bound);
 }
 
+// What ends a word of theirs, or would be read as another letter.
+bool is_special(unsigned char c) { return c == '(' || c == ')' || c == ';' || (c >= 'A' && c <= 'Z'); }
+
+void check_language(const BddlProblem& problem) {
+  std::string plain;
+  bool blank = true;
+  for (const char c : problem.language) {
+    if (blank && c == ' ') continue;
+    plain += c;
+    blank = c == ' ';
+  }
+  const bool words = std::none_of(plain.begin(), plain.end(), [](unsigned char c) { return c < ' ' || is_special(c); });
+  if (!words || plain != problem.language || plain.ends_with(' ')) {
+    refuse(problem, {"the language `" + problem.language + "` would not be read back",
+                     "small letters, single blanks, no parentheses and no `;`"});
+  }
+}
+
 void check_heading(const BddlProblem& problem) {
   const bool libero = problem.dialect == BddlDialect::libero;
   const auto is_word = [](const std::string& word) {
-    return !word.empty() && std::none_of(word.begin(), word.end(), [](unsigned char c) {
-      return c <= ' ' || c == '(' || c == ')' || c == ';' || (c >= 'A' && c <= 'Z');
-    });
+    return !word.empty() &&
+           std::none_of(word.begin(), word.end(), [](unsigned char c) { return c <= ' ' || is_special(c); });
   };
   if (!is_word(problem.name)) refuse(problem, {"`" + problem.name + "` cannot be its name", "use one small word"});
   const bool known =
@@ -124,20 +141,7 @@ void check_heading(const BddlProblem& problem) {
       !(problem.language.empty() && problem.regions.empty() && problem.fixtures.empty() && problem.interest.empty())) {
     refuse(problem, {"BEHAVIOR has no language, regions, fixtures or objects of interest", "leave them empty"});
   }
-  std::string plain;
-  bool blank = true;
-  for (const char c : problem.language) {
-    if (blank && c == ' ') continue;
-    plain += c;
-    blank = c == ' ';
-  }
-  const bool words = std::none_of(plain.begin(), plain.end(), [](unsigned char c) {
-    return c < ' ' || c == '(' || c == ')' || c == ';' || (c >= 'A' && c <= 'Z');
-  });
-  if (!words || plain != problem.language || plain.ends_with(' ')) {
-    refuse(problem, {"the language `" + problem.language + "` would not be read back",
-                     "small letters, single blanks, no parentheses and no `;`"});
-  }
+  check_language(problem);
 }
 
 void check_wildcards(const BddlProblem& problem) {

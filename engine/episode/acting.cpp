@@ -34,7 +34,7 @@ Acting::Acting(EpisodeSource::Opened opened_in, const EnvironmentSettings& setti
       record(std::move(described_record)),
       rollout(*opened.symbols, start, sensors_of(*start.scene, record, opened.options.sensors), nullptr),
       track(rollout, *opened.symbols, *opened.skills, opened.options, draw_key("skill", record)),
-      observer(rollout, start.scene, opened.options, settings, record, renderer),
+      observer(rollout, opened.options, settings, renderer),
       spaces(action_spaces(*start.scene)) {}
 
 std::optional<ActionRefusal> Acting::refusal_of(const AgentAction& action) const {
@@ -118,8 +118,8 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
   const auto space = planning_space(rollout, {});
   const Transform target = tool_target(action, world);
   const MotionLimits limits = motion_limits(rollout);
-  PlannedMotion planned = plan_through(*space, planning_start(world), {{"goal", target}}, limits,
-                                       draw_key("path", record).with(rollout.step()));
+  PlannedMotion planned = plan_through(
+      {*space, planning_start(world), limits, draw_key("path", record).with(rollout.step())}, {{"goal", target}});
   if (planned.reason != Reason::none) {
     rollout.keep = keep;
     return ActionRefusal{std::string(describe(planned.reason)) + (planned.detail.empty() ? "" : ": " + planned.detail),
@@ -134,8 +134,9 @@ std::optional<ActionRefusal> Acting::begin_path(const AgentAction& action, StepR
                     (i == 0 || world.reference().velocity.cwiseAbs().maxCoeff() > 1e-9);
          ++i)
       to_frame(), one_frame({});
-    planned = plan_through(*planning_space(rollout, {}), planning_start(world), {{"goal", target}}, limits,
-                           draw_key("path", record).with(rollout.step()));
+    planned = plan_through(
+        {*planning_space(rollout, {}), planning_start(world), limits, draw_key("path", record).with(rollout.step())},
+        {{"goal", target}});
   }
   close_control();
   look_at_hand();
@@ -201,7 +202,7 @@ void Acting::open_control() {
 
 void Acting::close_control() {
   if (control_segment < 0) return;
-  rollout.recorder().close_segment(control_segment, rollout.step(), Outcome::success, Reason::none, {});
+  rollout.close_segment(control_segment);
   control_segment = -1;
   track.advance_subgoals();
   if (!rollout.keeps_record()) track.forget();
@@ -268,8 +269,7 @@ void Acting::skill_over(StepResult& result) {
 }
 
 void Acting::path_over(StepResult& result, const SkillResult& how) {
-  rollout.recorder().close_segment(running.segment, rollout.step(), how.ok() ? Outcome::success : Outcome::failure,
-                                   how.reason, how.detail);
+  rollout.close_segment(running.segment, how.reason, how.detail);
   result.ended.push_back({running.name, {}, how.ok(), std::string(to_string(how.reason)), how.detail, {}, {}, {}});
   running = {};
   held = -1;

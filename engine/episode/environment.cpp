@@ -198,7 +198,7 @@ void Environment::Impl::go_to_frame(const EpisodeRecord& episode, std::int64_t f
 StepResult Environment::Impl::step(const AgentAction& action) {
   Acting& own = acting();
   StepResult result;
-  own.observer.facts();  // as they are before
+  own.observer.symbols().facts();  // as they are before
   own.rollout.world().forget_limited();
   const std::int64_t changes = own.rollout.facts().changes(), before_step = own.rollout.step();
   if (auto refusal = own.refusal_of(action))
@@ -207,8 +207,8 @@ StepResult Environment::Impl::step(const AgentAction& action) {
     result.refusal = own.do_asked(action, result);
   result.frames = (own.rollout.step() - before_step) / own.rollout.steps_per_frame();
   if (own.rollout.facts().changes() != changes) {
-    const Facts before = own.observer.last_facts();
-    result.changes = difference(before, own.observer.facts());
+    const Facts before = own.observer.symbols().last_facts();
+    result.changes = difference(before, own.observer.symbols().facts());
   }
   if (own.over != Reason::none || own.success) {
     result.success = own.success;
@@ -307,11 +307,11 @@ std::vector<ActionSpace> Environment::spaces() const {
 }
 
 std::vector<SkillChoice> Environment::skills() const {
-  Observer& observer = impl_->acting().observer;
-  const std::vector<std::uint8_t>& mask = observer.feasible();
+  SymbolChannels& symbols = impl_->acting().observer.symbols();
+  const std::vector<std::uint8_t>& mask = symbols.feasible();
   std::vector<SkillChoice> choices;
   for (std::size_t i = 0; i < mask.size(); ++i)
-    choices.push_back({observer.skills()[i].action, observer.skills()[i].arguments, mask[i] != 0});
+    choices.push_back({symbols.skills()[i].action, symbols.skills()[i].arguments, mask[i] != 0});
   return choices;
 }
 
@@ -327,7 +327,7 @@ ChannelValue Environment::picture(const std::string& camera, PictureSize size) c
 
 std::vector<StateFact> Environment::atoms() const {
   std::vector<StateFact> atoms;
-  for (const Fact& fact : impl_->acting().observer.atoms()) atoms.push_back({fact.predicate, fact.arguments});
+  for (const Fact& fact : impl_->acting().observer.symbols().atoms()) atoms.push_back({fact.predicate, fact.arguments});
   return atoms;
 }
 

@@ -15,10 +15,10 @@ struct Both {
   Facts truth, learned;
 };
 
-std::vector<Both> chosen(const std::vector<Sample>& samples, std::size_t most, const Domain& learned,
-                         const Domain& truth) {
+std::vector<Both> chosen(const std::vector<Sample>& samples, const Domain& learned, const Domain& truth) {
+  constexpr std::size_t kMost = 200;
   std::vector<Both> both;
-  const std::size_t count = std::min(most, samples.size());
+  const std::size_t count = std::min(kMost, samples.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Sample& one = samples[i * samples.size() / count];
     const Facts theirs = in_words_of(truth, one.facts, *one.objects);
@@ -27,28 +27,34 @@ std::vector<Both> chosen(const std::vector<Sample>& samples, std::size_t most, c
   return both;
 }
 
+// The samples in the words of one domain.
+using Views = std::vector<symbolic::View>;
+
+Views views_of(const std::vector<Both>& samples, const Domain& domain, Facts Both::*words) {
+  Views views;
+  for (const Both& one : samples) views.push_back({one.*words, domain, *one.objects});
+  return views;
+}
+
 // Whether a formula over the parameters of one action holds wherever the other can be taken; without such a place: no.
 // `slot_of`: by parameter of the formula's action, that of the other.
 class Implied {
  public:
-  Implied(const Action& taken, const Domain& domain, const std::vector<Both>& samples, bool learned) {
-    for (const Both& one : samples) {
-      const Facts& facts = learned ? one.learned : one.truth;
-      calls_.push_back(applicable_calls(taken, {facts, domain, *one.objects}));
+  Implied(const Action& taken, const Views& samples) {
+    for (const symbolic::View& one : samples) {
+      calls_.push_back(applicable_calls(taken, one));
       any_ |= !calls_.back().empty();
     }
   }
-  bool holds(const Formula& formula, const Action& of, const std::vector<int>& slot_of, const Domain& domain,
-             const std::vector<Both>& samples, bool learned) const {
+  bool holds(const Formula& formula, const Action& of, const std::vector<int>& slot_of, const Views& samples) const {
     if (!any_) return false;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Facts& facts = learned ? samples[i].learned : samples[i].truth;
       for (const Call& call : calls_[i]) {
         Binding binding;
         for (std::size_t p = 0; p < of.parameters.size(); ++p)
           if (slot_of[p] >= 0) binding[of.parameters[p].name] = call[static_cast<std::size_t>(slot_of[p])];
         if (!bound(formula, binding)) return false;
-        if (!symbolic::evaluate(formula, {facts, domain, *samples[i].objects}, binding)) return false;
+        if (!symbolic::evaluate(formula, samples[i], binding)) return false;
       }
     }
     return true;
@@ -78,9 +84,9 @@ class LiteralComparison {
  public:
   LiteralComparison(const Domain& learned, const Domain& truth, const ActionMatch& match,
                     const std::vector<Both>& samples)
-      : learned_(learned),
-        truth_(truth),
-        samples_(samples),
+      : truth_(truth),
+        in_learned_(views_of(samples, learned, &Both::learned)),
+        in_truth_(views_of(samples, truth, &Both::truth)),
         mine_(*learned.action(match.learned)),
         theirs_(*truth.action(match.truth)),
         true_of_(inverse(match.slot_of, mine_.parameters.size())) {
@@ -94,7 +100,7 @@ class LiteralComparison {
  private:
   void preconditions(const ActionLiterals& mine, const ActionLiterals& theirs) {
     Literals said;
-    const Implied at_truth(theirs_, truth_, samples_, false), at_learned(mine_, learned_, samples_, true);
+    const Implied at_truth(theirs_, in_truth_), at_learned(mine_, in_learned_);
     for (LiftedLiteral one : mine.precondition) {
       if (!replaced(one, true_of_)) continue;
       said.insert(one);
@@ -104,7 +110,7 @@ class LiteralComparison {
       }
       ++score.preconditions.wrong;
       const Formula formula = formula_of(one, theirs_);
-      const bool implied = at_truth.holds(formula, theirs_, identity(theirs_), learned_, samples_, true);
+      const bool implied = at_truth.holds(formula, theirs_, identity(theirs_), in_learned_);
       score.held.wrong += !implied;
       note(score.extra, to_text(one, theirs_), implied);
     }
@@ -118,7 +124,7 @@ class LiteralComparison {
         continue;
       }
       ++score.preconditions.wrong;
-      const bool implied = at_truth.holds(one, theirs_, identity(theirs_), learned_, samples_, true);
+      const bool implied = at_truth.holds(one, theirs_, identity(theirs_), in_learned_);
       score.held.wrong += !implied;
       note(score.extra, stampede::to_text(one), implied);
     }
@@ -141,7 +147,7 @@ class LiteralComparison {
 
   void miss(const Formula& formula, const std::string& text, const Implied& at_learned) {
     ++score.preconditions.missed;
-    const bool implied = at_learned.holds(formula, theirs_, score.match.slot_of, truth_, samples_, false);
+    const bool implied = at_learned.holds(formula, theirs_, score.match.slot_of, in_truth_);
     (implied ? score.held.right : score.held.missed) += 1;
     note(score.missing, text, implied);
   }
@@ -182,8 +188,8 @@ class LiteralComparison {
     list.push_back(implied ? "[" + text + "]" : text);
   }
 
-  const Domain &learned_, &truth_;
-  const std::vector<Both>& samples_;
+  const Domain& truth_;
+  Views in_learned_, in_truth_;
   const Action &mine_, &theirs_;
   std::vector<int> true_of_;  // by learned parameter
 };
@@ -276,9 +282,8 @@ CallScore score_calls(const Domain& learned, const Domain& truth, const std::vec
 }  // namespace
 
 OperatorScore score_operators(const Domain& learned, const Domain& truth, const std::vector<ActionMatch>& matches,
-                              const std::set<std::string>& among, const std::vector<Sample>& samples,
-                              std::size_t most) {
-  const std::vector<Both> both = chosen(samples, most, learned, truth);
+                              const std::set<std::string>& among, const std::vector<Sample>& samples) {
+  const std::vector<Both> both = chosen(samples, learned, truth);
   OperatorScore score;
   score.samples = static_cast<int>(both.size());
   for (const ActionMatch& one : matches) {

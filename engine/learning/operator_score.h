@@ -48,10 +48,9 @@ struct OperatorScore {
   int samples = 0;
 };
 
-// `among`: the true actions in question, such as those that the data has. At most `most` samples, evenly chosen.
+// `among`: the true actions in question, such as those that the data has. At most 200 samples, evenly chosen.
 // Throws Error for a learned action whose formulas name a predicate that the domain does not declare.
 OperatorScore score_operators(const Domain& learned, const Domain& truth, const std::vector<ActionMatch>& matches,
-                              const std::set<std::string>& among, const std::vector<Sample>& samples,
-                              std::size_t most = 200);
+                              const std::set<std::string>& among, const std::vector<Sample>& samples);
 
 }  // namespace stampede::learning

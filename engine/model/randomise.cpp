@@ -168,7 +168,22 @@ Look look_apart(const std::vector<Colour>& standing, const Randomisation& ranges
   return best;
 }
 
-void wear(Scene& scene, Part& part, const std::vector<std::size_t>& shapes, const Look& look, const std::string& wish) {
+// Draws looks for the bodies of a scene.
+class Dresser {
+ public:
+  Dresser(Scene& scene, const Randomisation& ranges, const Telling& telling)
+      : scene_(scene), ranges_(ranges), telling_(telling) {}
+  void dress(Body& body, const Body& before, const std::string& name, RandomKey key);
+
+ private:
+  void wear(Part& part, const std::vector<std::size_t>& shapes, const Look& look, const std::string& wish);
+
+  Scene& scene_;
+  const Randomisation& ranges_;
+  const Telling& telling_;
+};
+
+void Dresser::wear(Part& part, const std::vector<std::size_t>& shapes, const Look& look, const std::string& wish) {
   const bool plain = look.texture == kPlain;
   std::string texture = look.texture;
   const auto kind = std::find(kProcedural.begin(), kProcedural.end(), texture);
@@ -178,8 +193,8 @@ void wear(Scene& scene, Part& part, const std::vector<std::size_t>& shapes, cons
         static_cast<std::size_t>(kind - kProcedural.begin()));
     drawn.first = look.colours[0], drawn.second = look.colours[1];
     drawn.size_m = look.size_m, drawn.seed = look.seed;
-    texture = free_name(scene, wish);
-    scene.textures[texture] = drawn;
+    texture = free_name(scene_, wish);
+    scene_.textures[texture] = drawn;
   }
   for (const std::size_t i : shapes) {
     Shape& shape = part.shapes[i];
@@ -191,22 +206,21 @@ void wear(Scene& scene, Part& part, const std::vector<std::size_t>& shapes, cons
 }
 
 // One draw for each part, so that a drawer can still be told from its chest.
-void draw_body_looks(Scene& scene, Body& body, const Body& before, const std::string& name, const Telling& telling,
-                     const Randomisation& ranges, RandomKey key) {
-  const std::vector<Colour> standing = telling.standing(before);
+void Dresser::dress(Body& body, const Body& before, const std::string& name, RandomKey key) {
+  const std::vector<Colour> standing = telling_.standing(before);
   std::vector<std::vector<Colour>> worn(body.parts.size());
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     Part& part = body.parts[i];
-    const std::vector<std::size_t> shapes = telling.ground(before, i);
+    const std::vector<std::size_t> shapes = telling_.ground(before, i);
     if (shapes.empty()) continue;
     std::vector<Colour> others = standing;
     if (i > 0) {
       const std::vector<Colour>& parent = worn[static_cast<std::size_t>(std::max(part.parent, 0))];
       others.insert(others.end(), parent.begin(), parent.end());
     }
-    const Look look = look_apart(others, ranges, key.with(name).with(part.name));
+    const Look look = look_apart(others, ranges_, key.with(name).with(part.name));
     worn[i] = shown(look);
-    wear(scene, part, shapes, look, "random_" + name + (i == 0 ? "" : "_" + part.name));
+    wear(part, shapes, look, "random_" + name + (i == 0 ? "" : "_" + part.name));
   }
 }
 
@@ -216,11 +230,11 @@ void randomise_looks(const Scene& before, Scene& scene, const Randomisation& ran
   const Meant meant = meant_by(scene, ranges.looks, "looks");
   if (ranges.looks.empty()) return;
   const Telling telling(before, said);
+  Dresser dresser(scene, ranges, telling);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (Body& body = scene.bodies[i]; meant.all || meant.bodies.contains(body.name))
-      draw_body_looks(scene, body, before.bodies[i], body.name, telling, ranges, key);
-  if (meant.robot || meant.all)
-    draw_body_looks(scene, scene.robot.body, before.robot.body, scene.robot.name, telling, ranges, key.with(kRobot));
+      dresser.dress(body, before.bodies[i], body.name, key);
+  if (meant.robot || meant.all) dresser.dress(scene.robot.body, before.robot.body, scene.robot.name, key.with(kRobot));
 }
 
 // --- light and cameras

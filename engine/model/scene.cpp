@@ -115,6 +115,26 @@ void grow_by_shape(std::array<Vector3, 2>& bounds, const Shape& shape) {
 
 }  // namespace
 
+std::string_view to_string(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::body:
+      return "body";
+    case ObjectKind::part:
+      return "part";
+    case ObjectKind::region:
+      return "region";
+    case ObjectKind::hand:
+      return "hand";
+  }
+  return "";
+}
+
+std::optional<ObjectKind> object_kind_from(std::string_view name) {
+  for (const ObjectKind kind : {ObjectKind::body, ObjectKind::part, ObjectKind::region, ObjectKind::hand})
+    if (to_string(kind) == name) return kind;
+  return std::nullopt;
+}
+
 int Body::part_index(std::string_view part_name) const { return index_of(parts, part_name); }
 int Scene::body_index(std::string_view body) const { return index_of(bodies, body); }
 const Body& Scene::body_at(int index) const {

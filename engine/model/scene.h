@@ -160,6 +160,8 @@ struct Grasp {
 
 // What planners, facts and people call a thing. It names a body, a part of one, a region, or the hand.
 enum class ObjectKind { body, part, region, hand };
+std::string_view to_string(ObjectKind kind);
+std::optional<ObjectKind> object_kind_from(std::string_view name);
 struct Object {
   std::string name;  // `block1`, `chest.top_drawer`
   ObjectKind kind = ObjectKind::body;

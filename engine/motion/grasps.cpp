@@ -35,23 +35,27 @@ const Part& part_of(const Scene& scene, const Object& object, int& body) {
   return scene.bodies[static_cast<std::size_t>(body)].parts.at(static_cast<std::size_t>(object.part));
 }
 
-// Everything that might be a grasp, best first: from above, centred, the rest by chance.
-std::vector<Option> make_options(const Scene& scene, const Object& object, const Part& part,
-                                 const Transform& world_from_object, const Transform& world_from_tip, RandomKey key) {
+// Everything that might be a grasp.
+std::vector<Option> make_options(const Robot& robot, const Object& object, const Part& part, RandomKey key) {
   std::vector<Option> options;
   for (const Grasp& grasp : object.grasps)
     options.push_back({grasp.object_from_tip, grasp.width, grasp.force, grasp.approach, 0});
   if (object.grasps.empty()) {
-    const double force = force_for(part.mass, scene.robot.grip_force);
+    const double force = force_for(part.mass, robot.grip_force);
     for (std::size_t i = 0; i < part.shapes.size(); ++i) {
       if (!part.shapes[i].collides) continue;
-      const auto found = shape_grasps(part.shapes[i], scene.robot.opening_max, kDepth_m,
+      const auto found = shape_grasps(part.shapes[i], robot.opening_max, kDepth_m,
                                       key.with("shape").with(static_cast<std::int64_t>(i)));
       for (const ShapeGrasp& grasp : found)
         options.push_back({grasp.part_from_tip, grasp.width, force, kApproach_m, 20 * grasp.off_centre});
     }
   }
-  Random random(key.with("order"));
+  return options;
+}
+
+// Best first: from above, centred, the rest by chance.
+void put_in_order(std::vector<Option>& options, const Transform& world_from_object, const Transform& world_from_tip,
+                  Random random) {
   for (Option& option : options) {
     const double down = (world_from_object.linear() * option.object_from_tip.linear().col(2)).z();
     const Quaternion turned(world_from_object.linear() * option.object_from_tip.linear());
@@ -60,7 +64,6 @@ std::vector<Option> make_options(const Scene& scene, const Object& object, const
     option.score += 2 * (1 + down) + 0.5 * turn + 0.5 * random.uniform();
   }
   std::stable_sort(options.begin(), options.end(), [](const Option& a, const Option& b) { return a.score < b.score; });
-  return options;
 }
 
 // Where the arm ends that follows a path of the tip in so many steps, without a jump; nothing: it cannot.
@@ -122,7 +125,7 @@ void measure_miss(const CollisionState& state, const GraspCandidate& grasp, cons
                   Looked& looked) {
   const Transform& tip = looked.approach ? grasp.world_from_approach : grasp.world_from_tip;
   if (looked.fate == Looked::Fate::out_of_reach)
-    measure_reach(state.arm(), state.scene().robot, tip, start, key, looked);
+    note_shortfall(state.arm().shortfall(tip, start, key), state.scene().robot, looked);
   if (looked.fate != Looked::Fate::touches || state.hand_free(tip)) return;  // else it is the arm that touches
   std::vector<Vector3> directions = {Vector3::UnitZ()};
   for (int axis = 0; axis < 3; ++axis)
@@ -132,14 +135,15 @@ void measure_miss(const CollisionState& state, const GraspCandidate& grasp, cons
 
 // All that might be a grasp of one object.
 struct Search {
-  Search(const CollisionState& state, const World& world, const Object& object, const JointVector& start, RandomKey key,
-         const std::optional<PartWay>& follow = {})
-      : opening_max(world.scene().robot.opening_max), authored(!object.grasps.empty()) {
-    const Part& part = part_of(world.scene(), object, ref.body);
-    ref.part = object.part;
-    world_from_body = world.world_from_part(ref);
+  explicit Search(const GraspQuery& query, const std::optional<PartWay>& follow = {})
+      : opening_max(query.world.scene().robot.opening_max), authored(!query.object.grasps.empty()) {
+    const Part& part = part_of(query.world.scene(), query.object, ref.body);
+    ref.part = query.object.part;
+    world_from_body = query.world.world_from_part(ref);
     if (follow) world_from_body = follow->before * world_from_body;
-    options = make_options(world.scene(), object, part, world_from_body, state.arm().world_from_tip(start), key);
+    options = make_options(query.world.scene().robot, query.object, part, query.key);
+    put_in_order(options, world_from_body, query.state.arm().world_from_tip(query.start),
+                 Random(query.key.with("order")));
     if (options.size() > kMostTested) options.resize(kMostTested);
   }
   // Authored grasps may touch what they were authored for; those from geometry start clear of it.
@@ -183,40 +187,36 @@ Transform world_from_object(const World& world, const Object& object) {
   return world.world_from_part({body, object.part});
 }
 
-std::vector<GraspCandidate> grasp_candidates(const CollisionState& state, const World& world, const Object& object,
-                                             const JointVector& start, RandomKey key, int most,
-                                             const std::optional<PartWay>& follow) {
-  const Search search(state, world, object, start, key, follow);
+std::vector<GraspCandidate> grasp_candidates(const GraspQuery& query, int most, const std::optional<PartWay>& follow) {
+  const Search search(query, follow);
   std::vector<GraspCandidate> found;
-  CollisionState hand = search.hand(state);
-  for (const double room :
-       {world.scene().robot.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
+  CollisionState hand = search.hand(query.state);
+  for (const double room : {search.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
     if (!found.empty()) break;
     for (const Option& option : search.options) {
       if (static_cast<int>(found.size()) >= most) break;
       GraspCandidate grasp = search.candidate(option, room);
       grasp.index = static_cast<int>(found.size());
       hand.set_opening(grasp.opening);
-      if (feasible(hand, grasp, start, key.with("ik"), follow)) found.push_back(grasp);
+      if (feasible(hand, grasp, query.start, query.key.with("ik"), follow)) found.push_back(grasp);
     }
   }
   return found;
 }
 
-std::vector<Looked> look_at_grasps(const CollisionState& state, const World& world, const Object& object,
-                                   const JointVector& start, RandomKey key, bool measure) {
+std::vector<Looked> look_at_grasps(const GraspQuery& query, bool measure) {
   constexpr int kMostMeasured = 12;  // of each cause
-  const Search search(state, world, object, start, key);
-  CollisionState hand = search.hand(state);
+  const Search search(query);
+  CollisionState hand = search.hand(query.state);
   std::vector<Looked> all;
   std::map<std::string, int> measured;
   for (const Option& option : search.options) {
     const GraspCandidate grasp = search.candidate(option, kNarrow_m);
     hand.set_opening(grasp.opening);
-    Looked looked = judged(hand, grasp, start, key.with("ik"));
+    Looked looked = judged(hand, grasp, query.start, query.key.with("ik"));
     looked.best = option.score < search.options.front().score + 1;  // from above, where there are such
     if (measure && ++measured[cause_of(looked)] <= kMostMeasured)
-      measure_miss(hand, grasp, start, key.with("miss"), looked);
+      measure_miss(hand, grasp, query.start, query.key.with("miss"), looked);
     all.push_back(std::move(looked));
   }
   return all;

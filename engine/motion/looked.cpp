@@ -129,9 +129,7 @@ const std::vector<Vector3>& level_directions() {
   return all;
 }
 
-void measure_reach(const Arm& arm, const Robot& robot, const Transform& world_from_tip, const JointVector& start,
-                   RandomKey key, Looked& looked) {
-  const std::optional<Shortfall> missing = arm.shortfall(world_from_tip, start, key);
+void note_shortfall(const std::optional<Shortfall>& missing, const Robot& robot, Looked& looked) {
   if (!missing) return;
   if (missing->joint < 0) {
     looked.missed_m = missing->way_m;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,8 +54,7 @@ std::string name_of_part(const Scene& scene, PartRef part);
 double way_to_free(const Transform& pose, std::span<const Vector3> directions,
                    const std::function<bool(const Transform&)>& free);
 const std::vector<Vector3>& level_directions();
-// What is missing of a pose of the tip that is out of reach. Costly.
-void measure_reach(const Arm& arm, const Robot& robot, const Transform& world_from_tip, const JointVector& start,
-                   RandomKey key, Looked& looked);
+// What is missing of a pose of the tip that is out of reach: what Arm::shortfall, which is costly, says of it.
+void note_shortfall(const std::optional<Shortfall>& missing, const Robot& robot, Looked& looked);
 
 }  // namespace stampede

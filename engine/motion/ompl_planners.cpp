@@ -161,8 +161,8 @@ const std::map<std::string, Maker>& makers() {
   return all;
 }
 
-ob::SpaceInformationPtr space_of(Checker& checker, const std::vector<JointLimits>& limits, const JointVector& start,
-                                 const JointVector& goal, double step_rad) {
+ob::SpaceInformationPtr space_of(const PathQuery& query, double step_rad) {
+  const auto& [checker, limits, start, goal] = query;
   const auto space = std::make_shared<JointSpace>(static_cast<unsigned>(limits.size()));
   ob::RealVectorBounds bounds(static_cast<unsigned>(limits.size()));
   for (unsigned i = 0; i < limits.size(); ++i) {  // an arm pressed against a joint limit may stand a little beyond it
@@ -174,7 +174,7 @@ ob::SpaceInformationPtr space_of(Checker& checker, const std::vector<JointLimits
   auto information = std::make_shared<ob::SpaceInformation>(space);
   const std::size_t joints = limits.size();
   information->setStateValidityChecker(
-      [&checker, joints](const ob::State* state) { return checker.free(joints_of(state, joints)); });
+      [&checker = query.checker, joints](const ob::State* state) { return checker.free(joints_of(state, joints)); });
   information->setMotionValidator(std::make_shared<CheckedEdges>(information, checker, joints, step_rad));
   information->setup();
   return information;
@@ -207,18 +207,17 @@ std::string why_not_offered(std::string_view planner) {
   return found == reasons.end() ? "" : found->second;
 }
 
-std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& checker,
-                                        const std::vector<JointLimits>& limits, const JointVector& start,
-                                        const JointVector& goal, const TreeOptions& options, RandomKey key) {
+std::vector<JointVector> plan_with_ompl(const std::string& planner, const PathQuery& query, const TreeOptions& options,
+                                        RandomKey key) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);  // process-wide; the library is silent
   ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(1 + Random(key).below(2'000'000'000)));
-  const ob::SpaceInformationPtr space = space_of(checker, limits, start, goal, options.step_rad);
+  const ob::SpaceInformationPtr space = space_of(query, options.step_rad);
   ob::ScopedState<JointSpace> from(space), to(space);
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    from->values[i] = start[i];
-    to->values[i] = goal[i];
+  for (Eigen::Index i = 0; i < query.start.size(); ++i) {
+    from->values[i] = query.start[i];
+    to->values[i] = query.goal[i];
   }
   const auto problem = std::make_shared<ob::ProblemDefinition>(space);
   problem->setStartAndGoalStates(from, to);
@@ -233,7 +232,7 @@ std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& che
   const auto* path = problem->getSolutionPath()->as<og::PathGeometric>();
   std::vector<JointVector> waypoints;
   for (const ob::State* state : const_cast<og::PathGeometric*>(path)->getStates())
-    waypoints.push_back(joints_of(state, limits.size()));
+    waypoints.push_back(joints_of(state, query.limits.size()));
   return waypoints;
 }
 

@@ -22,8 +22,7 @@ std::string why_not_offered(std::string_view planner);
 // Result: waypoints from start to goal, not shortened; empty: none was found. `planner`: one of those names.
 // Repeatable: a pure function of its arguments; one at a time in a process, as OMPL seeds its generators in the order
 // in which they are made.
-std::vector<JointVector> plan_with_ompl(const std::string& planner, Checker& checker,
-                                        const std::vector<JointLimits>& limits, const JointVector& start,
-                                        const JointVector& goal, const TreeOptions& options, RandomKey key);
+std::vector<JointVector> plan_with_ompl(const std::string& planner, const PathQuery& query, const TreeOptions& options,
+                                        RandomKey key);
 
 }  // namespace stampede

@@ -52,7 +52,7 @@ bool can_retreat(const CollisionState& there, const JointVector& from, double wa
   if (way <= 0) return true;
   const Transform tip = there.arm().world_from_tip(from);
   const auto back = [&](double share) { return Transform(tip * translation(0, 0, -share * way)); };
-  const ToolPath path = follow_tool(there.arm(), from, back, samples_between(tip, back(1)), key);
+  const ToolPath path = follow_tool(there.arm(), from, {back, samples_between(tip, back(1))}, key);
   if (path.reason != Reason::none) return false;
   std::vector<JointVector> waypoints{from};
   waypoints.insert(waypoints.end(), path.waypoints.begin(),
@@ -130,6 +130,8 @@ class WaySearch {
  private:
   double share_of(std::size_t layer) const { return static_cast<double>(layer) / static_cast<double>(count_); }
 
+  Node& node_at(std::size_t layer, int step) { return layers_[layer][static_cast<std::size_t>(step + most_)]; }
+
   CollisionState with_part_at(double place) const {
     CollisionState there = holding_;
     if (way_.part.body >= 0) there.move_part(way_.part, way_.moved(place));
@@ -156,19 +158,18 @@ class WaySearch {
     };
     bool any = false;
     for (int j = -most_; j <= most_; ++j) {
-      Node& node = layers_[k][static_cast<std::size_t>(j + most_)];
       const Transform tip = elbow_turns_ ? Transform(moved * held_) : turned(moved * held_, way_.axis, j * step_);
-      for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i)
-        try_step(k, i, j, tip, free, node);
-      any = any || node.from >= 0;
+      for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i) try_step(k, i, j, tip, free);
+      any = any || node_at(k, j).from >= 0;
     }
     return any;
   }
 
   // From node `i` of the layer before to node `j`, if that costs less than how it is reached so far.
   template <typename Free>
-  void try_step(std::size_t k, int i, int j, const Transform& tip, const Free& free, Node& node) {
-    const Node& from = layers_[k - 1][static_cast<std::size_t>(i + most_)];
+  void try_step(std::size_t k, int i, int j, const Transform& tip, const Free& free) {
+    const Node& from = node_at(k - 1, i);
+    Node& node = node_at(k, j);
     const double bend = elbow_turns_ ? 0 : kPivotCost * step_ * (j - i);
     if (from.cost + bend * bend >= node.cost) return;
     const JointVector guess = elbow_turns_ ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
@@ -219,11 +220,6 @@ class WaySearch {
   CollisionState holding_;
   CollisionQuery links_;
 };
-
-std::optional<ArmWay> search(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key,
-                             bool whole, int elbows) {
-  return WaySearch(state, start, way, key, elbows).find(whole);
-}
 
 // Where the handle cannot turn in the hand, the elbow is all that an arm can choose.
 bool elbow_may_turn(const Arm& arm, const PartWay& way) { return arm.joints() > 6 && most_turns(way) == 0; }
@@ -287,15 +283,16 @@ ArmWay first_of(const ArmWay& way, double share) {
 
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key) {
-  if (auto found = search(state, start, way, key, true, 0); found || !elbow_may_turn(state.arm(), way)) return found;
-  return search(state, start, way, key, true, kMostElbows);
+  auto found = WaySearch(state, start, way, key, 0).find(true);
+  if (found || !elbow_may_turn(state.arm(), way)) return found;
+  return WaySearch(state, start, way, key, kMostElbows).find(true);
 }
 
 std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                          RandomKey key) {
-  auto found = search(state, start, way, key, false, 0);
+  auto found = WaySearch(state, start, way, key, 0).find(false);
   if ((found && found->reach == 1) || !elbow_may_turn(state.arm(), way)) return found;
-  auto other = search(state, start, way, key, false, kMostElbows);
+  auto other = WaySearch(state, start, way, key, kMostElbows).find(false);
   return other && (!found || other->reach > found->reach) ? other : found;
 }
 

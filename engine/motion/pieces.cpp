@@ -142,8 +142,9 @@ PieceLength length_of(const ToolPiece& piece) {
   return length;
 }
 
-PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start, const std::vector<ToolPiece>& pieces,
-                          const PiecesOptions& options, const MotionLimits& limits, RandomKey key) {
+PlannedMotion plan_pieces(const MotionProblem& problem, const std::vector<ToolPiece>& pieces,
+                          const PiecesOptions& options) {
+  const auto& [state, start, limits, key] = problem;
   check(pieces, options);
   const Rounded rounded(pieces, options.blend);
   const int physics_hz = state.scene().physics_hz;
@@ -165,9 +166,9 @@ PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start,
       space.set_opening(*pieces[i].opening);
       space.release();
     }
-    const ToolPath path = follow_tool(
-        state.arm(), last, [&](double share) { return rounded.at(i, share); }, rounded.samples(i),
-        key.with(static_cast<std::int64_t>(i)));
+    const ToolPath path =
+        follow_tool(state.arm(), last, {[&](double share) { return rounded.at(i, share); }, rounded.samples(i)},
+                    key.with(static_cast<std::int64_t>(i)));
     if (path.reason != Reason::none) {
       const std::string detail = path.detail.substr(0, path.detail.rfind(" of the line")) + " of it";
       return fail(path.reason, name_of(pieces, i) + ": " + detail);

@@ -28,8 +28,8 @@ struct PiecesOptions {
 
 // Errors name the piece, counted from 1: `piece 2 'dip': the arm cannot follow beyond 40 % of it`. The moment at which
 // a named piece ends is planned to the step. Repeatable: a pure function of its arguments.
-PlannedMotion plan_pieces(const CollisionState& state, const JointVector& start, const std::vector<ToolPiece>& pieces,
-                          const PiecesOptions& options, const MotionLimits& limits, RandomKey key);
+PlannedMotion plan_pieces(const MotionProblem& problem, const std::vector<ToolPiece>& pieces,
+                          const PiecesOptions& options);
 
 // How far the tip goes and turns on a piece, m and rad.
 struct PieceLength {

@@ -182,27 +182,6 @@ class TurnedDown {
   std::optional<Looked> too_wide_;
 };
 
-// Draws places, asks about many at once and keeps the first `most` that are free. A draw is nothing where it misses.
-std::vector<Transform> keep_free(const CollisionState& state, int body, int most, TurnedDown& turned_down,
-                                 const std::function<std::optional<Transform>()>& draw) {
-  std::vector<Transform> kept, drawn;
-  bool fits = false;
-  for (int left = kDrawsPerSpot * most; left > 0 && static_cast<int>(kept.size()) < most;) {
-    drawn.clear();
-    for (; left > 0 && static_cast<int>(drawn.size()) < most; --left)
-      if (const std::optional<Transform> place = draw()) drawn.push_back(*place);
-    fits = fits || !drawn.empty();
-    const std::vector<bool> free = state.places_free(body, drawn, kPadding_m);
-    for (std::size_t i = 0; i < drawn.size() && static_cast<int>(kept.size()) < most; ++i)
-      if (free[i])
-        kept.push_back(drawn[i]);
-      else
-        turned_down.taken(drawn[i], kPadding_m);
-  }
-  turned_down.close(fits);
-  return kept;
-}
-
 // How much wider than the face a footprint is; negative: it fits.
 double too_wide_by(const Face& face, const Footprint& foot) {
   const Vector3 size = foot.high - foot.low;
@@ -210,94 +189,133 @@ double too_wide_by(const Face& face, const Footprint& foot) {
   return std::max(size.x() - 2 * face.half_x, size.y() - 2 * face.half_y) + 2 * kMargin_m;
 }
 
-// A body on a face: somewhere if it fits, else in the middle, which is turned down.
-std::optional<Transform> place_on(const Face& face, const Footprint& foot, const Part& part, const Quaternion& rotation,
-                                  Random& random, TurnedDown& turned_down) {
-  const std::optional<Vector3> point = draw_on(face, foot, random);
-  if (!point && !turned_down.wanted()) return std::nullopt;
-  Vector3 origin =
-      face.world_from_face * point.value_or(Vector3(-0.5 * (foot.low + foot.high)).cwiseProduct(Vector3(1, 1, 0)));
-  origin.z() += footprint(part, rotation).below + kGap_m;
-  if (point) return make_transform(origin, rotation);
-  if (const double by = too_wide_by(face, foot); by > 0) turned_down.too_wide(make_transform(origin, rotation), by);
-  return std::nullopt;
-}
+// Places of one body being sought, with the draws of one kind of place.
+class SpotSearch {
+ public:
+  SpotSearch(const SpotQuery& query, std::string_view draws)
+      : state_(query.state),
+        body_(body_of(query.world.scene(), query.object)),
+        part_(query.world.scene().bodies[static_cast<std::size_t>(body_)].parts.at(0)),
+        upright_(resting_rotation(query.world, body_)),
+        most_(query.most),
+        random_(query.key.with(draws)),
+        turned_down_(query.state, body_, query.turned_down) {}
+
+  Random& random() { return random_; }
+  Quaternion turned(double yaw) const { return turn(yaw) * upright_; }
+  Quaternion draw_rotation() { return turned(random_.between(-std::numbers::pi, std::numbers::pi)); }
+  Footprint foot(const Quaternion& rotation) const { return footprint(part_, rotation); }
+  // Seen in the frame of a face.
+  Footprint foot_on(const Face& face, const Quaternion& rotation) const {
+    return foot(Quaternion(face.world_from_face.linear()).conjugate() * rotation);
+  }
+
+  // On a face: somewhere if it fits, else in the middle, which is turned down. `foot`: in the frame of the face.
+  std::optional<Transform> place_on(const Face& face, const Footprint& foot, const Quaternion& rotation) {
+    const std::optional<Vector3> point = draw_on(face, foot, random_);
+    if (!point && !turned_down_.wanted()) return std::nullopt;
+    Vector3 origin =
+        face.world_from_face * point.value_or(Vector3(-0.5 * (foot.low + foot.high)).cwiseProduct(Vector3(1, 1, 0)));
+    origin.z() += footprint(part_, rotation).below + kGap_m;
+    if (point) return make_transform(origin, rotation);
+    if (const double by = too_wide_by(face, foot); by > 0) turned_down_.too_wide(make_transform(origin, rotation), by);
+    return std::nullopt;
+  }
+
+  // Draws places, asks about many at once and keeps the first that are free. A draw is nothing where it misses.
+  std::vector<Transform> keep_free(const std::function<std::optional<Transform>()>& draw) {
+    std::vector<Transform> kept, drawn;
+    bool fits = false;
+    for (int left = kDrawsPerSpot * most_; left > 0 && !enough(kept);) {
+      drawn.clear();
+      for (; left > 0 && !enough(drawn); --left)
+        if (const std::optional<Transform> place = draw()) drawn.push_back(*place);
+      fits = fits || !drawn.empty();
+      const std::vector<bool> free = state_.places_free(body_, drawn, kPadding_m);
+      for (std::size_t i = 0; i < drawn.size() && !enough(kept); ++i)
+        if (free[i])
+          kept.push_back(drawn[i]);
+        else
+          turned_down_.taken(drawn[i], kPadding_m);
+    }
+    turned_down_.close(fits);
+    return kept;
+  }
+
+  // The same of one place, which may be close to others.
+  void keep_if_free(const Transform& place, std::vector<Transform>& kept) {
+    if (state_.body_free(body_, place, 0))
+      kept.push_back(place);
+    else
+      turned_down_.taken(place, 0);
+  }
+  bool enough(const std::vector<Transform>& places) const { return static_cast<int>(places.size()) >= most_; }
+
+ private:
+  const CollisionState& state_;
+  int body_;
+  const Part& part_;
+  Quaternion upright_;
+  int most_;
+  Random random_;
+  TurnedDown turned_down_;
+};
 
 }  // namespace
 
-std::vector<Transform> free_spots(const CollisionState& state, const World& world, const Object& surface,
-                                  const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
-  const Scene& scene = world.scene();
-  const int body = body_of(scene, object);
-  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
-  const Quaternion upright = resting_rotation(world, body);
-  const Transform world_from_surface = world.world_from_part({body_of(scene, surface), surface.part});
+std::vector<Transform> free_spots(const SpotQuery& query, const Object& surface) {
+  const Scene& scene = query.world.scene();
+  SpotSearch search(query, "free_spots");
+  const Transform world_from_surface = query.world.world_from_part({body_of(scene, surface), surface.part});
   const std::vector<Face> faces = upper_faces(part_of(scene, surface), world_from_surface);
   if (faces.empty()) return {};
-  Random random(key.with("free_spots"));
-  TurnedDown down(state, body, turned_down);
-  return keep_free(state, body, most, down, [&] {
-    const Face& face = draw_face(faces, random);
-    const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
-    const Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
-    return place_on(face, foot, part, rotation, random, down);
+  return search.keep_free([&] {
+    const Face& face = draw_face(faces, search.random());
+    const Quaternion rotation = search.draw_rotation();
+    return search.place_on(face, search.foot_on(face, rotation), rotation);
   });
 }
 
-std::vector<Transform> region_spots(const CollisionState& state, const World& world, const Region& region,
-                                    const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
-  const Scene& scene = world.scene();
-  const int body = body_of(scene, object);
-  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
-  const Quaternion upright = resting_rotation(world, body);
+std::vector<Transform> region_spots(const SpotQuery& query, const Region& region) {
+  SpotSearch search(query, "region_spots");
   const Transform world_from_region =
-      region.body.empty()
-          ? region.part_from_region
-          : world.world_from_part({scene.body_index(region.body), region.part}) * region.part_from_region;
+      region.body.empty() ? region.part_from_region
+                          : query.world.world_from_part({query.world.scene().body_index(region.body), region.part}) *
+                                region.part_from_region;
   // The lower face, with z up; a patch of no height carries too.
-  Face face{world_from_region * translation(0, 0, -0.5 * region.size.z()), 0.5 * region.size.x(), 0.5 * region.size.y(),
-            0};
-  Random random(key.with("region_spots"));
-  TurnedDown down(state, body, turned_down);
-  return keep_free(state, body, most, down, [&] {
-    const Quaternion rotation = turn(random.between(-std::numbers::pi, std::numbers::pi)) * upright;
-    Footprint foot = footprint(part, Quaternion(face.world_from_face.linear()).conjugate() * rotation);
+  const Face face{world_from_region * translation(0, 0, -0.5 * region.size.z()), 0.5 * region.size.x(),
+                  0.5 * region.size.y(), 0};
+  return search.keep_free([&] {
+    const Quaternion rotation = search.draw_rotation();
+    Footprint foot = search.foot_on(face, rotation);
     // Where the whole object does not fit, its middle does: a small target still names a place.
     if (foot.high.x() - foot.low.x() + 2 * kMargin_m > region.size.x() ||
         foot.high.y() - foot.low.y() + 2 * kMargin_m > region.size.y())
       foot.low = foot.high = Vector3::Zero();
-    return place_on(face, foot, part, rotation, random, down);
+    return search.place_on(face, foot, rotation);
   });
 }
 
-std::vector<Transform> stack_spots(const CollisionState& state, const World& world, const Object& below,
-                                   const Object& object, RandomKey key, int most, std::vector<Looked>* turned_down) {
-  const Scene& scene = world.scene();
-  const int body = body_of(scene, object);
-  const Part& part = scene.bodies[static_cast<std::size_t>(body)].parts.at(0);
+std::vector<Transform> stack_spots(const SpotQuery& query, const Object& below) {
+  const Scene& scene = query.world.scene();
+  SpotSearch search(query, "stack_spots");
   const Part& lower = part_of(scene, below);
-  const Transform world_from_below = world.world_from_part({body_of(scene, below), below.part});
+  const Transform world_from_below = query.world.world_from_part({body_of(scene, below), below.part});
   const Footprint base = footprint(lower, Quaternion(world_from_below.linear()));
   const Vector3 middle = world_from_below.translation() + 0.5 * (base.low + base.high);
   const double top = world_from_below.translation().z() + base.above;
-  const Quaternion upright = resting_rotation(world, body);
   // Sides parallel to those below: the lower body's yaw and its quarter turns, in an order drawn by key.
   const Quaternion flat = resting_rotation(Quaternion(world_from_below.linear()));
   const Matrix3 turned = (Quaternion(world_from_below.linear()) * flat.conjugate()).toRotationMatrix();
   const double yaw = std::atan2(turned(1, 0), turned(0, 0));
-  const std::int64_t first = Random(key.with("stack_spots")).below(4);
+  const std::int64_t first = search.random().below(4);
   std::vector<Transform> spots;
-  TurnedDown down(state, body, turned_down);
-  for (std::int64_t k = 0; k < 4 && static_cast<int>(spots.size()) < most; ++k) {
-    const Quaternion rotation = turn(yaw + 0.5 * std::numbers::pi * static_cast<double>((first + k) % 4)) * upright;
-    const Footprint foot = footprint(part, rotation);
+  for (std::int64_t k = 0; k < 4 && !search.enough(spots); ++k) {
+    const Quaternion rotation = search.turned(yaw + 0.5 * std::numbers::pi * static_cast<double>((first + k) % 4));
+    const Footprint foot = search.foot(rotation);
     Vector3 origin = middle - 0.5 * (foot.low + foot.high);
     origin.z() = top + foot.below + kGap_m;
-    const Transform spot = make_transform(origin, rotation);
-    if (state.body_free(body, spot, 0))
-      spots.push_back(spot);
-    else
-      down.taken(spot, 0);
+    search.keep_if_free(make_transform(origin, rotation), spots);
   }
   return spots;
 }

@@ -83,12 +83,11 @@ JointPath check_ends(const CollisionState& state, const JointVector& start, cons
   return path;
 }
 
-JointPath search_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                      const MotionLimits& limits, RandomKey key, int care) {
+JointPath search_path(const MotionProblem& problem, const JointVector& goal, int care) {
+  const MotionLimits& limits = problem.limits;
   check_motion_planner(limits.planner, "MotionLimits::planner");
   static constexpr std::array<double, kMostCare + 1> kSpacing{5.0, 2.0, 1.0};
   const double step_rad = kSpacing[static_cast<std::size_t>(care)] * limits.resolution_rad;
-  const RandomKey query = key.with(care);
   TreeOptions options;
   options.step_rad = step_rad;
   options.iterations = std::max(1, limits.iterations / 2);
@@ -96,15 +95,16 @@ JointPath search_path(const CollisionState& state, const JointVector& start, con
   JointPath path;
   for (const double padding :
        {limits.padding_m, clearance_m(limits, care)}) {  // what is too narrow with may do without
-    Checker checker(state, padding, {start, goal});
-    if (checker.edge_free(start, goal, step_rad)) {
-      path.waypoints = {start, goal};
+    Checker checker(problem.state, padding, {problem.start, goal});
+    if (checker.edge_free(problem.start, goal, step_rad)) {
+      path.waypoints = {problem.start, goal};
       return path;
     }
-    const RandomKey trees = query.with("trees");
-    path.waypoints = limits.planner.empty() ? grow_trees(checker, state.arm().limits(), start, goal, options, trees)
-                                            : plan_with_ompl(limits.planner.substr(kOmpl.size()), checker,
-                                                             state.arm().limits(), start, goal, options, trees);
+    const PathQuery query{checker, problem.state.arm().limits(), problem.start, goal};
+    const RandomKey trees = problem.key.with(care).with("trees");
+    path.waypoints = limits.planner.empty()
+                         ? grow_trees(query, options, trees)
+                         : plan_with_ompl(limits.planner.substr(kOmpl.size()), query, options, trees);
     if (path.waypoints.empty()) continue;
     path.waypoints = distinct(shorten(checker, path.waypoints, options));
     return path;
@@ -114,15 +114,14 @@ JointPath search_path(const CollisionState& state, const JointVector& start, con
   return path;
 }
 
-JointPath plan_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                    const MotionLimits& limits, RandomKey key) {
-  check_limits(limits);
-  JointPath path = check_ends(state, start, goal);
+JointPath plan_path(const MotionProblem& problem, const JointVector& goal) {
+  check_limits(problem.limits);
+  JointPath path = check_ends(problem.state, problem.start, goal);
   for (int care = 0; care <= kMostCare && path.reason == Reason::none; ++care) {
-    path = search_path(state, start, goal, limits, key, care);
+    path = search_path(problem, goal, care);
     if (path.reason != Reason::none) break;
-    Checker checker(state, clearance_m(limits, care), {start, goal});
-    const std::optional<JointVector> touch = first_touch(checker, path.waypoints, certified_step(limits));
+    Checker checker(problem.state, clearance_m(problem.limits, care), {problem.start, goal});
+    const std::optional<JointVector> touch = first_touch(checker, path.waypoints, certified_step(problem.limits));
     if (!touch) return path;
     if (care < kMostCare) continue;
     path.reason = Reason::no_path;
@@ -194,19 +193,18 @@ std::optional<JointVector> way_out_of_itself(const CollisionState& state, const 
   return std::nullopt;
 }
 
-PlannedMotion plan_from(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                        const MotionLimits& limits, RandomKey key) {
+PlannedMotion plan_from(const MotionProblem& problem, const JointVector& goal) {
   PlannedMotion motion;
-  const JointPath ends = check_ends(state, start, goal);
+  const JointPath ends = check_ends(problem.state, problem.start, goal);
   motion.reason = ends.reason;
   motion.detail = ends.detail;
   if (ends.reason != Reason::none) return motion;
   for (int care = 0; care <= kMostCare; ++care) {
-    const JointPath path = search_path(state, start, goal, limits, key, care);
+    const JointPath path = search_path(problem, goal, care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
-    motion = certify(state, path.waypoints, limits, clearance_m(limits, care));
+    motion = certify(problem.state, path.waypoints, problem.limits, clearance_m(problem.limits, care));
     if (motion.reason == Reason::none) return motion;
   }
   return motion;
@@ -214,13 +212,14 @@ PlannedMotion plan_from(const CollisionState& state, const JointVector& start, c
 
 }  // namespace
 
-PlannedMotion plan_after_way_out(const CollisionState& state, const JointVector& start, const MotionLimits& limits,
-                                 const std::function<PlannedMotion(const JointVector& from)>& plan) {
-  const std::optional<JointVector> out = way_out_of_itself(state, start);
-  if (!out) return plan(start);
-  PlannedMotion motion = plan(*out);
+PlannedMotion plan_after_way_out(const MotionProblem& problem,
+                                 const std::function<PlannedMotion(const MotionProblem& from)>& plan) {
+  const CollisionState& state = problem.state;
+  const std::optional<JointVector> out = way_out_of_itself(state, problem.start);
+  if (!out) return plan(problem);
+  PlannedMotion motion = plan(problem.from(*out));
   if (motion.reason != Reason::none) return motion;
-  Trajectory first = time_path(state.arm(), {start, *out}, limits, state.scene().physics_hz);
+  Trajectory first = time_path(state.arm(), {problem.start, *out}, problem.limits, state.scene().physics_hz);
   const std::int64_t later = first.steps();
   for (std::size_t i = 0; i < motion.trajectory.knots.size(); ++i) {
     Trajectory::Knot& knot = motion.trajectory.knots[i];
@@ -233,11 +232,9 @@ PlannedMotion plan_after_way_out(const CollisionState& state, const JointVector&
   return motion;
 }
 
-PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                          const MotionLimits& limits, RandomKey key) {
-  check_limits(limits);
-  return plan_after_way_out(state, start, limits,
-                            [&](const JointVector& from) { return plan_from(state, from, goal, limits, key); });
+PlannedMotion plan_joints(const MotionProblem& problem, const JointVector& goal) {
+  check_limits(problem.limits);
+  return plan_after_way_out(problem, [&](const MotionProblem& from) { return plan_from(from, goal); });
 }
 
 std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz) {

@@ -30,6 +30,17 @@ std::vector<std::string> motion_planner_names();
 // Throws Error at `place` for another name, with the nearest; for planners of OMPL that are not offered, why.
 void check_motion_planner(const std::string& name, const std::string& place);
 
+// What every motion is planned for: from where, among what, how fast, and with which draws.
+// Lifetime: refers to the state.
+struct MotionProblem {
+  const CollisionState& state;
+  JointVector start;
+  MotionLimits limits;
+  RandomKey key;
+
+  MotionProblem from(const JointVector& there) const { return {state, there, limits, key}; }
+};
+
 struct PlannedMotion {
   Reason reason = Reason::none;  // none: trajectory is valid
   std::string detail;            // for people: what touches what, which target has no IK solution
@@ -45,7 +56,7 @@ struct ToolTarget {
 };
 
 // Joint path between two configurations: our own RRT-Connect (Kuffner, LaValle, ICRA 2000,
-// doi:10.1109/ROBOT.2000.844730) on OMPL's base classes, seeded by `key`, then shortened, and certified.
+// doi:10.1109/ROBOT.2000.844730) on OMPL's base classes, seeded by the problem's key, then shortened, and certified.
 // Shapes: waypoints, first = start, last = goal. Result: empty with a reason. Repeatable: a pure function of its
 // arguments, whatever ran before or runs beside it.
 struct JointPath {
@@ -53,8 +64,7 @@ struct JointPath {
   std::string detail;
   std::vector<JointVector> waypoints;
 };
-JointPath plan_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                    const MotionLimits& limits, RandomKey key);
+JointPath plan_path(const MotionProblem& problem, const JointVector& goal);
 
 // Times a joint path: corners are rounded (blends stay within the certified tube or shrink), the path is passed at
 // the highest speed that respects velocity, acceleration and jerk limits.
@@ -65,8 +75,7 @@ Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, 
 // targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
 // Lines ahead are to be free too, but for what an empty hand has taken by then, and for the part that a fist pushes.
 // `then`: from the last target, the arm must be able to go with this part, the hand `then->opening` wide.
-PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
-                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
+PlannedMotion plan_through(const MotionProblem& problem, const std::vector<ToolTarget>& targets,
                            const PartWay* then = nullptr);
 
 constexpr double kShut_m = 0.005;         // a hand that is no wider grasps nothing: it pushes
@@ -78,8 +87,7 @@ constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with s
 double widest_opening(const CollisionState& state, const JointVector& q, double wanted_m, bool lets_go = true);
 
 // A planned free motion to joint positions.
-PlannedMotion plan_joints(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                          const MotionLimits& limits, RandomKey key);
+PlannedMotion plan_joints(const MotionProblem& problem, const JointVector& goal);
 
 // The tip follows world_from_tip(s), s in [0, 1], by IK at dense samples with joint continuity (no sample more than
 // 0.3 rad from the last). `keep_clear`: refused where it touches what the state does not allow. Speed limits of the
@@ -93,11 +101,11 @@ struct LineOptions {
   int samples = 0;                     // 0: one each 5 mm or 0.02 rad
   std::vector<JointVector> near = {};  // at equal shares, whence its configurations are sought; empty: the one before
 };
-PlannedMotion plan_tool_path(const CollisionState& state, const JointVector& start,
-                             const std::function<Transform(double)>& world_from_tip, const LineOptions& line,
-                             const MotionLimits& limits, RandomKey key);
+// Puts what goes with the hand where it is at a share of the path.
+using GoesAlong = std::function<void(CollisionState& space, double share)>;
+PlannedMotion plan_tool_path(const MotionProblem& problem, const std::function<Transform(double)>& world_from_tip,
+                             const LineOptions& line, const GoesAlong& goes_along = {});
 // Straight line with slerp from where the tip is.
-PlannedMotion plan_line(const CollisionState& state, const JointVector& start, const Transform& world_from_tip,
-                        const LineOptions& line, const MotionLimits& limits, RandomKey key);
+PlannedMotion plan_line(const MotionProblem& problem, const Transform& world_from_tip, const LineOptions& line);
 
 }  // namespace stampede

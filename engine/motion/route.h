@@ -11,26 +11,31 @@
 namespace stampede {
 
 // A path that keeps the padding, checked coarsely only. `care` 0, 1, 2: at ever denser spacing.
-JointPath search_path(const CollisionState& state, const JointVector& start, const JointVector& goal,
-                      const MotionLimits& limits, RandomKey key, int care);
+JointPath search_path(const MotionProblem& problem, const JointVector& goal, int care);
 constexpr int kMostCare = 2;
 
 // Nothing wrong with both ends: reason none.
 JointPath check_ends(const CollisionState& state, const JointVector& start, const JointVector& goal);
 
-// A motion that `plan` makes from where an arm that starts folded into itself has first been turned clear; from `start`
-// where it need not be, or cannot.
-PlannedMotion plan_after_way_out(const CollisionState& state, const JointVector& start, const MotionLimits& limits,
-                                 const std::function<PlannedMotion(const JointVector& from)>& plan);
+// A motion that `plan` makes from where an arm that starts folded into itself has first been turned clear; from the
+// start where it need not be, or cannot.
+PlannedMotion plan_after_way_out(const MotionProblem& problem,
+                                 const std::function<PlannedMotion(const MotionProblem& from)>& plan);
 
-// Configurations from `start` (left out of the result) along a tool path. `near`: as of LineOptions.
+// A way of the tip, at a share 0 … 1 of it, and at how many samples it is followed. `near`: as of LineOptions.
+struct TipWay {
+  std::function<Transform(double)> world_from_tip;
+  int samples = 1;
+  std::vector<JointVector> near = {};
+};
+
+// Configurations from `start` (left out of the result) along a way of the tip.
 struct ToolPath {
   Reason reason = Reason::none;
   std::string detail;
   std::vector<JointVector> waypoints;
 };
-ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
-                     int samples, RandomKey key, const std::vector<JointVector>& near = {});
+ToolPath follow_tool(const Arm& arm, const JointVector& start, const TipWay& way, RandomKey key);
 
 // What counts on a way of the tool: everything, or of one whose hand may meet things the arm alone.
 CollisionState space_of_line(const CollisionState& state, bool keep_clear);

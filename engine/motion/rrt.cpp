@@ -74,14 +74,13 @@ class JointTree {
 // from its key only.
 class KeyedConnect : public ob::Planner {
  public:
-  KeyedConnect(const ob::SpaceInformationPtr& si, Checker& checker, const std::vector<JointLimits>& limits,
-               const TreeOptions& options, RandomKey key)
+  KeyedConnect(const ob::SpaceInformationPtr& si, const PathQuery& query, const TreeOptions& options, RandomKey key)
       : ob::Planner(si, "KeyedConnect"),
-        checker_(checker),
-        limits_(limits),
+        checker_(query.checker),
+        limits_(query.limits),
         options_(options),
         random_(key),
-        trees_{JointTree(limits.size()), JointTree(limits.size())} {}
+        trees_{JointTree(query.limits.size()), JointTree(query.limits.size())} {}
 
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& stop) override {
     const unsigned joints = si_->getStateDimension();
@@ -190,8 +189,8 @@ class KeyedConnect : public ob::Planner {
   JointTree trees_[2];
 };
 
-ob::SpaceInformationPtr make_space(const std::vector<JointLimits>& limits, const JointVector& start,
-                                   const JointVector& goal) {
+ob::SpaceInformationPtr make_space(const PathQuery& query) {
+  const auto& [checker, limits, start, goal] = query;
   auto space = std::make_shared<Space>(static_cast<unsigned>(limits.size()));
   ob::RealVectorBounds bounds(static_cast<unsigned>(limits.size()));
   for (unsigned i = 0; i < limits.size(); ++i) {
@@ -209,17 +208,16 @@ ob::SpaceInformationPtr make_space(const std::vector<JointLimits>& limits, const
 
 }  // namespace
 
-std::vector<JointVector> grow_trees(Checker& checker, const std::vector<JointLimits>& limits, const JointVector& start,
-                                    const JointVector& goal, const TreeOptions& options, RandomKey key) {
+std::vector<JointVector> grow_trees(const PathQuery& query, const TreeOptions& options, RandomKey key) {
   static std::once_flag silenced;  // OMPL's log is process-wide; the library is silent
   std::call_once(silenced, [] { ompl::msg::setLogLevel(ompl::msg::LOG_NONE); });
-  const ob::SpaceInformationPtr si = make_space(limits, start, goal);
+  const ob::SpaceInformationPtr si = make_space(query);
   ob::ScopedState<Space> from(si), to(si);
-  from_joints(start, from.get());
-  from_joints(goal, to.get());
+  from_joints(query.start, from.get());
+  from_joints(query.goal, to.get());
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
   problem->setStartAndGoalStates(from, to);
-  KeyedConnect planner(si, checker, limits, options, key);
+  KeyedConnect planner(si, query, options, key);
   planner.setProblemDefinition(problem);
   const ob::IterationTerminationCondition count(static_cast<unsigned>(std::max(1, options.iterations)));
   ob::IterationTerminationCondition stop = count;
@@ -229,7 +227,8 @@ std::vector<JointVector> grow_trees(Checker& checker, const std::vector<JointLim
   const auto* path = problem->getSolutionPath()->as<ompl::geometric::PathGeometric>();
   std::vector<JointVector> waypoints;
   for (std::size_t i = 0; i < path->getStateCount(); ++i)
-    waypoints.push_back(to_joints(path->getState(static_cast<unsigned>(i)), static_cast<unsigned>(limits.size())));
+    waypoints.push_back(
+        to_joints(path->getState(static_cast<unsigned>(i)), static_cast<unsigned>(query.limits.size())));
   return waypoints;
 }
 

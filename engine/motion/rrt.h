@@ -15,12 +15,17 @@ struct TreeOptions {
   int rounds = 5;          // of shortening, at most
 };
 
-// RRT-Connect (Kuffner, LaValle, ICRA 2000, doi:10.1109/ROBOT.2000.844730) within the joint limits; the smaller tree
-// grows.
+// A path looked for between two configurations, within the joint limits.
+struct PathQuery {
+  Checker& checker;
+  const std::vector<JointLimits>& limits;
+  const JointVector &start, &goal;
+};
+
+// RRT-Connect (Kuffner, LaValle, ICRA 2000, doi:10.1109/ROBOT.2000.844730); the smaller tree grows.
 // Result: waypoints from start to goal, empty when the iterations are used up.
 // Repeatable: a pure function of its arguments.
-std::vector<JointVector> grow_trees(Checker& checker, const std::vector<JointLimits>& limits, const JointVector& start,
-                                    const JointVector& goal, const TreeOptions& options, RandomKey key);
+std::vector<JointVector> grow_trees(const PathQuery& query, const TreeOptions& options, RandomKey key);
 
 // Shortens a path: leaves out corners that are not needed, then pulls those left straight, in turns (after Geraerts,
 // Overmars, IJRR 2007, doi:10.1177/0278364907079280).

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/motion/blended_path.h"
@@ -93,6 +94,7 @@ class Profile {
     cells_.push_back({0, nodes[0].s, 0, 0, 0});
     for (std::size_t i = 1; i < n; ++i) append(nodes[i].s, std::sqrt(x[i]));
   }
+  double smoothing_s() const { return smoothing_s_; }
   double duration_s() const { return cells_.back().t + smoothing_s_; }
 
   struct State {
@@ -139,11 +141,17 @@ class Profile {
   std::vector<Cell> cells_;
 };
 
-// Knots of the profile slowed down by at least `slower`, so that it ends on a knot. `scale`: the factor taken.
-Trajectory sample(const BlendedPath& path, const Profile& profile, double slower, int physics_hz, double& scale) {
+// A profile as knots, `scale` times slower than it says.
+struct Sampled {
+  Trajectory trajectory;
+  double scale = 1;
+};
+
+// Slowed down by at least `slower`, so that it ends on a knot.
+Sampled sample(const BlendedPath& path, const Profile& profile, double slower, int physics_hz) {
   const double steps = profile.duration_s() * slower * physics_hz;
   const std::int64_t knots = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps / kKnotSteps - 1e-9)));
-  scale = static_cast<double>(knots * kKnotSteps) / (profile.duration_s() * physics_hz);
+  const double scale = static_cast<double>(knots * kKnotSteps) / (profile.duration_s() * physics_hz);
   Trajectory trajectory;
   for (std::int64_t k = 0; k <= knots; ++k) {
     const double t = static_cast<double>(k * kKnotSteps) / physics_hz / scale;
@@ -160,7 +168,7 @@ Trajectory sample(const BlendedPath& path, const Profile& profile, double slower
   // To the last bit, so that the next motion starts where this one ends.
   trajectory.knots.front().position = path.start();
   trajectory.knots.back().position = path.goal();
-  return trajectory;
+  return {std::move(trajectory), scale};
 }
 
 // Calls visit(step, factor by which the motion is too fast there) at half steps.
@@ -180,15 +188,15 @@ void for_usage(const Trajectory& trajectory, const Bounds& bounds, int physics_h
 }
 
 // Lowers the speed around places that were too fast. False: there were none.
-bool slow_down(const Trajectory& trajectory, const Profile& profile, double scale, const Bounds& bounds, int physics_hz,
-               double window_s, std::vector<Node>& nodes) {
+bool slow_down(const Sampled& sampled, const Profile& profile, const Bounds& bounds, int physics_hz,
+               std::vector<Node>& nodes) {
   std::vector<double> factor(nodes.size(), 1.0);
   bool any = false;
-  for_usage(trajectory, bounds, physics_hz, [&](double step, double use) {
+  for_usage(sampled.trajectory, bounds, physics_hz, [&](double step, double use) {
     if (use <= 1.0) return;
     any = true;
-    const Profile::State state = profile.at(step / physics_hz / scale);
-    const double reach = 0.5 * state.speed * window_s + 1e-4;
+    const Profile::State state = profile.at(step / physics_hz / sampled.scale);
+    const double reach = 0.5 * state.speed * profile.smoothing_s() + 1e-4;
     auto node =
         std::lower_bound(nodes.begin(), nodes.end(), state.s - reach, [](const Node& a, double s) { return a.s < s; });
     for (; node != nodes.end() && node->s <= state.s + reach; ++node) {
@@ -215,20 +223,19 @@ Trajectory time_blended(const BlendedPath& path, const std::vector<JointLimits>&
   const Bounds bounds = bounds_of(joint_limits, limits);
   const double window_s = std::max(kSmoothing_s, (2 * bounds.acceleration / bounds.jerk).maxCoeff());
   std::vector<Node> nodes = make_nodes(path, bounds, speed_limit);
-  double scale = 1;
   for (int round = 0; round < kLocalRounds; ++round) {
     const Profile profile(nodes, bounds, window_s);
-    const Trajectory trajectory = sample(path, profile, 1.0, physics_hz, scale);
-    if (!slow_down(trajectory, profile, scale, bounds, physics_hz, window_s, nodes)) return trajectory;
+    Sampled sampled = sample(path, profile, 1.0, physics_hz);
+    if (!slow_down(sampled, profile, bounds, physics_hz, nodes)) return std::move(sampled.trajectory);
   }
   // What local slowing has not cured (a limit touched while speeding up), the whole motion pays for.
   const Profile profile(nodes, bounds, window_s);
   double slower = 1;
   for (int round = 0; round < 50; ++round) {
-    const Trajectory trajectory = sample(path, profile, slower, physics_hz, scale);
-    const double use = limit_usage(trajectory, joint_limits, limits, physics_hz);
-    if (use <= 1.0) return trajectory;
-    slower = std::max(scale * use, slower) * 1.001;
+    Sampled sampled = sample(path, profile, slower, physics_hz);
+    const double use = limit_usage(sampled.trajectory, joint_limits, limits, physics_hz);
+    if (use <= 1.0) return std::move(sampled.trajectory);
+    slower = std::max(sampled.scale * use, slower) * 1.001;
   }
   throw Error("timing", "no speed keeps the joint limits", "are the limits of the robot positive?");
 }

@@ -79,34 +79,36 @@ struct Line {
   std::vector<JointVector> dense;  // the first: where it begins
 };
 
-Line straight_line(const CollisionState& state, const JointVector& first, const ToolTarget& from, const ToolTarget& to,
-                   const MotionLimits& limits, RandomKey key) {
+Line straight_line(const MotionProblem& problem, const ToolTarget& from, const ToolTarget& to) {
   const Transform here = from.world_from_tip, there = to.world_from_tip;
-  const ToolPath path = follow_tool(
-      state.arm(), first, [&](double s) { return between(here, there, s); }, samples_between(here, there), key);
+  const ToolPath path =
+      follow_tool(problem.state.arm(), problem.start,
+                  {[&](double s) { return between(here, there, s); }, samples_between(here, there)}, problem.key);
   if (path.reason != Reason::none) return {path.reason, path.detail, {}};
-  Line line{Reason::none, {}, {first}};
+  Line line{Reason::none, {}, {problem.start}};
   line.dense.insert(line.dense.end(), path.waypoints.begin(), path.waypoints.end());
-  Checker checker(state, 0, {});
-  if (const auto touch = first_touch(checker, line.dense, certified_step(limits)))
+  Checker checker(problem.state, 0, {});
+  if (const auto touch = first_touch(checker, line.dense, certified_step(problem.limits)))
     return {Reason::no_path, checker.contact(*touch), {}};
   return line;
 }
 
-Tail make_tail(const CollisionState& state, const JointVector& first, const std::vector<ToolTarget>& targets,
-               const PartWay* then, const MotionLimits& limits, RandomKey key) {
+// `at_first`: with the arm at the first target.
+Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& targets, const PartWay* then) {
+  const CollisionState& state = at_first.state;
   Tail tail;
-  tail.waypoints = {first};
-  tail.at_target = {first};
+  tail.waypoints = {at_first.start};
+  tail.at_target = {at_first.start};
   const auto refuse = [&](Reason reason, std::string detail) {
     tail.reason = reason;
     tail.detail = std::move(detail);
     return tail;
   };
-  if (const std::string contact = describe_contact(state, first); !contact.empty())
+  if (const std::string contact = describe_contact(state, at_first.start); !contact.empty())
     return refuse(Reason::no_path, "at " + targets[0].name + " " + contact);
   const auto line_to = [&](std::size_t i, const CollisionState& free, const JointVector& from) {
-    return straight_line(free, from, targets[i - 1], targets[i], limits, key.with(static_cast<std::int64_t>(i)));
+    const RandomKey key = at_first.key.with(static_cast<std::int64_t>(i));
+    return straight_line({free, from, at_first.limits, key}, targets[i - 1], targets[i]);
   };
   std::size_t i = 1;
   for (; i < targets.size() && !targets[i].ahead; ++i) {
@@ -125,7 +127,7 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
     if (line.reason != Reason::none) return refuse(line.reason, "on from " + targets[i - 1].name + ": " + line.detail);
     from = line.dense.back();
   }
-  if (then != nullptr && !way_with_part(state, from, *then, key.with("then"))) {
+  if (then != nullptr && !way_with_part(state, from, *then, at_first.key.with("then"))) {
     return refuse(Reason::unreachable, "from " + targets.back().name + " the arm cannot go with what it takes hold of");
   }
   return tail;
@@ -133,37 +135,35 @@ Tail make_tail(const CollisionState& state, const JointVector& first, const std:
 
 // The free way to the first target, on which nothing may be touched when straight lines follow it: what is to be
 // grasped is then still an obstacle.
-JointPath search_way(const CollisionState& state, const JointVector& start, const Tail& tail,
-                     const MotionLimits& limits, RandomKey key, int care) {
-  if (tail.waypoints.size() <= 1) return search_path(state, start, tail.waypoints.front(), limits, key, care);
-  CollisionState untouched = state;
+JointPath search_way(const MotionProblem& problem, const Tail& tail, int care) {
+  if (tail.waypoints.size() <= 1) return search_path(problem, tail.waypoints.front(), care);
+  CollisionState untouched = problem.state;
   untouched.clear_allowed();
-  return search_path(untouched, start, tail.waypoints.front(), limits, key, care);
+  return search_path({untouched, problem.start, problem.limits, problem.key}, tail.waypoints.front(), care);
 }
 
 // Free motion to the tail's start, then the tail.
-PlannedMotion plan_to_tail(const CollisionState& state, const JointVector& start, const Tail& tail,
-                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key) {
+PlannedMotion plan_to_tail(const MotionProblem& problem, const Tail& tail, const std::vector<ToolTarget>& targets) {
   PlannedMotion motion;
   for (int care = 0; care <= kMostCare; ++care) {
-    JointPath path = search_way(state, start, tail, limits, key, care);
+    JointPath path = search_way(problem, tail, care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
     path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
-    motion = certify(state, path.waypoints, limits, clearance_m(limits, care));
+    motion = certify(problem.state, path.waypoints, problem.limits, clearance_m(problem.limits, care));
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;
   for (std::size_t i = 0; i + 1 < tail.at_target.size(); ++i)
     motion.vias.push_back({targets[i].name, targets[i].world_from_tip,
-                           nearest_step(motion.trajectory, tail.at_target[i], state.scene().physics_hz)});
+                           nearest_step(motion.trajectory, tail.at_target[i], problem.state.scene().physics_hz)});
   return motion;
 }
 
-PlannedMotion plan_through_from(const CollisionState& state, const JointVector& start,
-                                const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
+PlannedMotion plan_through_from(const MotionProblem& problem, const std::vector<ToolTarget>& targets,
                                 const PartWay* then) {
+  const auto& [state, start, limits, key] = problem;
   PlannedMotion motion;
   const JointPath ends = check_ends(state, start, start);
   motion.reason = ends.reason;
@@ -181,13 +181,13 @@ PlannedMotion plan_through_from(const CollisionState& state, const JointVector& 
     }
     if (i >= solutions.size()) break;
     const RandomKey query = key.with("solution").with(static_cast<std::int64_t>(i));
-    const Tail tail = make_tail(state, solutions[i], targets, then, limits, query.with("tail"));
+    const Tail tail = make_tail({state, solutions[i], limits, query.with("tail")}, targets, then);
     if (tail.reason != Reason::none) {
       motion.reason = tail.reason;
       motion.detail = tail.detail;
       continue;
     }
-    motion = plan_to_tail(state, start, tail, targets, limits, query);
+    motion = plan_to_tail({state, start, limits, query}, tail, targets);
     if (motion.reason == Reason::none) return motion;
   }
   return motion;
@@ -214,18 +214,19 @@ int samples_between(const Transform& from, const Transform& to) {
   return std::max(1, static_cast<int>(std::ceil(std::max(way / 0.005, turn / 0.02))));
 }
 
-ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::function<Transform(double)>& world_from_tip,
-                     int samples, RandomKey key, const std::vector<JointVector>& near) {
+ToolPath follow_tool(const Arm& arm, const JointVector& start, const TipWay& way, RandomKey key) {
   ToolPath path;
   JointVector last = start;
-  for (int i = 1; i <= samples; ++i) {
-    const double share = static_cast<double>(i) / samples;
-    const Transform target = world_from_tip(share);
+  for (int i = 1; i <= way.samples; ++i) {
+    const double share = static_cast<double>(i) / way.samples;
+    const Transform target = way.world_from_tip(share);
     check_pose(target);
-    const std::optional<JointVector> q = arm.solve(target, near.empty() ? last : guide_at(near, share), key.with(i), 0);
+    const JointVector guess = way.near.empty() ? last : guide_at(way.near, share);
+    const std::optional<JointVector> q = arm.solve(target, guess, key.with(i), 0);
     if (!q || joint_gap(*q, last) > kMostJump) {
       path.reason = Reason::unreachable;
-      path.detail = "the arm cannot follow beyond " + percent(static_cast<double>(i - 1) / samples) + " of the line";
+      path.detail =
+          "the arm cannot follow beyond " + percent(static_cast<double>(i - 1) / way.samples) + " of the line";
       return path;
     }
     path.waypoints.push_back(*q);
@@ -234,14 +235,10 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const std::functi
   return path;
 }
 
-PlannedMotion plan_through(const CollisionState& state, const JointVector& start,
-                           const std::vector<ToolTarget>& targets, const MotionLimits& limits, RandomKey key,
-                           const PartWay* then) {
+PlannedMotion plan_through(const MotionProblem& problem, const std::vector<ToolTarget>& targets, const PartWay* then) {
   if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
-  return plan_after_way_out(state, start, limits, [&](const JointVector& from) {
-    return plan_through_from(state, from, targets, limits, key, then);
-  });
+  return plan_after_way_out(problem, [&](const MotionProblem& from) { return plan_through_from(from, targets, then); });
 }
 
 }  // namespace stampede

@@ -78,6 +78,35 @@ std::string number(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
 }
 
+const ActionSpace* named_space(const std::vector<ActionSpace>& spaces, std::string_view name) {
+  const auto found =
+      std::find_if(spaces.begin(), spaces.end(), [&](const ActionSpace& one) { return one.name == name; });
+  return found == spaces.end() ? nullptr : &*found;
+}
+
+std::optional<ActionRefusal> mistake_in_value(const ActionComponent& component, double value) {
+  if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
+  if (value >= component.lower - kSlack && value <= component.upper + kSlack) return std::nullopt;
+  return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
+                       "it goes from " + number(component.lower) + " to " + number(component.upper)};
+}
+
+std::optional<ActionRefusal> mistake_in_values(const AgentAction& action, const ActionSpace& space) {
+  if (action.values.size() != space.components.size())
+    return ActionRefusal{action.space + " has " + std::to_string(space.components.size()) + " values, not " +
+                             std::to_string(action.values.size()),
+                         "spaces() lists them"};
+  const bool pose = action.space == "tool_pose" || action.space == "tool_path" || action.space == "tool_impedance";
+  for (std::size_t i = 0; i < action.values.size(); ++i) {
+    ActionComponent component = space.components[i];
+    if (pose && action.frame == "tool" && i < 3) component.lower = -kReach_m, component.upper = kReach_m;
+    if (auto refusal = mistake_in_value(component, action.values[i])) return refusal;
+  }
+  if (pose && Eigen::Vector4d(action.values[3], action.values[4], action.values[5], action.values[6]).norm() < 1e-3)
+    return ActionRefusal{"its quaternion has no length", "x y z, then the quaternion x y z w: 0 0 0 1"};
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool is_of_tool(std::string_view space) { return space.starts_with("tool_"); }
@@ -108,39 +137,18 @@ std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints) {
 }
 
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces) {
-  const auto space =
-      std::find_if(spaces.begin(), spaces.end(), [&](const ActionSpace& one) { return one.name == action.space; });
-  if (space == spaces.end()) {
+  const ActionSpace* space = named_space(spaces, action.space);
+  if (space == nullptr) {
     std::vector<std::string> names;
     for (const ActionSpace& one : spaces) names.push_back(one.name);
     return ActionRefusal{"there is no action space '" + action.space + "'", did_you_mean(action.space, names)};
   }
-  const bool pose = action.space == "tool_pose" || action.space == "tool_path" || action.space == "tool_impedance";
-  const bool relative = action.frame == "tool";
   if (action.frame != "world" && action.frame != "tool")
     return ActionRefusal{"there is no frame of reference '" + action.frame + "'", "say world or tool"};
-  if (action.values.size() != space->components.size())
-    return ActionRefusal{action.space + " has " + std::to_string(space->components.size()) + " values, not " +
-                             std::to_string(action.values.size()),
-                         "spaces() lists them"};
-  const auto check = [](const ActionComponent& component, double value) -> std::optional<ActionRefusal> {
-    if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
-    if (value >= component.lower - kSlack && value <= component.upper + kSlack) return std::nullopt;
-    return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
-                         "it goes from " + number(component.lower) + " to " + number(component.upper)};
-  };
-  for (std::size_t i = 0; i < action.values.size(); ++i) {
-    ActionComponent component = space->components[i];
-    if (pose && relative && i < 3) component.lower = -kReach_m, component.upper = kReach_m;
-    if (auto refusal = check(component, action.values[i])) return refusal;
-  }
-  if (pose && Eigen::Vector4d(action.values[3], action.values[4], action.values[5], action.values[6]).norm() < 1e-3)
-    return ActionRefusal{"its quaternion has no length", "x y z, then the quaternion x y z w: 0 0 0 1"};
-  if (action.gripper) {
-    const auto gripper =
-        std::find_if(spaces.begin(), spaces.end(), [](const ActionSpace& one) { return one.name == "gripper"; });
-    if (auto refusal = check(gripper->components.front(), *action.gripper)) return refusal;
-  }
+  if (auto refusal = mistake_in_values(action, *space)) return refusal;
+  if (action.gripper)
+    if (auto refusal = mistake_in_value(named_space(spaces, "gripper")->components.front(), *action.gripper))
+      return refusal;
   if (!action.controller.empty() && !controller_from(action.controller))
     return ActionRefusal{"there is no controller '" + action.controller + "'",
                          did_you_mean(action.controller, controller_names())};

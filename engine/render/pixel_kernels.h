@@ -18,6 +18,7 @@ struct SurfaceView {
   int width = 0, height = 0;
   float* nearness = nullptr;         // 1 / m along z of the camera; in a shadow map: 0 far … 1 at the lamp
   std::int32_t* triangle = nullptr;  // of the SceneDrawing; null: not wanted
+  std::uint32_t* colours = nullptr;  // red in the lowest byte; null: none
 };
 
 // Room for what becomes of a thing's corners, each for all of them and padded to whole lanes.
@@ -82,6 +83,12 @@ struct NormalPlane {
   std::uint32_t stamp = 0;  // of the picture that it was made for
 };
 
+// What tint paints.
+struct TintJob {
+  const ThingPaint& thing;
+  const LampPaint& lamp;
+};
+
 // What shade paints: pixels whose triangle belongs to a thing with `wanted`.
 struct PaintJob {
   const std::int32_t* thing_of_triangle = nullptr;
@@ -96,13 +103,12 @@ struct PixelKernels {
   // Nearer ones win; of equally near ones the lesser number. So no order of drawing shows.
   void (*fill)(const SurfaceView&, const PinholeOfEye&, const ThingInEye&, const CornersInEye&);
   void (*fill_shadow)(const SurfaceView&, const ThingInEye&, const CornersInEye&);
-  void (*shade)(const SurfaceView&, const PaintJob&, std::uint32_t* colours);  // red in the lowest byte
-  // Tints what lies behind, triangle by triangle, and leaves the surface as it is.
-  void (*tint)(const SurfaceView&, const PinholeOfEye&, const ThingInEye&, const CornersInEye&, const ThingPaint&,
-               const LampPaint&, std::uint32_t* colours);
+  void (*shade)(const SurfaceView&, const PaintJob&);
+  // Tints what lies behind, triangle by triangle, and leaves all but colours as it is.
+  void (*tint)(const SurfaceView&, const PinholeOfEye&, const ThingInEye&, const CornersInEye&, const TintJob&);
   // What a picture holds, one value a pixel: three bytes; m, 0 where nothing is; and the low and high half of the ids
   // of triangles, 0 where nothing is (null: not wanted).
-  void (*write_colours)(const SurfaceView&, const std::uint32_t* colours, std::uint8_t* rgb);
+  void (*write_colours)(const SurfaceView&, std::uint8_t* rgb);
   void (*write_depth)(const SurfaceView&, float* depth);
   void (*write_ids)(const SurfaceView&, const std::uint32_t* ids, std::uint16_t* low, std::uint16_t* high);
 };

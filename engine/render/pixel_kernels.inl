@@ -79,8 +79,10 @@ struct Side {
 // The row or column whose middle is the first at a place or behind it.
 int first_middle(std::int32_t place) { return (place + 255) >> 8; }
 
+// A sink takes what lies inside of a triangle, row by row, on its surface.
 template <typename Sink>
-void fill_rows(int from, int to, Side left, Side right, int width, Sink& sink) {
+void fill_rows(int from, int to, Side left, Side right, Sink& sink) {
+  const int width = sink.surface.width;
   for (int row = from; row < to; ++row) {
     const int begin = left.next(), end = right.next();
     const int first = begin < 0 ? 0 : begin, last = end > width ? width : end;
@@ -90,10 +92,11 @@ void fill_rows(int from, int to, Side left, Side right, int width, Sink& sink) {
 
 // Pixels whose middles lie inside; of a side that two triangles share, each pixel falls to one of them.
 template <typename Sink>
-void fill_corners(Corner a, Corner b, Corner c, int width, int height, Sink& sink) {
+void fill_corners(Corner a, Corner b, Corner c, Sink& sink) {
   if (b.row < a.row) std::swap(a, b);
   if (c.row < a.row) std::swap(a, c);
   if (c.row < b.row) std::swap(b, c);
+  const int height = sink.surface.height;
   const auto within = [&](int row) { return row < 0 ? 0 : row > height ? height : row; };
   const int top = within(first_middle(a.row)), middle = within(first_middle(b.row)),
             bottom = within(first_middle(c.row));
@@ -105,9 +108,9 @@ void fill_corners(Corner a, Corner b, Corner c, int width, int height, Sink& sin
     if (from >= to) return;
     const Side whole(a, c, from), part(upper, lower, from);
     if (turn > 0)
-      fill_rows(from, to, whole, part, width, sink);
+      fill_rows(from, to, whole, part, sink);
     else
-      fill_rows(from, to, part, whole, width, sink);
+      fill_rows(from, to, part, whole, sink);
   };
   half(top, middle, a, b);
   half(middle, bottom, b, c);
@@ -166,7 +169,7 @@ Polygon cut(const Polygon& polygon, const Inside& inside) {
 }
 
 template <typename Sink>
-void fill_cut(Polygon polygon, double least_w, bool two_sided, int width, int height, Sink& sink) {
+void fill_cut(Polygon polygon, double least_w, bool two_sided, Sink& sink) {
   polygon = cut(polygon, [&](const Homogeneous& c) { return c.w - least_w; });
   polygon = cut(polygon, [](const Homogeneous& c) { return kGuard * c.w - c.x; });
   polygon = cut(polygon, [](const Homogeneous& c) { return kGuard * c.w + c.x; });
@@ -180,7 +183,7 @@ void fill_cut(Polygon polygon, double least_w, bool two_sided, int width, int he
   }
   for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i)
     if (two_sided || area_of(corners[0], corners[i - 1], corners[i]) < 0)
-      fill_corners(corners[0], corners[i - 1], corners[i], width, height, sink);
+      fill_corners(corners[0], corners[i - 1], corners[i], sink);
 }
 
 // ---- corners
@@ -261,8 +264,9 @@ bool plane_of(const PinholeOfEye& eye, const Doubles3& a, const Doubles3& b, con
 
 // Calls begin(triangle) for each triangle that faces the eye, and then fills it.
 template <typename Sink, typename Begin>
-void fill_thing(const SurfaceView& surface, const PinholeOfEye& eye, const ThingInEye& thing,
-                const CornersInEye& corners, Sink& sink, const Begin& begin) {
+void fill_thing(const PinholeOfEye& eye, const ThingInEye& thing, const CornersInEye& corners, Sink& sink,
+                const Begin& begin) {
+  const SurfaceView& surface = sink.surface;
   place_in_pinhole(eye, thing, corners);
   const auto& triangles = thing.entry->mesh.triangles;
   const auto count = static_cast<std::int32_t>(triangles.size());
@@ -285,17 +289,17 @@ void fill_thing(const SurfaceView& surface, const PinholeOfEye& eye, const Thing
     if (!plane_of(eye, pa, pb, pc, sink.plane)) continue;
     begin(i);
     if (whole) {
-      fill_corners(a, b, c, surface.width, surface.height, sink);
+      fill_corners(a, b, c, sink);
       continue;
     }
     const Polygon polygon{{homogeneous(pa), homogeneous(pb), homogeneous(pc)}, 3};
-    fill_cut(polygon, eye.near, thing.two_sided, surface.width, surface.height, sink);
+    fill_cut(polygon, eye.near, thing.two_sided, sink);
   }
 }
 
 void fill(const SurfaceView& surface, const PinholeOfEye& eye, const ThingInEye& thing, const CornersInEye& corners) {
   NearestSink sink{surface};
-  fill_thing(surface, eye, thing, corners, sink, [&](std::int32_t i) { sink.triangle = thing.first_triangle + i; });
+  fill_thing(eye, thing, corners, sink, [&](std::int32_t i) { sink.triangle = thing.first_triangle + i; });
 }
 
 // ---- depth as the lamp sees it
@@ -350,11 +354,11 @@ void fill_shadow(const SurfaceView& surface, const ThingInEye& thing, const Corn
     const Doubles3 pa = at(ia), pb = at(ib), pc = at(ic);
     if (!plane_through(pa, pb, pc, sink.plane)) continue;
     if (whole) {
-      fill_corners(a, b, c, surface.width, surface.height, sink);
+      fill_corners(a, b, c, sink);
       continue;
     }
     const Polygon polygon{{Homogeneous{pa.x, pa.y, 1}, Homogeneous{pb.x, pb.y, 1}, Homogeneous{pc.x, pc.y, 1}}, 3};
-    fill_cut(polygon, 1, thing.two_sided, surface.width, surface.height, sink);
+    fill_cut(polygon, 1, thing.two_sided, sink);
   }
 }
 
@@ -418,6 +422,7 @@ void find_normals(const ThingPaint& thing, std::int32_t triangle, NormalPlane& p
 }
 
 struct TexturePlanes {
+  TextureLevels levels;
   float first[3], right[3], down[3];                 // of the coordinates
   float side_first[3], side_right[3], side_down[3];  // of the normal in the shape's frame
   float nearness_right, nearness_down;
@@ -429,6 +434,7 @@ TexturePlanes find_texture(const ThingPaint& thing, std::int32_t triangle) {
   const auto& corners = mesh.triangles.data()[triangle];
   const Shares shares = shares_of(thing, triangle);
   TexturePlanes planes{};
+  planes.levels = thing.texture;
   planes.own = !mesh.coordinates.empty();
   const auto coordinate = [&](std::size_t corner, std::size_t k) {
     if (!planes.own) return mesh.positions.data()[corner][k] * thing.texture_scale;
@@ -506,8 +512,7 @@ void sample(const TextureLevels& texture, const float (&at)[2], const float (&st
 }
 
 // The axis that the surface faces most is left out; a mesh with coordinates of its own wears them.
-void paint_pixel(const TextureLevels& texture, const TexturePlanes& planes, float x, float y, float nearness,
-                 float (&colour)[3]) {
+void paint_pixel(const TexturePlanes& planes, float x, float y, float nearness, float (&colour)[3]) {
   float at[3], right[3], down[3], side[3];
   for (int k = 0; k < 3; ++k) {
     at[k] = (planes.first[k] + planes.right[k] * x + planes.down[k] * y) / nearness;
@@ -523,7 +528,7 @@ void paint_pixel(const TextureLevels& texture, const TexturePlanes& planes, floa
   }
   const float steps[2][2] = {{right[u], right[v]}, {down[u], down[v]}};
   const float chosen[2] = {at[u], at[v]};
-  sample(texture, chosen, steps, colour);
+  sample(planes.levels, chosen, steps, colour);
 }
 
 // Two comparing samples beside a place, each between two texels, along one axis. Both axes together: four and sixteen.
@@ -575,7 +580,7 @@ struct Brush {
     for (int lane = 0; lane < kLaneCount; ++lane) {
       if (wanted[lane] == 0) continue;
       float colour[3];
-      paint_pixel(thing.texture, *texture, x + static_cast<float>(lane), y, nearness[lane], colour);
+      paint_pixel(*texture, x + static_cast<float>(lane), y, nearness[lane], colour);
       for (int k = 0; k < 3; ++k) base[k][lane] *= colour[k];
     }
   }
@@ -630,29 +635,37 @@ Ints packed(const Floats (&value)[3]) {
   return red | (green << 8) | (blue << 16);
 }
 
-void shade_run(const PaintJob& job, const ThingPaint& thing, std::int32_t triangle, int row, int begin, int end,
-               const float* nearness, std::uint32_t* colours) {
-  NormalPlane& normal = job.normals[triangle];
+// Pixels of a row that show the same triangle.
+struct Run {
+  std::int32_t triangle;
+  int row, begin, end;
+};
+
+void shade_run(const SurfaceView& surface, const PaintJob& job, const ThingPaint& thing, const Run& run) {
+  NormalPlane& normal = job.normals[run.triangle];
   if (normal.stamp != job.stamp) {
-    find_normals(thing, triangle - thing.first_triangle, normal);
+    find_normals(thing, run.triangle - thing.first_triangle, normal);
     normal.stamp = job.stamp;
   }
   TexturePlanes planes;
-  if (thing.texture.count > 0) planes = find_texture(thing, triangle - thing.first_triangle);
+  if (thing.texture.count > 0) planes = find_texture(thing, run.triangle - thing.first_triangle);
   const Brush brush{thing, job.lamp, normal, thing.texture.count > 0 ? &planes : nullptr};
-  for (int x = begin; x < end; x += kLaneCount) {
+  const std::size_t start = static_cast<std::size_t>(run.row) * static_cast<std::size_t>(surface.width);
+  const float* nearness = surface.nearness + start;
+  std::uint32_t* colours = surface.colours + start;
+  for (int x = run.begin, end = run.end; x < end; x += kLaneCount) {
     const Ints wanted = kIntSteps < end - x;
     Floats value[3];
-    brush.colours(x, row, load<Floats>(nearness + x), wanted, value);
+    brush.colours(x, run.row, load<Floats>(nearness + x), wanted, value);
     const Ints old = load<Ints>(colours + x);
     store(colours + x, wanted ? packed(value) : old);
   }
 }
 
-void shade(const SurfaceView& surface, const PaintJob& job, std::uint32_t* colours) {
+void shade(const SurfaceView& surface, const PaintJob& job) {
   for (int row = 0; row < surface.height; ++row) {
-    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.width);
-    const std::int32_t* triangles = surface.triangle + start;
+    const std::int32_t* triangles =
+        surface.triangle + static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.width);
     for (int x = 0; x < surface.width;) {
       const std::int32_t triangle = triangles[x];
       const int begin = x;
@@ -660,8 +673,7 @@ void shade(const SurfaceView& surface, const PaintJob& job, std::uint32_t* colou
       while (x < surface.width && triangles[x] == triangle) ++x;
       if (triangle == kNoTriangle) continue;
       const std::int32_t thing = job.thing_of_triangle[triangle];
-      if (job.wanted[thing] != 0)
-        shade_run(job, job.things[thing], triangle, row, begin, x, surface.nearness + start, colours + start);
+      if (job.wanted[thing] != 0) shade_run(surface, job, job.things[thing], {triangle, row, begin, x});
     }
   }
 }
@@ -672,7 +684,6 @@ struct TintSink {
   const SurfaceView& surface;
   const ThingPaint& thing;
   const LampPaint& lamp;
-  std::uint32_t* colours;
   Plane plane{};
   NormalPlane normal{};
   TexturePlanes texture{};
@@ -680,6 +691,7 @@ struct TintSink {
   void row(int y, int begin, int end) const {
     const std::size_t start = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width);
     const float* nearness = surface.nearness + start;
+    std::uint32_t* colours = surface.colours + start;
     const auto first = static_cast<float>(plane.first + plane.right * begin + plane.down * y);
     const auto right = static_cast<float>(plane.right);
     const Brush brush{thing, lamp, normal, thing.texture.count > 0 ? &texture : nullptr};
@@ -690,22 +702,22 @@ struct TintSink {
       if (!any(seen)) continue;
       Floats value[3];
       brush.colours(x, y, here, seen, value);
-      const Ints old = load<Ints>(colours + start + static_cast<std::size_t>(x));
+      const Ints old = load<Ints>(colours + x);
       for (int k = 0; k < 3; ++k) {
         const Floats behind = __builtin_convertvector((old >> (8 * k)) & 255, Floats);
         value[k] = value[k] * thing.alpha + behind * (1 - thing.alpha);
       }
-      store(colours + start + static_cast<std::size_t>(x), seen ? packed(value) : old);
+      store(colours + x, seen ? packed(value) : old);
     }
   }
 };
 
 void tint(const SurfaceView& surface, const PinholeOfEye& eye, const ThingInEye& thing, const CornersInEye& corners,
-          const ThingPaint& paint, const LampPaint& lamp, std::uint32_t* colours) {
-  TintSink sink{surface, paint, lamp, colours};
-  fill_thing(surface, eye, thing, corners, sink, [&](std::int32_t i) {
-    find_normals(paint, i, sink.normal);
-    if (paint.texture.count > 0) sink.texture = find_texture(paint, i);
+          const TintJob& job) {
+  TintSink sink{surface, job.thing, job.lamp};
+  fill_thing(eye, thing, corners, sink, [&](std::int32_t i) {
+    find_normals(job.thing, i, sink.normal);
+    if (job.thing.texture.count > 0) sink.texture = find_texture(job.thing, i);
   });
 }
 
@@ -715,7 +727,8 @@ std::size_t pixels_of(const SurfaceView& surface) {
   return static_cast<std::size_t>(surface.width) * static_cast<std::size_t>(surface.height);
 }
 
-void write_colours(const SurfaceView& surface, const std::uint32_t* colours, std::uint8_t* rgb) {
+void write_colours(const SurfaceView& surface, std::uint8_t* rgb) {
+  const std::uint32_t* colours = surface.colours;
   using Bytes = std::uint8_t __attribute__((vector_size(16)));
   const std::size_t count = pixels_of(surface);
   std::size_t i = 0;

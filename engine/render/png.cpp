@@ -66,30 +66,44 @@ std::size_t open_chunk(Bytes& png, std::string_view name) {
   return start;
 }
 
-void put_header(Bytes& png, int width, int height, int bits, ColourType type) {
+struct PngHeader {
+  int width = 0, height = 0, bits = 8;
+  ColourType type = ColourType::grey;
+};
+
+void put_header(Bytes& png, const PngHeader& header) {
   png.assign(kSignature.begin(), kSignature.end());
   const std::size_t start = open_chunk(png, "IHDR");
   png.resize(png.size() + 13);
-  put32(&png[start + 8], static_cast<std::size_t>(width));
-  put32(&png[start + 12], static_cast<std::size_t>(height));
-  png[start + 16] = static_cast<std::uint8_t>(bits);
-  png[start + 17] = static_cast<std::uint8_t>(type);  // then deflate, adaptive filters, not interlaced: all 0
+  put32(&png[start + 8], static_cast<std::size_t>(header.width));
+  put32(&png[start + 12], static_cast<std::size_t>(header.height));
+  png[start + 16] = static_cast<std::uint8_t>(header.bits);
+  png[start + 17] = static_cast<std::uint8_t>(header.type);  // then deflate, adaptive filters, not interlaced: all 0
   close_chunk(png, start);
 }
 
-// The rows of the encoder, which are filtered and start with the filter's number each. `own`: compressed by ourselves.
-Bytes png_of_rows(int width, int height, int bits, ColourType type, Encoder& with, bool own) {
+// Puts the compressed rows of the encoder behind what it has packed.
+using Compress = void (*)(const PngHeader& header, Encoder& with);
+
+void compress_smooth(const PngHeader&, Encoder& with) {
   Bytes& png = with.packed;
-  put_header(png, width, height, bits, type);
-  const std::size_t start = open_chunk(png, "IDAT"), data = png.size();
-  if (own) {
-    const std::size_t pixel_size = type == ColourType::rgb ? 3 : 2;
-    with.own.add_stream(with.rows, with.rows.size() / static_cast<std::size_t>(height), pixel_size, png);
-  } else {
-    png.resize(data + libdeflate_zlib_compress_bound(with.compressor.get(), with.rows.size()));
-    png.resize(data + libdeflate_zlib_compress(with.compressor.get(), with.rows.data(), with.rows.size(), &png[data],
-                                               png.size() - data));
-  }
+  const std::size_t data = png.size();
+  png.resize(data + libdeflate_zlib_compress_bound(with.compressor.get(), with.rows.size()));
+  png.resize(data + libdeflate_zlib_compress(with.compressor.get(), with.rows.data(), with.rows.size(), &png[data],
+                                             png.size() - data));
+}
+
+void compress_ids(const PngHeader& header, Encoder& with) {
+  with.own.add_stream(with.rows, with.rows.size() / static_cast<std::size_t>(header.height), sizeof(std::uint16_t),
+                      with.packed);
+}
+
+// The rows of the encoder, which are filtered and start with the filter's number each.
+Bytes png_of_rows(const PngHeader& header, Encoder& with, Compress compress) {
+  Bytes& png = with.packed;
+  put_header(png, header);
+  const std::size_t start = open_chunk(png, "IDAT");
+  compress(header, with);
   close_chunk(png, start);
   close_chunk(png, open_chunk(png, "IEND"));
   return {png.begin(), png.end()};
@@ -200,7 +214,7 @@ Bytes png_of(int width, int height, std::span<const std::uint8_t> rgb) {
     for (std::size_t i = 3; i < row_size; ++i) at[i] = static_cast<std::uint8_t>(row[i] - row[i - 3]);
     at += row_size;
   }
-  return png_of_rows(width, height, 8, ColourType::rgb, with, false);
+  return png_of_rows({width, height, 8, ColourType::rgb}, with, compress_smooth);
 }
 
 std::string picture_mark() { return std::string("tEXtSoftware\0stampede", 21); }
@@ -224,18 +238,19 @@ Bytes to_png(const Picture& picture, PictureKind kind) {
   const auto width = static_cast<std::size_t>(picture.width);
   const std::size_t count = width * static_cast<std::size_t>(picture.height);
   require(picture.width > 0 && picture.height > 0, "a picture without pixels is no PNG file");
+  const PngHeader grey{picture.width, picture.height, 16, ColourType::grey};
   Encoder& with = encoder();
   if (kind == PictureKind::depth) {
     require(picture.depth.size() == count, "it has no depth");
     with.values.resize(count);
     std::transform(picture.depth.begin(), picture.depth.end(), with.values.begin(), depth_value);
     put_values(with.values, width, Filter::up, with.rows);
-    return png_of_rows(picture.width, picture.height, 16, ColourType::grey, with, false);
+    return png_of_rows(grey, with, compress_smooth);
   }
   const std::vector<std::uint16_t>& ids = kind == PictureKind::instance ? picture.instance : picture.semantic;
   require(ids.size() == count, kind == PictureKind::instance ? "it has no instances" : "it has no classes");
   put_values(ids, width, Filter::none, with.rows);
-  return png_of_rows(picture.width, picture.height, 16, ColourType::grey, with, true);
+  return png_of_rows(grey, with, compress_ids);
 }
 
 void from_file(std::span<const std::uint8_t> file, PictureKind kind, Picture& picture) {

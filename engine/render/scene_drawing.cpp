@@ -76,25 +76,30 @@ SceneDrawing::SceneDrawing(const Scene& scene, TessellationCache& cache) {
   for (const MaskEntry& entry : mask_key(scene))
     ids.at(static_cast<std::size_t>(entry.instance)) =
         static_cast<std::uint32_t>(entry.instance) + 65536U * static_cast<std::uint32_t>(entry.semantic);
+  const auto thing_of = [](int body, std::size_t part) {
+    Thing thing;
+    thing.body = body;
+    thing.part = static_cast<int>(part);
+    return thing;
+  };
   const auto add_parts = [&](const Body& body, int index) {
     for (std::size_t part = 0; part < body.parts.size(); ++part)
       for (const Shape& shape : body.parts[part].shapes)
         if (shape.visible)
-          add(scene, shape, index, static_cast<int>(part), ids[static_cast<std::size_t>(body.parts[part].instance)],
-              cache);
+          add(thing_of(index, part), shape, ids[static_cast<std::size_t>(body.parts[part].instance)], scene, cache);
   };
   add_parts(scene.robot.body, kRobot);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) add_parts(scene.bodies[body], static_cast<int>(body));
   for (std::size_t i = 0; i < scene.regions.size(); ++i) {
     const Region& region = scene.regions[i];
     if (region.visible)
-      add(scene, shape_of(region), kRegion, static_cast<int>(i), ids[static_cast<std::size_t>(region.instance)], cache);
+      add(thing_of(kRegion, i), shape_of(region), ids[static_cast<std::size_t>(region.instance)], scene, cache);
   }
   moved_.resize(still_.size());
   projected_.resize(still_.size());
 }
 
-void SceneDrawing::add(const Scene& scene, const Shape& shape, int body, int part, std::uint32_t ids,
+void SceneDrawing::add(Thing thing, const Shape& shape, std::uint32_t ids, const Scene& scene,
                        TessellationCache& cache) {
   double size_m = 1;
   if (!shape.texture.empty()) {
@@ -106,9 +111,6 @@ void SceneDrawing::add(const Scene& scene, const Shape& shape, int body, int par
       throw Error("scene", "the texture '" + shape.texture + "' has no size", "give it a size_m above 0");
   }
   if (shape.colour.alpha <= 0) return;  // nobody sees it
-  Thing thing;
-  thing.body = body;
-  thing.part = part;
   thing.part_from_shape = shape.part_from_shape;
   thing.entry = cache.get(shape, scene);
   thing.two_sided = !thing.entry->closed;

@@ -103,7 +103,8 @@ class SceneDrawing {
   std::vector<Ball> balls() const;
 
  private:
-  void add(const Scene& scene, const Shape& shape, int body, int part, std::uint32_t ids, TessellationCache& cache);
+  // `thing`: of which body and part.
+  void add(Thing thing, const Shape& shape, std::uint32_t ids, const Scene& scene, TessellationCache& cache);
   const Transform& pose_of(const Thing& thing, const ScenePoses& poses) const;
   void project(const Thing& thing, const Eigen::Matrix4f& clip_from_world, const Eye& eye);
   void take_triangles(const Thing& thing, const Eye& eye, std::vector<std::uint32_t>& indices) const;

@@ -79,9 +79,7 @@ void SoftwareRenderer::load(std::shared_ptr<const Scene> scene) {
   drawing_.emplace(std::move(drawing));
   kept_.forget();
   const auto& things = drawing_->things();
-  world_from_shape_.assign(things.size(), Transform::Identity());
-  pose_number_.assign(things.size(), 0);
-  shown_.assign(things.size(), 1);
+  placed_.assign(things.size(), {});
   thing_of_triangle_.clear();
   ids_of_triangle_.clear();
   std::size_t most_corners = 0;
@@ -91,10 +89,7 @@ void SoftwareRenderer::load(std::shared_ptr<const Scene> scene) {
       ids_of_triangle_.resize(thing_of_triangle_.size(), drawing_->still()[things[i].first_corner].ids);
     most_corners = std::max(most_corners, things[i].entry->places[0].size());
   }
-  for (auto& places : corner_places_) places.resize(most_corners);
-  for (auto& pixels : corner_pixels_) pixels.resize(most_corners);
-  corners_ = {corner_places_[0].data(), corner_places_[1].data(), corner_places_[2].data(),
-              corner_pixels_[0].data(), corner_pixels_[1].data(), corner_pixels_[2].data()};
+  corners_.resize(most_corners);
   normals_.assign(thing_of_triangle_.size(), {});
   stamp_ = 0;
   paints_.resize(things.size());
@@ -116,11 +111,10 @@ void SoftwareRenderer::place_things(const ScenePoses& poses) {
   const auto& things = drawing_->things();
   for (std::size_t i = 0; i < things.size(); ++i) {
     const Transform now = drawing_->world_from_shape(things[i], poses);
-    const std::uint8_t shown = SceneDrawing::shows(things[i], poses) ? 1 : 0;
-    if (pose_number_[i] != 0 && shown == shown_[i] && now.matrix() == world_from_shape_[i].matrix()) continue;
-    shown_[i] = shown;
-    world_from_shape_[i] = now;
-    pose_number_[i] = draws_;
+    const bool shown = SceneDrawing::shows(things[i], poses);
+    Placed& last = placed_[i];
+    if (last.pose_number != 0 && shown == last.shown && now.matrix() == last.world_from_shape.matrix()) continue;
+    last = {now, draws_, shown};
   }
 }
 
@@ -128,19 +122,19 @@ void SoftwareRenderer::draw_shadows() {
   const auto& things = drawing_->things();
   std::vector<SceneDrawing::Ball> balls;
   for (std::size_t i = 0; i < things.size(); ++i)
-    if (!things[i].translucent && shown_[i] != 0)
-      balls.push_back({world_from_shape_[i] * things[i].entry->centre, things[i].entry->radius});
-  shadow_view_ = shadow_view(scene_->light, balls);
-  shadow_nearness_.assign(std::size_t{kBorderedSide} * kBorderedSide + kLanes, 0.0F);
-  const SurfaceView map{kBorderedSide, kBorderedSide, shadow_nearness_.data(), nullptr};
-  const Eigen::Matrix<double, 3, 4> texels = texels_from_world(shadow_view_, ShadowUse::draw);
+    if (!things[i].translucent && placed_[i].shown)
+      balls.push_back({placed_[i].world_from_shape * things[i].entry->centre, things[i].entry->radius});
+  shadows_.view = shadow_view(scene_->light, balls);
+  shadows_.nearness.assign(std::size_t{kBorderedSide} * kBorderedSide + kLanes, 0.0F);
+  const SurfaceView map{kBorderedSide, kBorderedSide, shadows_.nearness.data(), nullptr, nullptr};
+  const Eigen::Matrix<double, 3, 4> texels = texels_from_world(shadows_.view, ShadowUse::draw);
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].translucent || shown_[i] == 0) continue;
-    const ThingInEye thing{things[i].entry.get(), rows_of(texels * world_from_shape_[i].matrix()), 0,
+    if (things[i].translucent || !placed_[i].shown) continue;
+    const ThingInEye thing{things[i].entry.get(), rows_of(texels * placed_[i].world_from_shape.matrix()), 0,
                            things[i].two_sided};
-    kernels_.fill_shadow(map, thing, corners_);
+    kernels_.fill_shadow(map, thing, corners_.view());
   }
-  clear_border(shadow_nearness_);
+  clear_border(shadows_.nearness);
 }
 
 const Lens& SoftwareRenderer::lens_of(const Camera& camera) {
@@ -236,7 +230,7 @@ void SoftwareRenderer::keep_still_things(const Eye& eye, KeptView& kept) {
   const auto& things = drawing_->things();
   bool valid = !kept.surface.nearness.empty();
   for (std::size_t i = 0; valid && i < things.size(); ++i)
-    valid = kept.contained[i] == 0 || kept.contained[i] == pose_number_[i];
+    valid = kept.contained[i] == 0 || kept.contained[i] == placed_[i].pose_number;
   if (!valid) {
     kept.surface.clear(eye.key.width, eye.key.height, eye.key.lens[5], eye.key.coloured, kBackground);
     kept.contained.assign(things.size(), 0);
@@ -244,8 +238,8 @@ void SoftwareRenderer::keep_still_things(const Eye& eye, KeptView& kept) {
   repainted_.assign(things.size(), 0);
   bool more = false;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].translucent || kept.contained[i] != 0 || pose_number_[i] == draws_) continue;
-    kept.contained[i] = pose_number_[i];
+    if (things[i].translucent || kept.contained[i] != 0 || placed_[i].pose_number == draws_) continue;
+    kept.contained[i] = placed_[i].pose_number;
     if (seen_[i] == 0) continue;
     repainted_[i] = 1;
     more = true;
@@ -262,12 +256,12 @@ void SoftwareRenderer::see_things(const Eye& eye) {
   const double right = centre_x - eye.key.width, below = centre_y - eye.key.height;
   seen_.assign(things.size(), 0);
   for (std::size_t i = 0; i < things.size(); ++i) {
-    const Vector3 at = eye.camera_from_world * (world_from_shape_[i] * things[i].entry->centre);
+    const Vector3 at = eye.camera_from_world * (placed_[i].world_from_shape * things[i].entry->centre);
     const double reach = things[i].entry->radius * (1 + kRounding) + kRounding;
     const auto outside = [&](double focal, double along, double centre) {  // of a plane through the eye
       return (focal * along + centre * at.z()) / std::hypot(focal, centre);
     };
-    seen_[i] = shown_[i] != 0 && things[i].index_count > 0 && at.z() + reach > near && at.z() - reach < far &&
+    seen_[i] = placed_[i].shown && things[i].index_count > 0 && at.z() + reach > near && at.z() - reach < far &&
                        outside(focal_x, at.x(), centre_x) > -reach && outside(focal_x, at.x(), right) < reach &&
                        outside(focal_y, at.y(), centre_y) > -reach && outside(focal_y, at.y(), below) < reach
                    ? 1
@@ -277,21 +271,21 @@ void SoftwareRenderer::see_things(const Eye& eye) {
 
 ThingInEye SoftwareRenderer::in_eye(const Eye& eye, std::size_t thing) const {
   const SceneDrawing::Thing& drawn = drawing_->things()[thing];
-  return {drawn.entry.get(), rows_of((eye.camera_from_world * world_from_shape_[thing]).matrix().topRows<3>()),
+  return {drawn.entry.get(), rows_of((eye.camera_from_world * placed_[thing].world_from_shape).matrix().topRows<3>()),
           static_cast<std::int32_t>(drawn.first_index / 3), drawn.two_sided};
 }
 
 void SoftwareRenderer::fill(const Eye& eye, const Flags& wanted, PixelSurface& surface) {
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (wanted[i] != 0 && !drawing_->things()[i].translucent)
-      kernels_.fill(surface.view(), eye.pinhole, in_eye(eye, i), corners_);
+      kernels_.fill(surface.view(), eye.pinhole, in_eye(eye, i), corners_.view());
 }
 
 ThingPaint SoftwareRenderer::paint_of(const Eye& eye, std::size_t thing, bool shadows) const {
   const SceneDrawing::Thing& drawn = drawing_->things()[thing];
   const StillCorner& corner = drawing_->still().at(drawn.first_corner);
-  const Transform shape_from_camera = (eye.camera_from_world * world_from_shape_[thing]).inverse();
-  const Matrix3 shape_from_world = world_from_shape_[thing].linear().transpose();
+  const Transform shape_from_camera = (eye.camera_from_world * placed_[thing].world_from_shape).inverse();
+  const Matrix3 shape_from_world = placed_[thing].world_from_shape.linear().transpose();
   const auto& [focal_x, focal_y, centre_x, centre_y, near, far] = eye.key.lens;
   const Vector3 first((0.5 - centre_x) / focal_x, (0.5 - centre_y) / focal_y, 1);
   ThingPaint paint;
@@ -312,7 +306,7 @@ ThingPaint SoftwareRenderer::paint_of(const Eye& eye, std::size_t thing, bool sh
   }
   if (shadows)
     paint.shadow_from_shape =
-        rows_of(texels_from_world(shadow_view_, ShadowUse::ask) * world_from_shape_[thing].matrix());
+        rows_of(texels_from_world(shadows_.view, ShadowUse::ask) * placed_[thing].world_from_shape.matrix());
   return paint;
 }
 
@@ -324,10 +318,10 @@ LampPaint SoftwareRenderer::lamp(bool shadows) const {
   paint.diffuse = static_cast<float>(light.diffuse);
   paint.specular = static_cast<float>(light.specular);
   if (!shadows) return paint;
-  paint.shadow_map = shadow_nearness_.data();
+  paint.shadow_map = shadows_.nearness.data();
   paint.shadow_side = kBorderedSide;
   // A step along the normal keeps a surface out of its own shadow, whose map knows it by steps of a texel only.
-  paint.shadow_offset = static_cast<float>(1.5 * shadow_view_.texel_m);
+  paint.shadow_offset = static_cast<float>(1.5 * shadows_.view.texel_m);
   return paint;
 }
 
@@ -336,7 +330,7 @@ void SoftwareRenderer::shade(const Eye& eye, const Flags& wanted, bool shadows, 
     if (wanted[i] != 0) paints_[i] = paint_of(eye, i, shadows);
   const PaintJob job{thing_of_triangle_.data(), paints_.data(), wanted.data(), lamp(shadows),
                      normals_.data(),           ++stamp_};
-  kernels_.shade(surface.view(), job, surface.colours.data());
+  kernels_.shade(surface.view(), job);
 }
 
 void SoftwareRenderer::tint(const Eye& eye, bool shadows, PixelSurface& surface) {
@@ -344,19 +338,19 @@ void SoftwareRenderer::tint(const Eye& eye, bool shadows, PixelSurface& surface)
   std::vector<std::pair<double, std::size_t>> furthest_first;
   for (std::size_t i = 0; i < things.size(); ++i)
     if (things[i].translucent && seen_[i] != 0)
-      furthest_first.emplace_back(-(eye.camera_from_world * (world_from_shape_[i] * things[i].entry->centre)).norm(),
-                                  i);
+      furthest_first.emplace_back(
+          -(eye.camera_from_world * (placed_[i].world_from_shape * things[i].entry->centre)).norm(), i);
   std::sort(furthest_first.begin(), furthest_first.end());
   for (const auto& [distance, i] : furthest_first)
-    kernels_.tint(surface.view(), eye.pinhole, in_eye(eye, i), corners_, paint_of(eye, i, shadows), lamp(shadows),
-                  surface.colours.data());
+    kernels_.tint(surface.view(), eye.pinhole, in_eye(eye, i), corners_.view(),
+                  {paint_of(eye, i, shadows), lamp(shadows)});
 }
 
 void SoftwareRenderer::write_kinds(const PictureKinds& kinds, bool coloured, Picture& picture) {
   const SurfaceView view = surface_.view();
   if (coloured) {
     picture.rgb.resize(3 * surface_.pixels());
-    kernels_.write_colours(view, surface_.colours.data(), picture.rgb.data());
+    kernels_.write_colours(view, picture.rgb.data());
   }
   if (kinds.depth) {
     picture.depth.resize(surface_.pixels());

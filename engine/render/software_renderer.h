@@ -32,6 +32,15 @@ class SoftwareRenderer : public Renderer {
     PinholeOfEye pinhole;
     EyeKey key;
   };
+  struct Placed {
+    Transform world_from_shape = Transform::Identity();
+    std::uint64_t pose_number = 0;  // that of the draw that met its pose first
+    bool shown = true;
+  };
+  struct Shadows {  // of the last draw that had any
+    ShadowView view;
+    std::vector<float> nearness;  // the map, with its border
+  };
   using Flags = std::vector<std::uint8_t>;  // one a thing
 
   static Eye eye_of(const View& view, bool coloured, double right, double down);
@@ -60,23 +69,18 @@ class SoftwareRenderer : public Renderer {
   std::vector<std::int32_t> thing_of_triangle_;
   std::vector<std::uint32_t> ids_of_triangle_;  // instance + 65536 * semantic
 
-  // Of things, in their order. A pose's number is that of the draw that met it first.
-  std::vector<Transform> world_from_shape_;
-  std::vector<std::uint64_t> pose_number_;
+  std::vector<Placed> placed_;  // things, in their order
   std::uint64_t draws_ = 0;
   KeptViews kept_;
 
   // Scratch.
-  std::array<std::vector<float>, 3> corner_places_;
-  std::array<std::vector<std::int32_t>, 3> corner_pixels_;
-  CornersInEye corners_;
-  Flags shown_, seen_, wanted_, repainted_;
+  CornerRoom corners_;
+  Flags seen_, wanted_, repainted_;
   std::vector<ThingPaint> paints_;
   std::vector<NormalPlane> normals_;
   std::uint32_t stamp_ = 0;
   PixelSurface surface_;
-  std::vector<float> shadow_nearness_;
-  ShadowView shadow_view_;
+  Shadows shadows_;
   std::vector<Lens> lenses_;
   Picture wide_;
   std::vector<std::uint16_t> sums_;  // of colours, over samples

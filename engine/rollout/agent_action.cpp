@@ -78,7 +78,8 @@ void set_hand(double opening, const World& world, std::vector<Operation>& operat
 double opening_of_release(Rollout& rollout) {
   const World& world = rollout.world();
   const auto held = world.grasped();
-  return opening_beside(world, *planning_space(rollout, {}), held, world.scene().robot.opening_max, held.has_value());
+  return opening_beside(world.arm_position(), *planning_space(rollout, {}), held, world.scene().robot.opening_max,
+                        held.has_value());
 }
 
 }  // namespace

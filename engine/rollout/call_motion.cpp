@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "engine/motion/stops.h"
-#include "engine/motion/tool_line.h"
 #include "engine/rollout/call_follow.h"
 #include "engine/sim/paces.h"
 
 namespace stampede {
 namespace {
-
-template <typename... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <typename... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 16 does not know it by itself
 
 int robot_of(const RobotCall& call) {
   return std::visit(
@@ -33,81 +25,6 @@ std::int64_t lines_from(const PlannedMotion& planned, const std::string& kind) {
   return kind == "move_through" && !planned.vias.empty() ? planned.vias.front().step : 0;
 }
 
-// A motion as planned: where it is asked for, with stops.
-class Planned {
- public:
-  Planned(const Rollout& rollout, bool stop) : world_(rollout.world()), limits_(motion_limits(rollout)), stop_(stop) {}
-  PlannedCall operator()(PlannedMotion planned, FollowOptions options) const {
-    if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
-    if (stop_)
-      stop_at_vias(world_.arm(options.robot), {}, world_.scene().physics_hz, lines_from(planned, options.kind),
-                   planned);
-    options.vias = std::move(planned.vias);
-    for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
-    return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
-  }
-  const MotionLimits& limits() const { return limits_; }
-  // Of a motion that meets something or takes something along: with stops, an agent is to be able to do it again.
-  MotionLimits in_contact(LineOptions& line) const {
-    MotionLimits limits = limits_;
-    if (!stop_) return limits;
-    limits.speed = world_.grasped() ? kHoldingPace : kMeetingPace;
-    line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
-    return limits;
-  }
-
- private:
-  const World& world_;
-  MotionLimits limits_;
-  bool stop_;
-};
-
-PlannedCall plan_move_part(Rollout& rollout, const robot_call::MovePart& call, const CollisionState& state,
-                           const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
-  PartWay way = way_of_part(rollout.view(), call.object, call.position, call.pivot);
-  way.retreat = call.retreat;
-  const Transform held = rollout.world().arm(call.robot).world_from_tip(start);
-  LineOptions line;
-  line.tool_speed = call.speed;
-  const MotionLimits limits = from.in_contact(line);
-  const auto moving = [&](double reach) {  // the part goes with the hand, the first `reach` of its way
-    return [&way, reach](CollisionState& space, double share) {
-      if (way.part.body >= 0) space.move_part(way.part, way.moved(reach * share));
-    };
-  };
-  const auto along = [&](const ArmWay& found, double reach, double least_share) {
-    LineOptions guided = line;
-    guided.near = found.arm;
-    guided.least_share = least_share;
-    return plan_tool_path_with(state, start, found.world_from_tip, guided, moving(reach), limits, key);
-  };
-  options.kind = "move_part";
-  options.most_force = call.most_force;
-  options.tolerate_error = true;  // the joint's own position is the measure, and effects test it
-  if (call.then_to) {
-    PartWay onward = way_of_part(rollout.view(), call.object, *call.then_to, call.pivot);
-    onward.retreat = call.retreat;
-    const double here = rollout.view().joint(call.object), whole = *call.then_to - here;
-    const double share = whole == 0 ? 1 : std::clamp((call.position - here) / whole, 0.0, 1.0);
-    if (const std::optional<ArmWay> found = way_with_part(state, start, onward, key)) {
-      PlannedMotion motion = along(first_of(*found, share), 1, 1);
-      if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
-    }
-  }
-  if (const std::optional<ArmWay> found = way_with_part(state, start, way, key)) {
-    PlannedMotion motion = along(*found, 1, 1);
-    if (motion.reason == Reason::none) return from(std::move(motion), std::move(options));
-  }
-  const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
-  PlannedMotion whole = plan_tool_path_with(state, start, rigid, line, moving(1), limits, key);
-  const bool good =  // the arm goes on from there
-      whole.reason == Reason::none && free_at_end(state, start, way, whole.trajectory.knots.back().position);
-  if (!good && call.as_far_as_it_goes)
-    if (const std::optional<ArmWay> found = furthest_with_part(state, start, way, key))
-      whole = along(*found, found->reach, 0);
-  return from(std::move(whole), std::move(options));
-}
-
 // Of a motion that presses, gives way or moves the fingers.
 void set_contact(const Rollout& rollout, double most_force, double press, const Vector3& press_along,
                  FollowOptions& options) {
@@ -117,43 +34,173 @@ void set_contact(const Rollout& rollout, double most_force, double press, const 
   options.hand_force = rollout.view().scene().robot.grip_force;
 }
 
-PlannedCall plan_move_line(Rollout& rollout, const robot_call::MoveLine& call, const CollisionState& state,
-                           const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
-  options.kind = call.kind;
-  options.stop_on_contact = call.stop_on_contact;
-  options.contact_force = call.force;
+// Makes a motion of one call, whichever it is. `stop`: with stops at its vias.
+class CallPlanner {
+ public:
+  CallPlanner(Rollout& rollout, int robot, const std::vector<PartRef>& touchable, RandomKey key, bool stop)
+      : rollout_(rollout),
+        world_(rollout.world()),
+        robot_(robot),
+        touchable_(touchable),
+        key_(key),
+        stop_(stop),
+        start_(planning_start(world_, robot)),
+        limits_(motion_limits(rollout)) {}
+
+  PlannedCall operator()(const robot_call::MoveThrough& call) const;
+  PlannedCall operator()(const robot_call::MoveLine& call) const;
+  PlannedCall operator()(const robot_call::Follow& call) const;
+  PlannedCall operator()(const robot_call::MoveJoints& call) const;
+  PlannedCall operator()(const robot_call::MovePart& call) const;
+  PlannedCall operator()(const robot_call::Hand& call) const;
+  PlannedCall operator()(const robot_call::Wait& call) const {
+    return {make_wait(std::max<std::int64_t>(1, std::llround(call.seconds / world_.dt()))), Reason::none, {}};
+  }
+  template <typename Other>
+  PlannedCall operator()(const Other&) const {
+    return {nullptr, Reason::script_error, "not a motion"};
+  }
+
+ private:
+  std::unique_ptr<CollisionState> space() const { return planning_space(rollout_, touchable_); }
+  MotionProblem problem(const CollisionState& space) const { return {space, start_, limits_, key_}; }
+  FollowOptions options(std::string kind) const {
+    FollowOptions options;
+    options.kind = std::move(kind);
+    options.keep = rollout_.keep;
+    options.robot = robot_;
+    return options;
+  }
+  // Of a motion that meets something or takes something along: with stops, an agent is to be able to do it again.
+  MotionLimits in_contact(LineOptions& line) const;
+  PlannedCall made(PlannedMotion planned, FollowOptions options) const;
+
+  Rollout& rollout_;
+  const World& world_;
+  int robot_;
+  const std::vector<PartRef>& touchable_;
+  RandomKey key_;
+  bool stop_;
+  JointVector start_;
+  MotionLimits limits_;
+};
+
+MotionLimits CallPlanner::in_contact(LineOptions& line) const {
+  MotionLimits limits = limits_;
+  if (!stop_) return limits;
+  limits.speed = world_.grasped() ? kHoldingPace : kMeetingPace;
+  line.tool_speed = std::min(line.tool_speed, limits.speed * limits.tool_speed);
+  return limits;
+}
+
+PlannedCall CallPlanner::made(PlannedMotion planned, FollowOptions options) const {
+  if (planned.reason != Reason::none) return {nullptr, planned.reason, planned.detail};
+  if (stop_)
+    stop_at_vias(world_.arm(robot_), {}, world_.scene().physics_hz, lines_from(planned, options.kind), planned);
+  options.vias = std::move(planned.vias);
+  for (const PlannedHand& hand : planned.hands) options.hands.push_back(hand);
+  return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
+}
+
+PlannedCall CallPlanner::operator()(const robot_call::MoveThrough& call) const {
+  FollowOptions follow = options(call.targets.size() > 1 ? "move_through" : "move_to");
+  // A hand that is shut is not about to grasp anything.
+  const bool shut = !rollout_.keep && world_.commanded_opening(robot_) < kShut_m;
+  const auto space = planning_space(rollout_, shut ? std::vector<PartRef>{} : touchable_);
+  if (call.then_part.empty()) return made(plan_through(problem(*space), call.targets), std::move(follow));
+  PartWay then = way_of_part(rollout_.view(), call.then_part, call.position, call.pivot);
+  then.opening = call.opening;
+  then.retreat = call.retreat;
+  return made(plan_through(problem(*space), call.targets, &then), std::move(follow));
+}
+
+PlannedCall CallPlanner::operator()(const robot_call::MoveLine& call) const {
+  FollowOptions follow = options(call.kind);
+  follow.stop_on_contact = call.stop_on_contact;
+  follow.contact_force = call.force;
   const bool steered = call.press > 0 || call.search > 0;  // it says itself when it has failed
-  options.tolerate_error = call.tolerate || (!steered && (call.stop_on_contact || call.most_force > 0));
-  set_contact(rollout, call.most_force, call.press, call.press_along, options);
-  options.search = call.search;
-  options.search_pitch = call.search_pitch;
-  options.search_force = call.force;
-  if (call.opening) options.hands.push_back({0, *call.opening});
+  follow.tolerate_error = call.tolerate || (!steered && (call.stop_on_contact || call.most_force > 0));
+  set_contact(rollout_, call.most_force, call.press, call.press_along, follow);
+  follow.search = call.search;
+  follow.search_pitch = call.search_pitch;
+  follow.search_force = call.force;
+  if (call.opening) follow.hands.push_back({0, *call.opening});
   LineOptions line;
   line.tool_speed = call.speed;
   line.keep_clear = call.keep_clear;
   if (call.as_far_as_it_goes) line.least_share = 0.5;
-  const bool touches = call.stop_on_contact || call.most_force > 0 || call.press > 0;
-  const MotionLimits limits = touches ? from.in_contact(line) : from.limits();
-  return from(plan_line(state, start, call.target, line, limits, key), std::move(options));
+  const auto space = this->space();
+  MotionProblem asked = problem(*space);
+  if (call.stop_on_contact || call.most_force > 0 || call.press > 0) asked.limits = in_contact(line);
+  return made(plan_line(asked, call.target, line), std::move(follow));
 }
 
-PlannedCall plan_follow(Rollout& rollout, const robot_call::Follow& call, const CollisionState& state,
-                        const JointVector& start, FollowOptions options, RandomKey key, const Planned& from) {
-  options.kind = "follow";
-  options.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
-  set_contact(rollout, call.most_force, call.press, call.press_along, options);
-  const auto pieces = tool_pieces(call, rollout.view(), rollout.world().arm(call.robot).world_from_tip(start));
-  return from(plan_pieces(state, start, pieces, {call.blend, call.keep_clear}, from.limits(), key), std::move(options));
+PlannedCall CallPlanner::operator()(const robot_call::Follow& call) const {
+  FollowOptions follow = options("follow");
+  follow.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
+  set_contact(rollout_, call.most_force, call.press, call.press_along, follow);
+  const auto pieces = tool_pieces(call, rollout_.view(), world_.arm(robot_).world_from_tip(start_));
+  return made(plan_pieces(problem(*space()), pieces, {call.blend, call.keep_clear}), std::move(follow));
 }
 
-PlannedCall plan_hand(Rollout& rollout, const robot_call::Hand& call, const CollisionState& held) {
+PlannedCall CallPlanner::operator()(const robot_call::MoveJoints& call) const {
+  return made(plan_joints(problem(*space()), call.target), options("move_joints"));
+}
+
+PlannedCall CallPlanner::operator()(const robot_call::MovePart& call) const {
+  FollowOptions follow = options("move_part");
+  follow.most_force = call.most_force;
+  follow.tolerate_error = true;  // the joint's own position is the measure, and effects test it
+  PartWay way = way_of_part(rollout_.view(), call.object, call.position, call.pivot);
+  way.retreat = call.retreat;
+  const Transform held = world_.arm(robot_).world_from_tip(start_);
+  LineOptions line;
+  line.tool_speed = call.speed;
+  const auto space = this->space();
+  MotionProblem asked = problem(*space);
+  asked.limits = in_contact(line);
+  const auto moving = [&](double reach) {  // the part goes with the hand, the first `reach` of its way
+    return [&way, reach](CollisionState& state, double share) {
+      if (way.part.body >= 0) state.move_part(way.part, way.moved(reach * share));
+    };
+  };
+  const auto along = [&](const ArmWay& found, double reach, double least_share) {
+    LineOptions guided = line;
+    guided.near = found.arm;
+    guided.least_share = least_share;
+    return plan_tool_path(asked, found.world_from_tip, guided, moving(reach));
+  };
+  if (call.then_to) {
+    PartWay onward = way_of_part(rollout_.view(), call.object, *call.then_to, call.pivot);
+    onward.retreat = call.retreat;
+    const double here = rollout_.view().joint(call.object), whole = *call.then_to - here;
+    const double share = whole == 0 ? 1 : std::clamp((call.position - here) / whole, 0.0, 1.0);
+    if (const std::optional<ArmWay> found = way_with_part(*space, start_, onward, key_)) {
+      PlannedMotion motion = along(first_of(*found, share), 1, 1);
+      if (motion.reason == Reason::none) return made(std::move(motion), std::move(follow));
+    }
+  }
+  if (const std::optional<ArmWay> found = way_with_part(*space, start_, way, key_)) {
+    PlannedMotion motion = along(*found, 1, 1);
+    if (motion.reason == Reason::none) return made(std::move(motion), std::move(follow));
+  }
+  const auto rigid = [&](double share) { return Transform(way.moved(share) * held); };
+  PlannedMotion whole = plan_tool_path(asked, rigid, line, moving(1));
+  const bool good =  // the arm goes on from there
+      whole.reason == Reason::none && free_at_end(*space, start_, way, whole.trajectory.knots.back().position);
+  if (!good && call.as_far_as_it_goes)
+    if (const std::optional<ArmWay> found = furthest_with_part(*space, start_, way, key_))
+      whole = along(*found, found->reach, 0);
+  return made(std::move(whole), std::move(follow));
+}
+
+PlannedCall CallPlanner::operator()(const robot_call::Hand& call) const {
   if (!call.expect.empty())
-    return {make_hand(call.opening, call.force, rollout.view().part_of(call.expect), call.robot), Reason::none, {}};
+    return {make_hand(call.opening, call.force, rollout_.view().part_of(call.expect), robot_), Reason::none, {}};
   double opening = call.opening;
-  if (opening > rollout.world().opening(call.robot))
-    opening = opening_beside(rollout.world(), held, rollout.keep, opening, true, call.robot);
-  return {make_hand(opening, call.force, std::nullopt, call.robot), Reason::none, {}};
+  if (opening > world_.opening(robot_))
+    opening = opening_beside(world_.arm_position(robot_), *space(), rollout_.keep, opening, true);
+  return {make_hand(opening, call.force, std::nullopt, robot_), Reason::none, {}};
 }
 
 }  // namespace
@@ -190,12 +237,12 @@ std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vect
   return space;
 }
 
-double opening_beside(const World& world, CollisionState space, std::optional<PartRef> held, double wanted_m,
-                      bool lets_go, int robot) {
+double opening_beside(const JointVector& arm, CollisionState space, std::optional<PartRef> held, double wanted_m,
+                      bool lets_go) {
   space.release();
   space.clear_allowed();  // where it is put may be touched by what is held, not by the fingers
   if (held) space.allow(*held);
-  return widest_opening(space, world.arm_position(robot), wanted_m, lets_go);
+  return widest_opening(space, arm, wanted_m, lets_go);
 }
 
 Yielding yielding(const RobotCall& call) {
@@ -218,50 +265,7 @@ bool moves_fingers(const RobotCall& call) {
 
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
                       bool stop_at_vias) {
-  World& world = rollout.world();
-  const Planned from(rollout, stop_at_vias);
-  const int robot = robot_of(call);
-  const JointVector start = planning_start(world, robot);
-  FollowOptions options;
-  options.keep = rollout.keep;
-  options.robot = robot;
-  const auto space = [&] { return planning_space(rollout, touchable); };
-  const auto free_space = [&] {  // a hand that is shut is not about to grasp anything
-    const bool shut = !rollout.keep && world.commanded_opening(robot) < kShut_m;
-    return planning_space(rollout, shut ? std::vector<PartRef>{} : touchable);
-  };
-  return std::visit(
-      Overloaded{[&](const robot_call::MoveThrough& move) {
-                   options.kind = move.targets.size() > 1 ? "move_through" : "move_to";
-                   if (move.then_part.empty())
-                     return from(plan_through(*free_space(), start, move.targets, from.limits(), key), options);
-                   PartWay then = way_of_part(rollout.view(), move.then_part, move.position, move.pivot);
-                   then.opening = move.opening;
-                   then.retreat = move.retreat;
-                   return from(plan_through(*free_space(), start, move.targets, from.limits(), key, &then), options);
-                 },
-                 [&](const robot_call::MoveLine& move) {
-                   return plan_move_line(rollout, move, *space(), start, options, key, from);
-                 },
-                 [&](const robot_call::Follow& follow) {
-                   return plan_follow(rollout, follow, *space(), start, options, key, from);
-                 },
-                 [&](const robot_call::MoveJoints& move) {
-                   options.kind = "move_joints";
-                   return from(plan_joints(*space(), start, move.target, from.limits(), key), options);
-                 },
-                 [&](const robot_call::Hand& hand) { return plan_hand(rollout, hand, *space()); },
-                 [&](const robot_call::MovePart& move) {
-                   return plan_move_part(rollout, move, *space(), start, options, key, from);
-                 },
-                 [&](const robot_call::Wait& wait) {
-                   return PlannedCall{
-                       make_wait(std::max<std::int64_t>(1, std::llround(wait.seconds / world.dt()))), Reason::none, {}};
-                 },
-                 [&](const auto&) {
-                   return PlannedCall{nullptr, Reason::script_error, "not a motion"};
-                 }},
-      call);
+  return std::visit(CallPlanner(rollout, robot_of(call), touchable, key, stop_at_vias), call);
 }
 
 std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable,
@@ -278,8 +282,9 @@ std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, co
   if (const auto* asked = std::get_if<robot_call::FindGrasp>(&call)) {
     PartWay way = way_of_part(rollout.view(), asked->object, asked->position, asked->pivot);
     way.retreat = asked->retreat;
-    const auto found = grasps_to_go(rollout.view(), *planning_space(rollout, touchable), asked->object, way,
-                                    rollout.view().joint(asked->object), asked->position, key, 1);
+    const auto found =
+        grasps_to_go(grasp_query(rollout.view(), *planning_space(rollout, touchable), asked->object, key), 1,
+                     PartMove{way, rollout.view().joint(asked->object), asked->position});
     return RobotAnswer{{}, found.empty() ? std::nullopt : std::optional(found.front())};
   }
   return std::nullopt;

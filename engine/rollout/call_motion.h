@@ -40,9 +40,9 @@ std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vect
 MotionLimits motion_limits(const Rollout& rollout);
 
 // How far a hand opens around what it holds, up to `wanted_m`: a finger must not press against a neighbour or a rim.
-// `lets_go`: a little further in any case.
-double opening_beside(const World& world, CollisionState space, std::optional<PartRef> held, double wanted_m,
-                      bool lets_go, int robot = 0);
+// `lets_go`: a little further in any case. `arm`: where the arm is.
+double opening_beside(const JointVector& arm, CollisionState space, std::optional<PartRef> held, double wanted_m,
+                      bool lets_go);
 
 // Of ReachOfPart and FindGrasp; nothing: the call is no question. `touchable` as of plan_call. Repeatable: a pure
 // function of its arguments.

@@ -38,8 +38,7 @@ SkillStatus GoalWatch::finish(SkillResult result) {
   over_ = true;
   result.segment = result_.segment;
   result_ = std::move(result);
-  rollout_.recorder().close_segment(result_.segment, rollout_.step(),
-                                    result_.ok() ? Outcome::success : Outcome::failure, result_.reason, result_.detail);
+  rollout_.close_segment(result_.segment, result_.reason, result_.detail);
   return result_.ok() ? SkillStatus::done : SkillStatus::failed;
 }
 

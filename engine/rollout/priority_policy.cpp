@@ -7,7 +7,7 @@
 namespace stampede {
 namespace {
 
-constexpr double kDamping = 0.02;
+constexpr double kPolicyDamping = 0.02;
 constexpr double kToolGain = 4, kPostureGain = 1.5;  // 1/s
 constexpr double kMostRate = 0.5;                    // rad/s
 constexpr double kThere_rad = 0.01, kStuck_rad_s = 0.004;
@@ -82,7 +82,7 @@ Eigen::VectorXd by_priority(const std::vector<Objective>& objectives, Eigen::Ind
   for (const Objective& one : objectives) {
     const Eigen::MatrixXd own = one.jacobian * free;
     Eigen::MatrixXd squared = own * own.transpose();
-    squared.diagonal().array() += kDamping * kDamping;
+    squared.diagonal().array() += kPolicyDamping * kPolicyDamping;
     const Eigen::MatrixXd inverse =
         own.transpose() * squared.ldlt().solve(Eigen::MatrixXd::Identity(own.rows(), own.rows()));
     rate += inverse * (one.rate - one.jacobian * rate);

@@ -130,11 +130,11 @@ int Recorder::open_segment(SegmentRecord segment, std::int64_t step) {
   return segments.back().ordinal;
 }
 
-void Recorder::close_segment(int ordinal, std::int64_t step, Outcome outcome, Reason reason, std::string detail) {
+void Recorder::close_segment(int ordinal, std::int64_t step, Reason reason, std::string detail) {
   SegmentRecord& record = segment(ordinal);
   record.span.end_step = step;
   record.span.end_frame = frame_at(step);
-  record.outcome = outcome;
+  record.outcome = reason == Reason::none ? Outcome::success : Outcome::failure;
   record.reason = reason;
   record.detail = std::move(detail);
 }

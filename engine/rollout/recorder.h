@@ -39,7 +39,7 @@ class Recorder {
   void contacts(const WorldView& view);              // of the window just closed
 
   int open_segment(SegmentRecord segment, std::int64_t step);  // its ordinal
-  void close_segment(int ordinal, std::int64_t step, Outcome outcome, Reason reason, std::string detail);
+  void close_segment(int ordinal, std::int64_t step, Reason reason, std::string detail);
   SegmentRecord& segment(int ordinal) { return segments.edit(static_cast<std::size_t>(ordinal)); }
   std::int64_t frame_at(std::int64_t step) const { return (step + steps_per_frame_ - 1) / steps_per_frame_; }
 

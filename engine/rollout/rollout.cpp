@@ -104,6 +104,10 @@ int Rollout::open_motion(std::string kind, int parent_segment, std::string contr
   return recorder_.open_segment(std::move(segment), step());
 }
 
+void Rollout::close_segment(int ordinal, Reason reason, std::string detail) {
+  recorder_.close_segment(ordinal, step(), reason, std::move(detail));
+}
+
 void Rollout::keep_record(bool wanted) {
   keeps_record_ = wanted;
   world_.keep_log(wanted);

@@ -55,6 +55,7 @@ class Rollout {
 
   // Opens the segment of a motion, here and now. Result: its ordinal.
   int open_motion(std::string kind, int parent_segment, std::string controller = {});
+  void close_segment(int ordinal, Reason reason = Reason::none, std::string detail = {});  // likewise
 
   // A skill's call is under way; there is one at a time.
   bool calling = false;

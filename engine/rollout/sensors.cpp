@@ -69,7 +69,7 @@ std::array<double, 3> SimulatorView::velocity(std::string_view object) const {
   return {velocity.x(), velocity.y(), velocity.z()};
 }
 
-double SimulatorView::opening_m() const { return view_->opening(); }
+double SimulatorView::opening_m() const { return view_->world().opening(); }
 
 double SimulatorView::contact_force(std::string_view one, std::string_view other) const {
   return view_->contact_force(one, other);

@@ -11,10 +11,10 @@ namespace stampede {
 namespace {
 
 // The argument bound to a parameter's name; a name that is no parameter stands for itself.
-std::string argument(const std::vector<Parameter>& parameters, const std::vector<std::string>& arguments,
-                     const std::string& name) {
-  for (std::size_t i = 0; i < parameters.size() && i < arguments.size(); ++i)
-    if (parameters[i].name == name) return arguments[i];
+std::string argument(const SkillContext& context, const std::string& name) {
+  const std::vector<Parameter>& parameters = context.info->parameters;
+  for (std::size_t i = 0; i < parameters.size() && i < context.arguments.size(); ++i)
+    if (parameters[i].name == name) return context.arguments[i];
   return name;
 }
 
@@ -34,43 +34,6 @@ void draw_within(const ContinuousInfo& info, RandomKey key, ParameterRecord& rec
     record.values[i] = random.between(info.lower[i], info.upper[i]);
     record.chosen_by = ChosenBy::agent;
   }
-}
-
-Reason draw_grasp(Rollout& rollout, const SkillContext& context, const ContinuousInfo& info, ContinuousValue& value,
-                  std::string& detail, Impasse* impasse) {
-  const std::string name = argument(context.info->parameters, context.arguments, info.object);
-  const auto space = planning_space(rollout, touchable(rollout, context));
-  const int wanted = context.attempt % kGraspCandidates;  // those behind it need not be looked for
-  const auto grasps = [&](const std::optional<PartWay>& follow, double from, double to) {
-    return grasps_to_go(rollout.view(), *space, name, follow, from, to, context.key.with(info.name), wanted + 1);
-  };
-  const std::optional<PartWay> way = way_to(rollout.view(), name, info.to);
-  auto candidates =
-      way ? grasps(way, rollout.view().joint(name), rollout.view().object(name).numbers.at(info.to)) : grasps({}, 0, 0);
-  if (candidates.empty() && way) candidates = grasps({}, 0, 0);  // perhaps it moves a little all the same
-  if (candidates.empty()) {
-    detail = "no grasp of " + name + " is reachable and free";
-    if (context.mode.explain || impasse != nullptr) {
-      std::vector<Looked> looked =
-          look_at_grasps(*space, rollout.world(), rollout.view().object(name), planning_start(rollout.world()),
-                         context.key.with(info.name), impasse != nullptr);
-      detail += ": " + why_no_grasp(looked);
-      if (impasse != nullptr) impasse->subject = name, impasse->looked = std::move(looked);
-    }
-    return Reason::no_grasp;
-  }
-  if (impasse != nullptr) {  // whatever becomes of it
-    impasse->subject = name;
-    impasse->looked = look_at_grasps(*space, rollout.world(), rollout.view().object(name),
-                                     planning_start(rollout.world()), context.key.with(info.name), false);
-  }
-  const GraspCandidate& grasp = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
-  value.grasp = grasp;
-  value.record.values = seven(grasp.object_from_tip);
-  value.record.values.push_back(grasp.width);
-  value.record.frame = name;
-  value.record.chosen_by = ChosenBy::stream;
-  return Reason::none;
 }
 
 // Where the hand must be to put the held object to a place, and what keeps the arm from it.
@@ -103,7 +66,8 @@ class PlaceTrial {
     if (!answer.ways.empty()) looked.touched = touched_in_all(letting_go_, answer.ways);
     if (!measured) return looked;
     if (answer.ways.empty()) {
-      measure_reach(world_.arm(), world_.scene().robot, answer.world_from_tip, planning_start(world_), key_, looked);
+      note_shortfall(world_.arm().shortfall(answer.world_from_tip, planning_start(world_), key_), world_.scene().robot,
+                     looked);
       return looked;
     }
     const Transform tip_from_place = answer.world_from_tip.inverse() * place;
@@ -121,58 +85,7 @@ class PlaceTrial {
   RandomKey key_;
 };
 
-Reason draw_sample(Rollout& rollout, Symbols& symbols, const SkillContext& context, const ContinuousInfo& info,
-                   ContinuousValue& value, std::string& detail, Impasse* impasse) {
-  constexpr int kSamples = 64, kMostMeasured = 12;
-  Fact fact{info.literal.predicate, {}};
-  for (const std::string& name : info.literal.arguments)
-    fact.arguments.push_back(argument(context.info->parameters, context.arguments, name));
-  const auto space = planning_space(rollout, touchable(rollout, context));
-  const PlaceTrial trial(rollout, *space, context.key.with("ik"));
-  int wanted = context.attempt % kPlaceCandidates;
-  std::optional<Transform> tight;
-  std::vector<Looked> looked, turned_down;
-  const bool explain = context.mode.explain || impasse != nullptr;
-  int tried = 0;
-  const Symbols::Watching watching(symbols, impasse != nullptr ? &turned_down : nullptr);
-  const auto placements = symbols.sample(fact, rollout.view(), *space, context.key.with(info.name), kSamples);
-  for (const Placement& placement : placements) {
-    const Transform* pose = std::get_if<Transform>(&placement.value);
-    if (pose == nullptr) continue;
-    ++tried;
-    if (space->held() && rollout.view().part_of(placement.object).body == *space->held()) {
-      const Transform object_from_tip =
-          rollout.view().world_from(placement.object).inverse() * rollout.world().world_from_tip();
-      const PlaceTrial::Answer answer = trial.ask(*pose, object_from_tip);
-      if (!answer.free) {
-        if (!tight && answer.free_but_tight) tight = *pose;
-        if (explain) looked.push_back(trial.judged(*pose, answer, impasse != nullptr && tried <= kMostMeasured));
-        continue;
-      }
-    }
-    if (impasse != nullptr) looked.push_back({Looked::Fate::usable, *pose});
-    if (!value.pose || wanted-- > 0) value.pose = *pose;
-    if (wanted < 0 || context.attempt == 0) break;
-  }
-  if (!value.pose) value.pose = tight;
-  if (impasse != nullptr) {
-    impasse->subject = fact.arguments.empty() ? "" : fact.arguments.front();
-    impasse->looked = looked;
-    impasse->looked.insert(impasse->looked.end(), turned_down.begin(), turned_down.end());
-  }
-  if (!value.pose) {
-    detail = "no reachable and free pose makes " + to_text(fact) + " true";
-    if (tried == 0) detail += ": there is no room for any";
-    if (tried > 0 && explain) detail += ": of " + std::to_string(tried) + " " + causes_of(looked).text();
-    return Reason::no_placement;
-  }
-  value.record.values = seven(*value.pose);
-  value.record.frame = "world";
-  value.record.chosen_by = ChosenBy::stream;
-  return Reason::none;
-}
-
-Transform pose_of(const std::vector<double>& values) {
+Transform from_seven(const std::vector<double>& values) {
   Pose pose;
   std::copy_n(values.begin(), 3, pose.position.begin());
   std::copy_n(values.begin() + 3, 4, pose.quaternion.begin());
@@ -184,7 +97,7 @@ GraspCandidate wanted_grasp(const Rollout& rollout, const std::string& name, con
   constexpr double kApproach_m = 0.1, kRoom_m = 0.04;
   const Robot& robot = rollout.view().scene().robot;
   GraspCandidate grasp;
-  grasp.object_from_tip = pose_of(values);
+  grasp.object_from_tip = from_seven(values);
   grasp.world_from_tip = rollout.view().world_from(name) * grasp.object_from_tip;
   grasp.world_from_approach = grasp.world_from_tip * translation(0, 0, -kApproach_m);
   if (values.size() > 7) grasp.width = values[7];
@@ -193,11 +106,37 @@ GraspCandidate wanted_grasp(const Rollout& rollout, const std::string& name, con
   return grasp;
 }
 
+// Draws for one call: what its streams have, and where somebody asks what was looked at.
+class StreamDraws {
+ public:
+  StreamDraws(Rollout& rollout, Symbols& symbols, const SkillContext& context, Impasse* impasse)
+      : rollout_(rollout), symbols_(symbols), context_(context), impasse_(impasse) {}
+  bool set(const ContinuousInfo& info, ContinuousValue& value) const;
+  Reason grasp(const ContinuousInfo& info, ContinuousValue& value);
+  Reason place(const ContinuousInfo& info, ContinuousValue& value);
+  const std::string& detail() const { return detail_; }  // of a reason
+
+ private:
+  // What became of the places that were drawn.
+  struct Places {
+    std::optional<Transform> chosen, tight;
+    std::vector<Looked> looked;
+    int tried = 0;
+  };
+  Places look_at(const std::vector<Placement>& placements, const CollisionState& space) const;
+  bool explains() const { return context_.mode.explain || impasse_ != nullptr; }
+
+  Rollout& rollout_;
+  Symbols& symbols_;
+  const SkillContext& context_;
+  Impasse* impasse_;
+  std::string detail_;
+};
+
 // What was set goes over what is there; false: nothing was.
-bool set_value(const Rollout& rollout, const SkillContext& context, const ContinuousInfo& info,
-               ContinuousValue& value) {
+bool StreamDraws::set(const ContinuousInfo& info, ContinuousValue& value) const {
   bool found = false;
-  for (const GivenSettings& given : context.given)
+  for (const GivenSettings& given : context_.given)
     for (const CallSettings::Value& one : given.set.values) {
       if (one.parameter != info.name) continue;
       found = true;
@@ -209,16 +148,101 @@ bool set_value(const Rollout& rollout, const SkillContext& context, const Contin
     }
   if (!found || info.source == ContinuousInfo::Source::value) return found;
   if (info.source == ContinuousInfo::Source::sample) {
-    value.pose = pose_of(value.record.values);
+    value.pose = from_seven(value.record.values);
     value.record.frame = "world";
     return true;
   }
-  const std::string name = argument(context.info->parameters, context.arguments, info.object);
-  value.grasp = wanted_grasp(rollout, name, value.record.values);
+  const std::string name = argument(context_, info.object);
+  value.grasp = wanted_grasp(rollout_, name, value.record.values);
   value.record.values = seven(value.grasp->object_from_tip);
   value.record.values.push_back(value.grasp->width);
   value.record.frame = name;
   return true;
+}
+
+Reason StreamDraws::grasp(const ContinuousInfo& info, ContinuousValue& value) {
+  const std::string name = argument(context_, info.object);
+  const auto space = planning_space(rollout_, touchable(rollout_, context_));
+  const int wanted = context_.attempt % kGraspCandidates;  // those behind it need not be looked for
+  const GraspQuery query = grasp_query(rollout_.view(), *space, name, context_.key.with(info.name));
+  const std::optional<PartMove> follow = part_move_to(rollout_.view(), name, info.to);
+  auto candidates = grasps_to_go(query, wanted + 1, follow);
+  if (candidates.empty() && follow) candidates = grasps_to_go(query, wanted + 1);  // perhaps it moves a little
+  if (candidates.empty()) {
+    detail_ = "no grasp of " + name + " is reachable and free";
+    if (explains()) {
+      std::vector<Looked> looked = look_at_grasps(query, impasse_ != nullptr);
+      detail_ += ": " + why_no_grasp(looked);
+      if (impasse_ != nullptr) impasse_->subject = name, impasse_->looked = std::move(looked);
+    }
+    return Reason::no_grasp;
+  }
+  if (impasse_ != nullptr) {  // whatever becomes of it
+    impasse_->subject = name;
+    impasse_->looked = look_at_grasps(query, false);
+  }
+  const GraspCandidate& candidate = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
+  value.grasp = candidate;
+  value.record.values = seven(candidate.object_from_tip);
+  value.record.values.push_back(candidate.width);
+  value.record.frame = name;
+  value.record.chosen_by = ChosenBy::stream;
+  return Reason::none;
+}
+
+StreamDraws::Places StreamDraws::look_at(const std::vector<Placement>& placements, const CollisionState& space) const {
+  constexpr int kMostMeasured = 12;
+  const PlaceTrial trial(rollout_, space, context_.key.with("ik"));
+  int wanted = context_.attempt % kPlaceCandidates;
+  Places places;
+  for (const Placement& placement : placements) {
+    const Transform* pose = std::get_if<Transform>(&placement.value);
+    if (pose == nullptr) continue;
+    ++places.tried;
+    if (space.held() && rollout_.view().part_of(placement.object).body == *space.held()) {
+      const Transform object_from_tip =
+          rollout_.view().world_from(placement.object).inverse() * rollout_.world().world_from_tip();
+      const PlaceTrial::Answer answer = trial.ask(*pose, object_from_tip);
+      if (!answer.free) {
+        if (!places.tight && answer.free_but_tight) places.tight = *pose;
+        const bool measured = impasse_ != nullptr && places.tried <= kMostMeasured;
+        if (explains()) places.looked.push_back(trial.judged(*pose, answer, measured));
+        continue;
+      }
+    }
+    if (impasse_ != nullptr) places.looked.push_back({Looked::Fate::usable, *pose});
+    if (!places.chosen || wanted-- > 0) places.chosen = *pose;
+    if (wanted < 0 || context_.attempt == 0) break;
+  }
+  return places;
+}
+
+Reason StreamDraws::place(const ContinuousInfo& info, ContinuousValue& value) {
+  constexpr int kSamples = 64;
+  Fact fact{info.literal.predicate, {}};
+  for (const std::string& name : info.literal.arguments) fact.arguments.push_back(argument(context_, name));
+  const auto space = planning_space(rollout_, touchable(rollout_, context_));
+  std::vector<Looked> turned_down;
+  const Symbols::Watching watching(symbols_, impasse_ != nullptr ? &turned_down : nullptr);
+  const auto placements = symbols_.sample(fact, rollout_.view(), *space, context_.key.with(info.name), kSamples);
+  const Places places = look_at(placements, *space);
+  value.pose = places.chosen ? places.chosen : places.tight;
+  if (impasse_ != nullptr) {
+    impasse_->subject = fact.arguments.empty() ? "" : fact.arguments.front();
+    impasse_->looked = places.looked;
+    impasse_->looked.insert(impasse_->looked.end(), turned_down.begin(), turned_down.end());
+  }
+  if (!value.pose) {
+    detail_ = "no reachable and free pose makes " + to_text(fact) + " true";
+    if (places.tried == 0) detail_ += ": there is no room for any";
+    if (places.tried > 0 && explains())
+      detail_ += ": of " + std::to_string(places.tried) + " " + causes_of(places.looked).text();
+    return Reason::no_placement;
+  }
+  value.record.values = seven(*value.pose);
+  value.record.frame = "world";
+  value.record.chosen_by = ChosenBy::stream;
+  return Reason::none;
 }
 
 }  // namespace
@@ -229,8 +253,7 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
     names = context.arguments;
   } else {
     for (const ContinuousInfo& info : context.info->continuous)
-      if (info.source == ContinuousInfo::Source::grasps)
-        names.push_back(argument(context.info->parameters, context.arguments, info.object));
+      if (info.source == ContinuousInfo::Source::grasps) names.push_back(argument(context, info.object));
   }
   std::vector<PartRef> parts;
   for (const std::string& name : names) {
@@ -249,23 +272,22 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
   return parts;
 }
 
-Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
-                       std::string& detail, Impasse* impasse) {
+DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, Impasse* impasse) {
+  StreamDraws draws(rollout, symbols, context, impasse);
+  DrawnParameters drawn;
   for (const ContinuousInfo& info : context.info->continuous) {
     ContinuousValue value;
     value.record = {info.name, info.initial, {}, info.unit, info.frame, ChosenBy::default_value};
     if (context.mode.random_parameters) draw_within(info, context.key.with(info.name), value.record);
-    Reason reason = Reason::none;
-    if (!set_value(rollout, context, info, value)) {
-      if (info.source == ContinuousInfo::Source::grasps)
-        reason = draw_grasp(rollout, context, info, value, detail, impasse);
-      if (info.source == ContinuousInfo::Source::sample)
-        reason = draw_sample(rollout, symbols, context, info, value, detail, impasse);
+    if (!draws.set(info, value)) {
+      if (info.source == ContinuousInfo::Source::grasps) drawn.reason = draws.grasp(info, value);
+      if (info.source == ContinuousInfo::Source::sample) drawn.reason = draws.place(info, value);
     }
-    if (reason != Reason::none) return reason;
-    call.continuous.push_back(std::move(value));
+    if (drawn.reason != Reason::none) break;
+    drawn.values.push_back(std::move(value));
   }
-  return Reason::none;
+  drawn.detail = draws.detail();
+  return drawn;
 }
 
 }  // namespace stampede

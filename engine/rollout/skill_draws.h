@@ -10,11 +10,16 @@
 
 namespace stampede {
 
-// Fills call.continuous, in the order of declaration: what the context's settings say, else drawn. Repeatable: a pure
-// function of the rollout's state and the context. Result: none, or why a stream has nothing, said in `detail`.
+struct DrawnParameters {
+  std::vector<ContinuousValue> values;  // in the order of declaration
+  Reason reason = Reason::none;         // why the stream of the next one has nothing
+  std::string detail;
+};
+
+// What the context's settings say, else drawn. Repeatable: a pure function of the rollout's state and the context.
 // `impasse`: where somebody asks, the subject of a stream and what was looked at for it, in vain or not.
-Reason draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, SkillCall& call,
-                       std::string& detail, Impasse* impasse = nullptr);
+DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context,
+                                Impasse* impasse = nullptr);
 
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context);

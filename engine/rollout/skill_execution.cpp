@@ -20,8 +20,6 @@ namespace {
 constexpr double kEffectWait = 1.0;  // s, at most, for declared effects to become steady
 constexpr int kCallsPerSkill = 200;  // a skill that asks for more is a runaway
 
-Outcome outcome_of(Reason reason) { return reason == Reason::none ? Outcome::success : Outcome::failure; }
-
 std::string text_of(const EffectRecord& effect) {
   return effect.negated ? "(not " + to_text(effect.fact) + ")" : to_text(effect.fact);
 }
@@ -123,19 +121,14 @@ void SkillExecution::start(SkillContext context, int parent) {
     return;
   }
   SkillCall call = undrawn_call();
-  std::string detail;
-  const SkillCall undrawn = call;
   Impasse impasse;
-  const Reason drawn =
-      draw_continuous(rollout_, symbols_, context_, call, detail, options_.witness ? &impasse : nullptr);
+  DrawnParameters drawn = draw_continuous(rollout_, symbols_, context_, options_.witness ? &impasse : nullptr);
+  call.continuous = std::move(drawn.values);
   note_parameters(call);
-  if (drawn != Reason::none) {
-    SkillResult failed{drawn, detail};
-    name_blockers(rollout_, context_, failed, [&] {
-      SkillCall again = undrawn;
-      std::string ignored;
-      return draw_continuous(rollout_, symbols_, context_, again, ignored) == Reason::none;
-    });
+  if (drawn.reason != Reason::none) {
+    SkillResult failed{drawn.reason, drawn.detail};
+    name_blockers(rollout_, context_, failed,
+                  [&] { return draw_continuous(rollout_, symbols_, context_).reason == Reason::none; });
     impasse.state = state_of(rollout_.view());
     if (options_.witness) tell(std::move(impasse), failed);
     finish(std::move(failed));
@@ -166,7 +159,7 @@ void SkillExecution::forget_lost() {
 
 // All that it declares is so already: it ends at once, and nothing moves.
 bool SkillExecution::nothing_to_do() {
-  return !rollout_.recorder().segment(context_.segment).declared_effects.empty() && missing_effects().empty();
+  return !rollout_.recorder().segment(context_.segment).declared_effects.empty() && missing_effects().literals.empty();
 }
 
 void SkillExecution::note_parameters(const SkillCall& call) {
@@ -191,9 +184,10 @@ bool SkillExecution::draw_again() {
   if (arm_moved_ || redraws_ + 1 >= kPlaceCandidates || std::ranges::none_of(call_.continuous, streamed)) return false;
   if (redraws_++ == 0) first_drawn_ = call_.continuous;
   ++context_.attempt;
+  DrawnParameters drawn = draw_continuous(rollout_, symbols_, context_);
+  if (drawn.reason != Reason::none) return false;
   SkillCall call = undrawn_call();
-  std::string ignored;
-  if (draw_continuous(rollout_, symbols_, context_, call, ignored) != Reason::none) return false;
+  call.continuous = std::move(drawn.values);
   const auto same = [](const ContinuousValue& a, const ContinuousValue& b) {
     return a.record.values == b.record.values;
   };
@@ -267,9 +261,9 @@ void SkillExecution::after_step() {
     if (auto end = ended())
       end_motion(std::move(*end));
     else
-      passages_->look(rollout_.world(), motion_->clock());
+      motion_->look_at_passages();
   } else if (phase_ == Phase::settling) {
-    if (rollout_.at_frame()) lacking_ = missing_effects();
+    if (rollout_.at_frame()) missing_ = missing_effects();
     if (auto end = ended()) end_settling(std::move(*end));
   }
 }
@@ -327,9 +321,9 @@ bool SkillExecution::start_policy(const robot_call::Policy& call) {
     told.arguments[context_.info->parameters[i].name] = context_.arguments[i];
   for (const ContinuousValue& value : call_.continuous)
     told.parameters.try_emplace(value.record.name, value.record.values);
-  policy_ =
-      std::make_unique<SkillPolicy>(rollout_, options_, call.name, call.seconds, controller_.kind, context_.segment,
-                                    [this, until = call.until_effect] { return until && missing_effects().empty(); });
+  policy_ = std::make_unique<SkillPolicy>(
+      rollout_, options_, call, context_.segment,
+      [this, until = call.until_effect] { return until && missing_effects().literals.empty(); });
   try {
     policy_->begin(told);
   } catch (const Interrupted&) {
@@ -408,29 +402,19 @@ bool SkillExecution::plan_motion(const RobotCall& call, RandomKey key) {
     name_blockers(rollout_, context_, failed, [&] { return plan().motion != nullptr; });
     return finish(std::move(failed));
   }
-  const auto* hand = std::get_if<robot_call::Hand>(&call);
-  hand_ = hand == nullptr ? std::nullopt : std::optional(*hand);
-  arm_moved_ = arm_moved_ || (hand == nullptr && !std::holds_alternative<robot_call::Wait>(call));
-  follow(std::move(planned.motion));
-  if (moves_fingers(call)) opening_before_ = rollout_.world().opening();
-  SegmentRecord& segment = rollout_.recorder().segment(motion_segment_);
-  const Yielding way = yielding(call);
-  if (way == Yielding::always ||
-      (way == Yielding::where_stiff && segment.controller == to_string(ControllerKind::joint_position)))
-    segment.controller = to_string(ControllerKind::cartesian_impedance);
+  if (!std::holds_alternative<robot_call::Hand>(call) && !std::holds_alternative<robot_call::Wait>(call))
+    arm_moved_ = true;
+  follow(std::move(planned.motion), &call);
   return false;
 }
 
-void SkillExecution::follow(std::unique_ptr<Motion> motion) {
-  motion_ = std::move(motion);
-  motion_segment_ = open_motion_segment(motion_->kind());
-  passages_.emplace(motion_->vias(), motion_segment_);
-  if (hand_ && hand_->expect.empty()) rollout_.keep.reset();
+void SkillExecution::follow(std::unique_ptr<Motion> motion, const RobotCall* call) {
+  motion_.emplace(rollout_, context_.segment, std::move(motion), call);
   phase_ = Phase::moving;
 }
 
 bool SkillExecution::step_motion() {
-  const MotionResult moved = motion_->step(rollout_.world());
+  const MotionResult moved = motion_->step();
   if (moved.status == MotionStatus::running) return true;
   SkillResult result;
   if (moved.status == MotionStatus::failed)
@@ -440,71 +424,47 @@ bool SkillExecution::step_motion() {
 }
 
 void SkillExecution::end_motion(SkillResult result) {
-  keep_passages();
-  if (hand_) after_hand(*hand_, result.ok());
-  hand_.reset();
-  let_go();
-  if (result.reason == Reason::dropped) rollout_.keep.reset();  // once; whoever goes on has an empty hand
+  motion_->end(result);
   motion_.reset();
-  close(motion_segment_, result);
   if (result.ok())
     phase_ = Phase::calling;
   else
     finish(std::move(result));
 }
 
-void SkillExecution::keep_passages() {
-  for (ViaRecord& via : passages_->in_order()) rollout_.recorder().vias.push_back(std::move(via));
-}
-
-void SkillExecution::after_hand(const robot_call::Hand& hand, bool ok) {
-  if (hand.expect.empty()) return;
-  const WorldView& view = rollout_.view();
-  GraspRecord grasp{motion_segment_, hand.expect,
-                    to_pose(view.world_from(hand.expect).inverse() * view.world().world_from_tip()), view.opening(),
-                    ok};
-  rollout_.recorder().grasps.push_back(std::move(grasp));
-  if (ok) rollout_.keep = view.part_of(hand.expect);
-}
-
-// Where the hand was told to open on the way.
-void SkillExecution::let_go() {
-  if (opening_before_ && rollout_.world().commanded_opening() > *opening_before_) rollout_.keep.reset();
-  opening_before_.reset();
-}
-
-std::vector<std::string> SkillExecution::missing_effects() {
-  std::vector<std::string> texts;
-  pending_ = false;
+SkillExecution::MissingEffects SkillExecution::missing_effects() const {
+  MissingEffects missing;
   for (const EffectRecord& effect : rollout_.recorder().segment(context_.segment).declared_effects) {
-    if (rollout_.facts().facts().contains(effect.fact) == effect.negated) texts.push_back(text_of(effect));
-    pending_ = pending_ || rollout_.facts().pending(effect.fact);
+    if (rollout_.facts().facts().contains(effect.fact) == effect.negated) missing.literals.push_back(text_of(effect));
+    missing.pending = missing.pending || rollout_.facts().pending(effect.fact);
   }
-  return texts;
+  return missing;
 }
 
 bool SkillExecution::begin_settling() {
   settle_until_ = rollout_.step() + static_cast<std::int64_t>(kEffectWait / rollout_.world().dt());
-  lacking_ = missing_effects();
-  motion_segment_ = open_motion_segment("settle");
+  missing_ = missing_effects();
+  settle_segment_ =
+      rollout_.open_motion("settle", context_.segment, rollout_.recorder().segment(context_.segment).controller);
   phase_ = Phase::settling;
   return false;
 }
 
 // At a frame at which all that was declared is steady, or at the end of patience.
 bool SkillExecution::settled() {
-  const bool waiting = (pending_ || !lacking_.empty()) && rollout_.step() < settle_until_;
+  const bool waiting = (missing_.pending || !missing_.literals.empty()) && rollout_.step() < settle_until_;
   if (!rollout_.at_frame() || waiting) return false;
   end_settling({});
   return true;
 }
 
 void SkillExecution::end_settling(SkillResult result) {
-  close(motion_segment_, result);
+  rollout_.close_segment(settle_segment_, result.reason, result.detail);
   SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
-  segment.effect_held = lacking_.empty();
-  segment.missing_effects = lacking_;
-  if (result.ok() && !lacking_.empty()) result = {Reason::effect_mismatch, lacking_.front() + " did not come true"};
+  segment.effect_held = missing_.literals.empty();
+  segment.missing_effects = missing_.literals;
+  if (result.ok() && !missing_.literals.empty())
+    result = {Reason::effect_mismatch, missing_.literals.front() + " did not come true"};
   finish(std::move(result));
 }
 
@@ -512,25 +472,12 @@ void SkillExecution::interrupt(const std::string& why) {
   if (phase_ == Phase::over) return;
   const SkillResult result{Reason::interrupted, why};
   if (phase_ == Phase::child) child_->interrupt(why);
-  if (phase_ == Phase::settling) close(motion_segment_, result);
+  if (phase_ == Phase::settling) rollout_.close_segment(settle_segment_, result.reason, result.detail);
   if (phase_ == Phase::moving) {
-    motion_->interrupt(rollout_.world());
-    keep_passages();
-    if (hand_) after_hand(*hand_, !hand_->expect.empty() && rollout_.view().grasped(hand_->expect).holds);
-    hand_.reset();
-    let_go();
+    motion_->interrupt(result);
     motion_.reset();
-    close(motion_segment_, result);
   }
   finish(result);
-}
-
-int SkillExecution::open_motion_segment(const std::string& kind) {
-  return rollout_.open_motion(kind, context_.segment, rollout_.recorder().segment(context_.segment).controller);
-}
-
-void SkillExecution::close(int segment, const SkillResult& result) {
-  rollout_.recorder().close_segment(segment, rollout_.step(), outcome_of(result.reason), result.reason, result.detail);
 }
 
 // Always false, as step_due says that no step is due.
@@ -538,7 +485,7 @@ bool SkillExecution::finish(SkillResult result) {
   if (policy_) policy_->end_asked();
   result.segment = context_.segment;
   result.step = result_.step;
-  close(context_.segment, result);
+  rollout_.close_segment(context_.segment, result.reason, result.detail);
   if (looked_at_ && !result.ok()) tell(*std::exchange(looked_at_, std::nullopt), result);
   result_ = std::move(result);
   run_.reset();

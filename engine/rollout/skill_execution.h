@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/motion/motion.h"
-#include "engine/rollout/passages.h"
 #include "engine/rollout/rollout.h"
 #include "engine/rollout/skill_call.h"
+#include "engine/rollout/skill_motion.h"
 #include "engine/rollout/skill_policy.h"
 
 namespace stampede {
@@ -54,6 +53,11 @@ class SkillExecution {
   // What is going on: the script is asked for its next call, a motion, a child skill, waiting for effects.
   enum class Phase { over, calling, moving, child, settling };
 
+  struct MissingEffects {
+    std::vector<std::string> literals;  // of the declared effects, those that do not hold
+    bool pending = false;               // one of all is becoming steady
+  };
+
   void start(SkillContext context, int parent);
   void forget_lost();
   bool nothing_to_do();
@@ -72,18 +76,13 @@ class SkillExecution {
   bool start_asked_skill(const AgentAction& asked, RandomKey key);
   void restore_controller();
   bool plan_motion(const RobotCall& call, RandomKey key);
-  void follow(std::unique_ptr<Motion> motion);
+  void follow(std::unique_ptr<Motion> motion, const RobotCall* call = nullptr);
   bool step_motion();
   void end_motion(SkillResult result);
-  void keep_passages();
-  void after_hand(const robot_call::Hand& hand, bool ok);
-  void let_go();
   bool begin_settling();
   bool settled();
   void end_settling(SkillResult result);
-  std::vector<std::string> missing_effects();
-  int open_motion_segment(const std::string& kind);
-  void close(int segment, const SkillResult& result);
+  MissingEffects missing_effects() const;
   bool finish(SkillResult result);
   std::optional<SkillResult> ended() const;
 
@@ -105,14 +104,10 @@ class SkillExecution {
   std::unique_ptr<SkillExecution> child_;
   std::unique_ptr<SkillPolicy> policy_;  // the script waits for it
   SkillCall call_;                       // as it was drawn
-  std::unique_ptr<Motion> motion_;
-  std::optional<robot_call::Hand> hand_;  // what the motion does, where it moves the fingers
-  std::optional<double> opening_before_;  // a motion that moves the fingers on its way
-  std::optional<Passages> passages_;
-  int motion_segment_ = -1;
+  std::optional<SkillMotion> motion_;
+  int settle_segment_ = -1;
   std::int64_t settle_until_ = 0;
-  bool pending_ = false;  // a declared effect is becoming steady
-  std::vector<std::string> lacking_;
+  MissingEffects missing_;            // at the last frame of settling
   std::optional<Impasse> looked_at_;  // where somebody asks: told if this call fails after all
 };
 

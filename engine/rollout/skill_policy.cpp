@@ -57,24 +57,19 @@ class SkillPolicy::Acting final : public Motion {
   SkillPolicy& run_;
 };
 
-SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, double seconds,
-                         ControllerKind controller, std::int64_t segment, std::function<bool()> finished)
+SkillPolicy::SkillPolicy(Rollout& rollout, const RunOptions& options, const robot_call::Policy& call, int segment,
+                         std::function<bool()> finished)
     : rollout_(rollout),
       spaces_(action_spaces(rollout.view().scene())),
-      controller_(controller),
       segment_(segment),
       finished_(std::move(finished)),
-      until_(rollout.step() + std::llround(seconds * rollout.view().scene().physics_hz)) {
-  const PolicyEntry& entry = policy_entry(options, name);
+      until_(rollout.step() + std::llround(call.seconds * rollout.view().scene().physics_hz)) {
+  const PolicyEntry& entry = policy_entry(options, call.name);
   settings_.channels = entry.channels;
   settings_.hidden = entry.hidden;
   settings_.width = entry.width;
   settings_.height = entry.height;
-  EpisodeRecord episode;
-  episode.task = rollout.task().name;
-  episode.variation = rollout.task().variation;
-  episode.seed = options.seed;
-  observer_.emplace(rollout, rollout.scene(), options, settings_, episode, renderer_);
+  observer_.emplace(rollout, options, settings_, renderer_);
   make_ = entry.make;
 }
 
@@ -121,7 +116,7 @@ MotionResult SkillPolicy::step(World& world) {
     return {MotionStatus::done};
   }
   AgentAction complete = *action;
-  if (complete.controller.empty()) complete.controller = to_string(controller_);
+  if (complete.controller.empty()) complete.controller = rollout_.recorder().segment(segment_).controller;
   auto operations = operations_for(complete, rollout_);
   if (const auto* refusal = std::get_if<ActionRefusal>(&operations)) return failed(refusal->what);
   note_asked(*action);

@@ -23,11 +23,11 @@ const PolicyEntry& policy_entry(const RunOptions& options, const std::string& na
 // to the rollout and the options.
 class SkillPolicy {
  public:
-  // `finished`: asked at each frame; true ends it, as does the time. `controller`: of actions that name none.
-  // `segment`: of the skill, for the record of what was asked. Throws Error, as it is no failure of the skill, when
-  // there is no policy of that name or channel of those that it asks for, with the nearest one as cure.
-  SkillPolicy(Rollout& rollout, const RunOptions& options, const std::string& name, double seconds,
-              ControllerKind controller, std::int64_t segment, std::function<bool()> finished);
+  // `finished`: asked at each frame; true ends it, as does the call's time. `segment`: of the skill, whose controller
+  // makes actions that name none. Throws Error, as it is no failure of the skill, when there is no policy of that name
+  // or channel of those that it asks for, with the nearest one as cure.
+  SkillPolicy(Rollout& rollout, const RunOptions& options, const robot_call::Policy& call, int segment,
+              std::function<bool()> finished);
   void begin(const PolicyCall& call);  // throws what the policy throws
 
   std::unique_ptr<Motion> motion();  // `policy`, to the next path or skill, or the end
@@ -47,8 +47,7 @@ class SkillPolicy {
   std::vector<ActionSpace> spaces_;
   std::function<std::unique_ptr<Policy>()> make_;
   std::unique_ptr<Policy> policy_;
-  ControllerKind controller_;
-  std::int64_t segment_;
+  int segment_;
   std::function<bool()> finished_;
   std::int64_t until_ = 0;
   bool over_ = false, asked_ = false;

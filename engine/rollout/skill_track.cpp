@@ -46,7 +46,7 @@ SkillResult SkillTrack::end(std::size_t position) {
 void SkillTrack::advance_subgoals() {
   const auto& subgoals = rollout_.task().subgoals;
   while (subgoal_ < subgoals.size() && rollout_.holds_now(subgoals[subgoal_].formula)) {
-    rollout_.recorder().close_segment(subgoal_segment_, rollout_.step(), Outcome::success, Reason::none, {});
+    rollout_.close_segment(subgoal_segment_);
     ++subgoal_;
     open_subgoal();
   }
@@ -90,10 +90,9 @@ void SkillTrack::close(const SkillResult& verdict) {
     const int hold = rollout_.open_motion(kHold, subgoal_segment_);
     do rollout_.advance();
     while (!rollout_.at_frame());  // also after an end between two frames: a frame is what is recorded and replayed
-    rollout_.recorder().close_segment(hold, rollout_.step(), Outcome::success, Reason::none, {});
+    rollout_.close_segment(hold);
   }
-  rollout_.recorder().close_segment(subgoal_segment_, rollout_.step(),
-                                    verdict.ok() ? Outcome::success : Outcome::failure, verdict.reason, verdict.detail);
+  rollout_.close_segment(subgoal_segment_, verdict.reason, verdict.detail);
 }
 
 std::int64_t SkillTrack::frames(double seconds) const {

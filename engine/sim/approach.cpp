@@ -8,8 +8,8 @@
 #include <set>
 
 #include "engine/sim/collision_state.h"
-#include "engine/sim/impl.h"
 #include "engine/sim/paces.h"
+#include "engine/sim/robot_control.h"
 
 namespace stampede {
 namespace {
@@ -39,6 +39,7 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
 struct Bearing {
   Pairs pairs, lying, joined;  // that bear a force; that touch without; a lid in its thread, with what it is on
   std::set<PartRef> pushed;
+  bool heavy = false;  // something that it touches
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
     return pairs.contains(pair) || lying.contains(pair) || joined.contains(pair) || pushed.contains(pair.second);
   }
@@ -88,38 +89,83 @@ class Near {
   std::array<Pairs, kDistances.size()> pairs_;
 };
 
-}  // namespace
+// The arm where it is, with what it carries, and where it can come to a stand.
+class Lookout {
+ public:
+  explicit Lookout(const RobotControl& control);
+  double pace_by_distance() const;
+  // That it can have until it looks again after so many steps.
+  double pace(std::int64_t often) const;
 
-// Whether a way begins into something that bears on the arm.
-bool World::Impl::presses(const std::vector<JointVector>& way, std::optional<int> held) const {
-  const JointVector here = arm_position_now();
-  const auto moved = std::ranges::find_if(way, [&](const JointVector& q) { return (q - here).norm() > kMoved_rad; });
-  if (moved == way.end()) return false;
-  const auto into = [&](PartRef own, PartRef other, const Contact& contact, double sign) {
-    if (!meets(own, other, held)) return false;
-    const Vector3 step = motion_of(own, contact.point, *moved - here);
-    return sign * step.dot(contact.normal) < -kInto * step.norm();
-  };
-  return std::ranges::any_of(
-      contacts.closed(), [&](const Contact& one) { return into(one.a, one.b, one, 1) || into(one.b, one.a, one, -1); });
+ private:
+  bool is_light(PartRef part) const;
+  bool meets(PartRef own, PartRef other) const;
+  bool presses(const std::vector<JointVector>& way) const;
+  bool slow() const;
+  std::vector<JointVector> way_to_a_stand(double pace, std::int64_t led) const;
+  Bearing bearing(const Near& near) const;
+  void add_contacts(Bearing& bearing) const;
+  void add_joined(Bearing& bearing) const;
+
+  const RobotControl& control_;
+  const Bodies& bodies_;
+  JointVector here_;
+  std::optional<PartRef> grasped_;
+  CollisionState state_;
+  std::optional<int> held_;
+};
+
+Lookout::Lookout(const RobotControl& control)
+    : control_(control),
+      bodies_(control.bodies()),
+      here_(control.position()),
+      grasped_(control.grasped()),
+      state_(bodies_.for_planning()) {
+  if (const std::optional<PartRef> carried = control.carried()) {
+    const Transform tip = control.arm().world_from_tip(here_);
+    state_.hold(carried->body, tip.inverse() * bodies_.world_from_part({carried->body, 0}));
+  }
+  held_ = state_.held();
+}
+
+bool Lookout::is_light(PartRef part) const {
+  return part.body >= 0 && bodies_.body_slot(part.body).free != nullptr &&
+         bodies_.body(part.body).parts[0].mass < kLight_kg;
 }
 
 // Contact of a link, or of what the hand carries, with something else.
-bool World::Impl::meets(PartRef own, PartRef other, std::optional<int> held) const {
-  const bool carried = own.body == held;
-  return (own.body == kRobot || carried) && other.body != held && !(carried && other.body == kRobot);
+bool Lookout::meets(PartRef own, PartRef other) const {
+  const bool carried = own.body == held_;
+  return (own.body == kRobot || carried) && other.body != held_ && !(carried && other.body == kRobot);
+}
+
+// Whether a way begins into something that bears on the arm.
+bool Lookout::presses(const std::vector<JointVector>& way) const {
+  const auto moved = std::ranges::find_if(way, [&](const JointVector& q) { return (q - here_).norm() > kMoved_rad; });
+  if (moved == way.end()) return false;
+  const auto into = [&](PartRef own, PartRef other, const Contact& contact, double sign) {
+    if (!meets(own, other)) return false;
+    const Vector3 step = control_.motion_of(own, contact.point, *moved - here_);
+    return sign * step.dot(contact.normal) < -kInto * step.norm();
+  };
+  return std::ranges::any_of(control_.contacts().closed(), [&](const Contact& one) {
+    return into(one.a, one.b, one, 1) || into(one.b, one.a, one, -1);
+  });
 }
 
 // Of the reference: so many steps by the servo at this pace, then as fast as it can to a stand.
-std::vector<JointVector> World::Impl::way_to_a_stand(double pace, std::int64_t led) const {
+std::vector<JointVector> Lookout::way_to_a_stand(double pace, std::int64_t led) const {
   Limits ignored;
-  const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(arm.joints())};
-  const auto longest = static_cast<std::int64_t>(kLongest_s / dt);
+  const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(control_.arm().joints())};
+  const Stream none;
+  const StepClock& clock = control_.clock();
+  const Guard guard{pace, {}};
+  const Governor governor(control_.arm(), clock.dt, guard, ignored);
+  const auto longest = static_cast<std::int64_t>(kLongest_s / clock.dt);
   std::vector<JointVector> way;
-  JointState at = reference_now;
+  JointState at = control_.reference_now;
   for (std::int64_t i = 1; i <= led + longest; ++i) {
-    at = i <= led ? served(at, steps + i - 1, {pace, {}}, ignored)
-                  : guided(at, stop, {}, 0, arm, dt, {pace, {}}, ignored);
+    at = i <= led ? control_.served(at, clock.steps + i - 1, guard, ignored) : governor.guided(at, {stop, none});
     const bool rests = i > led && at.velocity.cwiseAbs().maxCoeff() < 1e-3;
     if (i % kSpacing == 0 || rests) way.push_back(at.position);
     if (rests) break;
@@ -127,64 +173,74 @@ std::vector<JointVector> World::Impl::way_to_a_stand(double pace, std::int64_t l
   return way;
 }
 
-void World::Impl::look_ahead() {
-  const auto often = static_cast<std::int64_t>(std::max(1.0, kLook_s / dt + 0.5));
-  if (!reference.servo || (steps - reference.start_step) % often != 0) return;
-  CollisionState state = now_for_planning();
-  const std::optional<PartRef> grasped = contacts.grasped(scene->robot.pads);
-  if (grasped && body(grasped->body).free) {
-    const Transform tip = arm.world_from_tip(arm_position_now());
-    state.hold(grasped->body, tip.inverse() * world_from_part({grasped->body, 0}));
-  }
-  const JointVector here = arm_position_now();
-  if (under_torque()) {
-    reference.pace = kMeetingPace;
-    for (const auto& [distance, pace] : kClearances)
-      if (state.free(here, distance)) {
-        reference.pace = pace;
-        break;
-      }
-    return;
-  }
-  const auto is_light = [&](PartRef part) {
-    return part.body >= 0 && body_slot(part.body).free != nullptr && body(part.body).parts[0].mass < kLight_kg;
-  };
-  const std::optional<int> held = state.held();
-  Bearing bearing;
-  bool heavy = false;  // something that it touches
-  for (const Contact& one : contacts.closed())
+// What bears on the arm by the contacts that there were.
+void Lookout::add_contacts(Bearing& bearing) const {
+  for (const Contact& one : control_.contacts().closed())
     for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {
-      if (!meets(own, other, held)) continue;
+      if (!meets(own, other)) continue;
       bearing.pairs.insert({own, other});
-      heavy = heavy || !is_light(other);
-      if (other.body >= 0 && (slot(other).tree != nullptr || body_slot(other.body).free != nullptr))
+      bearing.heavy = bearing.heavy || !is_light(other);
+      if (other.body >= 0 && (bodies_.slot(other).tree != nullptr || bodies_.body_slot(other.body).free != nullptr))
         bearing.pushed.insert(other);
     }
-  const Near near(state, here);
-  if (held) {
-    if (const Bond* bond = body_slot(*held).bond; bond && bond->holds) {
-      const int other = scene->body_index(body(*held).joined_to);
-      for (std::size_t p = 0; p < body(other).parts.size(); ++p)
-        bearing.joined.insert({{*held, 0}, {other, static_cast<int>(p)}});
-    }
+}
+
+void Lookout::add_joined(Bearing& bearing) const {
+  if (!bodies_.joined({*held_, 0})) return;
+  const int other = bodies_.scene().body_index(bodies_.body(*held_).joined_to);
+  for (std::size_t p = 0; p < bodies_.body(other).parts.size(); ++p)
+    bearing.joined.insert({{*held_, 0}, {other, static_cast<int>(p)}});
+}
+
+Bearing Lookout::bearing(const Near& near) const {
+  Bearing bearing;
+  add_contacts(bearing);
+  if (held_) {
+    add_joined(bearing);
     for (const auto& pair : near.near())  // it may lie in something, as a plug does
-      if (pair.first.body == *held && !bearing.joined.contains(pair)) bearing.pairs.insert(pair);
+      if (pair.first.body == *held_ && !bearing.joined.contains(pair)) bearing.pairs.insert(pair);
   }
-  for (const auto& pair : near.touching())
-    if (!bearing.contains(pair)) bearing.lying.insert(pair), heavy = heavy || !is_light(pair.second);
-  const double most = bearing.empty() ? 1 : grasped || !heavy ? kHoldingPace : kMeetingPace;
+  for (const auto& pair : near.touching()) {
+    if (bearing.contains(pair)) continue;
+    bearing.lying.insert(pair);
+    bearing.heavy = bearing.heavy || !is_light(pair.second);
+  }
+  return bearing;
+}
+
+double Lookout::pace_by_distance() const {
+  for (const auto& [distance, pace] : kClearances)
+    if (state_.free(here_, distance)) return pace;
+  return kMeetingPace;
+}
+
+bool Lookout::slow() const {
+  const std::vector<JointLimits>& limits = control_.arm().limits();
+  const JointVector& velocity = control_.reference_now.velocity;
+  for (Eigen::Index i = 0; i < here_.size(); ++i)
+    if (!(std::abs(velocity[i]) <= kSlow * kMeetingPace * speed_of(limits[static_cast<std::size_t>(i)]))) return false;
+  return true;
+}
+
+double Lookout::pace(std::int64_t often) const {
+  const Near near(state_, here_);
+  const Bearing bearing = this->bearing(near);
+  const double most = bearing.empty() ? 1 : grasped_ || !bearing.heavy ? kHoldingPace : kMeetingPace;
   for (const double pace : kPaces) {
-    reference.pace = pace;
     const std::vector<JointVector> way = way_to_a_stand(pace, often);
-    if (near.clear(way, bearing) && (pace <= most || (near.leaves(way, bearing) && !presses(way, held)))) return;
+    if (near.clear(way, bearing) && (pace <= most || (near.leaves(way, bearing) && !presses(way)))) return pace;
   }
   // The way to a stand was seen to be clear at the look before; that of the new action, slowly, need not be.
-  const std::vector<JointLimits>& limits = arm.limits();
-  bool slow = true;
-  for (Eigen::Index i = 0; i < here.size(); ++i)
-    slow = slow &&
-           std::abs(reference_now.velocity[i]) <= kSlow * kMeetingPace * speed_of(limits[static_cast<std::size_t>(i)]);
-  reference.pace = slow ? kMeetingPace : 0;
+  return slow() ? kMeetingPace : 0;
+}
+
+}  // namespace
+
+void RobotControl::look_ahead() {
+  const auto often = static_cast<std::int64_t>(std::max(1.0, kLook_s / dt_ + 0.5));
+  if (!reference.servo || (clock_.steps - reference.start_step) % often != 0) return;
+  const Lookout lookout(*this);
+  reference.pace = under_torque() ? lookout.pace_by_distance() : lookout.pace(often);
 }
 
 }  // namespace stampede

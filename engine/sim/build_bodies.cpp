@@ -1,13 +1,16 @@
-// Builds what moves and what is touched from the scene's bodies, always in the same order: Bullet's ids follow it.
+// Builds what moves and what is touched from the scene's bodies.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/sim/impl.h"
+#include "engine/sim/bodies.h"
+#include "engine/sim/bullet_convert.h"
 
 namespace stampede {
 namespace {
+
+enum class Role { still, moving, free, pad };  // of a part
 
 struct MassProperties {
   double mass = 0;
@@ -161,103 +164,57 @@ Assembly assemble(const Body& body) {  // of a free one its first part moves
   return a;
 }
 
-}  // namespace
+class BodyBuilder {
+ public:
+  BodyBuilder(Bodies& bodies, ContactFinder& finder, Movers& movers)
+      : bodies_(bodies), finder_(finder), movers_(movers) {}
+  void build_free(int body);
+  void build_jointed(int body);
+  void let_links_meet();
 
-bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
-  const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
-  const auto* two = static_cast<const btCollisionObject*>(b->m_clientObject);
-  if (one->getUserIndex() == two->getUserIndex())
-    return one->getUserIndex() == kRobot && links.contains(std::minmax({one->getUserIndex2(), two->getUserIndex2()}));
-  return !(one->isStaticObject() && two->isStaticObject());
-}
+ private:
+  void join(int body, const Transform& part_from_link);
+  btCollisionObject& add_object(PartRef ref, const Transform& link_from_part, Role role);
 
-void World::Impl::build() {
-  filter.links = {scene->robot.checked_pairs.begin(), scene->robot.checked_pairs.end()};
-  bodies.resize(scene->bodies.size() + 1);
-  for (int index = kRobot; index < static_cast<int>(scene->bodies.size()); ++index) {
-    const Body& description = body(index);
-    if (description.parts.empty()) throw Error(description.name, "a body needs at least one part", "give it a part");
-    body_slot(index).parts.resize(description.parts.size());
-    if (description.free && description.parts.size() == 1)
-      build_free(index);
-    else
-      build_jointed(index);
-  }
-  let_links_meet();
-  build_robot_motors();
-  build_mechanisms();
-}
+  Bodies& bodies_;
+  ContactFinder& finder_;
+  Movers& movers_;
+};
 
-void World::Impl::let_links_meet() {
-  for (std::size_t p = 0; p < scene->robot.body.parts.size(); ++p) {
-    std::vector<Dispatcher::Piece>& pieces = dispatcher.links.emplace_back();
-    for (const Shape& shape : scene->robot.body.parts[p].shapes)
-      if (shape.collides) pieces.push_back({Convex(shape), bodies[0].parts[p].link_from_part * shape.part_from_shape});
+void BodyBuilder::let_links_meet() {
+  for (std::size_t p = 0; p < bodies_.scene().robot.body.parts.size(); ++p) {
+    std::vector<Dispatcher::Piece>& pieces = finder_.dispatcher.links.emplace_back();
+    for (const Shape& shape : bodies_.scene().robot.body.parts[p].shapes)
+      if (shape.collides)
+        pieces.push_back({Convex(shape), bodies_.body_slot(kRobot).parts[p].link_from_part * shape.part_from_shape});
   }
 }
 
-bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& other) const {
-  constexpr double kNear_m = 0.015;  // more than two links go towards each other in a step
-  const Transform at_one = from_bullet(one.getWorldTransform()), at_other = from_bullet(other.getWorldTransform());
-  for (const Piece& a : links[static_cast<std::size_t>(one.getUserIndex2())]) {
-    const Transform at_a = product(at_one, a.object_from_shape);
-    for (const Piece& b : links[static_cast<std::size_t>(other.getUserIndex2())])
-      if (closer_than(a.convex, at_a, b.convex, product(at_other, b.object_from_shape), kNear_m)) return false;
-  }
-  return true;
-}
-
-double contact_margin(const btCollisionObject& one, const btCollisionObject& other) {
-  const auto usual = [](const btCollisionObject& object) {
-    return object.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold);
-  };
-  constexpr btScalar kKept = 0.002;
-  const bool of_robot = one.getUserIndex() == kRobot || other.getUserIndex() == kRobot;
-  return std::max(of_robot ? kKept : 0, std::min(usual(one), usual(other)));
-}
-
-btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* one, const btCollisionObject* other) {
-  btPersistentManifold* manifold = btCollisionDispatcher::getNewManifold(one, other);
-  manifold->setContactBreakingThreshold(contact_margin(*one, *other));
-  return manifold;
-}
-
-void Dispatcher::look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
-  const auto& one = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-  const auto& other = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-  const bool links = one.getUserIndex() == kRobot && other.getUserIndex() == kRobot;
-  if (!links || !static_cast<const Dispatcher&>(dispatcher).apart(one, other))
-    return defaultNearCallback(pair, dispatcher, info);
-  if (pair.m_algorithm == nullptr) return;
-  btManifoldArray manifolds;  // what they touched at when they were near must not outlive that
-  pair.m_algorithm->getAllContactManifolds(manifolds);
-  for (int i = 0; i < manifolds.size(); ++i) dispatcher.clearManifold(manifolds[i]);
-}
-
-void World::Impl::build_free(int index) {
-  const Body& description = body(index);
+void BodyBuilder::build_free(int index) {
+  const Body& description = bodies_.body(index);
   const Part& part = description.parts[0];
   const LinkFrame frame = link_frame(part, of_part(part, Transform::Identity()), description.name);
   const Transform link_from_part = frame.part_from_link.inverse();
   btCollisionObject& object = add_object({index, 0}, link_from_part, Role::free);
   object.setWorldTransform(to_bullet(Transform(description.world_from_body * frame.part_from_link)));
-  body_slot(index).free = &dynamics.add_free({&object, part.mass, frame.moments, Vector3::Zero(), Vector3::Zero()});
+  bodies_.body_slot(index).free =
+      &movers_.add_free({&object, part.mass, frame.moments, Vector3::Zero(), Vector3::Zero()});
   if (!description.joined_to.empty()) join(index, frame.part_from_link);
 }
 
 // A free body to the joint of another body's part.
-void World::Impl::join(int index, const Transform& part_from_link) {
-  const Body& description = body(index);
-  const int host = scene->body_index(description.joined_to);
-  if (host < 0 || host >= index || description.joined_part >= static_cast<int>(body(host).parts.size()) ||
+void BodyBuilder::join(int index, const Transform& part_from_link) {
+  const Body& description = bodies_.body(index);
+  const int host = bodies_.scene().body_index(description.joined_to);
+  if (host < 0 || host >= index || description.joined_part >= static_cast<int>(bodies_.body(host).parts.size()) ||
       description.joined_part < 0)
     throw Error(description.name, "it is joined to '" + description.joined_to + "', which is no earlier body",
                 "order bodies so that what carries comes first");
   const Joint& joint = description.parts[0].joint;
-  const PartSlot& on = slot({host, description.joined_part});
+  const PartSlot& on = bodies_.slot({host, description.joined_part});
   Bond bond;
   bond.on = on.object;
-  bond.body = body_slot(index).free;
+  bond.body = bodies_.body_slot(index).free;
   bond.on_from_joint = on.link_from_part * joint.parent_from_joint;
   bond.body_from_joint = part_from_link.inverse();
   bond.kind = joint.kind;
@@ -269,16 +226,15 @@ void World::Impl::join(int index, const Transform& part_from_link) {
   bond.lets_go = joint.lets_go;
   bond.upwards = joint.lets_go > joint.initial;
   bond.position = joint.initial;
-  body_slot(index).bond = &dynamics.add_bond(bond);
+  bodies_.body_slot(index).bond = &movers_.add_bond(bond);
 }
 
-void World::Impl::build_jointed(int index) {
-  const Body& description = body(index);
+void BodyBuilder::build_jointed(int index) {
+  const Body& description = bodies_.body(index);
   const Assembly assembly = assemble(description);
-  BodySlot& slot = body_slot(index);
+  BodySlot& slot = bodies_.body_slot(index);
   std::vector<Transform> still(description.parts.size(), Transform::Identity());
-  if (assembly.links > 0)
-    slot.tree = &dynamics.add_tree(description.world_from_body, description.free, index != kRobot);
+  if (assembly.links > 0) slot.tree = &movers_.add_tree(description.world_from_body, description.free, index != kRobot);
   for (std::size_t p = 0; p < description.parts.size(); ++p) {
     const Part& part = description.parts[p];
     const auto parent = static_cast<std::size_t>(std::max(part.parent, 0));
@@ -298,7 +254,7 @@ void World::Impl::build_jointed(int index) {
     }
     const MassProperties& mass = assembly.masses[p];
     const LinkFrame frame = link_frame(part, mass, description.name + "." + part.name);
-    const std::vector<int>& pads = scene->robot.pads;
+    const std::vector<int>& pads = bodies_.scene().robot.pads;
     const bool pad = index == kRobot && std::find(pads.begin(), pads.end(), static_cast<int>(p)) != pads.end();
     const bool root = description.free && p == 0;
     btCollisionObject& object = add_object(ref, frame.part_from_link.inverse(),
@@ -323,28 +279,46 @@ void World::Impl::build_jointed(int index) {
     mine.tree = slot.tree;
     mine.link = slot.tree->add(link);
     mine.dof = root ? -1 : slot.tree->dof(mine.link);
-    dynamics.add_object(object, *slot.tree, mine.link);
+    movers_.add_object(object, *slot.tree, mine.link);
     if (mine.dof < 0) continue;
     slot.tree->position[static_cast<std::size_t>(mine.dof)] = part.joint.initial;
     if (part.joint.lower < part.joint.upper)
-      dynamics.add_stop(*slot.tree, {mine.dof, part.joint.lower, part.joint.upper});
+      movers_.add_stop(*slot.tree, {mine.dof, part.joint.lower, part.joint.upper});
   }
   if (slot.tree) slot.tree->place();
 }
 
 // In the world only where it collides with anything.
-btCollisionObject& World::Impl::add_object(PartRef ref, const Transform& link_from_part, Role role) {
-  const Part& description = part(ref);
-  objects.push_back(std::make_unique<btCollisionObject>());
-  btCollisionObject& object = *objects.back();
-  object.setCollisionShape(make_part_shape(description, link_from_part, shapes));
+btCollisionObject& BodyBuilder::add_object(PartRef ref, const Transform& link_from_part, Role role) {
+  const Part& description = bodies_.part(ref);
+  finder_.objects.push_back(std::make_unique<btCollisionObject>());
+  btCollisionObject& object = *finder_.objects.back();
+  object.setCollisionShape(make_part_shape(description, link_from_part, finder_.shapes));
   set_surface(object, description, role);
   set_identity(object, ref.body, ref.part, role);
-  PartSlot& slot = body_slot(ref.body).parts[static_cast<std::size_t>(ref.part)];
+  PartSlot& slot = bodies_.body_slot(ref.body).parts[static_cast<std::size_t>(ref.part)];
   slot.object = &object;
   slot.link_from_part = link_from_part;
-  if (has_collision(description)) world.addCollisionObject(&object);
+  if (has_collision(description)) finder_.world.addCollisionObject(&object);
   return object;
+}
+
+}  // namespace
+
+void Bodies::build(ContactFinder& finder, Movers& movers) {
+  finder.filter.links = {scene_->robot.checked_pairs.begin(), scene_->robot.checked_pairs.end()};
+  slots_.resize(scene_->bodies.size() + 1);
+  BodyBuilder builder(*this, finder, movers);
+  for (int index = kRobot; index < count(); ++index) {
+    const Body& description = body(index);
+    if (description.parts.empty()) throw Error(description.name, "a body needs at least one part", "give it a part");
+    body_slot(index).parts.resize(description.parts.size());
+    if (description.free && description.parts.size() == 1)
+      builder.build_free(index);
+    else
+      builder.build_jointed(index);
+  }
+  builder.let_links_meet();
 }
 
 }  // namespace stampede

@@ -1,6 +1,7 @@
 // What a tared wrist sensor reads, from what the solver applied in the last step.
 #include "engine/base/error.h"
 #include "engine/model/body_tree.h"
+#include "engine/sim/bullet_convert.h"
 #include "engine/sim/impl.h"
 
 namespace stampede {
@@ -29,10 +30,10 @@ Wrench World::contact_wrench(int robot_part) const {
   const auto beyond = [&](const btCollisionObject& object) {
     return object.getUserIndex() == kRobot && hangs_on(robot, object.getUserIndex2(), robot_part);
   };
-  const Transform& world_from_part = w.world_from_part({kRobot, robot_part});
+  const Transform& world_from_part = w.bodies.world_from_part({kRobot, robot_part});
   const btVector3 origin = to_bullet(Vector3(world_from_part.translation()));
   btVector3 force(0, 0, 0), torque(0, 0, 0);
-  auto& dispatcher = const_cast<Dispatcher&>(w.dispatcher);  // Bullet's readers are not const
+  auto& dispatcher = const_cast<Dispatcher&>(w.finder.dispatcher);  // Bullet's readers are not const
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const bool first = beyond(*manifold.getBody0()), second = beyond(*manifold.getBody1());
@@ -45,12 +46,12 @@ Wrench World::contact_wrench(int robot_part) const {
       torque += sign * (impulse.point - origin).cross(impulse.force);
     }
   }
-  for (const Dynamics::Torsion& torsion : w.dynamics.torsions()) {
+  for (const Torsion& torsion : w.dynamics.torsions()) {
     const bool first = beyond(*torsion.on), second = beyond(*torsion.other);
     if (first != second) torque += (first ? 1 : -1) * to_bullet(torsion.impulse);
   }
   const Matrix3 part_from_world = world_from_part.linear().transpose();
-  return {part_from_world * from_bullet(force) / w.dt, part_from_world * from_bullet(torque) / w.dt};
+  return {part_from_world * from_bullet(force) / w.clock.dt, part_from_world * from_bullet(torque) / w.clock.dt};
 }
 
 }  // namespace stampede

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/sim/impl.h"
-#include "engine/sim/servo.h"
+#include "engine/sim/robot_control.h"
 
 namespace stampede {
 namespace {
@@ -15,8 +14,6 @@ constexpr double kTipStiffness = 800;     // N/m
 constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
 constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
 constexpr double kSingularity = 1e-4;     // damping of the null-space projector
-constexpr double kFingerErp = 0.2;
-constexpr double kGearErp = 0.04, kGearForce = 50;  // N
 // A finger just told to move is not blocked. Nor is one whose contact has just been dropped: asked for so much speed,
 // it would be 4 mm deep in what it holds before contact is found again.
 constexpr std::int64_t kStartSteps = 3;
@@ -50,68 +47,9 @@ double effort_of(const JointLimits& limits) { return limits.effort > 0 ? limits.
 
 }  // namespace
 
-void World::Impl::build_robot_motors() {
-  const Robot& robot = scene->robot;
-  const BodySlot& robot_slot = body_slot(kRobot);
-  const auto motor_of = [&](int part_index) {
-    const PartSlot& driven = slot({kRobot, part_index});
-    if (driven.dof < 0)
-      throw Error(robot.name, "part '" + part({kRobot, part_index}).name + "' has no joint to drive",
-                  "name moving links");
-    return &dynamics.add_motor(*robot_slot.tree, driven.dof);
-  };
-  const auto joints = static_cast<Eigen::Index>(robot.arm.size());
-  JointVector start(joints);
-  for (std::size_t j = 0; j < robot.arm.size(); ++j) {
-    start[static_cast<Eigen::Index>(j)] = part({kRobot, robot.arm[j]}).joint.initial;
-    arm_motors.push_back(motor_of(robot.arm[j]));
-  }
-  for (const int finger : robot.fingers) {
-    finger_motors.push_back(motor_of(finger));
-    finger_motors.back()->erp = kFingerErp;
-  }
-  if (robot.fingers.size() == 2) {
-    // Two force-limited motors alone let the pair wander along the closing axis: the gear couples them.
-    dynamics.add_gear(*robot_slot.tree, {finger_motors[0]->dof, finger_motors[1]->dof, kGearErp, kGearForce, 1, 0});
-  }
-  hand.opening = 0;
-  for (const int finger : robot.fingers) hand.opening += part({kRobot, finger}).joint.initial;
-  hand.force = robot.grip_force;
-  reference.setpoint = {start, JointVector::Zero(joints), JointVector::Zero(joints)};
-  reference_now = reference.setpoint;
-  arm_torque = JointVector::Zero(joints);
-  arm_dynamics = ArmDynamics(robot);
-}
-
-JointState World::Impl::reference_at(std::int64_t step) const {
-  if (!reference.trajectory) return reference.setpoint;
-  return evaluate(*reference.trajectory, static_cast<double>(step - reference.start_step), scene->physics_hz);
-}
-
-void World::Impl::serve(const operation::Servo& servo) {
-  using Of = operation::Servo::Of;
-  const bool led = reference.servo && leads(*reference.servo);
-  operation::Servo next = servo;
-  // Rest, while a way is followed: the arm cannot stop at once, but comes back to where it was sent last.
-  if (led && reference.stream.passes() && servo.of == Of::velocity && servo.value.isZero()) next = *reference.servo;
-  Stream stream = reference.stream;
-  if (led && leads(next))
-    stream.follow(reference.servo->value, next.value, dt * static_cast<double>(steps - reference.start_step),
-                  scene->robot.limits);
-  else
-    stream.end();
-  reference = {nullptr, steps, reference_now, next, stream};
-}
-
-// What the servo makes of a reference in the step from `step` on.
-JointState World::Impl::served(const JointState& now, std::int64_t step, const Guard& guard, Limits& noted) const {
-  const double since = dt * static_cast<double>(step - reference.start_step);
-  return guided(now, *reference.servo, reference.stream, since, arm, dt, guard, noted);
-}
-
-void World::Impl::control() {
+void RobotControl::step() {
   look_ahead();
-  dynamics.set_brakes(*body_slot(kRobot).tree, {});
+  movers_.set_brakes(tree(), {});
   if (under_torque()) {
     control_torque(reference.servo->value);
     control_hand();
@@ -119,8 +57,8 @@ void World::Impl::control() {
   }
   const double lead = controller.kind == ControllerKind::joint_position ? kLead_rad : kYieldingLead_rad;
   const JointState next = reference.servo
-                              ? served(reference_now, steps, {reference.pace, arm_position_now(), lead}, acted)
-                              : reference_at(steps + 1);
+                              ? served(reference_now, clock_.steps, {reference.pace, position(), lead}, acted_)
+                              : reference_at(clock_.steps + 1);
   switch (controller.kind) {
     case ControllerKind::joint_position:
       control_position(reference_now, next);
@@ -136,34 +74,32 @@ void World::Impl::control() {
   control_hand();
 }
 
-double World::Impl::load_mass() const {
-  const auto held = contacts.grasped(scene->robot.pads);
+double RobotControl::load_mass() const {
   double mass = 0;
-  if (held && body(held->body).free)
-    for (const Part& one : body(held->body).parts) mass += one.mass;
+  if (const auto held = carried())
+    for (const Part& one : bodies_.body(held->body).parts) mass += one.mass;
   return mass;
 }
 
 // How a joint of the arm at 1 rad/s, or 1 m/s, moves a point that goes with it, m/s.
-Vector3 World::Impl::lever(std::size_t joint, const Vector3& point) const {
-  const PartRef moved{kRobot, scene->robot.arm[joint]};
-  const Transform& pose = world_from_part(moved);
-  const Joint& own = part(moved).joint;
+Vector3 RobotControl::lever(std::size_t joint, const Vector3& point) const {
+  const PartRef moved{kRobot, robot_.arm[joint]};
+  const Transform& pose = bodies_.world_from_part(moved);
+  const Joint& own = bodies_.part(moved).joint;
   const Vector3 axis = pose.linear() * own.axis.normalized();
   return own.kind == JointKind::slider ? axis : axis.cross(point - pose.translation());
 }
 
-bool World::Impl::moves(std::size_t joint, PartRef link) const {
+bool RobotControl::moves(std::size_t joint, PartRef link) const {
   if (link.body != kRobot) return true;  // the hand holds it
   int at = link.part;
-  while (at > scene->robot.arm[joint]) at = part({kRobot, at}).parent;
-  return at == scene->robot.arm[joint];
+  while (at > robot_.arm[joint]) at = bodies_.part({kRobot, at}).parent;
+  return at == robot_.arm[joint];
 }
 
-// Of a point of a link, or of what is held, where the joints change by so little.
-Vector3 World::Impl::motion_of(PartRef link, const Vector3& point, const JointVector& change) const {
+Vector3 RobotControl::motion_of(PartRef link, const Vector3& point, const JointVector& change) const {
   Vector3 motion = Vector3::Zero();
-  for (std::size_t j = 0; j < scene->robot.arm.size(); ++j)
+  for (std::size_t j = 0; j < robot_.arm.size(); ++j)
     if (moves(j, link)) motion += change[static_cast<Eigen::Index>(j)] * lever(j, point);
   return motion;
 }
@@ -171,20 +107,19 @@ Vector3 World::Impl::motion_of(PartRef link, const Vector3& point, const JointVe
 // What a joint of the arm has to give for a newton of each contact of the links that it moves: of the contact for which
 // that is least. At the tip it is much, where a link lies on an edge or on another link it is little, and a joint that
 // moves its link along a surface hardly presses on it. m. Empty: nothing is touched.
-std::vector<double> World::Impl::contact_levers() const {
+std::vector<double> RobotControl::contact_levers() const {
   std::vector<double> levers;
-  const Robot& robot = scene->robot;
-  const auto held = contacts.grasped(robot.pads);
+  const auto held = grasped();
   const auto meet = [&](PartRef link, PartRef other, const Vector3& point, const Vector3& along) {
-    if (link.body != kRobot || (held == other && body(other.body).free)) return;
-    if (levers.empty()) levers.assign(robot.arm.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t j = 0; j < robot.arm.size(); ++j) {
+    if (link.body != kRobot || (held == other && bodies_.body(other.body).free)) return;
+    if (levers.empty()) levers.assign(robot_.arm.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t j = 0; j < robot_.arm.size(); ++j) {
       if (!moves(j, link)) continue;
       const Vector3 way = lever(j, point);
       levers[j] = std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(along)) + kRubbing * way.norm());
     }
   };
-  contacts.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& along) {
+  contacts_.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& along) {
     meet(one, other, point, along);
     meet(other, one, point, along);
   });
@@ -194,17 +129,17 @@ std::vector<double> World::Impl::contact_levers() const {
 // The motors' velocity rows: where the joint is on its reference now, it is on it after the step too. Off it, by
 // contact, it comes back within the joint's limits, and contact never bears more than a hand's push: a stiff arm in its
 // way would else press with all it has, and whip forward when it comes free.
-void World::Impl::control_position(const JointState& now, const JointState& next) {
+void RobotControl::control_position(const JointState& now, const JointState& next) {
   const bool moving = reference.trajectory != nullptr || reference.servo;
-  const JointVector q = arm_position_now(), v = arm_velocity_now();
-  const auto jacobian = arm.jacobian(q);
+  const JointVector q = position(), v = velocity();
+  const auto jacobian = arm_.jacobian(q);
   const double press = kPress + kLoadRate * load_mass();
   const std::vector<double> levers = reference.servo ? contact_levers() : std::vector<double>{};
-  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
+  for (std::size_t j = 0; j < arm_motors_.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    const JointLimits& limits = scene->robot.limits[j];
-    JointMotor& motor = *arm_motors[j];
-    const double steady = moving ? (next.position[i] - now.position[i]) / dt : next.velocity[i];
+    const JointLimits& limits = robot_.limits[j];
+    JointMotor& motor = *arm_motors_[j];
+    const double steady = moving ? (next.position[i] - now.position[i]) / dt_ : next.velocity[i];
     const double most = acceleration_of(limits), fastest = std::max(speed_of(limits), std::abs(steady));
     const double error = now.position[i] - q[i];
     // A reference that brakes does not press on.
@@ -212,72 +147,70 @@ void World::Impl::control_position(const JointState& now, const JointState& next
     const double least_own = std::min({0.0, now.acceleration[i], next.acceleration[i]});
     const double back = most * (levers.empty() ? kCatchUp : kCatchUpTouching);
     const double wanted = std::clamp(steady + catching_up(error, back), -fastest, fastest);
-    motor.velocity = std::clamp(wanted, v[i] + dt * (least_own - back), v[i] + dt * (most_own + back));
+    motor.velocity = std::clamp(wanted, v[i] + dt_ * (least_own - back), v[i] + dt_ * (most_own + back));
     motor.most_force = effort_of(limits);
     motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
     if (!levers.empty())
       motor.against_contact = std::min(motor.against_contact, std::max(kShortLever, kPress * levers[j]));
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
-      acted.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
+      acted_.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }
   arm_torque.setZero();
   foreseen.resize(0);
 }
 
-void World::Impl::update_dynamics() {
-  for (std::size_t p = 0; p < scene->robot.body.parts.size(); ++p) world_from_part({kRobot, static_cast<int>(p)});
+void RobotControl::update_dynamics() {
   Load load;
-  const auto held = contacts.grasped(scene->robot.pads);
-  if (held && body(held->body).free) {
-    const Part& carried = part({held->body, 0});  // what moves on it is light
-    const Transform& pose = world_from_part({held->body, 0});
-    for (const Part& one : body(held->body).parts) load.mass += one.mass;
+  if (const auto held = carried()) {
+    const Part& carried = bodies_.part({held->body, 0});  // what moves on it is light
+    const Transform& pose = bodies_.world_from_part({held->body, 0});
+    for (const Part& one : bodies_.body(held->body).parts) load.mass += one.mass;
     load.centre = pose * carried.centre_of_mass;
     load.inertia = pose.linear() * carried.inertia * pose.linear().transpose();
   }
-  arm_dynamics.update(poses[0], scene->gravity, load);
+  arm_dynamics_.update(bodies_.world_from_robot_parts(), bodies_.scene().gravity, load);
 }
 
 // The motors are given no force, so that only the torque acts; torques stop at the joints' limits.
-void World::Impl::give_torques(JointVector torque) {
-  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
+void RobotControl::give_torques(JointVector torque) {
+  for (std::size_t j = 0; j < arm_motors_.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    const double most = effort_of(scene->robot.limits[j]);
-    if (std::abs(torque[i]) > most) acted.note(Limit::torque);
+    const double most = effort_of(robot_.limits[j]);
+    if (std::abs(torque[i]) > most) acted_.note(Limit::torque);
     torque[i] = std::clamp(torque[i], -most, most);
-    arm_motors[j]->most_force = 0;
-    body_slot(kRobot).tree->torque[static_cast<std::size_t>(arm_motors[j]->dof)] += torque[i];
+    arm_motors_[j]->most_force = 0;
+    tree().torque[static_cast<std::size_t>(arm_motors_[j]->dof)] += torque[i];
   }
   arm_torque = torque;
-  if (reference.servo) dynamics.set_brakes(*body_slot(kRobot).tree, speed_brakes());
+  if (reference.servo) movers_.set_brakes(tree(), speed_brakes());
 }
 
 // What is asked for, but for the part of it that would take a joint beyond its limits. Nobody takes off centrifugal and
 // Coriolis forces for an agent that gives torques, but what is left of its limits counts with them.
-void World::Impl::control_torque(const JointVector& asked) {
+void RobotControl::control_torque(const JointVector& asked) {
   update_dynamics();
-  const JointMatrix& mass = arm_dynamics.mass();
-  const std::vector<double>& fictitious = body_slot(kRobot).tree->find_coriolis();
+  const JointMatrix& mass = arm_dynamics_.mass();
+  const std::vector<double>& fictitious = tree().find_coriolis();
   JointVector moving = asked;
-  for (std::size_t j = 0; j < arm_motors.size(); ++j)
-    moving[static_cast<Eigen::Index>(j)] -= fictitious[static_cast<std::size_t>(arm_motors[j]->dof)];
+  for (std::size_t j = 0; j < arm_motors_.size(); ++j)
+    moving[static_cast<Eigen::Index>(j)] -= fictitious[static_cast<std::size_t>(arm_motors_[j]->dof)];
   const JointVector free = mass.ldlt().solve(moving);
   foreseen.resize(0);
-  give_torques(arm_dynamics.gravity() + asked + mass * (kept_safe(free, kMargin_rad) - free));
+  give_torques(arm_dynamics_.gravity() + asked + mass * (kept_safe(free, kMargin_rad) - free));
 }
 
 // What pushes an arm that an agent steers, and what turns as it goes, makes it no faster than it may be: in the same
 // step each joint holds against that, and all together for the tool.
-std::vector<SpeedBrake> World::Impl::speed_brakes() const {
-  const TipJacobian& jacobian = arm_dynamics.jacobian();
-  const std::vector<JointLimits>& limits = scene->robot.limits;
-  const auto dofs = static_cast<std::size_t>(body_slot(kRobot).tree->dofs());
-  const Vector3 ahead = (jacobian.topRows<3>() * arm_velocity_now()).normalized();
-  std::vector<SpeedBrake> brakes(1 + arm_motors.size());
+std::vector<SpeedBrake> RobotControl::speed_brakes() const {
+  const TipJacobian& jacobian = arm_dynamics_.jacobian();
+  const std::vector<JointLimits>& limits = robot_.limits;
+  const auto dofs = static_cast<std::size_t>(tree().dofs());
+  const Vector3 ahead = (jacobian.topRows<3>() * velocity()).normalized();
+  std::vector<SpeedBrake> brakes(1 + arm_motors_.size());
   SpeedBrake& tool = brakes.front();  // before the joints', which it may make faster
   tool = {std::vector<double>(dofs), kBrakedToolSpeed, std::numeric_limits<double>::infinity()};
-  for (std::size_t j = 0; j < arm_motors.size(); ++j) {
-    const auto dof = static_cast<std::size_t>(arm_motors[j]->dof);
+  for (std::size_t j = 0; j < arm_motors_.size(); ++j) {
+    const auto dof = static_cast<std::size_t>(arm_motors_[j]->dof);
     const double lever = jacobian.col(static_cast<Eigen::Index>(j)).head<3>().dot(ahead);
     tool.jacobian[dof] = lever;
     if (lever != 0) tool.most_force = std::min(tool.most_force, effort_of(limits[j]) / std::abs(lever));
@@ -288,79 +221,79 @@ std::vector<SpeedBrake> World::Impl::speed_brakes() const {
 }
 
 // The nearest acceleration that an arm may have which an agent steers.
-JointVector World::Impl::kept_safe(const JointVector& acceleration, double margin) {
-  return safe_acceleration(acceleration, arm_position_now(), arm_velocity_now(), arm, dt, reference.pace, margin,
-                           acted);
+JointVector RobotControl::kept_safe(const JointVector& acceleration, double margin) {
+  const Governor governor(arm_, dt_, {reference.pace, {}}, acted_);
+  return governor.safe_acceleration(acceleration, position(), velocity(), margin);
 }
 
 // What keeps an arm within its limits that an agent steers, beside a controller that would give it this acceleration in
 // free air. What contact took from it in the step before, it is taken to bear again: held so, a joint gets more torque
 // than its limit of acceleration takes, but no more than a step can turn into `kSlip` of its speed when contact ends.
-JointVector World::Impl::held_back(const JointVector& acceleration) {
+JointVector RobotControl::held_back(const JointVector& acceleration) {
   if (!reference.servo) {
     foreseen.resize(0);
     return JointVector::Zero(acceleration.size());
   }
-  const JointVector v = arm_velocity_now();
+  const JointVector v = velocity();
   JointVector expected = acceleration;
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    const double most = kSlip * speed_of(scene->robot.limits[static_cast<std::size_t>(i)]) / dt;
-    const double borne = foreseen.size() > 0 ? std::clamp((v[i] - foreseen[i]) / dt, -most, most) : 0;
+    const double most = kSlip * speed_of(robot_.limits[static_cast<std::size_t>(i)]) / dt_;
+    const double borne = foreseen.size() > 0 ? std::clamp((v[i] - foreseen[i]) / dt_, -most, most) : 0;
     expected[i] += std::clamp(borne, std::min(0.0, -acceleration[i]), std::max(0.0, -acceleration[i]));
   }
   const JointVector given = acceleration + kept_safe(expected, 0) - expected;
-  foreseen = v + dt * given;
-  return arm_dynamics.mass() * (given - acceleration);
+  foreseen = v + dt_ * given;
+  return arm_dynamics_.mass() * (given - acceleration);
 }
 
 // Stable PD (Tan, Liu, Turk, IEEE CG&A 2011, doi:10.1109/MCG.2011.30), with the position at the end of the step
 // predicted by the same semi-implicit Euler that Bullet takes: (M + dt D + dt^2 K) a = forces now. The explicit form
 // is unstable at 240 Hz with the inertias of a real wrist.
-void World::Impl::control_joint_impedance(const JointState& next) {
+void RobotControl::control_joint_impedance(const JointState& next) {
   update_dynamics();
-  const JointMatrix& mass = arm_dynamics.mass();
-  const JointVector q = arm_position_now(), v = arm_velocity_now();
+  const JointMatrix& mass = arm_dynamics_.mass();
+  const JointVector q = position(), v = velocity();
   const Eigen::Index joints = q.size();
   double strongest = 0;
-  for (const JointLimits& limits : scene->robot.limits) strongest = std::max(strongest, effort_of(limits));
+  for (const JointLimits& limits : robot_.limits) strongest = std::max(strongest, effort_of(limits));
   JointVector stiffness(joints), damping(joints);
   for (Eigen::Index i = 0; i < joints; ++i) {
-    const double share = effort_of(scene->robot.limits[static_cast<std::size_t>(i)]) / strongest;
+    const double share = effort_of(robot_.limits[static_cast<std::size_t>(i)]) / strongest;
     stiffness[i] = (controller.stiffness > 0 ? controller.stiffness : kJointStiffness) * share;
     damping[i] = 2 * std::sqrt(stiffness[i] * mass(i, i));
   }
   const JointVector feed_forward = mass * next.acceleration;
-  const JointVector error = next.position - q - dt * v;
+  const JointVector error = next.position - q - dt_ * v;
   JointVector pull = stiffness.cwiseProduct(error);
   for (Eigen::Index i = 0; i < joints; ++i) {
-    const double most = std::max(kLeastTorque, kMostPull * arm_dynamics.jacobian().col(i).head<3>().norm());
-    if (std::abs(pull[i]) > most) acted.note(Limit::contact);
+    const double most = std::max(kLeastTorque, kMostPull * arm_dynamics_.jacobian().col(i).head<3>().norm());
+    if (std::abs(pull[i]) > most) acted_.note(Limit::contact);
     pull[i] = std::clamp(pull[i], -most, most) + damping[i] * (next.velocity[i] - v[i]);
   }
   JointMatrix implicit = mass;
-  implicit.diagonal() += dt * damping + dt * dt * stiffness;
+  implicit.diagonal() += dt_ * damping + dt_ * dt_ * stiffness;
   const JointVector acceleration = implicit.ldlt().solve(feed_forward + pull);
   const JointVector softened =
-      pull - dt * damping.cwiseProduct(acceleration) - dt * dt * stiffness.cwiseProduct(acceleration);
-  give_torques(arm_dynamics.gravity() + feed_forward + softened + held_back(acceleration));
+      pull - dt_ * damping.cwiseProduct(acceleration) - dt_ * dt_ * stiffness.cwiseProduct(acceleration);
+  give_torques(arm_dynamics_.gravity() + feed_forward + softened + held_back(acceleration));
 }
 
 // As above with the stiffness of the tip mapped to the joints through the Jacobian, and a soft posture spring
 // towards the reference in its null space, so that the elbow neither drifts nor disturbs the tip.
-void World::Impl::control_cartesian_impedance(const JointState& next) {
+void RobotControl::control_cartesian_impedance(const JointState& next) {
   update_dynamics();
-  const JointMatrix& mass = arm_dynamics.mass();
-  const TipJacobian& jacobian = arm_dynamics.jacobian();
-  const JointVector q = arm_position_now(), v = arm_velocity_now();
+  const JointMatrix& mass = arm_dynamics_.mass();
+  const TipJacobian& jacobian = arm_dynamics_.jacobian();
+  const JointVector q = position(), v = velocity();
   const Eigen::Index joints = q.size();
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Transform target = arm.world_from_tip(next.position);
-  const Vector6 target_velocity = arm.jacobian(next.position) * next.velocity;
+  const Transform target = arm_.world_from_tip(next.position);
+  const Vector6 target_velocity = arm_.jacobian(next.position) * next.velocity;
   const Vector6 tip_velocity = jacobian * v;
   Vector6 error;
-  error << target.translation() - arm_dynamics.world_from_tip().translation(),
-      turn_between(arm_dynamics.world_from_tip().linear(), target.linear());
+  error << target.translation() - arm_dynamics_.world_from_tip().translation(),
+      turn_between(arm_dynamics_.world_from_tip().linear(), target.linear());
 
   const double k = controller.stiffness > 0 ? controller.stiffness : kTipStiffness;
   Vector6 stiffness;
@@ -379,44 +312,43 @@ void World::Impl::control_cartesian_impedance(const JointState& next) {
   JointVector posture_damping(joints);
   for (Eigen::Index i = 0; i < joints; ++i) posture_damping[i] = 2 * std::sqrt(kPostureStiffness * mass(i, i));
 
-  Vector6 force = stiffness.cwiseProduct(error - dt * tip_velocity);
+  Vector6 force = stiffness.cwiseProduct(error - dt_ * tip_velocity);
   if (const double pull = force.head<3>().norm(); pull > kMostPull) {
     force.head<3>() *= kMostPull / pull;
-    acted.note(Limit::contact);
+    acted_.note(Limit::contact);
   }
   force += damping.cwiseProduct(target_velocity - tip_velocity);
-  const JointVector posture = kPostureStiffness * (projector * (next.position - q - dt * v)) +
+  const JointVector posture = kPostureStiffness * (projector * (next.position - q - dt_ * v)) +
                               posture_damping.cwiseProduct(projector * (next.velocity - v));
   const JointVector pull = jacobian.transpose() * force + projector * posture;
   const JointVector feed_forward = mass * next.acceleration;
-  const Vector6 tip_resistance = dt * damping + dt * dt * stiffness;
-  const JointVector posture_resistance = dt * posture_damping.array() + dt * dt * kPostureStiffness;
+  const Vector6 tip_resistance = dt_ * damping + dt_ * dt_ * stiffness;
+  const JointVector posture_resistance = dt_ * posture_damping.array() + dt_ * dt_ * kPostureStiffness;
   const JointMatrix resistance = jacobian.transpose() * tip_resistance.asDiagonal() * jacobian +
                                  projector * posture_resistance.asDiagonal() * projector;
   const JointVector acceleration = JointMatrix(mass + resistance).ldlt().solve(feed_forward + pull);
-  give_torques(arm_dynamics.gravity() + feed_forward + pull - resistance * acceleration + held_back(acceleration));
+  give_torques(arm_dynamics_.gravity() + feed_forward + pull - resistance * acceleration + held_back(acceleration));
 }
 
 // Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction
 // of its force: the solver's iterations end first. A closing finger that stands still short of its target is asked for
 // more, which its force limit then cuts off. An opening one is not: nobody grasps with it, and where contact is lost
 // for a step it would jump.
-void World::Impl::control_hand() {
-  const Robot& robot = scene->robot;
-  const double each = finger_motors.empty() ? 0 : hand.opening / static_cast<double>(finger_motors.size());
-  for (std::size_t f = 0; f < finger_motors.size(); ++f) {
-    const double limit = part({kRobot, robot.fingers[f]}).joint.effort;
+void RobotControl::control_hand() {
+  const double each = finger_motors_.empty() ? 0 : hand.opening / static_cast<double>(finger_motors_.size());
+  for (std::size_t f = 0; f < finger_motors_.size(); ++f) {
+    const double limit = bodies_.part({kRobot, robot_.fingers[f]}).joint.effort;
     const double force = limit > 0 ? std::min(hand.force, limit) : hand.force;
-    JointMotor& motor = *finger_motors[f];
+    JointMotor& motor = *finger_motors_[f];
     const auto dof = static_cast<std::size_t>(motor.dof);
-    const double lag = each - body_slot(kRobot).tree->position[dof];
-    const double speed = body_slot(kRobot).tree->velocity[dof];
-    const bool blocked = steps >= std::max(hand_step, boundary_step) + kStartSteps && lag < -kBlockedLag &&
-                         std::abs(speed) < kBlockedSpeed * robot.finger_speed;
+    const double lag = each - tree().position[dof];
+    const double speed = tree().velocity[dof];
+    const bool blocked = clock_.steps >= std::max(hand_step, clock_.boundary_step) + kStartSteps &&
+                         lag < -kBlockedLag && std::abs(speed) < kBlockedSpeed * robot_.finger_speed;
     motor.position = each;
     motor.position_gain = blocked ? 0 : 1;
     motor.velocity = blocked ? -kPressSpeed : 0;
-    motor.fastest = blocked ? kPressSpeed : robot.finger_speed;
+    motor.fastest = blocked ? kPressSpeed : robot_.finger_speed;
     motor.most_force = force;
   }
 }

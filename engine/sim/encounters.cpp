@@ -1,8 +1,5 @@
-// What moves fast meets things between two steps, at points that are not the nearest ones yet: the far rim of a plate
-// that comes down on one side, a floor millimetres below what falls. So such bodies' contacts are looked for where they
-// will be as well, first unhindered, then held up at the points that are known by then. These points lie apart for now;
-// the solver lets them come together and no further (speculative contacts, as in Catto, Continuous Collision, GDC
-// 2013).
+#include "engine/sim/encounters.h"
+
 #include <btBulletCollisionCommon.h>
 
 #include <Eigen/LU>
@@ -10,7 +7,7 @@
 #include <utility>
 
 #include "engine/sim/bullet_convert.h"
-#include "engine/sim/dynamics.h"
+#include "engine/sim/contact_finder.h"
 
 namespace stampede {
 namespace {
@@ -24,7 +21,7 @@ constexpr int kSweeps = 8;
 }  // namespace
 
 // One of two that meet: how it goes on until the end of the step.
-struct Dynamics::Side {
+struct Encounters::Side {
   btCollisionObject* object = nullptr;
   const FreeBody* body = nullptr;  // none: it stands still
   Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
@@ -44,13 +41,13 @@ struct Dynamics::Side {
   }
 };
 
-Dynamics::Side Dynamics::side_of(btCollisionObject& object) const {
+Encounters::Side Encounters::side_of(btCollisionObject& object) const {
   Side side;
   side.object = &object;
   side.now = from_bullet(object.getWorldTransform());
-  const Node node = node_of(&object);
+  const MoverLink node = MoverLink::of(&object);
   if (node.mover < 0) return side;
-  const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
+  const Mover& mover = movers_[node.mover];
   if (!mover.free || mover.asleep) return side;
   side.body = mover.free;
   side.linear = mover.free->linear + dt_ * gravity_;
@@ -61,7 +58,7 @@ Dynamics::Side Dynamics::side_of(btCollisionObject& object) const {
 }
 
 // Takes from the speeds what the points between the two do not let happen.
-void Dynamics::hold_up(Side& one, Side& other, const btManifoldArray& manifolds) const {
+void Encounters::hold_up(Side& one, Side& other, const btManifoldArray& manifolds) const {
   std::vector<double> impulses;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     std::size_t next = 0;
@@ -84,7 +81,7 @@ void Dynamics::hold_up(Side& one, Side& other, const btManifoldArray& manifolds)
   }
 }
 
-void Dynamics::meet_ahead(btBroadphasePair& pair, double way) {
+void Encounters::meet_ahead(btBroadphasePair& pair, double way) {
   btCollisionObject* const objects[] = {static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject),
                                         static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject)};
   const btScalar usual = contact_margin(*objects[0], *objects[1]);
@@ -131,43 +128,47 @@ void Dynamics::meet_ahead(btBroadphasePair& pair, double way) {
                                          manifolds[m]->getBody1()->getWorldTransform());
     if (deepest < kInto_m) break;
   }
-  for (int m = 0; m < manifolds.size(); ++m) encounters_.emplace_back(manifolds[m], usual);
+  for (int m = 0; m < manifolds.size(); ++m) found_.emplace_back(manifolds[m], usual);
 }
 
-void Dynamics::find_encounters() {
-  encounters_.clear();
-  fast_.assign(movers_.size(), 0);
+void Encounters::find() {
+  found_.clear();
+  const std::vector<Mover>& movers = movers_.all();
+  ways_.assign(movers.size(), 0);
   bool any = false;
-  for (std::size_t m = 0; m < movers_.size(); ++m) {
-    const Mover& mover = movers_[m];
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    const Mover& mover = movers[m];
     if (!mover.free || mover.asleep || !mover.free->object->getBroadphaseHandle()) continue;
     btVector3 centre;
     btScalar radius = 0;
     mover.free->object->getCollisionShape()->getBoundingSphere(centre, radius);
-    fast_[m] = dt_ * (mover.free->linear.norm() + (radius + centre.length()) * mover.free->angular.norm());
-    any = any || fast_[m] > kFar_m;
+    ways_[m] = dt_ * (mover.free->linear.norm() + (radius + centre.length()) * mover.free->angular.norm());
+    any = any || ways_[m] > kFar_m;
   }
   if (!any) return;
-  const auto way = [&](const Node& node) { return node.mover < 0 ? 0 : fast_[static_cast<std::size_t>(node.mover)]; };
-  const auto driven = [&](const Node& node) {
+  const auto way = [&](const MoverLink& node) {
+    return node.mover < 0 ? 0 : ways_[static_cast<std::size_t>(node.mover)];
+  };
+  const auto driven = [&](const MoverLink& node) {
     if (node.mover < 0) return false;
-    const Mover& mover = movers_[static_cast<std::size_t>(node.mover)];
-    return mover.tree && (!mover.may_sleep || !slower(mover, kStill));
+    const Mover& mover = movers_[node.mover];
+    return mover.tree && (!mover.may_sleep || !mover.slower(kStill));
   };
   btBroadphasePairArray& pairs = world_.getBroadphase()->getOverlappingPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
     const auto& one = *static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
     const auto& other = *static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
-    const Node first = node_of(&one), second = node_of(&other);
+    const MoverLink first = MoverLink::of(&one), second = MoverLink::of(&other);
     const double both = way(first) + way(second);
-    if (both <= kFar_m || !pairs[i].m_algorithm || driven(first) || driven(second) || bonded(one, other)) continue;
+    if (both <= kFar_m || !pairs[i].m_algorithm || driven(first) || driven(second) || movers_.bonded(one, other))
+      continue;
     meet_ahead(pairs[i], both);
   }
 }
 
-void Dynamics::forget_encounters() {
-  for (auto& [manifold, usual] : encounters_) manifold->setContactBreakingThreshold(usual);
-  encounters_.clear();
+void Encounters::forget() {
+  for (auto& [manifold, usual] : found_) manifold->setContactBreakingThreshold(usual);
+  found_.clear();
 }
 
 }  // namespace stampede

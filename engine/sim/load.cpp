@@ -7,17 +7,17 @@
 
 namespace stampede {
 
-std::vector<Borne> World::loads() const {
+std::vector<Borne> loads(const World& world) {
   constexpr double kShare = 0.25;  // of a body's weight
-  const Scene& scene = this->scene();
-  const std::optional<PartRef> held = grasped();
+  const Scene& scene = world.scene();
+  const std::optional<PartRef> held = world.grasped();
   std::vector<std::map<PartRef, double>> upward(scene.bodies.size());  // N, by what bears
   const auto add = [&](PartRef above, PartRef below, double force) {
     if (above.body < 0 || below.body < 0 || !scene.body_at(above.body).free) return;
     if (held && held->body == above.body) return;
     upward[static_cast<std::size_t>(above.body)][below] += force;
   };
-  for (const Contact& contact : contacts()) {
+  for (const Contact& contact : world.contacts()) {
     add(contact.a, contact.b, contact.force.z());
     add(contact.b, contact.a, -contact.force.z());
   }

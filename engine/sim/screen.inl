@@ -217,97 +217,137 @@ inline Frame relative(const ScreenShape& shape, const Frame& pose) {
   return out;
 }
 
-// One shape that stands still against one that moves.
-inline void meet(const ScreenShape& still, const ScreenShape& moving, const Frame& pose, const Lanes& most,
-                 const Lanes& least, const ScreenDoubt& which, ScreenBatch& batch, unsigned& touching) {
-  const Vec centre = seen_from(still, pose.t);
-  if (bits(gap_to_ball(still, centre) - moving.ball > most) == 0xff) return;
-  const Frame seen = relative(still, pose);
-  unsigned doubtful = ~apart(still, moving, seen, most) & 0xff & ~touching;
-  if (doubtful == 0) return;
-  touching |= core_meets(still, moving, seen, least);
-  doubtful &= ~touching;
-  if (doubtful == 0) return;
-  if (batch.doubt_count == kScreenDoubts) {
-    batch.overflowing = static_cast<unsigned char>(batch.overflowing | doubtful);
-    return;
-  }
-  ScreenDoubt& doubt = batch.doubts[batch.doubt_count++];
-  doubt = which;
-  doubt.lanes = static_cast<unsigned char>(doubtful);
-}
+// What moves further apart than `most` surely does not touch, what is as near as `least` surely does.
+struct Gaps {
+  Lanes most, least;
+};
 
-inline unsigned char screen_all(const ScreenTables& tables, ScreenBatch& batch, bool any) {
-  batch.doubt_count = 0;
-  batch.overflowing = 0;
-  unsigned touching = 0;
-  const Lanes padding = load(batch.padding);
-  const Lanes most = padding + tables.slack, least = padding - tables.slack;
-  Frame frames[kScreenJoints + 1];
-  still(frames[0]);
-  for (int j = 0; j < tables.joint_count; ++j)
-    move(frames[j + 1], frames[j], tables.joints[j], load(batch.positions[j]));
-  const float farthest = greatest_of(most);
-  for (int l = 0; l < tables.lump_count; ++l) {
-    const ScreenLump& lump = tables.lumps[l];
-    if (lump.frame == 0) continue;
-    const Frame& frame = frames[lump.frame];
-    const Vec centre = point(frame, lump.middle);
-    const Lanes far = most + lump.ball;
-    Frame poses[kPlaced];
-    bool placed = false;
+// A lump's shapes where they are now. The first of them are placed once, when they are first asked for.
+struct PlacedLump {
+  PlacedLump(const ScreenTables& tables, const ScreenLump& lump_in, const Frame& frame_in)
+      : lump(lump_in),
+        frame(frame_in),
+        shapes(tables.shapes + lump_in.begin),
+        count(lump_in.end - lump_in.begin),
+        kept(count < kPlaced ? count : kPlaced),
+        centre(point(frame_in, lump_in.middle)) {}
+
+  const Frame& pose(int shape) {
+    for (; placed < kept; ++placed) compose(poses[placed], frame, shapes[placed].turn, shapes[placed].at);
+    if (shape < kept) return poses[shape];
+    compose(further, frame, shapes[shape].turn, shapes[shape].at);
+    return further;
+  }
+
+  const ScreenLump& lump;
+  const Frame& frame;
+  const ScreenShape* const shapes;
+  const int count, kept;
+  const Vec centre;
+  int placed = 0;
+  Frame poses[kPlaced], further;
+};
+
+// Of one batch. With `any`, it ends with the first lane that surely touches.
+class Screening {
+ public:
+  Screening(const ScreenTables& tables, ScreenBatch& batch, bool any) : tables_(tables), batch_(batch), any_(any) {
+    batch.doubt_count = 0;
+    batch.overflowing = 0;
+    still(frames_[0]);
+    for (int j = 0; j < tables.joint_count; ++j)
+      move(frames_[j + 1], frames_[j], tables.joints[j], load(batch.positions[j]));
+  }
+
+  unsigned char touching() {
+    const Lanes padding = load(batch_.padding);
+    const Gaps gaps = {padding + tables_.slack, padding - tables_.slack};
+    const float farthest = greatest_of(gaps.most);
+    for (int l = 0; l < tables_.lump_count && !decided(); ++l)
+      if (tables_.lumps[l].frame != 0) look_around(tables_.lumps[l], gaps, farthest);
+    for (int m = 0; m < tables_.meeting_count && !decided(); ++m) look_between(tables_.meetings[m]);
+    return static_cast<unsigned char>(touching_);
+  }
+
+ private:
+  bool decided() const { return any_ && touching_ != 0; }
+
+  // One shape that stands still against one that moves.
+  void meet(const ScreenShape& still, const ScreenShape& moving, const Frame& pose, const Gaps& gaps,
+            const ScreenDoubt& which) {
+    const Vec centre = seen_from(still, pose.t);
+    if (bits(gap_to_ball(still, centre) - moving.ball > gaps.most) == 0xff) return;
+    const Frame seen = relative(still, pose);
+    unsigned doubtful = ~apart(still, moving, seen, gaps.most) & 0xff & ~touching_;
+    if (doubtful == 0) return;
+    touching_ |= core_meets(still, moving, seen, gaps.least);
+    doubtful &= ~touching_;
+    if (doubtful == 0) return;
+    if (batch_.doubt_count == kScreenDoubts) {
+      batch_.overflowing = static_cast<unsigned char>(batch_.overflowing | doubtful);
+      return;
+    }
+    ScreenDoubt& doubt = batch_.doubts[batch_.doubt_count++];
+    doubt = which;
+    doubt.lanes = static_cast<unsigned char>(doubtful);
+  }
+
+  // A lump against all obstacles.
+  void look_around(const ScreenLump& lump, const Gaps& gaps, float farthest) {
+    PlacedLump placed(tables_, lump, frames_[lump.frame]);
+    const Vec& centre = placed.centre;
     const float around = lump.ball + farthest;
     const float lower[3] = {least_of(centre.x) - around, least_of(centre.y) - around, least_of(centre.z) - around};
     const float upper[3] = {greatest_of(centre.x) + around, greatest_of(centre.y) + around,
                             greatest_of(centre.z) + around};
-    for (int first = 0; first < tables.obstacle_count; first += kScreenLanes) {
-      const ScreenBoxes& boxes = tables.boxes[first / kScreenLanes];
+    for (int first = 0; first < tables_.obstacle_count; first += kScreenLanes) {
+      const ScreenBoxes& boxes = tables_.boxes[first / kScreenLanes];
       Mask beside = {0, 0, 0, 0, 0, 0, 0, 0};
       for (int i = 0; i < 3; ++i) beside |= (load(boxes.lower[i]) > upper[i]) | (load(boxes.upper[i]) < lower[i]);
       for (unsigned near = ~bits(beside) & 0xff; near != 0; near &= near - 1) {
-        const int o = first + __builtin_ctz(near);
-        const ScreenShape& obstacle = tables.obstacles[o];
-        if (lump.hand && obstacle.excused) continue;
-        if (bits(gap_to_ball(obstacle, seen_from(obstacle, centre)) > far) == 0xff) continue;
-        const int kept = lump.end - lump.begin < kPlaced ? lump.end - lump.begin : kPlaced;
-        if (!placed)
-          for (int i = 0; i < kept; ++i)
-            compose(poses[i], frame, tables.shapes[lump.begin + i].turn, tables.shapes[lump.begin + i].at);
-        placed = true;
-        for (int i = lump.begin; i < lump.end; ++i) {
-          Frame further;
-          if (i - lump.begin >= kept) compose(further, frame, tables.shapes[i].turn, tables.shapes[i].at);
-          const Frame& pose = i - lump.begin < kept ? poses[i - lump.begin] : further;
-          meet(obstacle, tables.shapes[i], pose, most, least, {i, o, true, 0}, batch, touching);
-          if (any && touching != 0) return static_cast<unsigned char>(touching);
-        }
+        look_at(first + __builtin_ctz(near), placed, gaps);
+        if (decided()) return;
       }
     }
   }
-  const Lanes nearest = all(tables.slack), surely = all(-tables.slack);
-  for (int m = 0; m < tables.meeting_count; ++m) {
-    const ScreenMeeting& meeting = tables.meetings[m];
-    const ScreenLump &one = tables.lumps[meeting.one], &other = tables.lumps[meeting.other];
-    const Vec a = point(frames[one.frame], one.middle), b = point(frames[other.frame], other.middle);
+
+  void look_at(int index, PlacedLump& placed, const Gaps& gaps) {
+    const ScreenShape& obstacle = tables_.obstacles[index];
+    const ScreenLump& lump = placed.lump;
+    if (lump.hand && obstacle.excused) return;
+    if (bits(gap_to_ball(obstacle, seen_from(obstacle, placed.centre)) > gaps.most + lump.ball) == 0xff) return;
+    for (int i = 0; i < placed.count && !decided(); ++i)
+      meet(obstacle, placed.shapes[i], placed.pose(i), gaps, {lump.begin + i, index, true, 0});
+  }
+
+  // Two lumps. Seen from the frame of the one, its shapes stand still.
+  void look_between(const ScreenMeeting& meeting) {
+    const ScreenLump &one = tables_.lumps[meeting.one], &other = tables_.lumps[meeting.other];
+    const Frame &from = frames_[one.frame], &to = frames_[other.frame];
+    const Vec a = point(from, one.middle), b = point(to, other.middle);
     const Vec way = {a.x - b.x, a.y - b.y, a.z - b.z};
-    const float sum = one.ball + other.ball + tables.slack;
-    if (bits(dot(way, way) > sum * sum) == 0xff) continue;
-    // Seen from the frame of the one, its shapes stand still.
-    const Frame &from = frames[one.frame], &to = frames[other.frame];
+    const float sum = one.ball + other.ball + tables_.slack;
+    if (bits(dot(way, way) > sum * sum) == 0xff) return;
     Frame between;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         between.r[3 * row + column] =
             from.r[row] * to.r[column] + from.r[3 + row] * to.r[3 + column] + from.r[6 + row] * to.r[6 + column];
     between.t = turned_back(from, {to.t.x - from.t.x, to.t.y - from.t.y, to.t.z - from.t.z});
+    const Gaps gaps = {all(tables_.slack), all(-tables_.slack)};
     for (int k = other.begin; k < other.end; ++k) {
       Frame pose;
-      compose(pose, between, tables.shapes[k].turn, tables.shapes[k].at);
+      compose(pose, between, tables_.shapes[k].turn, tables_.shapes[k].at);
       for (int i = one.begin; i < one.end; ++i) {
-        meet(tables.shapes[i], tables.shapes[k], pose, nearest, surely, {k, i, false, 0}, batch, touching);
-        if (any && touching != 0) return static_cast<unsigned char>(touching);
+        meet(tables_.shapes[i], tables_.shapes[k], pose, gaps, {k, i, false, 0});
+        if (decided()) return;
       }
     }
   }
-  return static_cast<unsigned char>(touching);
-}
+
+  const ScreenTables& tables_;
+  ScreenBatch& batch_;
+  const bool any_;
+  Frame frames_[kScreenJoints + 1];
+  unsigned touching_ = 0;
+};

@@ -16,7 +16,7 @@ namespace avx2_screen {
 }  // namespace avx2_screen
 
 static std::uint8_t screen_with_avx2(const ScreenTables& tables, ScreenBatch& batch, bool any) {
-  return avx2_screen::screen_all(tables, batch, any);
+  return avx2_screen::Screening(tables, batch, any).touching();
 }
 }  // namespace stampede
 

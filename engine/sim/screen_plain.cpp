@@ -7,7 +7,7 @@ namespace plain_screen {
 }  // namespace plain_screen
 
 std::uint8_t screen_plain(const ScreenTables& tables, ScreenBatch& batch, bool any) {
-  return plain_screen::screen_all(tables, batch, any);
+  return plain_screen::Screening(tables, batch, any).touching();
 }
 
 Screen fastest_screen() { return may_use_avx2() && screen_avx2() != nullptr ? screen_avx2() : screen_plain; }

@@ -32,13 +32,21 @@ double stopping_speed(double way, double acceleration, double linear_s = kLinear
   return way <= linear ? way / linear_s : std::sqrt(2 * acceleration * (way - linear / 2));
 }
 
+// A joint's position and velocity.
+struct Moving {
+  double position = 0, velocity = 0;
+};
+
 // For the next step, on the cubic that leads to a position with a velocity (Hermite).
-double passing_speed(double from, double velocity, double to, double end_velocity, double left_s, double dt) {
+double passing_speed(const Moving& from, const Moving& to, double left_s, double dt) {
   const double t = std::min(1.0, dt / left_s), square = t * t, cube = square * t;
-  const double way = (3 * square - 2 * cube) * (to - from) + (cube - 2 * square + t) * left_s * velocity +
-                     (cube - square) * left_s * end_velocity;
+  const double way = (3 * square - 2 * cube) * (to.position - from.position) +
+                     (cube - 2 * square + t) * left_s * from.velocity + (cube - square) * left_s * to.velocity;
   return way / dt;
 }
+
+// What pushes an arm from outside must not take it over its stops; positions lead it up to them.
+double margin_of(const operation::Servo& servo) { return leads(servo) ? 0 : kMargin_rad; }
 
 bool limited(const JointLimits& limits) { return limits.lower < limits.upper; }
 
@@ -54,14 +62,15 @@ std::pair<double, double> allowed(double position, const JointLimits& limits, do
 double brief_speed(const JointLimits& limits) { return std::sqrt(2 * acceleration_of(limits) * kOver_rad); }
 
 // Towards a position that is stopped at, or, with a speed in its direction, soon after.
-double leading_speed(double from, double velocity, double to, double passing, const JointLimits& limits, double dt) {
-  const double way = (limited(limits) ? std::clamp(to, limits.lower, limits.upper) : to) - from;
+double leading_speed(const Moving& from, const Moving& to, const JointLimits& limits, double dt) {
+  const double way =
+      (limited(limits) ? std::clamp(to.position, limits.lower, limits.upper) : to.position) - from.position;
   // What the jerk takes to turn the acceleration round is not there for stopping.
   const double turning_s = acceleration_of(limits) / jerk_of(limits);
-  const double lag = turning_s > dt ? std::abs(velocity) * turning_s : 0;
+  const double lag = turning_s > dt ? std::abs(from.velocity) * turning_s : 0;
   const double linear_s = std::max(kLinear_s, 2.5 * turning_s);
   const double stopping = stopping_speed(std::abs(way) - lag, acceleration_of(limits), linear_s);
-  return std::copysign(passing * way > 0 ? std::hypot(stopping, brief_speed(limits)) : stopping, way);
+  return std::copysign(to.velocity * way > 0 ? std::hypot(stopping, brief_speed(limits)) : stopping, way);
 }
 
 }  // namespace
@@ -81,13 +90,6 @@ double acceleration_of(const JointLimits& limits) {
 
 double catching_up(double error, double acceleration) {
   return std::copysign(stopping_speed(std::abs(error), acceleration, kCatch_s), error);
-}
-
-JointVector slowed(const Arm& arm, const JointVector& q, JointVector velocity, double pace, Limits& acted) {
-  const double speed = (arm.jacobian(q).topRows<3>() * velocity).norm();
-  if (speed <= pace * kToolSpeed) return velocity;
-  acted.note(pace < 1 ? Limit::approach : Limit::tool_speed);
-  return velocity * (pace * kToolSpeed / speed);
 }
 
 bool leads(const operation::Servo& servo) {
@@ -112,116 +114,140 @@ void Stream::follow(const JointVector& from, const JointVector& to, double secon
   due_s_ = seconds;
 }
 
-JointState guided(const JointState& now, const operation::Servo& servo, const Stream& stream, double since,
-                  const Arm& arm, double dt, const Guard& guard, Limits& acted) {
-  const std::vector<JointLimits>& limits = arm.limits();
-  const bool led = leads(servo), passage = servo.of == operation::Servo::Of::passage;
-  const double left_s = led ? stream.due_s() - since : 0;
-  JointVector wanted = servo.value;
-  // What each joint may have at its place, so that it can stop before its end.
-  const auto range = [&](Eigen::Index i) {
-    return allowed(now.position[i], limits[static_cast<std::size_t>(i)], led ? 0 : kMargin_rad, 1);
-  };
+const JointLimits& Governor::limits(Eigen::Index joint) const { return arm_.limits()[static_cast<std::size_t>(joint)]; }
+
+double Governor::tool_speed(const JointVector& q, const JointVector& velocity) const {
+  return (arm_.jacobian(q).topRows<3>() * velocity).norm();
+}
+
+// The tip is no faster than the robot's tool may be, by the pace: the same direction, slower.
+JointVector Governor::slowed(const JointVector& q, const JointVector& velocity, double pace) const {
+  const double speed = tool_speed(q, velocity);
+  if (speed <= pace * kToolSpeed) return velocity;
+  acted_.note(pace < 1 ? Limit::approach : Limit::tool_speed);
+  return velocity * (pace * kToolSpeed / speed);
+}
+
+// What an agent asks for, of one joint.
+double Governor::speed_asked(const JointState& now, const Aim& aim, Eigen::Index i) const {
+  const double value = aim.servo.value[i];
+  if (!leads(aim.servo)) return value;
+  const double left_s = aim.stream.due_s() - aim.since_s;
+  const double passing = left_s > dt_ / 2 ? aim.stream.passing(i) : 0;
+  const Moving from{now.position[i], now.velocity[i]}, to{value, passing};
+  const bool passage = aim.servo.of == operation::Servo::Of::passage;
+  return passing != 0 && (passage || std::abs(passing) <= brief_speed(limits(i)))
+             ? passing_speed(from, to, left_s, dt_)
+             : leading_speed(from, to, limits(i), dt_);
+}
+
+// The speeds that the joints should have: each can stop before its end, and waits for an arm that does not get on.
+JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const {
+  JointVector wanted(aim.servo.value.size());
   double slow = 1;  // share that the pace leaves
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const JointLimits& own = limits[static_cast<std::size_t>(i)];
-    const double q = now.position[i];
-    if (led) {
-      const double passing = left_s > dt / 2 ? stream.passing(i) : 0;
-      wanted[i] = passing != 0 && (passage || std::abs(passing) <= brief_speed(own))
-                      ? passing_speed(q, now.velocity[i], wanted[i], passing, left_s, dt)
-                      : leading_speed(q, now.velocity[i], wanted[i], passing, own, dt);
-    }
-    const auto [slowest, fastest] = range(i);
-    const double kept = std::clamp(wanted[i], slowest, fastest);
-    if (std::abs(kept - wanted[i]) > kLeastPull) acted.note(Limit::speed);
-    wanted[i] = kept;
+    const double most = guard_.pace * speed_of(limits(i)), speed = speed_asked(now, aim, i);
+    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin_of(aim.servo), 1);
+    wanted[i] = std::clamp(speed, slowest, fastest);
+    if (std::abs(wanted[i] - speed) > kLeastPull) acted_.note(Limit::speed);
     // Where it has to be slow it keeps to its way: all joints together.
-    if (std::abs(kept) > guard.pace * speed_of(own)) slow = std::min(slow, guard.pace * speed_of(own) / std::abs(kept));
-    if (guard.position.size() == 0) continue;
-    const double ahead = std::copysign(1.0, wanted[i]) * (q - guard.position[i]);
-    if (ahead <= guard.lead / 2 || wanted[i] == 0) continue;
-    acted.note(Limit::reference);
-    wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard.lead);
+    if (std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
+    if (guard_.position.size() == 0) continue;
+    const double ahead = std::copysign(1.0, wanted[i]) * (now.position[i] - guard_.position[i]);
+    if (ahead <= guard_.lead / 2 || wanted[i] == 0) continue;
+    acted_.note(Limit::reference);
+    wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard_.lead);
   }
-  if (slow < 1) acted.note(Limit::approach);
+  if (slow < 1) acted_.note(Limit::approach);
   wanted *= slow;
-  wanted = slowed(arm, now.position, wanted, guard.pace, acted);
+  return slowed(now.position, wanted, guard_.pace);
+}
 
-  // Joints that change their speed each in its own time could make the tool faster than before and after; and as they
-  // turn, the tool gets faster by itself.
+// Joints that change their speed each in its own time could make the tool faster than before and after; and as they
+// turn, the tool gets faster by itself. Then they change it together, but each brakes for its stops.
+JointVector Governor::together(const JointState& now, const JointVector& wanted, double margin) const {
   double share = 1;
   JointVector soon = now.velocity;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const double most = acceleration_of(limits[static_cast<std::size_t>(i)]) * dt, change = wanted[i] - now.velocity[i];
+    const double most = acceleration_of(limits(i)) * dt_, change = wanted[i] - now.velocity[i];
     soon[i] += std::clamp(change, -most, most);
     if (std::abs(change) > most) share = std::min(share, most / std::abs(change));
   }
-  if ((arm.jacobian(now.position).topRows<3>() * soon).norm() > kToolSpeed) {
-    wanted = now.velocity + share * (wanted - now.velocity);
-    for (Eigen::Index i = 0; i < wanted.size(); ++i) {  // but each brakes for its stops
-      const auto [slowest, fastest] = range(i);
-      wanted[i] = std::clamp(wanted[i], slowest, fastest);
-    }
-    wanted = slowed(arm, now.position, wanted, 1, acted);
-    acted.note(Limit::tool_speed);
+  if (!(tool_speed(now.position, soon) > kToolSpeed)) return wanted;
+  JointVector slower = now.velocity + share * (wanted - now.velocity);
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin, 1);
+    slower[i] = std::clamp(slower[i], slowest, fastest);
   }
+  slower = slowed(now.position, slower, 1);
+  acted_.note(Limit::tool_speed);
+  return slower;
+}
 
+// That leads a joint towards a velocity.
+double Governor::acceleration(const JointState& now, double velocity, Eigen::Index i) const {
+  const double most = acceleration_of(limits(i)), jerk = jerk_of(limits(i));
+  const double asked = (velocity - now.velocity[i]) / dt_;
+  double acceleration = std::clamp(asked, -most, most);
+  // What is to be slow starts gently too: a stiff arm that is held by something presses as hard as it would start.
+  if (std::abs(now.velocity[i] + acceleration * dt_) > std::abs(now.velocity[i])) {
+    const double start = std::max(guard_.pace, kGentlest) * most;
+    acceleration = std::clamp(acceleration, -start, start);
+  }
+  if (std::abs(acceleration - asked) > kLeastPull / dt_) acted_.note(Limit::acceleration);
+  const double eased = std::clamp(acceleration, std::min(now.acceleration[i] - jerk * dt_, most),
+                                  std::max(now.acceleration[i] + jerk * dt_, -most));
+  if (std::abs(eased - acceleration) > kLeastPull / dt_) acted_.note(Limit::jerk);
+  return eased;
+}
+
+JointState Governor::guided(const JointState& now, const Aim& aim) const {
+  const JointVector wanted = together(now, speeds_wanted(now, aim), margin_of(aim.servo));
   JointState next = now;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const JointLimits& own = limits[static_cast<std::size_t>(i)];
-    const double q = now.position[i], most = acceleration_of(own), jerk = jerk_of(own);
-    const double asked = (wanted[i] - now.velocity[i]) / dt;
-    double acceleration = std::clamp(asked, -most, most);
-    // What is to be slow starts gently too: a stiff arm that is held by something presses as hard as it would start.
-    if (std::abs(now.velocity[i] + acceleration * dt) > std::abs(now.velocity[i])) {
-      const double start = std::max(guard.pace, kGentlest) * most;
-      acceleration = std::clamp(acceleration, -start, start);
-    }
-    if (std::abs(acceleration - asked) > kLeastPull / dt) acted.note(Limit::acceleration);
-    const double eased = std::clamp(acceleration, std::min(now.acceleration[i] - jerk * dt, most),
-                                    std::max(now.acceleration[i] + jerk * dt, -most));
-    if (std::abs(eased - acceleration) > kLeastPull / dt) acted.note(Limit::jerk);
-    double velocity = std::clamp(now.velocity[i] + eased * dt, -speed_of(own), speed_of(own));
-    double position = q + velocity * dt;
+    const JointLimits& own = limits(i);
+    const double q = now.position[i];
+    double velocity =
+        std::clamp(now.velocity[i] + acceleration(now, wanted[i], i) * dt_, -speed_of(own), speed_of(own));
+    double position = q + velocity * dt_;
     if (limited(own) && (position < own.lower || position > own.upper)) {
       position = std::clamp(position, std::min(q, own.lower), std::max(q, own.upper));
-      velocity = (position - q) / dt;
+      velocity = (position - q) / dt_;
     }
-    if (guard.position.size() > 0) {
-      const double near = std::clamp(position, guard.position[i] - 2 * guard.lead, guard.position[i] + 2 * guard.lead);
+    if (guard_.position.size() > 0) {
+      const double near =
+          std::clamp(position, guard_.position[i] - 2 * guard_.lead, guard_.position[i] + 2 * guard_.lead);
       if (near != position) {
         position = near;
-        velocity = std::clamp((near - q) / dt, -speed_of(own), speed_of(own));
+        velocity = std::clamp((near - q) / dt_, -speed_of(own), speed_of(own));
       }
     }
     next.position[i] = position;
     next.velocity[i] = velocity;
-    next.acceleration[i] = (velocity - now.velocity[i]) / dt;
+    next.acceleration[i] = (velocity - now.velocity[i]) / dt_;
   }
   return next;
 }
 
-JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
-                              const Arm& arm, double dt, double pace, double margin, Limits& acted) {
-  JointVector next = velocity + dt * asked;
-  const JointVector ahead = position + dt * velocity;
+JointVector Governor::safe_acceleration(const JointVector& asked, const JointVector& position,
+                                        const JointVector& velocity, double margin) const {
+  JointVector next = velocity + dt_ * asked;
+  const JointVector ahead = position + dt_ * velocity;
   for (Eigen::Index i = 0; i < next.size(); ++i) {
-    const auto [slowest, fastest] = allowed(ahead[i], arm.limits()[static_cast<std::size_t>(i)], margin, pace);
+    const auto [slowest, fastest] = allowed(ahead[i], limits(i), margin, guard_.pace);
     const double kept = std::clamp(next[i], slowest, fastest);
-    if (kept != next[i]) acted.note(pace < 1 ? Limit::approach : Limit::speed);
+    if (kept != next[i]) acted_.note(guard_.pace < 1 ? Limit::approach : Limit::speed);
     next[i] = kept;
   }
-  next = slowed(arm, position, next, pace, acted);
-  JointVector result = (next - velocity) / dt;
+  next = slowed(position, next, guard_.pace);
+  JointVector result = (next - velocity) / dt_;
   for (Eigen::Index i = 0; i < next.size(); ++i) {
-    const JointLimits& own = arm.limits()[static_cast<std::size_t>(i)];
-    const double most = acceleration_of(own);
-    if (std::abs(result[i]) > most) acted.note(Limit::acceleration);
+    const double most = acceleration_of(limits(i));
+    if (std::abs(result[i]) > most) acted_.note(Limit::acceleration);
     // To stop before its end, a joint may do more.
-    const auto [slowest, fastest] = allowed(ahead[i], own, margin, 1);
+    const auto [slowest, fastest] = allowed(ahead[i], limits(i), margin, 1);
     result[i] =
-        std::clamp(std::clamp(result[i], -most, most), (slowest - velocity[i]) / dt, (fastest - velocity[i]) / dt);
+        std::clamp(std::clamp(result[i], -most, most), (slowest - velocity[i]) / dt_, (fastest - velocity[i]) / dt_);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <bitset>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/sim/world.h"
@@ -64,21 +65,44 @@ class Stream {
   double due_s_ = 0;
 };
 
-// Joint velocities whose tip is no faster than the robot's tool may be, by the pace: the same direction, slower.
-JointVector slowed(const Arm& arm, const JointVector& q, JointVector velocity, double pace, Limits& acted);
+// What a reference goes after: what an agent asked for so long ago, and the way that its positions are.
+struct Aim {
+  const operation::Servo& servo;
+  const Stream& stream;
+  double since_s = 0;
+};
 
-// The reference one physics step later, `since` seconds after the servo was given. It goes towards a position, or takes
-// on a velocity, as fast as the limits of the tool's speed and of each joint's speed, acceleration and jerk allow, and
-// never beyond its stops: near its goal, and near a stop, it slows down by the square root of the way that is left, and
-// in the end linearly (a filter of third order, after Kroeger, Wahl 2010, doi:10.1109/TRO.2009.2035744). Not for
-// torques. Repeatable.
-JointState guided(const JointState& now, const operation::Servo& servo, const Stream& stream, double since,
-                  const Arm& arm, double dt, const Guard& guard, Limits& acted);
+// Keeps what an agent asks for within the limits of an arm, and notes which of them acted. Lives for a step.
+class Governor {
+ public:
+  Governor(const Arm& arm, double dt, Guard guard, Limits& acted)
+      : arm_(arm), dt_(dt), guard_(std::move(guard)), acted_(acted) {}
 
-// The acceleration closest to the one asked for that breaks no limit of speed and acceleration and can still stop short
-// `margin` short of the stops. Shapes: one entry a joint. rad/s^2.
-JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
-                              const Arm& arm, double dt, double pace, double margin, Limits& acted);
+  // The reference one physics step later. It goes towards a position, or takes on a velocity, as fast as the limits of
+  // the tool's speed and of each joint's speed, acceleration and jerk allow, and never beyond its stops: near its goal,
+  // and near a stop, it slows down by the square root of the way that is left, and in the end linearly (a filter of
+  // third order, after Kroeger, Wahl 2010, doi:10.1109/TRO.2009.2035744). Not for torques. Repeatable.
+  JointState guided(const JointState& now, const Aim& aim) const;
+
+  // The acceleration closest to the one asked for that breaks no limit of speed and acceleration and can still stop
+  // `margin` short of the stops. Shapes: one entry a joint. rad/s^2.
+  JointVector safe_acceleration(const JointVector& asked, const JointVector& position, const JointVector& velocity,
+                                double margin) const;
+
+ private:
+  const JointLimits& limits(Eigen::Index joint) const;
+  double tool_speed(const JointVector& q, const JointVector& velocity) const;
+  JointVector slowed(const JointVector& q, const JointVector& velocity, double pace) const;
+  double speed_asked(const JointState& now, const Aim& aim, Eigen::Index joint) const;
+  JointVector speeds_wanted(const JointState& now, const Aim& aim) const;
+  JointVector together(const JointState& now, const JointVector& wanted, double margin) const;
+  double acceleration(const JointState& now, double velocity, Eigen::Index joint) const;
+
+  const Arm& arm_;
+  double dt_;
+  Guard guard_;
+  Limits& acted_;
+};
 
 // The speed at which a motor may take away an error of position, so that it can still stop there. rad, rad/s.
 double catching_up(double error, double acceleration);

@@ -10,7 +10,6 @@
 #include "engine/model/operation.h"
 #include "engine/model/part_ref.h"
 #include "engine/model/scene.h"
-#include "engine/sim/load.h"
 
 namespace stampede {
 
@@ -96,10 +95,6 @@ class World {
   // The body held by friction in the last window: both pads touch it, at least 0.5 N mean each, normals opposed
   // within 45 degrees. Nothing: std::nullopt.
   std::optional<PartRef> grasped(int robot = 0) const;
-
-  // What rests on what, in the last window: of each free body that the hand does not hold what bears most of it, a
-  // quarter of its weight at least. Contents are load: they go with what bears them.
-  std::vector<Borne> loads() const;
 
   // What contacts did in the last step to `robot_part` and all parts beyond it, from the outside: the hand, the fingers
   // and, through the pads, what they hold. As a wrist sensor reads that was tared with an empty hand: weight and

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/base/error.h"
 
@@ -13,6 +14,24 @@ constexpr std::size_t kEnoughGrasps = 2;    // grasps: not by a hair
 
 void put(const WorldView& view, const std::string& part, double position, CollisionState& space) {
   space.move_part(view.part_of(part), view.part_at(part, position) * view.world_from(part).inverse());
+}
+
+// The world as planning sees it, with a part that is in front of something open, as far as it is pulled.
+CollisionState space_behind(const WorldView& view, const std::string& before) {
+  CollisionState space = view.world().collision_state();
+  if (before.empty()) return space;
+  const auto& numbers = view.object(before).numbers;
+  put(view, before, numbers.contains("pull") ? numbers.at("pull") : view.joint_range(before).second, space);
+  return space;
+}
+
+// Where a number of the part lies on its way from where its joint is to where another of its numbers says.
+std::optional<double> share_of(const WorldView& view, const std::string& part, const std::string& to,
+                               const std::string& number) {
+  const auto& numbers = view.object(part).numbers;
+  if (!numbers.contains(to) || !numbers.contains(number)) return std::nullopt;
+  const double from = view.joint(part);
+  return (numbers.at(number) - from) / (numbers.at(to) - from);
 }
 
 }  // namespace
@@ -41,80 +60,65 @@ PartWay way_of_part(const WorldView& view, const std::string& name, double posit
   return way;
 }
 
-std::vector<GraspCandidate> grasps_to_go(const WorldView& view, const CollisionState& space, const std::string& object,
-                                         const std::optional<PartWay>& follow, double from, double to, RandomKey key,
-                                         int most) {
-  const auto grasps = [&](const std::optional<PartWay>& way) {
-    return grasp_candidates(space, view.world(), view.object(object), planning_start(view.world()), key, most, way);
-  };
-  if (!follow) return grasps({});
+GraspQuery grasp_query(const WorldView& view, const CollisionState& space, const std::string& object, RandomKey key) {
+  return {space, view.world(), view.object(object), planning_start(view.world()), key};
+}
+
+std::vector<GraspCandidate> grasps_to_go(const GraspQuery& query, int most, const std::optional<PartMove>& follow) {
+  if (!follow) return grasp_candidates(query, most);
   for (const double share : {1.0, 0.75, 0.5, 0.25, 0.125}) {
     // Of a straight way no second grip does what the first cannot: something is before it, and has to be found.
-    if (share < 1 && follow->turn == 0) break;
-    std::vector<GraspCandidate> found = grasps(first_of(*follow, share));
-    for (GraspCandidate& grasp : found) grasp.reach = share == 1 ? to : from + share * (to - from);
+    if (share < 1 && follow->way.turn == 0) break;
+    std::vector<GraspCandidate> found = grasp_candidates(query, most, first_of(follow->way, share));
+    for (GraspCandidate& grasp : found)
+      grasp.reach = share == 1 ? follow->to : follow->from + share * (follow->to - follow->from);
     if (!found.empty()) return found;
   }
   return {};
 }
 
-std::optional<PartWay> way_to(const WorldView& view, const std::string& name, const std::string& to) {
+std::optional<PartMove> part_move_to(const WorldView& view, const std::string& name, const std::string& to) {
   const auto& numbers = view.object(name).numbers;
   const auto found = numbers.find(to);
   if (found == numbers.end()) return std::nullopt;
   const auto pivot = numbers.find("pivot");
   PartWay way = way_of_part(view, name, found->second, pivot == numbers.end() ? 0 : pivot->second);
   way.retreat = 0.08;  // m: what is let go is then left
-  return way;
+  return PartMove{std::move(way), view.joint(name), found->second};
 }
 
-// Where a number of the part lies on its way from where its joint is to where another of its numbers says.
-static std::optional<double> share_of(const WorldView& view, const std::string& part, const std::string& to,
-                                      const std::string& number) {
-  const auto& numbers = view.object(part).numbers;
-  if (!numbers.contains(to) || !numbers.contains(number)) return std::nullopt;
-  const double from = view.joint(part);
-  return (numbers.at(number) - from) / (numbers.at(to) - from);
-}
-
-CollisionState WorldView::space_behind(const std::string& before) const {
-  CollisionState space = world_->collision_state();
-  if (before.empty()) return space;
-  const auto& numbers = object(before).numbers;
-  put(*this, before, numbers.contains("pull") ? numbers.at("pull") : joint_range(before).second, space);
-  return space;
-}
-
-bool WorldView::can_grasp(const std::string& name, const std::string& before) const {
-  const CollisionState space = space_behind(before);
+bool can_grasp(const WorldView& view, const std::string& name, const std::string& before) {
+  const CollisionState space = space_behind(view, before);
+  const World& world = view.world();
   return std::ranges::all_of(std::array{"can_grasp", "again", "once more"}, [&](const char* draw) {
     const auto grasps =
-        grasp_candidates(space, *world_, object(name), world_->arm_position(), RandomKey(draw), kEnoughGrasps);
+        grasp_candidates({space, world, view.object(name), world.arm_position(), RandomKey(draw)}, kEnoughGrasps);
     return grasps.size() == kEnoughGrasps;
   });
 }
 
-bool WorldView::can_move(const std::string& part, const std::string& to, const std::string& before,
-                         const std::string& enough) const {
+bool can_move(const WorldView& view, const std::string& part, const std::string& to, const std::string& before,
+              const std::string& enough) {
   constexpr int kMostGrips = 8;  // half of what a skill may take (worlds/lib/grips.lua): a start has something in hand
   constexpr double kSlack = 0.03;  // of the way: what a handle gives in the hand
-  CollisionState space = space_behind(before);
+  CollisionState space = space_behind(view, before);
   // What else of the furniture is open may be shut first: that is for the plan to find.
-  for (const Object& other : scene().objects)
-    if (other.kind == ObjectKind::part && other.body == object(part).body && other.name != part &&
+  for (const Object& other : view.scene().objects)
+    if (other.kind == ObjectKind::part && other.body == view.object(part).body && other.name != part &&
         other.name != before && other.numbers.contains("closed_at"))
-      put(*this, other.name, other.numbers.at("closed_at"), space);
-  for (const PartRef one : with_mounted(scene(), part_of(part))) space.allow(one);
-  const std::optional<PartWay> way = way_to(*this, part, to);
-  const auto needed = share_of(*this, part, to, enough.empty() ? to : enough);
-  if (!way || !needed) throw Error("can_move", "'" + part + "' has no number '" + (way ? enough : to) + "'");
+      put(view, other.name, other.numbers.at("closed_at"), space);
+  for (const PartRef one : with_mounted(view.scene(), view.part_of(part))) space.allow(one);
+  const std::optional<PartMove> move = part_move_to(view, part, to);
+  const auto needed = share_of(view, part, to, enough.empty() ? to : enough);
+  if (!move || !needed) throw Error("can_move", "'" + part + "' has no number '" + (move ? enough : to) + "'");
   const double least = std::min(1.0, *needed + kSlack);
   double done = 0;  // share of the way, grip by grip
   for (int grip = 0; grip < kMostGrips && done < least; ++grip) {
     CollisionState there = space;
-    there.move_part(way->part, way->moved(done));
+    there.move_part(move->way.part, move->way.moved(done));
     const std::size_t wanted = grip == 0 ? kEnoughGrasps : 1;
-    const auto found = grasps_to_go(*this, there, part, rest_of(*way, done), done, 1, RandomKey("can_move"), wanted);
+    const auto found = grasps_to_go(grasp_query(view, there, part, RandomKey("can_move")), wanted,
+                                    PartMove{rest_of(move->way, done), done, 1});
     if (found.size() < wanted) return false;
     done = *found.front().reach;
   }

@@ -11,15 +11,31 @@
 
 namespace stampede {
 
+// Grasps of an object by the arm from where plans start. Lifetime: refers to the world and `space`.
+GraspQuery grasp_query(const WorldView& view, const CollisionState& space, const std::string& object, RandomKey key);
+
+// How a part goes, and the positions of its joint at the ends of that way.
+struct PartMove {
+  PartWay way;
+  double from = 0, to = 0;
+};
+
 // Grasps of an object, best first, at most `most`. `follow`: only those from which the arm can go with the part the
-// whole way; where there are none, those from which it can go 3/4 of it, or 1/2, 1/4, 1/8. `from`, `to`: the positions
-// of its joint at the ends of that way; each grasp then says its `reach`.
-std::vector<GraspCandidate> grasps_to_go(const WorldView& view, const CollisionState& space, const std::string& object,
-                                         const std::optional<PartWay>& follow, double from, double to, RandomKey key,
-                                         int most);
+// whole way; where there are none, those from which it can go 3/4 of it, or 1/2, 1/4, 1/8. Each then says its `reach`.
+std::vector<GraspCandidate> grasps_to_go(const GraspQuery& query, int most, const std::optional<PartMove>& follow = {});
+
+// Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way, however
+// they are drawn? With `before`, a part that it is behind, open. As costly as looking for grasps: some milliseconds.
+bool can_grasp(const WorldView& view, const std::string& object, const std::string& before = {});
+// Could the arm, from where it is, take the part with two of its grasps at least and go with it, nothing in its way,
+// towards where its number `to` says, and with one grip after another, from wherever the last one ends, at least as
+// far as its number `enough` (by default `to`)? With `before`, a part that the way is behind, open. As costly as
+// looking for such grasps: up to a second each where there is none.
+bool can_move(const WorldView& view, const std::string& part, const std::string& to, const std::string& before = {},
+              const std::string& enough = {});
 
 // How a part moves from where its joint is to where its number `to` says, and is then let go; nothing: it has none.
-std::optional<PartWay> way_to(const WorldView& view, const std::string& name, const std::string& to);
+std::optional<PartMove> part_move_to(const WorldView& view, const std::string& name, const std::string& to);
 
 // How a part goes from where its joint is to `position`, its handle free to turn in the hand by `pivot` rad.
 PartWay way_of_part(const WorldView& view, const std::string& name, double position, double pivot);

@@ -170,42 +170,39 @@ namespace {
 
 using Visit = std::function<void(const std::vector<std::string>&)>;
 
-void complete(const Action& action, std::vector<std::string>& arguments, std::size_t index, const FactTracker& facts,
-              const Domain& domain, const Visit& visit) {
-  if (index == action.parameters.size()) return visit(arguments);
-  if (!arguments[index].empty()) return complete(action, arguments, index + 1, facts, domain, visit);
-  const Parameter& parameter = action.parameters[index];
-  for (const TypedObject& candidate : facts.objects()) {
-    if (!parameter.type.empty() && !domain.is_a(candidate.type, parameter.type)) continue;
-    const auto has = [&](const std::string& trait) { return facts.facts().contains({trait, {candidate.name}}); };
-    if (!std::all_of(parameter.traits.begin(), parameter.traits.end(), has)) continue;
+void complete(const Action& action, std::vector<std::string>& arguments, const symbolic::View& view, const Visit& visit,
+              std::size_t from = 0) {
+  if (from == action.parameters.size()) return visit(arguments);
+  if (!arguments[from].empty()) return complete(action, arguments, view, visit, from + 1);
+  for (const TypedObject& candidate : view.objects) {
+    if (!symbolic::admits(action.parameters[from], candidate, view)) continue;
     if (std::find(arguments.begin(), arguments.end(), candidate.name) != arguments.end()) continue;
-    arguments[index] = candidate.name;
-    complete(action, arguments, index + 1, facts, domain, visit);
-    arguments[index].clear();
+    arguments[from] = candidate.name;
+    complete(action, arguments, view, visit, from + 1);
+    arguments[from].clear();
   }
 }
 
 // What is left open is tried object by object.
-void limit_choices(const Action& action, const std::vector<std::string>& arguments, const FactTracker& facts,
-                   const Domain& domain) {
+void limit_choices(const Action& action, const std::vector<std::string>& arguments, const symbolic::View& view) {
   std::vector<Parameter> open;
   for (std::size_t i = 0; i < arguments.size(); ++i)
     if (arguments[i].empty()) open.push_back(action.parameters[i]);
-  symbolic::limit_instances(action.name, open, {facts.facts(), domain, facts.objects()}, "skill " + action.skill);
+  symbolic::limit_instances(action.name, open, view, "skill " + action.skill);
 }
 
 }  // namespace
 
 PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTracker& facts) {
+  const symbolic::View view{facts.facts(), domain, facts.objects()};
   std::vector<PlanStep> fitting;
   for (const Action& action : domain.actions) {
     if (action.name != step.action && action.skill != step.action) continue;
     std::vector<std::string> arguments = step.arguments;
     arguments.resize(action.parameters.size());
     const bool whole = std::none_of(arguments.begin(), arguments.end(), [](const auto& name) { return name.empty(); });
-    limit_choices(action, arguments, facts, domain);
-    complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
+    limit_choices(action, arguments, view);
+    complete(action, arguments, view, [&](const std::vector<std::string>& names) {
       if (whole || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
         fitting.push_back({action.name, names});
     });
@@ -226,6 +223,7 @@ PlanStep resolve_step(const PlanStep& step, const Domain& domain, const FactTrac
 }
 
 std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& facts, bool applicable, RandomKey key) {
+  const symbolic::View view{facts.facts(), domain, facts.objects()};
   Random random(key);
   const auto below = [&](std::size_t n) {
     return static_cast<std::size_t>(random.below(static_cast<std::int64_t>(n)));
@@ -238,8 +236,8 @@ std::optional<PlanStep> random_step(const Domain& domain, const FactTracker& fac
     actions.erase(actions.begin() + static_cast<std::ptrdiff_t>(index));
     std::vector<std::vector<std::string>> bindings;
     std::vector<std::string> arguments(action.parameters.size());
-    limit_choices(action, arguments, facts, domain);
-    complete(action, arguments, 0, facts, domain, [&](const std::vector<std::string>& names) {
+    limit_choices(action, arguments, view);
+    complete(action, arguments, view, [&](const std::vector<std::string>& names) {
       if (!applicable || holds(action.precondition, facts.facts(), domain, facts.objects(), binding_of(action, names)))
         bindings.push_back(names);
     });

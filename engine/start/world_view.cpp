@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/motion/candidates.h"
+#include "engine/sim/load.h"
 
 namespace stampede {
 namespace {
@@ -243,7 +244,7 @@ bool WorldView::touched_by_others(const Object& thing) const {
     });
   };
   if (!touches([&](PartRef part) { return owns(thing, part); })) return false;
-  const std::vector<int> load = borne_by(scene(), world_->loads(), {body_of(thing), thing.part});
+  const std::vector<int> load = borne_by(scene(), loads(*world_), {body_of(thing), thing.part});
   return touches(
       [&](PartRef part) { return owns(thing, part) || std::find(load.begin(), load.end(), part.body) != load.end(); });
 }
@@ -305,8 +306,6 @@ std::string WorldView::grasped_object() const {
   }
   return whole;
 }
-
-double WorldView::opening() const { return world_->opening(); }
 
 bool WorldView::inside(std::string_view region_name, std::string_view name, bool whole) const {
   const Transform region_from_object = world_from(region_name).inverse() * world_from(name);

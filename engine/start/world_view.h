@@ -57,19 +57,7 @@ class WorldView {
   // Grasped, and nothing but the hand touches it. Margin: how deep it could fall; while it is not in the hand, that of
   // grasped().
   Judged carried(std::string_view object) const;
-  // Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way, however
-  // they are drawn? With `before`, a part that it is behind, open. As costly as looking for grasps: some milliseconds.
-  bool can_grasp(const std::string& object, const std::string& before = {}) const;
-  // Could the arm, from where it is, take the part with two of its grasps at least and go with it, nothing in its way,
-  // towards where its number `to` says, and with one grip after another, from wherever the last one ends, at least as
-  // far as its number `enough` (by default `to`)? With `before`, a part that the way is behind, open. As costly as
-  // looking for such grasps: up to a second each where there is none.
-  bool can_move(const std::string& part, const std::string& to, const std::string& before = {},
-                const std::string& enough = {}) const;
-  // The world as planning sees it, with a part that is in front of something open, as far as it is pulled.
-  CollisionState space_behind(const std::string& before) const;
   std::string grasped_object() const;  // or empty
-  double opening() const;              // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?
   bool inside(std::string_view region, std::string_view object, bool whole = false) const;
   // Signed distance of a point to the region's box, negative inside, m.

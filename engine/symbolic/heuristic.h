@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/symbolic/relaxation.h"
+#include "engine/symbolic/goal_rules.h"
 #include "engine/symbolic/successors.h"
 
 namespace stampede::symbolic {
@@ -12,6 +12,8 @@ namespace stampede::symbolic {
 class Heuristic {
  public:
   explicit Heuristic(const GroundTask& task);
+  Heuristic(const Heuristic&) = delete;
+  Heuristic& operator=(const Heuristic&) = delete;
 
   void set_goal(const Literals& goal);  // literals that conditions or the task's goal mention
 
@@ -28,12 +30,6 @@ class Heuristic {
   Literals unreached_goal() const;
 
  private:
-  struct Counter {   // in the numbers of set_goal
-    int open, cost;  // conditions not yet reached; the sum of the costs of those reached
-  };
-  void find_stale();
-  std::vector<char> relevant_rules(std::vector<char>& relevant_nodes) const;
-  void index_uses();
   void enqueue(int node, int cost, int rule);
   void fire(int rule);
   bool explore();
@@ -43,22 +39,12 @@ class Heuristic {
   const std::vector<int>* costs_ = nullptr;
   Relaxation relaxation_;
   Successors successors_;
-  // By condition of a rule (as in the relaxation): whether what achieves it has already had all that the rule makes
-  // true. Then the rule is of use only where the condition holds from the start.
-  std::vector<char> is_stale_;
-  std::vector<std::vector<int>> achievers_;  // by node: rules
-
-  // What bears on the goal, by its own numbers for rules; made by set_goal.
-  std::vector<int> rule_of_;                          // the relaxation's
-  int costly_ = 0;                                    // rules below it are operators'
-  std::vector<int> effects_begin_, effects_;          // by rule
-  std::vector<int> used_begin_, used_middle_, used_;  // by node; those from middle on only at the start
-  std::vector<int> unconditional_;                    // rules without conditions
+  GoalRules rules_;  // whose numbers rules have below
 
   std::vector<int> goal_;
   std::vector<char> is_goal_;
-  std::vector<int> cost_, supporter_;          // by node
-  std::vector<Counter> counters_, untouched_;  // by rule
+  std::vector<int> cost_, supporter_;         // by node
+  std::vector<GoalRules::Counter> counters_;  // by rule
   std::vector<std::vector<int>> buckets_;
   std::vector<int> applicable_, preferred_, relaxed_ops_, ready_;
   std::vector<char> marked_, op_marked_;

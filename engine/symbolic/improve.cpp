@@ -42,6 +42,79 @@ std::vector<int> Improver::eliminate(std::vector<int> plan) const {
   return plan;
 }
 
+namespace {
+
+// Derived literals become the basic facts below them, as a state has these: more than is needed.
+class Unfolding {
+ public:
+  explicit Unfolding(const GroundTask& task)
+      : basic_(task.basic),
+        reads_(static_cast<std::size_t>(task.facts - task.basic)),
+        seen_(static_cast<std::size_t>(task.facts), 0) {
+    for (const Axiom& axiom : task.axioms) {
+      std::vector<int>& own = reads_[axiom.head - task.basic];
+      for (const Literal one : axiom.body) own.push_back(one >> 1);
+    }
+  }
+
+  void unfold(Literals& literals, const Words& state) {
+    Literals basic;
+    for (const Literal one : literals) {
+      if (one >> 1 < basic_) {
+        basic.push_back(one);
+      } else {
+        stack_.push_back(one >> 1);
+      }
+    }
+    while (!stack_.empty()) {
+      const int fact = stack_.back();
+      stack_.pop_back();
+      if (seen_[fact]) continue;
+      seen_[fact] = 1;
+      touched_.push_back(fact);
+      if (fact < basic_) {
+        basic.push_back(2 * fact + (test(state.data(), fact) ? 0 : 1));
+      } else {
+        stack_.insert(stack_.end(), reads_[fact - basic_].begin(), reads_[fact - basic_].end());
+      }
+    }
+    for (const int fact : touched_) seen_[fact] = 0;
+    touched_.clear();
+    std::sort(basic.begin(), basic.end());
+    basic.erase(std::unique(basic.begin(), basic.end()), basic.end());
+    literals = std::move(basic);
+  }
+
+ private:
+  int basic_;
+  std::vector<std::vector<int>> reads_;  // by derived fact: what its axioms read
+  std::vector<char> seen_;
+  std::vector<int> stack_, touched_;
+};
+
+// What must hold in a state so that the step can be taken there and `after` holds then.
+Literals regressed(const Literals& after, const Operator& step, const Words& state) {
+  Literals before = step.precondition;
+  for (const ConditionalEffect& effect : step.conditional) {
+    for (const Literal one : effect.when) before.push_back(literal_holds(state.data(), one) ? one : one ^ 1);
+    const int fact = effect.effect >> 1;  // may or may not be changed: what matters later must be right before
+    if (std::binary_search(after.begin(), after.end(), effect.effect) ||
+        std::binary_search(after.begin(), after.end(), effect.effect ^ 1)) {
+      before.push_back(2 * fact + (test(state.data(), fact) ? 0 : 1));
+    }
+  }
+  for (const Literal one : after) {
+    if (std::binary_search(step.effects.begin(), step.effects.end(), one)) continue;
+    const bool is_conditional =
+        std::any_of(step.conditional.begin(), step.conditional.end(),
+                    [&](const ConditionalEffect& effect) { return effect.effect >> 1 == one >> 1; });
+    if (!is_conditional) before.push_back(one);
+  }
+  return before;
+}
+
+}  // namespace
+
 // What must hold before each step so that the rest of the plan works and ends in the goal: exact for plain effects. For
 // conditional effects and axioms it is more than needed: all that the rest reads, directly or through axioms, as it is.
 std::vector<Literals> Improver::needed_before(const std::vector<int>& plan) const {
@@ -51,66 +124,14 @@ std::vector<Literals> Improver::needed_before(const std::vector<int>& plan) cons
     semantics.apply(states.back(), op, next);
     states.push_back(std::move(next));
   }
-  std::vector<std::vector<int>> reads(
-      static_cast<std::size_t>(task.facts - task.basic));  // basic facts, by derived one
-  for (const Axiom& axiom : task.axioms) {
-    std::vector<int>& own = reads[axiom.head - task.basic];
-    for (const Literal one : axiom.body) own.push_back(one >> 1);
-  }
-  std::vector<char> seen(static_cast<std::size_t>(task.facts), 0);
-  std::vector<int> stack, touched;
-  const auto expand = [&](Literals& literals, const Words& state) {  // derived literals into the facts below them
-    stack.clear();
-    touched.clear();
-    Literals basic;
-    for (const Literal one : literals) {
-      if (one >> 1 < task.basic) {
-        basic.push_back(one);
-      } else {
-        stack.push_back(one >> 1);
-      }
-    }
-    while (!stack.empty()) {
-      const int fact = stack.back();
-      stack.pop_back();
-      if (seen[fact]) continue;
-      seen[fact] = 1;
-      touched.push_back(fact);
-      if (fact < task.basic) {
-        basic.push_back(2 * fact + (test(state.data(), fact) ? 0 : 1));
-      } else {
-        stack.insert(stack.end(), reads[fact - task.basic].begin(), reads[fact - task.basic].end());
-      }
-    }
-    for (const int fact : touched) seen[fact] = 0;
-    std::sort(basic.begin(), basic.end());
-    basic.erase(std::unique(basic.begin(), basic.end()), basic.end());
-    literals = std::move(basic);
-  };
+  Unfolding below(task);
   std::vector<Literals> needed(plan.size() + 1);
   needed.back() = task.goal;
   for (std::size_t i = plan.size(); i-- > 0;) {
-    const Operator& op = task.operators[plan[i]];
-    Literals after = needed[i + 1], before = op.precondition;
-    if (i + 1 < plan.size()) expand(after, states[i + 1]);
-    if (i + 1 == plan.size() && !task.axioms.empty()) expand(after, states[i + 1]);
-    for (const ConditionalEffect& effect : op.conditional) {
-      for (const Literal one : effect.when) before.push_back(literal_holds(states[i].data(), one) ? one : one ^ 1);
-      const int fact = effect.effect >> 1;  // may or may not be changed: what matters later must be right before
-      if (std::binary_search(after.begin(), after.end(), effect.effect) ||
-          std::binary_search(after.begin(), after.end(), effect.effect ^ 1)) {
-        before.push_back(2 * fact + (test(states[i].data(), fact) ? 0 : 1));
-      }
-    }
-    for (const Literal one : after) {
-      if (std::binary_search(op.effects.begin(), op.effects.end(), one)) continue;
-      const bool is_conditional =
-          std::any_of(op.conditional.begin(), op.conditional.end(),
-                      [&](const ConditionalEffect& effect) { return effect.effect >> 1 == one >> 1; });
-      if (!is_conditional) before.push_back(one);
-    }
-    expand(before, states[i]);
-    needed[i] = std::move(before);
+    Literals after = needed[i + 1];
+    if (i + 1 < plan.size() || !task.axioms.empty()) below.unfold(after, states[i + 1]);
+    needed[i] = regressed(after, task.operators[plan[i]], states[i]);
+    below.unfold(needed[i], states[i]);
   }
   return needed;
 }

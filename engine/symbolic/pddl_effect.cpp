@@ -65,7 +65,7 @@ void read_cost(const Node& node, const std::vector<Parameter>& scope, const Voca
   action.cost_function = name;
   for (std::size_t i = 1; i < amount.items.size(); ++i) {
     action.cost_terms.push_back(read_term(amount.items[i], scope, vocabulary));
-    check_type(amount.items[i], action.cost_terms.back(), function->parameters[i - 1], name, scope, vocabulary);
+    check_type(amount.items[i], action.cost_terms.back(), {function->parameters[i - 1], name}, scope, vocabulary);
   }
 }
 

@@ -82,15 +82,16 @@ Formula read_atom(const Node& node, const std::vector<Parameter>& scope, const V
     fail(node, "`" + name + "` takes " + std::to_string(arity) + " arguments, got " + std::to_string(terms.size()));
   }
   for (std::size_t i = 0; predicate != nullptr && i < arity; ++i) {
-    check_type(node.items[i + 1], terms[i], predicate->parameters[i], name, scope, vocabulary);
+    check_type(node.items[i + 1], terms[i], {predicate->parameters[i], name}, scope, vocabulary);
   }
   return atom(name, std::move(terms));
 }
 
-void check_type(const Node& node, const Term& term, const Parameter& parameter, const std::string& of,
-                const std::vector<Parameter>& scope, const Vocabulary& vocabulary) {
+void check_type(const Node& node, const Term& term, const Slot& slot, const std::vector<Parameter>& scope,
+                const Vocabulary& vocabulary) {
+  const Parameter& parameter = slot.parameter;
   if (parameter.type.empty() || vocabulary.domain == nullptr) return;
-  const std::string wanted = ", but ?" + parameter.name + " of `" + of + "` must be a " + parameter.type;
+  const std::string wanted = ", but ?" + parameter.name + " of `" + slot.of + "` must be a " + parameter.type;
   if (!term.variable) {
     const TypedObject* object = find_object(term.name, vocabulary);
     if (object == nullptr || vocabulary.domain->is_a(object->type, parameter.type)) return;

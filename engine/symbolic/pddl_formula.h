@@ -23,9 +23,14 @@ std::vector<Parameter> read_typed(const Node& list, std::size_t from, bool varia
 Formula read_atom(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
 Formula read_formula(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
 Term read_term(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
-// Throws Error where the term can never be of the parameter's type; `of` names whose parameter it is.
-void check_type(const Node& node, const Term& term, const Parameter& parameter, const std::string& of,
-                const std::vector<Parameter>& scope, const Vocabulary& vocabulary);
+// A parameter that a term stands for, and the name of whose it is.
+struct Slot {
+  const Parameter& parameter;
+  const std::string& of;
+};
+// Throws Error where the term can never be of the parameter's type.
+void check_type(const Node& node, const Term& term, const Slot& slot, const std::vector<Parameter>& scope,
+                const Vocabulary& vocabulary);
 // Effects are flattened to single literals, each with its own `forall` and `when`; a cost goes to the action.
 void read_effects(const Node& node, const std::vector<Parameter>& scope, const Vocabulary& vocabulary, Action& action);
 // Moves leading atoms `(trait ?v)` of these variables from a conjunction into the variables' traits.

@@ -137,7 +137,7 @@ class ProblemReader {
     Fact of{name, {}};
     for (std::size_t i = 1; i < left.items.size(); ++i) {
       const Term term = read_term(left.items[i], {}, vocabulary_);
-      check_type(left.items[i], term, function->parameters[i - 1], name, {}, vocabulary_);
+      check_type(left.items[i], term, {function->parameters[i - 1], name}, {}, vocabulary_);
       of.arguments.push_back(term.name);
     }
     const int value = std::stoi(right.word);

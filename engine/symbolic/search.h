@@ -33,9 +33,10 @@ SearchResult lazy_search(const GroundTask& task, const Semantics& semantics, Heu
 
 // Best-first width search, BFWS(f5): states in the order of their novelty among those with as many open goals that have
 // had as much of the last relaxed plan, then of their open goals (Lipovetzky, Geffner, AAAI 2017). Finds its way where
-// heuristics know no way out of what is crowded. The heuristic must have been given the same goal.
+// heuristics know no way out of what is crowded. Of the query start and goal count; the heuristic must have been given
+// the same goal.
 SearchResult width_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
-                          const PlanLimits& limits, const Words& start, const Literals& goal);
+                          const PlanLimits& limits, const Query& query);
 
 // Removes what the goal does not need; then replaces stretches of the plan by cheaper ones and searches for cheaper
 // plans as a whole, with `expansions` in all. Never dearer than the plan given, nor longer at the same cost.

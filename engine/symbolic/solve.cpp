@@ -38,7 +38,7 @@ symbolic::SearchResult find_plan(const symbolic::GroundTask& task, const symboli
   part.expansions = std::min(limits.expansions, kPatience);
   if (!goes_on(lazy_search(task, semantics, heuristic, part, query))) return result;
   part.expansions = std::min(limits.expansions - result.evaluated, kWidthPatience);
-  if (!goes_on(width_search(task, semantics, heuristic, part, query.start, query.goal))) return result;
+  if (!goes_on(width_search(task, semantics, heuristic, part, query))) return result;
   part.expansions = limits.expansions - result.evaluated + kPatience;  // the first of which are those from above
   goes_on(lazy_search(task, semantics, heuristic, part, query));
   return result;

@@ -182,8 +182,8 @@ class WidthSearch {
 }  // namespace
 
 SearchResult width_search(const GroundTask& task, const Semantics& semantics, Heuristic& heuristic,
-                          const PlanLimits& limits, const Words& start, const Literals& goal) {
-  return WidthSearch(task, semantics, heuristic, limits, goal).run(start);
+                          const PlanLimits& limits, const Query& query) {
+  return WidthSearch(task, semantics, heuristic, limits, query.goal).run(query.start);
 }
 
 }  // namespace stampede::symbolic

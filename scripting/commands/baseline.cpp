@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "engine/base/text.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
 
@@ -20,9 +21,7 @@ void list_baselines(bool as_json, Console& console) {
       json.end().end();
       continue;
     }
-    std::string problems;
-    for (const std::string& problem : baseline.problems) problems += (problems.empty() ? "" : ", ") + problem;
-    console.out << fmt::format("{:22} {} ({})\n", baseline.name, baseline.about, problems);
+    console.out << fmt::format("{:22} {} ({})\n", baseline.name, baseline.about, joined(baseline.problems));
   }
   if (as_json) console.out << json.end().text();
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
 #include "engine/model/camera.h"
@@ -76,11 +77,9 @@ Camera camera_from(const std::string& text, const Scene& scene) {
   if (fields.contains("mount")) {
     const std::map<std::string, Mount> mounts = mounts_of(scene);
     const auto found = mounts.find(fields["mount"]);
-    std::vector<std::string> names;
-    for (const auto& [name, mount] : mounts) names.push_back(name);
     if (found == mounts.end())
       throw UsageError(fmt::format("{}: there is no '{}' to mount it on", kOption, fields["mount"]),
-                       did_you_mean(fields["mount"], names));
+                       did_you_mean(fields["mount"], keys_of(mounts)));
     camera.mount_body = found->second.body;
     camera.mount_part = found->second.part;
   }

@@ -155,10 +155,7 @@ void check_fits(EpisodeScripts& scripts, const Task& task, const ScriptFile& fil
 class Builds {
  public:
   Builds(std::shared_ptr<const Library> library, const BuiltCheck& asked, std::vector<Error>& complaints)
-      : library_(std::move(library)),
-        asked_(asked),
-        complaints_(complaints),
-        assets_(std::make_shared<Assets>(FileScope(library_->roots().folders))) {}
+      : library_(std::move(library)), asked_(asked), complaints_(complaints), assets_(assets_of(*library_)) {}
 
   // As people call these files: with their lines.
   std::vector<Error> remarks() const {
@@ -258,7 +255,7 @@ class Builds {
     for (std::size_t i = 0; i < count && complaints_.size() == before; i += stride) {
       if (asked_.stop != nullptr && *asked_.stop) return;
       const std::string variation = task.variation_texts.empty() ? "" : task.variation_texts[i];
-      EpisodeScripts scripts(library_, task.name, variation, 0, 0, assets_);
+      EpisodeScripts scripts(library_, {task.name, variation, 0}, 0, assets_);
       const Task drawn = scripts.task()(0);
       if (i == 0) check_fits(scripts, drawn, file, complaints_);
       if (i == 0) simulate(drawn.scene);

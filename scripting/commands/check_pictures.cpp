@@ -64,9 +64,21 @@ struct Direction {
   double azimuth = 0, elevation = 0.6;
 };
 
-// From where most of every ghost is to be seen, and of the thing itself, which counts as much as three.
+// By instance: every ghost, and the thing itself, which counts as much as three.
+std::map<int, double> weights_of(const Scene& scene, std::size_t first_ghost, const std::string& subject) {
+  std::map<int, double> weights;
+  for (std::size_t body = first_ghost; body < scene.bodies.size(); ++body)
+    weights[scene.bodies[body].parts[0].instance] = 1;
+  const Object* object = scene.object(subject);
+  const int body = object == nullptr ? -1 : scene.body_index(object->body);
+  if (body >= 0)
+    weights[scene.bodies[static_cast<std::size_t>(body)].parts[static_cast<std::size_t>(object->part)].instance] = 3;
+  return weights;
+}
+
+// From where most of each of these is to be seen.
 Direction best_direction(Renderer& renderer, const std::shared_ptr<const Scene>& opaque, const ScenePoses& poses,
-                         const Ball& ball, std::size_t first_ghost, const std::string& subject) {
+                         const Ball& ball, const std::map<int, double>& weights) {
   std::vector<Direction> directions;
   std::vector<View> views;
   for (const double elevation : {0.35, 0.75, 1.2})
@@ -79,13 +91,6 @@ Direction best_direction(Renderer& renderer, const std::shared_ptr<const Scene>&
   std::vector<Picture> pictures;
   renderer.load(opaque);
   renderer.draw(poses, views, options, pictures);
-  std::map<int, double> weights;
-  for (std::size_t body = first_ghost; body < opaque->bodies.size(); ++body)
-    weights[opaque->bodies[body].parts[0].instance] = 1;
-  const Object* object = opaque->object(subject);
-  const int body = object == nullptr ? -1 : opaque->body_index(object->body);
-  if (body >= 0)
-    weights[opaque->bodies[static_cast<std::size_t>(body)].parts[static_cast<std::size_t>(object->part)].instance] = 3;
   std::vector<double> worth(views.size(), 0);
   for (const auto& [number, weight] : weights) {
     if (number == 0) continue;
@@ -177,8 +182,8 @@ void draw_impasse(const Impasse& impasse, const std::filesystem::path& file, con
   add_body(scene.robot.body, poses.world_from_robot_part, far);
   if (near.empty()) near = far;
   const auto renderer = make_renderer();
-  const Direction from =
-      best_direction(*renderer, std::make_shared<const Scene>(solid), poses, near, first_ghost, impasse.subject);
+  const Direction from = best_direction(*renderer, std::make_shared<const Scene>(solid), poses, near,
+                                        weights_of(solid, first_ghost, impasse.subject));
   DrawOptions options;
   options.kinds = {true, false, false, false};
   options.shadows = true;

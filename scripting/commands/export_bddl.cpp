@@ -49,8 +49,8 @@ class BddlExporter {
     try {
       if (stored.scene == nullptr) throw Error("", stored.why_not);
       const StoredSymbols symbols = read_symbols(episode);
-      result = bddl_at(episode, *stored.scene, symbols, abstract_state(episode, frame), mapping,
-                       job_.arguments.list("--leave-out"));
+      const AbstractState state = abstract_state(episode, frame);
+      result = bddl_at({episode, *stored.scene, symbols, state}, mapping, job_.arguments.list("--leave-out"));
     } catch (const Error& error) {
       result.refusal = error.message();
     }

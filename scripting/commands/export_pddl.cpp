@@ -27,6 +27,16 @@ void write_index(const OutputFolder& folder, const QueryResult& index) {
 
 namespace {
 
+// A problem and a plan for it: two files and a row of the index.
+struct PlannedProblem {
+  std::string kind;    // start, boundary, end, ordered
+  std::string domain;  // its file
+  std::int64_t frame = 0;
+  std::string text;
+  const Plan& plan;
+  bool valid = false;
+};
+
 class PddlExporter {
  public:
   explicit PddlExporter(const ExportJob& job) : job_(job), folder_(indexed_folder(job, index_)) {}
@@ -58,9 +68,10 @@ class PddlExporter {
                                : boundary.frame == boundaries.back().frame ? "end"
                                                                            : "boundary";
       const bool valid = validate(symbols.domain, problem, boundary.rest).valid;
-      write_problem(id, episode, kind, domain, boundary.frame,
-                    unknown_facts(state, symbols.domain) + to_pddl(problem, symbols.domain, episode.beside_goal),
-                    boundary.rest, valid);
+      write_problem(id, episode,
+                    {kind, domain, boundary.frame,
+                     unknown_facts(state, symbols.domain) + to_pddl(problem, symbols.domain, episode.beside_goal),
+                     boundary.rest, valid});
     }
     write_ordered(id, episode);
   }
@@ -74,7 +85,7 @@ class PddlExporter {
     const Domain ordered = domain_from_pddl(*domain, "ordered_domain");
     const Plan steps = plan_from_text(*plan, "plan");
     const bool valid = validate(ordered, problem_from_pddl(*problem, "ordered_problem", ordered), steps).valid;
-    write_problem(id, episode, "ordered", write_domain(ordered.name, *domain), 0, *problem, steps, valid);
+    write_problem(id, episode, {"ordered", write_domain(ordered.name, *domain), 0, *problem, steps, valid});
   }
 
   std::string write_domain(const std::string& name, const std::string& text) {
@@ -83,17 +94,16 @@ class PddlExporter {
     return file;
   }
 
-  void write_problem(std::int64_t id, const EpisodeRecord& episode, const std::string& kind, const std::string& domain,
-                     std::int64_t frame, const std::string& text, const Plan& plan, bool valid) {
+  void write_problem(std::int64_t id, const EpisodeRecord& episode, const PlannedProblem& one) {
     const std::string task = file_name(episode.task);
-    const std::string stem = kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", task, id)
-                                               : fmt::format("problems/{}_e{:05}_f{:05}", task, id, frame);
-    write(stem + ".pddl", text);
-    write(stem + ".plan", to_pddl(plan));
-    index_.rows.push_back({stem + ".pddl", domain, stem + ".plan", kind, id, episode.task, episode.variation,
-                           episode.seed, frame, static_cast<double>(frame) / episode.frame_hz,
+    const std::string stem = one.kind == "ordered" ? fmt::format("problems/{}_e{:05}_ordered", task, id)
+                                                   : fmt::format("problems/{}_e{:05}_f{:05}", task, id, one.frame);
+    write(stem + ".pddl", one.text);
+    write(stem + ".plan", to_pddl(one.plan));
+    index_.rows.push_back({stem + ".pddl", one.domain, stem + ".plan", one.kind, id, episode.task, episode.variation,
+                           episode.seed, one.frame, static_cast<double>(one.frame) / episode.frame_hz,
                            std::string(to_string(episode.outcome)), std::string(to_string(episode.reason)),
-                           static_cast<std::int64_t>(plan.size()), std::int64_t{valid}, episode.beside_goal});
+                           static_cast<std::int64_t>(one.plan.size()), std::int64_t{one.valid}, episode.beside_goal});
   }
 
   void write(const std::string& file, const std::string& text) {

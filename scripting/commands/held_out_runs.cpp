@@ -49,7 +49,7 @@ std::vector<PhysicalRun> run_in_physics(const std::vector<HeldOutEpisode>& episo
   for (const HeldOutEpisode& one : episodes) task_info(*library, one.task);
   std::vector<PhysicalRun> runs;
   in_order(
-      episodes.size(), workers, nullptr, [] { return std::monostate{}; },
+      episodes.size(), {workers}, [] { return std::monostate{}; },
       [&](std::monostate, std::size_t i) { return run_held_out(library, episodes[i], planner); },
       [&](std::size_t, PhysicalRun run) { runs.push_back(std::move(run)); });
   return runs;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "db/catalogue_writer.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/base/temporary_folder.h"
 #include "engine/base/text_file.h"
@@ -39,9 +40,8 @@ Scene scene_of_world(const std::shared_ptr<const Library>& library, const std::s
     const Library::TaskInfo& task = task_info(*library, file->name);
     if (task.world == world) return EpisodeScripts(library, task.name, task.variation_texts.at(0), 0).task()(0).scene;
   }
-  std::vector<std::string> names;
-  for (const ScriptFile* file : library->files(DefinitionKind::world)) names.push_back(file->name);
-  throw Error("--world", "no task takes place in a world '" + world + "'", did_you_mean(world, names));
+  throw Error("--world", "no task takes place in a world '" + world + "'",
+              did_you_mean(world, names_of(library->files(DefinitionKind::world))));
 }
 
 struct NewFile {
@@ -206,8 +206,8 @@ ExitCode import_problem(const Arguments& arguments, Console& console) {
   const fs::path root = roots_of(arguments).folders.back(), path = root / "tasks" / (name + ".lua");
   const auto before = words_of(arguments);  // mistakes of other files are no reason not to write this one
   Source source = read_source(arguments, std::move(reading), *before, name);
-  ImportedTask imported = task_file_from(before, source.reading.problem, source.mapping, world,
-                                         scene_of_world(before, world), fs::path(file).filename().string());
+  ImportedTask imported = task_file_from(before, source.reading.problem, source.mapping, scene_of_world(before, world),
+                                         fs::path(file).filename().string());
   for (const std::string& warning : imported.warnings) console.err << warning << "\n";
   for (const BddlNote& note : imported.notes) console.err << to_text(note) << "\n";
   source.files.push_back({fs::path("tasks") / (name + ".lua"), imported.text});

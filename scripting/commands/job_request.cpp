@@ -34,7 +34,7 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
     return cameras;
   const ObservationChoice choice = picture_choice(arguments, PictureUse::run);
   for (const EpisodeJob& job : jobs.first_of_each_task()) {
-    Scene scene = EpisodeScripts(library, job.task, job.variation, job.seed).task()(0).scene;
+    Scene scene = EpisodeScripts(library, job).task()(0).scene;
     const std::vector<Camera> further = cameras[job.task] = further_cameras(arguments, scene);
     put_cameras(scene, further);
     check_choice(choice, scene);

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "db/table_text.h"
+#include "engine/base/names.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/object_sheet.h"
 #include "scripting/commands/object_table.h"
@@ -30,12 +31,6 @@ const Listing* shelf_named(const std::string& name) {
   const auto* found =
       std::find_if(std::begin(kShelves), std::end(kShelves), [&](const Listing& s) { return s.name == name; });
   return found == std::end(kShelves) ? nullptr : found;
-}
-
-std::vector<std::string> names_of(const Library& library, DefinitionKind kind) {
-  std::vector<std::string> names;
-  for (const ScriptFile* file : library.files(kind)) names.push_back(file->name);
-  return names;
 }
 
 QueryResult shelf_table(const Library& library, const Listing& shelf) {
@@ -123,7 +118,7 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
   if (!arguments.text("--sheet").empty() && !drawn)
     throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
   if (const Listing* shelf = shelf_named(what)) {
-    if (drawn) draw(library, names_of(*library, DefinitionKind::object), arguments, console);
+    if (drawn) draw(library, names_of(library->files(DefinitionKind::object)), arguments, console);
     return print(shelf_table(*library, *shelf), arguments, console);
   }
   if (what == kNumbers) return print(numbers_table(library->numbers()), arguments, console);
@@ -133,8 +128,8 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
     return kDone;
   }
   if (object != nullptr) return list_object(library, *object, arguments, console);
-  std::vector<std::string> names = names_of(*library, DefinitionKind::task);
-  for (const std::string& name : names_of(*library, DefinitionKind::object)) names.push_back(name);
+  std::vector<std::string> names = names_of(library->files(DefinitionKind::task));
+  for (const std::string& name : names_of(library->files(DefinitionKind::object))) names.push_back(name);
   names.emplace_back(kNumbers);
   for (const Listing& shelf : kShelves) names.emplace_back(shelf.name);
   throw UsageError("there is nothing to list by the name '" + what + "'", did_you_mean(what, names));

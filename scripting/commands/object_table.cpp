@@ -9,20 +9,6 @@
 namespace stampede::program {
 namespace {
 
-const char* kind_of(const Object& object) {
-  switch (object.kind) {
-    case ObjectKind::body:
-      return "body";
-    case ObjectKind::part:
-      return "part";
-    case ObjectKind::region:
-      return "region";
-    case ObjectKind::hand:
-      return "hand";
-  }
-  return "";
-}
-
 // Whole millimetres, written in metres.
 std::string size_of(const Vector3& size) { return fmt::format("{:.3f} {:.3f} {:.3f}", size.x(), size.y(), size.z()); }
 
@@ -62,7 +48,7 @@ QueryResult object_table(const Scene& scene) {
   QueryResult table;
   table.columns = {"name", "kind", "type", "traits", "size_m", "moves", "numbers"};
   for (const Object& object : scene.objects)
-    table.rows.push_back({object.name, std::string(kind_of(object)), object.type,
+    table.rows.push_back({object.name, std::string(to_string(object.kind)), object.type,
                           fmt::format("{}", fmt::join(object.traits, " ")), size_of(object.size),
                           motion_of(scene, object), numbers_of(object)});
   return table;

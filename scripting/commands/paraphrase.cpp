@@ -35,6 +35,13 @@ struct Asked {
   int count = 10, each_request = 5;
 };
 
+// Of one task: what its author says, and what the file beside it has.
+struct TaskSentences {
+  std::vector<OwnSentences> own;
+  SentenceFile made;
+  std::filesystem::path path;
+};
+
 Asked asked_of(const Arguments& arguments) {
   Asked asked;
   asked.levels =
@@ -86,36 +93,35 @@ class Asker {
     if (!dry_) check_output(path, {"a file of sentences", {}, true}, {});  // ahead of what costs money
     if (!dry_ && std::filesystem::exists(path)) file = read_sentence_file(path, path.string());
     if (file.task != task) throw Error(path.string(), "it is of task '" + file.task + "'", "name another --out");
-    const std::vector<OwnSentences> all = sentences_of(library_, task);
+    TaskSentences sentences{sentences_of(library_, task), std::move(file), path};
     for (const LanguageLevel level : asked_.levels) {
       const bool of_goal = level == LanguageLevel::task || level == LanguageLevel::subgoal;
-      for (const std::string& name : names_for(task, level, all))
+      for (const std::string& name : names_for(task, level, sentences.own))
         for (const Grain grain : of_goal ? asked_.grains : std::vector<Grain>{Grain::goal})
-          ask(task, level, name, grain, all, path, file);
+          ask(sentences, {level, name, grain, asked_.count, asked_.each_request, asked_.seed});
     }
   }
 
-  void ask(const std::string& task, LanguageLevel level, const std::string& name, Grain grain,
-           const std::vector<OwnSentences>& all, const std::filesystem::path& path, SentenceFile& file) {
+  void ask(TaskSentences& sentences, const ParaphraseJob& job) {
     if (console_.stopped()) throw Error("interrupted", "");
-    const SentenceChecker checker(*meaning_for(library_, task, level, name, asked_.seed, all));
-    const ParaphraseJob job{level, name, grain, asked_.count, asked_.each_request, asked_.seed};
+    const std::string& task = sentences.made.task;
+    const SentenceChecker checker(*meaning_for(library_, task, job.level, job.of, job.seed, sentences.own));
     if (dry_) {
       const std::vector<ChatRequest> requests = requests_of(job, checker.meaning());
       for (std::size_t i = 0; i < requests.size(); ++i)
         if (i == 0 || prompt_text(requests[i]) != prompt_text(requests[i - 1]))
           console_.out << prompt_text(requests[i]) << "\n";
-      console_.out << fmt::format("{} {} {}: {} requests, with other seeds\n\n", task, to_string(level), name,
+      console_.out << fmt::format("{} {} {}: {} requests, with other seeds\n\n", task, to_string(job.level), job.of,
                                   requests.size());
       return;
     }
     std::vector<Refused> refused;
-    const ParaphraseTally tally = paraphrase(job, checker, distractors(task, level, all), *client_, file, console_.stop,
-                                             show_refused_ ? &refused : nullptr);
-    if (tally.jobs_there == 0) write_sentence_file(file, path);
+    const ParaphraseTally tally = paraphrase(job, checker, distractors(task, job.level, sentences.own), *client_,
+                                             sentences.made, console_.stop, show_refused_ ? &refused : nullptr);
+    if (tally.jobs_there == 0) write_sentence_file(sentences.made, sentences.path);
     total_.add(tally);
     console_.err << fmt::format(
-        "{} {} {} {}: {}\n", task, to_string(level), name, to_string(grain),
+        "{} {} {} {}: {}\n", task, to_string(job.level), job.of, to_string(job.grain),
         tally.jobs_there > 0 ? "is there already" : fmt::format("{} of {} pass", tally.passed, tally.received));
     for (const Refused& one : refused) console_.err << fmt::format("  {} ({}): {}\n", one.reason, one.detail, one.text);
   }

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
 #include "engine/rollout/sensors.h"
@@ -161,8 +162,7 @@ ObservationChoice picture_choice(const Arguments& arguments, PictureUse use) {
 
 void check_choice(const ObservationChoice& choice, const Scene& scene) {
   const std::vector<std::string> sensors = channel_names(scene);
-  std::vector<std::string> cameras;
-  for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
+  const std::vector<std::string> cameras = names_of(scene.cameras);
   for (const std::string& name : choice.cameras.value_or(std::vector<std::string>{}))
     if (std::find(cameras.begin(), cameras.end(), name) == cameras.end())
       throw UsageError("--camera: there is no camera '" + name + "'", did_you_mean(name, cameras));

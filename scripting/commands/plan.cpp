@@ -27,9 +27,10 @@ std::string bddl_of(const Arguments& arguments, const Library& library, const St
   EpisodeRecord record;
   record.task = task;
   record.language = {{LanguageLevel::task, question.instructions.front(), -1}};
+  const StoredSymbols symbols{own, question.plain};
   std::string refusals;
   std::string text =
-      bddl_text(record, *question.start.scene, {own, question.plain}, question.state,
+      bddl_text({record, *question.start.scene, symbols, question.state},
                 bddl_mappings_of(library, arguments.text("--bddl")), arguments.list("--leave-out"), refusals);
   if (!refusals.empty()) throw Error(task, refusals.substr(0, refusals.size() - 1));
   return text;

@@ -160,7 +160,7 @@ class Rendering {
     text_.object().key("episodes").array();
     // A film's pictures follow each other, so one thread draws it.
     in_order(
-        wanted.size(), film_ ? 1 : workers_, request_.stop, [] { return make_renderer(); },
+        wanted.size(), {film_ ? 1 : workers_, request_.stop}, [] { return make_renderer(); },
         [&](std::unique_ptr<Renderer>& renderer, std::size_t i) { return draw(*renderer, shelf.read(wanted[i])); },
         [&](std::size_t, Drawn drawn) { keep(drawn, shelf); });
     const bool interrupted = request_.stopped() && done_ + skipped_ < static_cast<std::int64_t>(wanted.size());
@@ -176,26 +176,25 @@ class Rendering {
     drawn.stored = std::move(stored);
     if (!drawn.stored.scene) return drawn;
     drawn.changed = changed_scripts(drawn.stored.episode, roots_);
-    const std::shared_ptr<const Scene> scene =
-        with_cameras(drawn.stored, request_.further(*drawn.stored.scene), request_.named());
-    check_choice(request_.given, *scene);
+    drawn.stored.scene = with_cameras(drawn.stored, request_.further(*drawn.stored.scene), request_.named());
+    check_choice(request_.given, *drawn.stored.scene);
     if (film_) {
       film_->add(renderer, request_, drawn);
     } else if (place_ == "--sheet") {
       drawn.canvases.push_back(sheet_block(renderer, request_, drawn));
     } else {
-      draw_images(renderer, scene, drawn);
+      draw_images(renderer, drawn);
     }
     if (!request_.stopped() && place_ == "--out") write_folder(target_, drawn, rules_);
     return drawn;
   }
 
-  void draw_images(Renderer& renderer, const std::shared_ptr<const Scene>& scene, Drawn& drawn) {
+  void draw_images(Renderer& renderer, Drawn& drawn) {
     const EpisodeRecord& episode = drawn.stored.episode;
     const Observation observation = chosen(before(request_.given, observation_of(episode)));
     const bool none = observation.images == WhichFrames::none;
     const auto frames = request_.frames(episode, none ? WhichFrames::all : observation.images);
-    drawn.rendered = render_stored(renderer, drawn.stored, scene, observation, frames, request_.stop);
+    drawn.rendered = render_stored(renderer, drawn.stored, observation, frames, request_.stop);
     if (!drawn.rendered.images) return;  // interrupted
     drawn.pictures = static_cast<std::int64_t>(drawn.rendered.images->count());
     drawn.bytes = drawn.rendered.images->bytes();
@@ -232,13 +231,10 @@ class Rendering {
   }
 
   ExitCode answer(std::int64_t asked, bool interrupted) {
-    if (!changed_.empty()) {
-      std::string names;
-      for (const std::string& name : changed_) names += (names.empty() ? "" : ", ") + name;
+    if (!changed_.empty())
       console_.err << fmt::format(
           "scripts changed since {} of the episodes ran ({}): drawn from what the catalogue stored\n",
-          changed_episodes_, names);
-    }
+          changed_episodes_, joined({changed_.begin(), changed_.end()}));
     text_.end().field("pictures", pictures_).field("skipped", skipped_).field("interrupted", interrupted);
     if (json_) console_.out << text_.end().text();
     if (interrupted) console_.err << fmt::format("interrupted: {} of {} episodes are drawn\n", done_, asked);

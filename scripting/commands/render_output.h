@@ -31,7 +31,7 @@ struct RenderRequest {
 
 // What came of one episode.
 struct Drawn {
-  StoredEpisode stored;
+  StoredEpisode stored;              // its scene with the cameras that are wanted
   std::vector<std::string> changed;  // scripts
   RenderedEpisode rendered;
   std::vector<Canvas> canvases;  // sheet: its block
@@ -62,7 +62,6 @@ OutputKind sheet_kind();  // pictures for people, marked as ours
 
 // What films and sheets share: pictures for people.
 struct Portrait {
-  std::shared_ptr<const Scene> scene;
   Observation observation;  // cameras, size, shadows
   bool all = false;         // all cameras side by side, as they were asked for; else one of them a shot
 };

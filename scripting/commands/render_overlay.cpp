@@ -107,7 +107,7 @@ ExitCode render_overlays(const Arguments& arguments, const RenderRequest& reques
   std::int64_t done = 0;
   for (const std::int64_t id : ids) {
     if (request.stopped()) break;
-    const StoredEpisode stored = read_stored(catalogue, id);
+    StoredEpisode stored = read_stored(catalogue, id);
     if (!stored.scene) {
       console.err << fmt::format("episode {} is left out: {}\n", id, stored.why_not);
       continue;
@@ -116,10 +116,10 @@ ExitCode render_overlays(const Arguments& arguments, const RenderRequest& reques
     wanted.cameras = request.named();
     wanted.frames =
         arguments.has("--frames") ? request.frames(stored.episode, WhichFrames::all) : spread(catalogue, id);
-    const auto scene = with_cameras(stored, request.further(*stored.scene), request.named());
+    stored.scene = with_cameras(stored, request.further(*stored.scene), request.named());
     Album album(folder, id, rules);
-    const Overlays result = overlays_of(*renderer, catalogue, stored, scene, wanted,
-                                        [&](const OverlayPicture& picture) { album.save(picture); });
+    const Overlays result =
+        overlays_of(*renderer, catalogue, stored, wanted, [&](const OverlayPicture& picture) { album.save(picture); });
     if (const std::string frames = request.lacking(stored.episode); !frames.empty())
       console.err << fmt::format("episode {} {}\n", id, frames);
     name_missing(catalogue, id, wanted.cameras, console);

@@ -23,12 +23,11 @@ std::vector<std::string> standing(const Scene& scene) {
 
 Portrait portrait_of(const RenderRequest& request, const StoredEpisode& stored, std::array<int, 2> size) {
   Portrait portrait;
-  portrait.scene = with_cameras(stored, request.further(*stored.scene), request.named());
-  const std::vector<Camera>& cameras = portrait.scene->cameras;
-  if (cameras.empty()) throw Error("--camera", "the scene has no camera", "bring one along by --add-camera");
+  if (stored.scene->cameras.empty())
+    throw Error("--camera", "the scene has no camera", "bring one along by --add-camera");
   ObservationChoice choice = request.given;
   portrait.all = choice.cameras.has_value();
-  if (!portrait.all) choice.cameras = standing(*portrait.scene);
+  if (!portrait.all) choice.cameras = standing(*stored.scene);
   if (!choice.size) choice.size = size;
   portrait.observation = chosen(choice);
   portrait.observation.shadows = true;
@@ -40,13 +39,13 @@ PortraitPainter::PortraitPainter(Renderer& renderer, const StoredEpisode& stored
     : renderer_(renderer),
       stored_(stored),
       portrait_(portrait),
-      shots_(shots_of(stored.episode, *portrait.scene)),
-      painter_(renderer, stored.episode, portrait.scene, portrait.observation) {
+      shots_(shots_of(stored.episode, *stored.scene)),
+      painter_(renderer, stored.episode, stored.scene, portrait.observation) {
   const std::vector<std::string>& cameras = portrait.observation.cameras;
   if (portrait.all || cameras.size() == 1) return;
   const auto found = std::find(cameras.begin(), cameras.end(), kUsualCamera);
   const auto usual = static_cast<std::size_t>(found == cameras.end() ? 0 : found - cameras.begin());
-  choose_cameras(renderer, stored.episode, portrait.scene, cameras, usual, shots_);
+  choose_cameras(renderer, stored, cameras, usual, shots_);
 }
 
 int PortraitPainter::width() const {
@@ -55,7 +54,7 @@ int PortraitPainter::width() const {
 int PortraitPainter::height() const { return portrait_.observation.height; }
 
 void PortraitPainter::paint(std::int64_t frame, Canvas& canvas, int x, int y) {
-  const ScenePoses poses = scene_poses(*portrait_.scene, state_at(*portrait_.scene, stored_.episode, frame));
+  const ScenePoses poses = scene_poses(*stored_.scene, state_at(*stored_.scene, stored_.episode, frame));
   const DrawOptions options{portrait_.observation.kinds, portrait_.observation.shadows, kSamples,
                             portrait_.observation.renderer};
   std::vector<View> views = painter_.views(frame);

@@ -17,6 +17,7 @@ constexpr std::array<std::uint8_t, 3> kPaper{250, 250, 248}, kInk{30, 32, 36}, k
 
 struct Moment {
   std::int64_t frame = 0;
+  double time_s = 0;
   std::string label;
   std::string outcome;  // of the skill, or of the episode
   bool good = true;
@@ -28,13 +29,19 @@ std::string verdict(Outcome outcome, Reason reason) {
 
 // The start, where the effect of each skill comes true, and the end.
 std::vector<Moment> moments_of(const EpisodeRecord& episode, const std::vector<Shot>& shots) {
-  std::vector<Moment> moments{{0, "start", "", true}};
+  std::vector<Moment> moments;
+  const auto add = [&](std::int64_t frame, std::string label, std::string outcome, bool good) {
+    const auto step = episode.frames[static_cast<std::size_t>(frame)].step;
+    moments.push_back(
+        {frame, static_cast<double>(step) / episode.physics_hz, std::move(label), std::move(outcome), good});
+  };
+  add(0, "start", "", true);
   for (const Shot& shot : shots)
     if (const SegmentRecord* skill = shot.skill)
-      moments.push_back({shot.telling_frame, label_of(*skill), verdict(skill->outcome, skill->reason),
-                         skill->outcome == Outcome::success});
-  const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
-  moments.push_back({last, "end", verdict(episode.outcome, episode.reason), episode.outcome == Outcome::success});
+      add(shot.telling_frame, label_of(*skill), verdict(skill->outcome, skill->reason),
+          skill->outcome == Outcome::success);
+  add(static_cast<std::int64_t>(episode.frames.size()) - 1, "end", verdict(episode.outcome, episode.reason),
+      episode.outcome == Outcome::success);
   return moments;
 }
 
@@ -55,15 +62,14 @@ void write_header(Canvas& canvas, const Drawn& drawn) {
     canvas.text(x + kGap, baseline, line, kLetters, kFaint);
 }
 
-void write_caption(Canvas& canvas, const EpisodeRecord& episode, const Moment& moment, int x, int top, int width) {
+void write_caption(Canvas& canvas, const Moment& moment, int x, int top, int width) {
   const auto lines = stampede::wrapped(moment.label, kLetters, width, 2);
   int baseline = top + kLetters + 2;
   for (const std::string& line : lines) {
     canvas.text(x, baseline, line, kLetters, kInk);
     baseline += kLetters + 4;
   }
-  const auto step = episode.frames[static_cast<std::size_t>(moment.frame)].step;
-  const std::string time = fmt::format("{:.1f} s  ", static_cast<double>(step) / episode.physics_hz);
+  const std::string time = fmt::format("{:.1f} s  ", moment.time_s);
   const int after = canvas.text(x, baseline, time, kLetters, kFaint);
   canvas.text(after, baseline, moment.outcome, kLetters, moment.good ? kGood : kBad);
 }
@@ -71,10 +77,9 @@ void write_caption(Canvas& canvas, const EpisodeRecord& episode, const Moment& m
 }  // namespace
 
 Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& drawn) {
-  const EpisodeRecord& episode = drawn.stored.episode;
   const Portrait portrait = portrait_of(request, drawn.stored, kSize);
   PortraitPainter painter(renderer, drawn.stored, portrait);
-  const std::vector<Moment> moments = moments_of(episode, painter.shots());
+  const std::vector<Moment> moments = moments_of(drawn.stored.episode, painter.shots());
   const int columns = std::min(static_cast<int>(moments.size()), kMostColumns);
   const int rows = (static_cast<int>(moments.size()) + columns - 1) / columns;
   const int header = kGap + 2 * kTitle + 4 + kGap, caption = 3 * (kLetters + 4) + kGap;
@@ -84,7 +89,7 @@ Canvas sheet_block(Renderer& renderer, const RenderRequest& request, Drawn& draw
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const int x = kGap + static_cast<int>(i) % columns * wide, y = header + static_cast<int>(i) / columns * high;
     painter.paint(moments[i].frame, canvas, x, y);
-    write_caption(canvas, episode, moments[i], x, y + painter.height(), painter.width());
+    write_caption(canvas, moments[i], x, y + painter.height(), painter.width());
     ++drawn.pictures;
   }
   return canvas;

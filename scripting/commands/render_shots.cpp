@@ -166,19 +166,19 @@ std::vector<Shot> shots_of(const EpisodeRecord& episode, const Scene& scene) {
   return shots;
 }
 
-void choose_cameras(Renderer& renderer, const EpisodeRecord& episode, const std::shared_ptr<const Scene>& scene,
-                    const std::vector<std::string>& cameras, std::size_t usual, std::vector<Shot>& shots) {
+void choose_cameras(Renderer& renderer, const StoredEpisode& stored, const std::vector<std::string>& cameras,
+                    std::size_t usual, std::vector<Shot>& shots) {
   Observation look;
   look.cameras = cameras;
   look.width = look.height = kLook;
   look.kinds = {false, false, true, false};
-  EpisodePainter painter(renderer, episode, scene, look);
-  const std::vector<MaskEntry> masks = mask_key(*scene);
+  EpisodePainter painter(renderer, stored.episode, stored.scene, look);
+  const std::vector<MaskEntry> masks = mask_key(*stored.scene);
   std::vector<Picture> pictures;
   std::size_t last = usual;
   for (Shot& shot : shots) {
     std::vector<std::set<int>> things;
-    for (const std::string& thing : shot.things) things.push_back(numbers_of(*scene, masks, thing));
+    for (const std::string& thing : shot.things) things.push_back(numbers_of(*stored.scene, masks, thing));
     std::vector<double> worth(cameras.size(), 0);
     for (const std::int64_t frame : frames_looked_at(shot)) {
       painter.paint(frame, pictures);

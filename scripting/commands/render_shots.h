@@ -23,7 +23,7 @@ std::vector<Shot> shots_of(const EpisodeRecord& episode, const Scene& scene);
 // Sets each shot's camera, of these (in the scene's order). Every thing counts the same, by the share of the most
 // pixels that any of the cameras sees of it; what a film cuts to sees clearly more than what it cuts from. It starts
 // from `usual`.
-void choose_cameras(Renderer& renderer, const EpisodeRecord& episode, const std::shared_ptr<const Scene>& scene,
-                    const std::vector<std::string>& cameras, std::size_t usual, std::vector<Shot>& shots);
+void choose_cameras(Renderer& renderer, const StoredEpisode& stored, const std::vector<std::string>& cameras,
+                    std::size_t usual, std::vector<Shot>& shots);
 
 }  // namespace stampede::program

@@ -40,13 +40,13 @@ std::string pictures_text(const std::vector<ImageEntry>& images) {
                      cameras.size() == 1 ? "" : "s", static_cast<double>(bytes) / 1000);
 }
 
-void names_of(const Facts& facts, JsonText& json) {
+void put(const Facts& facts, JsonText& json) {
   json.array();
   for (const Fact& fact : facts) json.value(to_text(fact));
   json.end();
 }
 
-void numbers_of(const std::map<std::string, double>& numbers, JsonText& json) {
+void put(const std::map<std::string, double>& numbers, JsonText& json) {
   json.object();
   for (const auto& [name, value] : numbers) json.field(name, value);
   json.end();
@@ -70,18 +70,18 @@ void collect_predicates(const Formula& formula, std::set<std::string>& names) {
 
 // In one dialect. What its goal cannot say (that the hand is empty, for one) is left out with a remark, unless the
 // caller chose what to leave out: a moment is shown to be looked at.
-std::string bddl_moment(const StoredEpisode& stored, const StoredSymbols& symbols, const AbstractState& state,
-                        const BddlMapping& mapping, const std::vector<std::string>& leave_out, std::string& refusals) {
+std::string bddl_moment(const EpisodeMoment& moment, const BddlMapping& mapping,
+                        const std::vector<std::string>& leave_out, std::string& refusals) {
   std::string complaint;
   const auto text_without = [&](const std::vector<std::string>& predicates) {
     complaint.clear();
-    return bddl_text(stored.episode, *stored.scene, symbols, state, {mapping}, predicates, complaint);
+    return bddl_text(moment, {mapping}, predicates, complaint);
   };
   std::string text = text_without(leave_out);
   const std::string first_complaint = complaint;
   if (text.empty() && leave_out.empty()) {
     std::set<std::string> names;
-    collect_predicates(symbols.problem.goal, names);
+    collect_predicates(moment.symbols.problem.goal, names);
     std::vector<std::string> unsayable;
     for (const std::string& one : names) {
       std::vector<std::string> others;
@@ -107,8 +107,8 @@ std::string moment_text(const Arguments& arguments, const StoredEpisode& stored,
            to_pddl(problem_at(symbols, state), symbols.domain, stored.episode.beside_goal);
   std::string text;
   for (const BddlMapping& mapping : bddl_mappings_of(*words_of(arguments), form))
-    text += (text.empty() ? "" : "\n") +
-            bddl_moment(stored, symbols, state, mapping, arguments.list("--leave-out"), refusals);
+    text += (text.empty() ? "" : "\n") + bddl_moment({stored.episode, *stored.scene, symbols, state}, mapping,
+                                                     arguments.list("--leave-out"), refusals);
   return text;
 }
 
@@ -123,15 +123,15 @@ ExitCode show_moment(const Arguments& arguments, const StoredEpisode& stored, Co
     JsonText json;
     json.object().field("episode", stored.id).field("frame", frame);
     json.field("time_s", static_cast<double>(frame) / stored.episode.frame_hz).key("facts");
-    names_of(state.facts, json);
+    put(state.facts, json);
     json.key("observed");
-    names_of(state.observed, json);
+    put(state.observed, json);
     json.key("joints");
-    numbers_of(state.joints, json);
+    put(state.joints, json);
     json.key("joint_fractions");
-    numbers_of(state.joint_fractions, json);
+    put(state.joint_fractions, json);
     json.key("openings");
-    numbers_of(state.openings, json);
+    put(state.openings, json);
     json.key("poses").object();
     for (const auto& [name, pose] : state.poses) {
       json.key(name).array();

@@ -1,6 +1,6 @@
 // Files that objects name, and how much of them there is: without reading what is in them.
 #include "engine/base/file_scope.h"
-#include "scripting/library/builder.h"
+#include "scripting/library/checks.h"
 #include "scripting/library/rates.h"
 
 namespace stampede {
@@ -37,8 +37,8 @@ void look_through(const Value& node, Found& found) {
 
 }  // namespace
 
-void LibraryBuilder::check_assets(const Definition& definition) {
-  const FileScope scope(library_->roots_.folders);
+void check_assets(const Definition& definition, const Roots& roots) {
+  const FileScope scope(roots.folders);
   const std::filesystem::path folder = definition.file->path.parent_path();
   const auto check_file = [&](const std::string& path, const std::string& what, const std::string& name) {
     if (name.empty()) return;
@@ -47,10 +47,10 @@ void LibraryBuilder::check_assets(const Definition& definition) {
     try {
       scope.check(file);
     } catch (const Error& error) {
-      return complain(definition, path, what + " " + error.where() + ": " + error.message(), error.hint());
+      return definition.complain(path, what + " " + error.where() + ": " + error.message(), error.hint());
     }
     if (!std::filesystem::is_regular_file(file, ignored))
-      complain(definition, path, "there is no " + what + " '" + name + "'", "it is looked for beside this file");
+      definition.complain(path, "there is no " + what + " '" + name + "'", "it is looked for beside this file");
   };
   int shapes = 0;
   for (const auto& [name, field] : definition.node.fields) {
@@ -59,15 +59,15 @@ void LibraryBuilder::check_assets(const Definition& definition) {
     shapes += found.shapes;
     for (const auto& [what, file] : found.files) check_file(name, what, file);
     if (found.rings > kMostRings)
-      complain(
-          definition, name,
+      definition.complain(
+          name,
           "a lathe of " + std::to_string(found.rings) + " rings; at most " + std::to_string(kMostRings) + " are turned",
           "leave out points that lie on a line");
   }
   if (definition.node["urdf"].is_text()) check_file("urdf", "URDF file", definition.node["urdf"].text);
   if (shapes > kMostShapes)
-    complain(definition, {}, std::to_string(shapes) + " shapes; an object has at most " + std::to_string(kMostShapes),
-             "join them: a mesh file may have many triangles in one hull");
+    definition.complain({}, std::to_string(shapes) + " shapes; an object has at most " + std::to_string(kMostShapes),
+                        "join them: a mesh file may have many triangles in one hull");
 }
 
 }  // namespace stampede

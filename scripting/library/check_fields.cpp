@@ -1,5 +1,6 @@
 // Validation against the field tables.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scripting/library/fields.h"
@@ -37,22 +38,47 @@ bool draw_has_type(const Value& node, std::string_view type) {
                      [&](const Value& value) { return has_type(value, type); });
 }
 
+struct PlainType {
+  std::string_view name;
+  const char* words;  // for people
+  bool (*holds)(const Value&);
+};
+
+// What is none of these is a record, whose own fields are checked after this.
+constexpr std::array kPlainTypes{
+    PlainType{"any", "any", [](const Value& node) { return node.present(); }},
+    PlainType{"string", "text", [](const Value& node) { return node.is_text(); }},
+    PlainType{"number", "number", [](const Value& node) { return node.is_number(); }},
+    PlainType{"integer", "whole number", [](const Value& node) { return node.is_number() && node.integer; }},
+    PlainType{"boolean", "true or false", [](const Value& node) { return node.kind == Value::Kind::boolean; }},
+    PlainType{"function", "function", [](const Value& node) { return node.is_function(); }},
+    PlainType{"on_table", "on_table { x, y }",
+              [](const Value& node) { return node.tag() == "on_table" && all_numbers(node); }},
+    PlainType{"vector", "{ x, y, z }", [](const Value& node) { return numbers(node, 3, 3); }},
+    PlainType{"range", "{ lower, upper }", [](const Value& node) { return numbers(node, 2, 2); }},
+    PlainType{"size", "{ width, height }", [](const Value& node) { return numbers(node, 2, 2); }},
+    PlainType{"numbers", "list of numbers", [](const Value& node) { return numbers(node, 0, 1000); }},
+    PlainType{"colour", "colour (a name or { r, g, b })",
+              [](const Value& node) { return node.is_text() || numbers(node, 3, 4); }},
+    PlainType{"formula", "formula", is_formula},
+    PlainType{"effect", "effect", is_formula},
+    PlainType{"call", "call", is_formula},
+    PlainType{"literal", "literal", is_formula},
+    PlainType{"shape", "shape", [](const Value& node) { return node.tag() == "shape"; }},
+    PlainType{"texture", "texture such as checker { \"white\", \"black\" }",
+              [](const Value& node) { return node.tag() == "texture"; }},
+    PlainType{"cover", "texture (a kind, or texture { … })",
+              [](const Value& node) { return node.is_text() || node.tag() == "texture"; }},
+};
+
+const PlainType* plain_type(std::string_view name) {
+  const auto* found = std::ranges::find(kPlainTypes, name, &PlainType::name);
+  return found == kPlainTypes.end() ? nullptr : found;
+}
+
 bool has_plain_type(const Value& node, std::string_view type) {
-  if (type == "any") return node.present();
-  if (type == "string") return node.is_text();
-  if (type == "number") return node.is_number();
-  if (type == "integer") return node.is_number() && node.integer;
-  if (type == "boolean") return node.kind == Value::Kind::boolean;
-  if (type == "function") return node.is_function();
-  if (type == "on_table") return node.tag() == "on_table" && all_numbers(node);
-  if (type == "vector") return numbers(node, 3, 3);
-  if (type == "range" || type == "size") return numbers(node, 2, 2);
-  if (type == "numbers") return numbers(node, 0, 1000);
-  if (type == "colour") return node.is_text() || numbers(node, 3, 4);
-  if (type == "formula" || type == "effect" || type == "call" || type == "literal") return is_formula(node);
-  if (type == "shape" || type == "texture") return node.tag() == type;
-  if (type == "cover") return node.is_text() || node.tag() == "texture";
-  return node.is_table();  // table, or a record, whose own fields are checked after this
+  const PlainType* plain = plain_type(type);
+  return plain == nullptr ? node.is_table() : plain->holds(node);
 }
 
 bool has_one_type(const Value& node, std::string_view type) {
@@ -87,18 +113,8 @@ std::string in_words(std::string_view type) {
     }
     const bool list = one.ends_with("[]");
     while (one.ends_with("[]")) one.remove_suffix(2);
-    const std::string word = one == "string"     ? "text"
-                             : one == "integer"  ? "whole number"
-                             : one == "boolean"  ? "true or false"
-                             : one == "vector"   ? "{ x, y, z }"
-                             : one == "on_table" ? "on_table { x, y }"
-                             : one == "range"    ? "{ lower, upper }"
-                             : one == "size"     ? "{ width, height }"
-                             : one == "numbers"  ? "list of numbers"
-                             : one == "colour"   ? "colour (a name or { r, g, b })"
-                             : one == "texture"  ? "texture such as checker { \"white\", \"black\" }"
-                             : one == "cover"    ? "texture (a kind, or texture { … })"
-                                                 : std::string(one);
+    const PlainType* plain = plain_type(one);
+    const std::string word = plain == nullptr ? std::string(one) : plain->words;
     text += list ? "a list of " + word : word;
   }
   return text;
@@ -135,9 +151,7 @@ void check_inner(const Field& field, const Value& node, const std::string& path,
     if (map) {
       for (const auto& [key, entry] : node.fields) {
         const std::string inner_path = path + "." + key;
-        if (const auto fault = name_fault(key)) {
-          complain(inner_path, "the name '" + key + "' " + *fault, "such as '" + proposed_name(key) + "'");
-        }
+        check_name(key, inner_path, complain);
         if (entry.is_table()) {
           check_record(*inner, entry, inner_path, complain);
         } else {
@@ -164,6 +178,12 @@ bool has_type(const Value& node, std::string_view type) {
     if (has_one_type(node, one)) return true;
   }
   return false;
+}
+
+bool check_name(const std::string& name, const std::string& path, const Complain& complain, const std::string& what) {
+  const auto fault = name_fault(name);
+  if (fault) complain(path, "the " + what + " '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+  return !fault;
 }
 
 void check_record(const Record& record, const Value& table, const std::string& path, const Complain& complain,

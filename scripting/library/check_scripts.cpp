@@ -1,8 +1,7 @@
 // What scripts call, as far as their texts tell: nothing of it runs here.
 #include <algorithm>
 
-#include "engine/base/nearest.h"
-#include "scripting/library/builder.h"
+#include "scripting/library/checks.h"
 #include "scripting/library/embedded.h"
 #include "scripting/library/source_lines.h"
 
@@ -48,42 +47,43 @@ bool is_local(std::string_view source, const std::string& name) {
   return false;
 }
 
-}  // namespace
-
-void LibraryBuilder::check_scripts() {
-  const std::map<std::string, std::vector<std::string>> known = {
-      {"w", methods_of("world_view")}, {"robot", methods_of("robot_view")}, {"rng", methods_of("random")}};
-  for (const ScriptFile& file : library_->files_) {
-    if (file.kind == DefinitionKind::object || file.kind == DefinitionKind::world) continue;
-    for (const auto& [call, line] : mentions_in(file.source).methods) {
-      const auto owner = known.find(call.first);
-      if (owner == known.end() || listed(owner->second, call.second)) continue;
-      if (file.source.find("function " + call.first + ":") != std::string::npos) continue;  // its own, of that name
-      add(Error(file.shown_path + ":" + std::to_string(line), call.first + " has no method '" + call.second + "'",
-                did_you_mean(call.second, owner->second)));
-    }
-  }
-  for (const auto& [name, definition] : of(DefinitionKind::skill)) check_run(definition);
-}
-
 // What a skill's run takes of its parameters: run = function(robot, p, c).
-void LibraryBuilder::check_run(const Definition& definition) {
-  const std::string& source = definition.file->source;
+void check_run(LibraryDraft& draft, const Definition& skill) {
+  const std::string& source = skill.file->source;
   const std::vector<std::string> names = parameters_of_run(source);
   const Mentions mentions = mentions_in(source);
-  std::vector<std::string> parameters = parameter_names(definition.node), continuous = {"controller", "stiffness"};
+  std::vector<std::string> parameters = skill.parameter_names(), continuous = {"controller", "stiffness"};
   parameters.emplace_back("hand");
-  for (const auto& [name, value] : definition.node["continuous"].fields) continuous.push_back(name);
+  for (const auto& [name, value] : skill.node["continuous"].fields) continuous.push_back(name);
   const auto check = [&](std::size_t place, const std::vector<std::string>& known, const char* field) {
     if (names.size() <= place || is_local(source, names[place])) return;
     for (const auto& [member, line] : mentions.members)
       if (member.first == names[place] && !listed(known, member.second))
-        add(Error(definition.file->shown_path + ":" + std::to_string(line),
+        draft.complaints().add(
+            Error(place_in(*skill.file, line),
                   "run: " + member.first + "." + member.second + " is nothing that the skill declares in " + field,
                   did_you_mean(member.second, known)));
   };
   check(1, parameters, "params");
   check(2, continuous, "continuous");
+}
+
+}  // namespace
+
+void check_scripts(LibraryDraft& draft) {
+  const std::map<std::string, std::vector<std::string>> known = {
+      {"w", methods_of("world_view")}, {"robot", methods_of("robot_view")}, {"rng", methods_of("random")}};
+  for (const ScriptFile& file : draft.files()) {
+    if (file.kind == DefinitionKind::object || file.kind == DefinitionKind::world) continue;
+    for (const auto& [call, line] : mentions_in(file.source).methods) {
+      const auto owner = known.find(call.first);
+      if (owner == known.end() || listed(owner->second, call.second)) continue;
+      if (file.source.find("function " + call.first + ":") != std::string::npos) continue;  // its own, of that name
+      draft.complaints().add(Error(place_in(file, line), call.first + " has no method '" + call.second + "'",
+                                   did_you_mean(call.second, owner->second)));
+    }
+  }
+  for (const auto& [name, definition] : draft.of(DefinitionKind::skill)) check_run(draft, definition);
 }
 
 }  // namespace stampede

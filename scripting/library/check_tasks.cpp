@@ -1,20 +1,16 @@
+// Tasks: what is the same in all variations, and a few or many of these.
 #include <algorithm>
 
 #include "engine/bddl/bddl.h"
-#include "scripting/library/builder.h"
+#include "scripting/library/checks.h"
 #include "scripting/library/naming.h"
-#include "scripting/library/source_lines.h"
 #include "scripting/library/task_formulas.h"
+#include "scripting/library/task_script.h"
 
 namespace stampede {
 namespace {
 
 constexpr std::size_t kManyVariations = 240, kFewVariations = 3;
-constexpr SandboxLimits kLimits{5'000'000, 32u << 20};
-
-std::string with_context(const std::string& what, const std::string& text, std::size_t count) {
-  return count > 1 ? what + " (variation " + text + ")" : what;
-}
 
 // The problem that a task was imported from must read, in its dialect, and its mapping must be there.
 void check_problem(const Value& problem, const std::string& place, const Library& library, const Complain& complain) {
@@ -34,155 +30,157 @@ void check_problem(const Value& problem, const std::string& place, const Library
     if (!ours.is_text()) complain("problem.names." + theirs, "expects text, this is " + ours.type_name(), {});
 }
 
-void collect_variables(const Value& node, std::vector<std::string>& names) {
-  for (const auto& [axis, value] : node.fields) names.push_back(axis);
+std::vector<std::string> sentences(const Value& instructions) {
+  std::vector<std::string> all = texts_of(instructions);
+  if (instructions.is_text()) all.push_back(instructions.text);
+  return all;
 }
 
-}  // namespace
+// What does not move stands where its entry says; a place in the air may also be one that init chooses.
+void check_stands(const LibraryDraft& draft, const Definition& definition, const Value& entry,
+                  const OutlinedThing& thing, const std::string& path) {
+  if (!thing.known || thing.free || thing.positioned || entry["region"].present()) return;
+  const Definition* found = draft.find(DefinitionKind::object, entry.items.front().text);
+  if (found != nullptr && found->node["region"].present()) return;
+  definition.complain(path, "nothing says where it is, and what does not move is not placed by init",
+                      "at = on_table { 0.2, 0 }");
+}
 
-void LibraryBuilder::read_tasks() {
-  for (const auto& [name, definition] : of(DefinitionKind::task)) {
-    guarded_in(*definition.file, [&, &task = definition] { read_task(task); });
+// One variation of a task, called by its text where there are several.
+class VariationCheck {
+ public:
+  VariationCheck(LibraryDraft& draft, const Definition& definition, const Value& variation, const std::string& text)
+      : draft_(draft),
+        definition_(definition),
+        variation_(variation),
+        called_(text.empty() ? "" : " (variation " + text + ")"),
+        scene_(outline_of(definition.node["world"].text, draft)) {}
+
+  void check(TaskScript& script) {
+    read_fields(script);
+    for (const auto& [name, entry] : fields_["objects"].fields) check_object(name, entry);
+    TaskFormulas(draft_, definition_, fields_, scene_).check();
+    if (fields_.contains("instructions")) check_instructions(sentences(fields_["instructions"]));
+    if (fields_.contains("subgoals"))
+      for (const Value& one : fields_["subgoals"].items)
+        if (one.items.size() > 2) check_slots("subgoals", one.items[2].text);
   }
-}
 
-std::size_t LibraryBuilder::most_variations(const std::string& task) const {
-  const auto& named = options_.named;
-  const bool thorough =
-      options_.thorough == Thorough::all ||
-      (options_.thorough == Thorough::named && std::find(named.begin(), named.end(), task) != named.end());
-  return thorough ? kManyVariations : kFewVariations;
-}
+ private:
+  void read_fields(TaskScript& script) {
+    for (const Field& field : record("task")->fields) {
+      if (!field.of_variation) continue;
+      const Value value = script.field(field.name, variation_);
+      const bool computed = definition_.node[field.name].is_function();
+      if (value.present() && has_type(value, field.type))
+        fields_[field.name] = value;
+      else if (computed && !value.present())
+        definition_.complain(field.name, "the function returns nothing" + called_, "end it with return");
+      else if (computed)
+        definition_.complain(
+            field.name, "the function returns " + value.type_name() + ", which is not what this field holds" + called_);
+    }
+  }
 
-void LibraryBuilder::read_task(const Definition& definition) {
-  DefinitionState state(library_, kLimits);
+  void check_object(const std::string& name, const Value& entry) {
+    const std::string path = "objects." + name;
+    check_name(name, path, definition_.complainer());
+    check_entry(draft_, definition_, entry, path, DefinitionKind::object);
+    const Value& count = entry["count"];
+    std::vector<std::string> members = {name};
+    if (count.is_number()) {
+      if (count.number < 0 || count.number > 1000) return definition_.complain(path + ".count", "a count is 0 … 1000");
+      members.clear();
+      for (int i = 1; i <= static_cast<int>(count.number); ++i) members.push_back(name + std::to_string(i));
+      scene_.groups[name + "*"] = members;
+    }
+    for (const std::string& member : members) {
+      if (scene_.things.contains(member))
+        definition_.complain(path, "the name '" + member + "' is used twice",
+                             "rename one, to " + proposed_name(member, {member}) + " for example");
+      scene_.add(member, entry, draft_);
+    }
+    if (!members.empty()) check_stands(draft_, definition_, entry, scene_.things.at(members.front()), path);
+  }
+
+  void check_instructions(const std::vector<std::string>& texts) {
+    if (texts.empty())
+      definition_.complain("instructions", "at least one sentence is needed", "instructions = { \"…\" }");
+    for (const std::string& text : texts) check_slots("instructions", text);
+  }
+
+  // `stack {height} blocks`: of the variation's axes.
+  void check_slots(const char* field, const std::string& text) {
+    const std::vector<std::string> axes = keys_of(variation_.fields);
+    for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+      const std::size_t close = text.find('}', open);
+      if (close == std::string::npos) return definition_.complain(field, "a { without } in \"" + text + "\"");
+      const std::string name = text.substr(open + 1, close - open - 1);
+      if (!listed(axes, name)) definition_.complain_unknown(field, "axis", name, axes);
+    }
+  }
+
+  LibraryDraft& draft_;
+  const Definition& definition_;
+  const Value& variation_;
+  const std::string called_;
+  SceneOutline scene_;
+  std::map<std::string, Value> fields_;
+};
+
+// What is the same in all variations.
+Library::TaskInfo info_of(LibraryDraft& draft, const Definition& definition) {
+  const Value& node = definition.node;
   Library::TaskInfo info;
   info.name = definition.file->name;
   info.description = definition.file->description;
-  info.world = definition.node["world"].text;
-  const Definitions& worlds = of(DefinitionKind::world);
-  if (definition.node["world"].is_text() && !worlds.contains(info.world) &&
-      library_->file(DefinitionKind::world, info.world) == nullptr) {
-    std::vector<std::string> known;
-    for (const auto& [name, unused] : worlds) known.push_back(name);
-    complain(definition, "world", "there is no world '" + info.world + "'", did_you_mean(info.world, known));
-  }
-  if (const auto world = worlds.find(info.world); world != worlds.end()) check_observe(definition, world->second.node);
-  info.is_imported = definition.node["problem"].present();
-  guarded([&] {
-    check_problem(definition.node["problem"], definition.file->shown_path, *library_, complainer(definition));
-  });
-  const Value& hand = definition.node["hand"];
+  info.world = node["world"].text;
+  const Definition* world = draft.find(DefinitionKind::world, info.world);
+  if (world != nullptr)
+    check_observe(definition, world->node);
+  else if (node["world"].is_text() && draft.library()->file(DefinitionKind::world, info.world) == nullptr)
+    definition.complain_unknown("world", "world", info.world, keys_of(draft.of(DefinitionKind::world)));
+  info.is_imported = node["problem"].present();
+  draft.complaints().guarded(
+      [&] { check_problem(node["problem"], definition.file->shown_path, *draft.library(), definition.complainer()); });
+  const Value& hand = node["hand"];
   if (hand.is_text() && hand.text != "empty" && hand.text != "any")
-    complain(definition, "hand", "at the end the hand is empty or any, not '" + hand.text + "'",
-             did_you_mean(hand.text, {"any", "empty"}));
-  info.hand = hand_of(info.world);
-  info.skills = chosen_skills(definition, info.world);
-  const std::vector<Value> variations = variations_of(definition, state);
+    definition.complain("hand", "at the end the hand is empty or any, not '" + hand.text + "'",
+                        did_you_mean(hand.text, {"any", "empty"}));
+  info.hand = hand_of(info.world, draft);
+  info.skills = chosen_skills(draft, definition, info.world);
+  info.instructions = sentences(node["instructions"]);
+  return info;
+}
+
+// At most so many variations are tried: the first, and others at equal distances.
+void read_task(LibraryDraft& draft, const Definition& definition, std::size_t most) {
+  TaskScript script(definition, draft.library());
+  Library::TaskInfo info = info_of(draft, definition);
+  const std::vector<Value> variations = script.variations();
   for (const Value& variation : variations) {
     std::map<std::string, std::string> axes;
     for (const auto& [axis, value] : variation.fields) axes[axis] = plain_text(value);
     info.variations.push_back(std::move(axes));
     info.variation_texts.push_back(variation_text(variation));
   }
-  const Value& texts = definition.node["instructions"];
-  if (texts.is_text()) info.instructions.push_back(texts.text);
-  for (const Value& text : texts.items) info.instructions.push_back(text.text);
-  const bool world_known = worlds.contains(info.world);  // otherwise every name of its fixtures would be a complaint
-  const std::size_t stride = variations.size() / most_variations(info.name) + 1;
-  for (std::size_t i = 0; world_known && i < variations.size(); i += stride) {
-    const std::size_t before = complaints_.size();
-    check_variation(definition, state, variations[i], variations.size() > 1 ? info.variation_texts[i] : std::string());
-    if (complaints_.size() > before) break;  // the others would say the same
+  const std::size_t stride = variations.size() / most + 1;
+  const bool known = draft.find(DefinitionKind::world, info.world) != nullptr;  // else its fixtures would be complaints
+  for (std::size_t i = 0; known && i < variations.size(); i += stride) {
+    const std::size_t before = draft.complaints().count();
+    const std::string text = variations.size() > 1 ? info.variation_texts[i] : std::string();
+    VariationCheck(draft, definition, variations[i], text).check(script);
+    if (draft.complaints().count() > before) break;  // the others would say the same
   }
-  library_->tasks_[info.name] = std::move(info);
+  draft.vocabulary().tasks[info.name] = std::move(info);
 }
 
-void LibraryBuilder::check_variation(const Definition& definition, DefinitionState& state, const Value& variation,
-                                     const std::string& text) {
-  std::map<std::string, Value> fields;
-  for (const Field& field : record("task")->fields) {
-    if (!field.of_variation) continue;
-    const Value value = field_for(definition, state, field.name, variation);
-    if (!value.present()) {
-      if (!definition.node[field.name].is_function()) continue;
-      complain(definition, field.name, with_context("the function returns nothing", text, text.size() + 1),
-               "end it with return");
-      continue;
-    }
-    if (!has_type(value, field.type)) {
-      if (definition.node[field.name].is_function()) {
-        complain(definition, field.name,
-                 with_context("the function returns " + value.type_name() + ", which is not what this field holds",
-                              text, text.size() + 1));
-      }
-      continue;
-    }
-    fields[field.name] = value;
-  }
-  SceneObjects objects = world_objects(definition.node["world"].text);
-  Groups groups;
-  for (const auto& [name, entry] : fields["objects"].fields) {
-    const std::string path = "objects." + name;
-    if (const auto fault = name_fault(name))
-      complain(definition, path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
-    check_entry(definition, entry, path, "object");
-    const Value& count = entry["count"];
-    std::vector<std::string> members = {name};
-    if (count.is_number()) {
-      if (count.number < 0 || count.number > 1000) {
-        complain(definition, path + ".count", "a count is 0 … 1000");
-        continue;
-      }
-      members.clear();
-      for (int i = 1; i <= static_cast<int>(count.number); ++i) members.push_back(name + std::to_string(i));
-      groups[name + "*"] = members;
-    }
-    for (const std::string& member : members) {
-      if (objects.contains(member)) {
-        complain(definition, path, "the name '" + member + "' is used twice",
-                 "rename one, to " + proposed_name(member, {member}) + " for example");
-      }
-      add_object(objects, member, entry);
-    }
-    if (!members.empty()) check_stands(definition, entry, objects.at(members.front()), path);
-  }
-  TaskFormulas(*this, definition, fields, objects, groups).check();
-  if (fields.contains("instructions")) check_instructions(definition, fields["instructions"], variation);
-  if (fields.contains("subgoals"))
-    for (const Value& one : fields["subgoals"].items)
-      if (one.items.size() > 2) check_slots(definition, "subgoals", one.items[2].text, variation);
-}
+}  // namespace
 
-// What does not move stands where its entry says; a place in the air may also be one that init chooses.
-void LibraryBuilder::check_stands(const Definition& definition, const Value& entry, const SceneObject& object,
-                                  const std::string& path) {
-  if (!object.known || object.free || object.positioned || entry["region"].present()) return;
-  const auto found = of(DefinitionKind::object).find(entry.items.front().text);
-  if (found != of(DefinitionKind::object).end() && found->second.node["region"].present()) return;
-  complain(definition, path, "nothing says where it is, and what does not move is not placed by init",
-           "at = on_table { 0.2, 0 }");
-}
-
-void LibraryBuilder::check_instructions(const Definition& definition, const Value& texts, const Value& variation) {
-  std::vector<std::string> all;
-  if (texts.is_text()) all.push_back(texts.text);
-  for (const Value& text : texts.items) all.push_back(text.text);
-  if (all.empty()) complain(definition, "instructions", "at least one sentence is needed", "instructions = { \"…\" }");
-  for (const std::string& text : all) check_slots(definition, "instructions", text, variation);
-}
-
-// `stack {height} blocks`: of the variation's axes.
-void LibraryBuilder::check_slots(const Definition& definition, const char* field, const std::string& text,
-                                 const Value& variation) {
-  std::vector<std::string> axes;
-  collect_variables(variation, axes);
-  for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
-    const std::size_t close = text.find('}', open);
-    if (close == std::string::npos) return complain(definition, field, "a { without } in \"" + text + "\"");
-    const std::string name = text.substr(open + 1, close - open - 1);
-    if (std::find(axes.begin(), axes.end(), name) == axes.end())
-      complain(definition, field, "there is no axis '" + name + "'", did_you_mean(name, axes));
+void read_tasks(LibraryDraft& draft, const BuilderOptions& options) {
+  for (const auto& [name, definition] : draft.of(DefinitionKind::task)) {
+    const std::size_t most = options.is_thorough(name) ? kManyVariations : kFewVariations;
+    draft.guarded_in(*definition.file, [&, &task = definition] { read_task(draft, task, most); });
   }
 }
 

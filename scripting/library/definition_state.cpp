@@ -5,8 +5,7 @@
 #include "engine/base/error.h"
 #include "scripting/library/definitions.h"
 #include "scripting/library/embedded.h"
-#include "scripting/library/formula_reader.h"
-#include "scripting/library/value.h"
+#include "scripting/library/name_lists.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {
@@ -191,12 +190,10 @@ void DefinitionState::extend(const ScriptFile& file) {
   const std::string base = extends ? lua_tostring(lua, -1) : "";
   lua_pop(lua, 1);
   if (!extends) return;
-  std::vector<std::string> known;
-  for (const ScriptFile* other : library().files(file.kind)) known.push_back(other->name);
   if (library().file(file.kind, base) == nullptr)
     throw Error(file.shown_path, "extends: there is no " + home_of(file.kind) + " '" + base + "'",
-                did_you_mean(base, known));
-  if (std::find(extending_.begin(), extending_.end(), file.name) != extending_.end() || base == file.name)
+                did_you_mean(base, names_of(library().files(file.kind))));
+  if (listed(extending_, file.name) || base == file.name)
     throw Error(file.shown_path, "extends: '" + file.name + "' extends itself",
                 file.kind == DefinitionKind::skill
                     ? "give it a name of its own, and name it in the skills of a task or world"
@@ -209,32 +206,6 @@ void DefinitionState::extend(const ScriptFile& file) {
   push(file.kind, base);
   sandbox().call(2, 0);
   extending_.pop_back();
-}
-
-Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,
-                     const Domain& domain,
-                     const std::function<std::vector<std::string>(const std::string& group)>& expand,
-                     const std::string& hand) {
-  FormulaContext context;
-  const std::size_t colon = place.find(": ");
-  context.file = place.substr(0, colon);
-  if (colon != std::string::npos) context.field = place.substr(colon + 2);
-  context.domain = &domain;
-  context.schema = !parameters.empty();
-  context.parameters = parameters;
-  context.hand = hand;
-  context.expand = expand;
-  return formula_from(value_as_written(state, index, place), context);
-}
-
-Literal read_literal(lua_State* state, int index, const std::string& place) {
-  const Value node = value_as_written(state, index, place);
-  const std::string where =
-      node.line() > 0 ? place.substr(0, place.find(": ")) + ":" + std::to_string(node.line()) : place;
-  if (node.tag() != "literal") throw Error(where, "only is and is_not stand here, this is " + node.type_name());
-  Literal literal{{node["predicate"].text, {}}, node["negated"].boolean};
-  for (const Value& item : node.items) literal.fact.arguments.push_back(item.text);
-  return literal;
 }
 
 }  // namespace stampede

@@ -33,13 +33,4 @@ class DefinitionState {
   std::vector<std::string> extending_;  // skills or predicates, by those that extend them
 };
 
-// A formula, literal or effect value on top of the stack (left there) as C++. `place` starts error messages.
-// Strings with ? are variables; in a skill or predicate, strings that name a parameter are variables too
-// (`parameters`); anything else is an object. Groups (`block*`) expand by `expand` (task goals and init).
-Formula read_formula(lua_State* state, int index, const std::string& place, const std::vector<Parameter>& parameters,
-                     const Domain& domain,
-                     const std::function<std::vector<std::string>(const std::string& group)>& expand = {},
-                     const std::string& hand = "panda.hand");  // fills the place of a hand left out, in a task
-Literal read_literal(lua_State* state, int index, const std::string& place);
-
 }  // namespace stampede

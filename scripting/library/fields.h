@@ -43,5 +43,8 @@ using Complain = std::function<void(const std::string& path, const std::string& 
 void check_record(const Record& record, const Value& table, const std::string& path, const Complain& complain,
                   const std::vector<std::string>& also_known = {});
 bool has_type(const Value& node, std::string_view type);
+// Is this a sound name? `what`: of what, where it is more than a name.
+bool check_name(const std::string& name, const std::string& path, const Complain& complain,
+                const std::string& what = "name");
 
 }  // namespace stampede

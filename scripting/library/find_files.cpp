@@ -5,7 +5,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/read_file.h"
 #include "engine/base/utf8.h"
-#include "scripting/library/builder.h"
+#include "scripting/library/draft.h"
 #include "scripting/lua/sandbox.h"
 
 namespace stampede {

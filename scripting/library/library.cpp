@@ -25,14 +25,14 @@ LibraryError::LibraryError(std::vector<Error> errors) : Error({}, all_texts(erro
 
 std::shared_ptr<const Library> Library::load(const Roots& roots) {
   std::vector<Error> complaints;
-  std::shared_ptr<const Library> library = LibraryBuilder(roots, complaints, {}).build();
+  std::shared_ptr<const Library> library = build_library(roots, complaints, {});
   if (!complaints.empty()) throw LibraryError(std::move(complaints));
   return library;
 }
 
 std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints,
                                              const std::vector<std::string>& tasks) {
-  return LibraryBuilder(roots, complaints, {tasks.empty() ? Thorough::all : Thorough::named, tasks}).build();
+  return build_library(roots, complaints, {tasks.empty() ? Thorough::all : Thorough::named, tasks});
 }
 
 namespace {
@@ -50,7 +50,7 @@ std::shared_ptr<const Library> Library::load_usable(const Roots& roots) {
   std::vector<std::vector<Error>> rounds;
   for (;;) {
     std::vector<Error> complaints;
-    const std::shared_ptr<Library> library = LibraryBuilder(roots, complaints, {.left_out = left_out}).build();
+    const std::shared_ptr<Library> library = build_library(roots, complaints, {.left_out = left_out});
     const std::size_t before = left_out.size();
     std::vector<Error> shared;
     for (const Error& error : complaints) {
@@ -117,19 +117,19 @@ const ScriptFile* Library::module(std::string_view require_name) const {
 }
 
 const SkillInfo* Library::skill(std::string_view name) const {
-  const auto found = skills_.find(name);
-  return found == skills_.end() ? nullptr : &found->second;
+  const auto found = vocabulary_.skills.find(name);
+  return found == vocabulary_.skills.end() ? nullptr : &found->second;
 }
 
 const Library::TaskInfo* Library::task(std::string_view name) const {
-  const auto found = tasks_.find(name);
-  return found == tasks_.end() ? nullptr : &found->second;
+  const auto found = vocabulary_.tasks.find(name);
+  return found == vocabulary_.tasks.end() ? nullptr : &found->second;
 }
 
 const Domain& Library::domain_of(std::string_view name) const {
   const TaskInfo* info = task(name);
-  const auto found = info == nullptr ? domains_.end() : domains_.find(info->skills);
-  return found == domains_.end() ? domain_ : found->second;
+  const auto found = info == nullptr ? vocabulary_.domains.end() : vocabulary_.domains.find(info->skills);
+  return found == vocabulary_.domains.end() ? vocabulary_.domain : found->second;
 }
 
 std::string Library::hash() const {

@@ -82,12 +82,12 @@ class Library {
   // an action's name is its skill, or skill_case. The hand is an object of type `hand`; predicates and actions that
   // name it have it as a parameter like any other (`hand_empty(hand)`, `holding(hand, obj)`).
   // Skills that replace others are in the domains of those tasks only that ask for them.
-  const Domain& domain() const { return domain_; }
+  const Domain& domain() const { return vocabulary_.domain; }
   const Domain& domain_of(std::string_view task) const;
-  const std::map<std::string, PredicateTraits>& predicate_traits() const { return predicate_traits_; }
-  bool can_hide(const std::string& predicate) const { return hiding_.contains(predicate); }  // its file: `observable`
+  const std::map<std::string, PredicateTraits>& predicate_traits() const { return vocabulary_.predicate_traits; }
+  bool can_hide(const std::string& predicate) const { return vocabulary_.hiding.contains(predicate); }
   const SkillInfo* skill(std::string_view name) const;
-  const Numbers& numbers() const { return numbers_; }  // that things can have, as files declare them
+  const Numbers& numbers() const { return vocabulary_.numbers; }
 
   struct TaskInfo {
     std::string name, world, description;
@@ -102,18 +102,22 @@ class Library {
   std::string hash() const;  // of all files: part of every episode's key
 
  private:
-  friend class LibraryBuilder;
+  friend class LibraryDraft;
+  struct Vocabulary {
+    Domain domain;
+    std::map<std::vector<std::string>, Domain> domains;  // by TaskInfo::skills, where there are some
+    std::map<std::string, PredicateTraits> predicate_traits;
+    std::set<std::string> hiding;  // predicates whose files say `observable`
+    Numbers numbers;               // that things can have, as files declare them
+    std::map<std::string, SkillInfo, std::less<>> skills;
+    std::map<std::string, TaskInfo, std::less<>> tasks;
+  };
+
   Roots roots_;
   std::vector<ScriptFile> files_;
   std::vector<ScriptFile> left_out_;            // have mistakes
   std::vector<std::vector<Error>> complaints_;  // about them and about tasks; first causes, then what comes of them
-  Domain domain_;
-  std::map<std::vector<std::string>, Domain> domains_;  // by TaskInfo::skills, where there are some
-  std::map<std::string, PredicateTraits> predicate_traits_;
-  std::set<std::string> hiding_;
-  Numbers numbers_;
-  std::map<std::string, SkillInfo, std::less<>> skills_;
-  std::map<std::string, TaskInfo, std::less<>> tasks_;
+  Vocabulary vocabulary_;
 };
 
 }  // namespace stampede

@@ -143,7 +143,7 @@ void set_home(Robot& robot) {
                                robot.limits[i].upper);
 }
 
-std::string names_of(const Body& body, const std::vector<int>& parts) {
+std::string part_names(const Body& body, const std::vector<int>& parts) {
   std::vector<std::string> names;
   for (const int part : parts) names.push_back('"' + part_of(body, part).joint.name + '"');
   return fmt::format("{{ {} }}", fmt::join(names, ", "));
@@ -185,10 +185,10 @@ std::string robot_file(const std::filesystem::path& urdf) {
   std::string text =
       fmt::format("-- An arm of {} joints: say here in one line what it is.\nreturn robot {{\n", robot.arm.size());
   text += fmt::format("  urdf = \"{}\",\n  arm = {}, -- from base to tip\n", urdf.filename().string(),
-                      names_of(body, robot.arm));
+                      part_names(body, robot.arm));
   if (!robot.fingers.empty()) {
     text += fmt::format("  fingers = {0},\n  pads = {{ \"{1}\", \"{2}\" }}, -- links whose contact is touch\n",
-                        names_of(body, robot.fingers), part_of(body, robot.fingers[0]).name,
+                        part_names(body, robot.fingers), part_of(body, robot.fingers[0]).name,
                         part_of(body, robot.fingers[1]).name);
     text += fmt::format("  opening = {:.4g}, grip_force = 20, -- m, N\n", robot.opening_max);
   }

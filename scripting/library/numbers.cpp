@@ -6,7 +6,7 @@
 #include <array>
 #include <numbers>
 
-#include "engine/base/nearest.h"
+#include "scripting/library/draft.h"
 #include "scripting/library/naming.h"
 
 namespace stampede {
@@ -52,13 +52,7 @@ bool same(const NumberInfo& a, const NumberInfo& b) {
 
 }  // namespace
 
-std::vector<std::string> NumberTable::names() const {
-  std::vector<std::string> result;
-  for (const auto& [name, info] : numbers_) result.push_back(name);
-  return result;
-}
-
-bool NumberTable::is_reference(const Value& node) {
+bool NumberDeclaration::is_reference() const {
   return node.items.empty() && std::ranges::all_of(node.fields, [](const auto& field) { return field.first == "of"; });
 }
 
@@ -69,33 +63,34 @@ void NumberTable::take_read(const std::string& name, const std::string& place) {
   numbers_.emplace(name, std::move(info));
 }
 
-void NumberTable::refer(const std::string& name, const std::string& trait, const std::string& path,
-                        const Complain& complain) {
+void NumberTable::refer(const NumberDeclaration& number) {
+  const std::string& name = number.name;
   const auto found = numbers_.find(name);
   if (found == numbers_.end())
-    return complain(path, "no other file declares the number '" + name + "', and this one does not say what it is",
-                    nearest_or(name, names(), name + " = { \"what it says\", unit = \"m\" }"));
-  if (!trait.empty() && found->second.needed()) needed_by_[trait].push_back(name);
+    return number.definition.complain(
+        number.path, "no other file declares the number '" + name + "', and this one does not say what it is",
+        nearest_or(name, keys_of(numbers_), name + " = { \"what it says\", unit = \"m\" }"));
+  if (!number.trait.empty() && found->second.needed()) needed_by_[number.trait].push_back(name);
 }
 
-void NumberTable::declare(const std::string& name, const Value& node, const std::string& trait, const std::string& path,
-                          const std::string& place, const Complain& complain) {
-  if (const auto fault = name_fault(name))
-    return complain(path, "the name '" + name + "' " + *fault, "such as '" + proposed_name(name) + "'");
+void NumberTable::declare(const NumberDeclaration& number) {
+  const Value& node = number.node;
+  const std::string& name = number.name;
+  if (!check_name(name, number.path, number.definition.complainer())) return;
   NumberInfo info;
   if (!node.items.empty()) info.description = node.items.front().text;
   info.unit = node["unit"].text;
   info.optional = node["optional"].boolean;
   if (node["default"].is_number()) info.otherwise = node["default"].number;
-  info.trait = trait;
-  info.place = place;
+  info.trait = number.trait;
+  info.place = number.definition.place(number.path);
   const Unit* unit = unit_named(info.unit);
   if (unit == nullptr) info.unit.clear();  // so that values have one that there is
   info.most = node.number_or("max", unit == nullptr ? kUnits[0].most : unit->most);
   info.least = node.number_or("min", -info.most);
   const auto fault = [&](const char* field, const std::string& what, const std::string& cure) {
     numbers_.emplace(name, info);  // so that one fault is one complaint
-    complain(path + field, what, cure);
+    number.definition.complain(number.path + field, what, cure);
   };
   if (info.description.empty())
     return fault("", "a declared number begins with what it says",
@@ -111,18 +106,18 @@ void NumberTable::declare(const std::string& name, const Value& node, const std:
                  unit->cure);
   const auto [found, fresh] = numbers_.emplace(name, info);
   if (!fresh && !same(found->second, info))
-    return complain(path,
-                    fmt::format("'{}' is another number here ({}) than in {} ({})", name, in_words(info),
-                                found->second.place, in_words(found->second)),
-                    "give one of them another name; to read the same, write " + name + " = {}");
-  if (!trait.empty() && info.needed()) needed_by_[trait].push_back(name);
+    return number.definition.complain(number.path,
+                                      fmt::format("'{}' is another number here ({}) than in {} ({})", name,
+                                                  in_words(info), found->second.place, in_words(found->second)),
+                                      "give one of them another name; to read the same, write " + name + " = {}");
+  if (!number.trait.empty() && info.needed()) needed_by_[number.trait].push_back(name);
 }
 
 void NumberTable::check_values(const Value& numbers, const std::string& path, const Complain& complain) const {
   for (const auto& [name, value] : numbers.fields) {
     const auto found = numbers_.find(name);
     if (found == numbers_.end()) {
-      const Error error = unknown_number({}, name, names());
+      const Error error = unknown_number({}, name, keys_of(numbers_));
       complain(path + name, error.message(), error.hint());
     } else if (value.is_number() && !(value.number >= found->second.least && value.number <= found->second.most)) {
       complain(path + name,
@@ -139,7 +134,7 @@ void NumberTable::check_needed(const std::vector<std::string>& traits, const std
     const auto needed = needed_by_.find(trait);
     if (needed == needed_by_.end()) continue;
     for (const std::string& name : needed->second) {
-      if (std::ranges::find(has, name) != has.end()) continue;
+      if (listed(has, name)) continue;
       const NumberInfo& info = numbers_.at(name);
       const std::string unit = info.unit.empty() ? "" : " [" + info.unit + "]";
       complain(path, "what is " + trait + " needs the number '" + name + "': " + info.description + unit,

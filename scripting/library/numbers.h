@@ -25,21 +25,30 @@ struct NumberInfo {
 };
 using Numbers = std::map<std::string, NumberInfo, std::less<>>;
 
-// Collects declarations, then judges things and scripts by them. Complaints are about fields of the file at hand.
+struct Definition;
+
+// As a file says it: { "what it says", unit = "m", default = 0 }. Without any of these it refers to another file's.
+// Lifetime: borrows the definition and its value.
+struct NumberDeclaration {
+  const Definition& definition;
+  std::string path;  // of the field there
+  std::string name;
+  const Value& node;
+  std::string trait;  // whose things have it; empty: of what some predicate or skill takes
+
+  bool is_reference() const;
+};
+
+// Collects declarations, then judges things and scripts by them.
 class NumberTable {
  public:
   const Numbers& all() const { return numbers_; }
-  std::vector<std::string> names() const;
 
-  // { "what it says", unit = "m", default = 0 }, at `path` of the file; `place` is that file's, with its line. Without
-  // any of these the declaration refers to another file's: see refer.
-  void declare(const std::string& name, const Value& node, const std::string& trait, const std::string& path,
-               const std::string& place, const Complain& complain);
-  static bool is_reference(const Value& node);
+  void declare(const NumberDeclaration& number);
   // Of a number that nobody declares, where some script reads what some object has: things must have it.
   void take_read(const std::string& name, const std::string& place);
   // After all declarations.
-  void refer(const std::string& name, const std::string& trait, const std::string& path, const Complain& complain);
+  void refer(const NumberDeclaration& number);
 
   // Numbers of a thing: declared ones, of sensible size.
   void check_values(const Value& numbers, const std::string& path, const Complain& complain) const;

@@ -98,46 +98,66 @@ class Scanner {
     if (number_ > 0 || round_ < call_) call_ = -1;
   }
 
+  void comment() {
+    at_ += 2;
+    comment_ = true;
+    if (!(peek() == '[' && long_bracket())) {
+      while (at_ < source_.size() && peek() != '\n') ++at_;
+    }
+    comment_ = false;
+  }
+
+  void open_table() {
+    keys_.push_back(pending_);
+    pending_.clear();
+    ++depth_;
+    advance();
+  }
+
+  void close_table() {
+    if (!keys_.empty()) keys_.pop_back();
+    if (depth_ > 0) --depth_;
+    if (!keys_.empty()) pending_.clear();
+    advance();
+  }
+
+  // The last word is a field of the table around.
+  void key() {
+    pending_ = std::string(last_word_);
+    const std::string around = path();
+    lines_.emplace((around.empty() ? "" : around + ".") + pending_, word_line_);
+    advance();
+  }
+
+  void sign(char c) {
+    before_dot_ = c == '.' ? last_word_ : std::string_view{};
+    owner_ = alone_ && (c == '.' || c == ':') ? last_word_ : std::string_view{};
+    policy_ = policy_ && c == '(';
+    brackets(c);
+    advance();
+  }
+
+  bool begins_word(char c) const { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+  bool gives_value(char c) const { return c == '=' && peek(1) != '=' && !last_word_.empty() && depth_ > 0; }
+
   void step() {
     const char c = peek();
+    if (begins_word(c)) return word();
+    if (std::isspace(static_cast<unsigned char>(c)) != 0) return advance();  // `name =` has space between
     if (c == '-' && peek(1) == '-') {
-      at_ += 2;
-      comment_ = true;
-      if (!(peek() == '[' && long_bracket())) {
-        while (at_ < source_.size() && peek() != '\n') ++at_;
-      }
-      comment_ = false;
+      comment();
     } else if (c == '"' || c == '\'') {
       text(c);
     } else if (c == '[' && (peek(1) == '[' || peek(1) == '=')) {
       if (!long_bracket()) advance();
-    } else if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_') {
-      word();
-      return;
     } else if (c == '{') {
-      keys_.push_back(pending_);
-      pending_.clear();
-      ++depth_;
-      advance();
+      open_table();
     } else if (c == '}') {
-      if (!keys_.empty()) keys_.pop_back();
-      if (depth_ > 0) --depth_;
-      if (!keys_.empty()) pending_.clear();
-      advance();
-    } else if (c == '=' && peek(1) != '=' && !last_word_.empty() && depth_ > 0) {
-      pending_ = std::string(last_word_);
-      const std::string around = path();
-      lines_.emplace((around.empty() ? "" : around + ".") + pending_, word_line_);
-      advance();
-    } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
-      advance();
-      return;  // `name =` has space between
+      close_table();
+    } else if (gives_value(c)) {
+      key();
     } else {
-      before_dot_ = c == '.' ? last_word_ : std::string_view{};
-      owner_ = alone_ && (c == '.' || c == ':') ? last_word_ : std::string_view{};
-      policy_ = policy_ && c == '(';
-      brackets(c);
-      advance();
+      sign(c);
     }
     last_word_ = {};
   }

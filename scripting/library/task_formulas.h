@@ -5,17 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "scripting/library/builder.h"
+#include "scripting/library/scene_outline.h"
 
 namespace stampede {
 
-using Groups = std::map<std::string, std::vector<std::string>>;  // `block*`: its members
-
 // Of one variation: `fields` are those of the task, drawn for it. Lifetime: borrows all that it is given.
-class LibraryBuilder::TaskFormulas {
+class TaskFormulas {
  public:
-  TaskFormulas(LibraryBuilder& builder, const Definition& definition, const std::map<std::string, Value>& fields,
-               const SceneObjects& objects, const Groups& groups);
+  TaskFormulas(LibraryDraft& draft, const Definition& definition, const std::map<std::string, Value>& fields,
+               const SceneOutline& scene);
   void check();
 
  private:
@@ -36,12 +34,11 @@ class LibraryBuilder::TaskFormulas {
   void check_setting(const SkillInfo& skill, const std::string& name, const Value& value, const std::string& place);
   const Value* field(const char* name) const;
 
-  LibraryBuilder& builder_;
+  LibraryDraft& draft_;
+  const Domain& domain_;
   const Definition& definition_;
   const std::map<std::string, Value>& fields_;
-  const SceneObjects& objects_;
-  const Groups& groups_;
-  std::vector<std::string> known_;  // names of objects
+  const SceneOutline& scene_;
   FormulaContext where_;
 };
 

@@ -74,7 +74,7 @@ std::vector<const ScriptFile*> Library::used_by(const std::vector<const ScriptFi
     if (used[i]->kind != DefinitionKind::task || mentions.fields.contains("steps")) continue;
     // Its plan may use every skill. One that could not be read is missed where nothing else makes true what is asked.
     for (const std::string& predicate : mentions.after_is) {
-      if (achieved(domain_, predicate)) continue;
+      if (achieved(vocabulary_.domain, predicate)) continue;
       for (const ScriptFile& file : left_out_)
         if (file.kind == DefinitionKind::skill && mentions_in(file.source).after_is.contains(predicate)) add(&file);
     }

@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/output_file.h"
 #include "engine/base/stopping.h"
+#include "engine/base/text.h"
 #include "scripting/library/library.h"
 #include "scripting/library/naming.h"
 #include "scripting/program/help.h"
@@ -63,12 +64,8 @@ void check_value(const OptionRow& option, const std::string& value) {
   }
   if ((option.takes == Takes::path || option.takes == Takes::output) && value.empty())
     throw Usage{option.name + " needs a path", option.help};
-  if (!option.choices.empty() &&
-      std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end()) {
-    std::string all;
-    for (const std::string& choice : option.choices) all += (all.empty() ? "" : ", ") + choice;
-    throw Usage{option.name + " cannot be '" + value + "'", "it is one of " + all};
-  }
+  if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), value) == option.choices.end())
+    throw Usage{option.name + " cannot be '" + value + "'", "it is one of " + joined(option.choices)};
 }
 
 // CLI11's own words for a mistake, with the nearest option as cure where there is one.

@@ -6,20 +6,15 @@
 #include <cmath>
 #include <map>
 
+#include "engine/base/text.h"
 #include "engine/rollout/goal_watch.h"
 #include "scripting/program/console.h"
 
 namespace stampede::program {
 namespace {
 
-std::string joined(const std::vector<std::string>& parts, const char* between) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 std::string fact_text(const Fact& fact) {
-  return fact.arguments.empty() ? fact.predicate : fact.predicate + "(" + joined(fact.arguments, ", ") + ")";
+  return fact.arguments.empty() ? fact.predicate : fact.predicate + "(" + joined(fact.arguments) + ")";
 }
 
 std::string call_text(const SegmentRecord& segment) {
@@ -133,11 +128,7 @@ std::string parameters_text(const SegmentRecord& segment) {
       text += " (" + std::string(to_string(parameter.chosen_by)) + ")";
     texts.push_back(text);
   }
-  return joined(texts, ", ");
-}
-
-std::string note(const std::string& text, const TimelineStyle& style, int indent) {
-  return std::string(static_cast<std::size_t>(indent), ' ') + wrapped(text, style.width, indent) + "\n";
+  return joined(texts);
 }
 
 std::string verdict(const SegmentRecord& segment) {
@@ -148,7 +139,7 @@ std::string verdict(const SegmentRecord& segment) {
 std::string failure_text(const SegmentRecord& segment) {
   std::string text(to_string(segment.reason));
   if (!segment.detail.empty()) text += ": " + segment.detail;
-  if (!segment.missing_effects.empty()) text += "; did not come true: " + joined(segment.missing_effects, ", ");
+  if (!segment.missing_effects.empty()) text += "; did not come true: " + joined(segment.missing_effects);
   return text;
 }
 
@@ -157,77 +148,90 @@ std::string unmet_text(const SegmentRecord& segment) {
   std::vector<std::string> texts;
   for (const PreconditionRecord& literal : segment.preconditions)
     if (!literal.held && literal.choice < 0) texts.push_back((literal.negated ? "not " : "") + fact_text(literal.fact));
-  return texts.empty() ? "" : "before it was false: " + joined(texts, ", ");
+  return texts.empty() ? "" : "before it was false: " + joined(texts);
 }
 
-std::string undone(const EpisodeRecord& episode, int before_segment, const TimelineStyle& style, int indent) {
-  std::string text;
-  for (const AttemptRecord& attempt : episode.attempts) {
-    if (attempt.before_segment != before_segment) continue;
-    const Span& span = attempt.segment.span;
-    const double seconds = static_cast<double>(span.end_step - span.start_step) / episode.physics_hz;
-    text += note(fmt::format("↶ undone after {:.2f} s: {} ({})", seconds, call_text(attempt.segment),
-                             failure_text(attempt.segment)),
-                 style, indent);
-  }
-  return text;
-}
+// Writes an episode line by line, below its header.
+class TimelineWriter {
+ public:
+  TimelineWriter(const EpisodeRecord& episode, const TimelineStyle& style)
+      : episode_(episode), style_(style), painter_(episode, style) {}
 
-void add_segment(std::string& text, const EpisodeRecord& episode, const SegmentRecord& segment, int depth,
-                 const Painter& painter, const TimelineStyle& style) {
-  const int indent = 2 * depth;
-  const bool skill = segment.kind != SegmentKind::motion || segment.skill == kHold;  // what can fail by itself
-  text += undone(episode, segment.ordinal, style, indent + 2);
-  std::vector<std::int64_t> marks;
-  std::string passed;
-  for (const ViaRecord& via : episode.vias) {
-    if (via.segment != segment.ordinal) continue;
-    marks.push_back(via.step);
-    passed += (passed.empty() ? "◆ " : ", ") +
-              fmt::format("{} passed at {:.2f} s, {:.2f} rad/s", via.name, painter.seconds(via.step), via.speed);
+  std::string write() {
+    text_ = header(episode_, style_) + "\n" + painter_.ruler();
+    for (const SegmentRecord& segment : episode_.segments)
+      if (segment.parent < 0) add_segment(segment, 0);
+    add_undone(static_cast<int>(episode_.segments.size()), 2);
+    text_ += "\nfacts\n";
+    add_facts();
+    return std::move(text_);
   }
-  const std::string label =
-      std::string(static_cast<std::size_t>(indent), ' ') + (skill ? verdict(segment) + " " : "· ") + call_text(segment);
-  text += painter.line(label, segment.span.start_step, segment.span.end_step, skill ? "█" : "▂", marks);
-  if (!passed.empty()) text += note(passed, style, indent + 4);
-  if (skill && segment.outcome != Outcome::success) text += note(failure_text(segment), style, indent + 4);
-  if (segment.kind == SegmentKind::skill) {
-    const std::string unmet = unmet_text(segment);
-    if (!unmet.empty()) text += note(unmet, style, indent + 4);
-    const std::string changed = changes(episode, segment.span);
-    if (!changed.empty()) text += note(changed, style, indent + 4);
-    const std::string parameters = parameters_text(segment);
-    if (!parameters.empty()) text += note(parameters, style, indent + 4);
-  }
-  for (const SegmentRecord& child : episode.segments) {
-    if (child.parent == segment.ordinal) add_segment(text, episode, child, depth + 1, painter, style);
-  }
-}
 
-std::string facts_part(const EpisodeRecord& episode, const Painter& painter, const TimelineStyle& style) {
-  std::string text;
-  std::size_t constant = 0;
-  for (const FactRecord& fact : episode.facts) {
-    if (fact.open_start && fact.open_end && !style.constant_facts) {
-      ++constant;
-      continue;
+ private:
+  void add_note(const std::string& text, int indent) {
+    if (text.empty()) return;
+    text_ += std::string(static_cast<std::size_t>(indent), ' ') + wrapped(text, style_.width, indent) + "\n";
+  }
+
+  void add_undone(int before_segment, int indent) {
+    for (const AttemptRecord& attempt : episode_.attempts) {
+      if (attempt.before_segment != before_segment) continue;
+      const Span& span = attempt.segment.span;
+      const double seconds = static_cast<double>(span.end_step - span.start_step) / episode_.physics_hz;
+      add_note(fmt::format("↶ undone after {:.2f} s: {} ({})", seconds, call_text(attempt.segment),
+                           failure_text(attempt.segment)),
+               indent);
     }
-    text += painter.line(fact_text(fact.fact), fact.start_step, fact.end_step, fact.observed ? "▒" : "░");
   }
-  if (constant > 0) text += fmt::format("and {} facts that held throughout (--all shows them)\n", constant);
-  return text;
-}
+
+  void add_segment(const SegmentRecord& segment, int depth) {
+    const int indent = 2 * depth;
+    const bool skill = segment.kind != SegmentKind::motion || segment.skill == kHold;  // what can fail by itself
+    add_undone(segment.ordinal, indent + 2);
+    std::vector<std::int64_t> marks;
+    std::string passed;
+    for (const ViaRecord& via : episode_.vias) {
+      if (via.segment != segment.ordinal) continue;
+      marks.push_back(via.step);
+      passed += (passed.empty() ? "◆ " : ", ") +
+                fmt::format("{} passed at {:.2f} s, {:.2f} rad/s", via.name, painter_.seconds(via.step), via.speed);
+    }
+    const std::string label = std::string(static_cast<std::size_t>(indent), ' ') +
+                              (skill ? verdict(segment) + " " : "· ") + call_text(segment);
+    text_ += painter_.line(label, segment.span.start_step, segment.span.end_step, skill ? "█" : "▂", marks);
+    add_note(passed, indent + 4);
+    if (skill && segment.outcome != Outcome::success) add_note(failure_text(segment), indent + 4);
+    if (segment.kind == SegmentKind::skill) {
+      add_note(unmet_text(segment), indent + 4);
+      add_note(changes(episode_, segment.span), indent + 4);
+      add_note(parameters_text(segment), indent + 4);
+    }
+    for (const SegmentRecord& child : episode_.segments)
+      if (child.parent == segment.ordinal) add_segment(child, depth + 1);
+  }
+
+  void add_facts() {
+    std::size_t constant = 0;
+    for (const FactRecord& fact : episode_.facts) {
+      if (fact.open_start && fact.open_end && !style_.constant_facts) {
+        ++constant;
+        continue;
+      }
+      text_ += painter_.line(fact_text(fact.fact), fact.start_step, fact.end_step, fact.observed ? "▒" : "░");
+    }
+    if (constant > 0) text_ += fmt::format("and {} facts that held throughout (--all shows them)\n", constant);
+  }
+
+  const EpisodeRecord& episode_;
+  const TimelineStyle& style_;
+  Painter painter_;
+  std::string text_;
+};
 
 }  // namespace
 
 std::string timeline(const EpisodeRecord& episode, const TimelineStyle& style) {
-  const Painter painter(episode, style);
-  std::string text = header(episode, style) + "\n" + painter.ruler();
-  for (const SegmentRecord& segment : episode.segments) {
-    if (segment.parent < 0) add_segment(text, episode, segment, 0, painter, style);
-  }
-  text += undone(episode, static_cast<int>(episode.segments.size()), style, 2);
-  return text + "\nfacts\n" + facts_part(episode, painter, style);
+  return TimelineWriter(episode, style).write();
 }
 
 }  // namespace stampede::program

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/episode/account.h"
 #include "engine/record/keyframes.h"
 #include "engine/record/observation.h"
+#include "engine/render/png.h"
 #include "scripting/recording/label_file.h"
 #include "scripting/recording/picture_stream.h"
 #include "scripting/recording/recording_scene.h"
@@ -186,8 +188,7 @@ class Importer {
     record_.detail = recording_.detail;
     record_.steps = static_cast<std::int64_t>(times_.count - 1) * ticks;
     if (!recording_.source.empty()) record_.options["recording"] = recording_.source;
-    std::string uncalibrated;
-    for (const std::string& name : scene_.uncalibrated) uncalibrated += (uncalibrated.empty() ? "" : ",") + name;
+    const std::string uncalibrated = joined({scene_.uncalibrated.begin(), scene_.uncalibrated.end()}, ",");
     if (!uncalibrated.empty()) record_.options["uncalibrated"] = uncalibrated;
     for (const ScriptFile* file : scene_.stage.files)
       record_.definitions.push_back(

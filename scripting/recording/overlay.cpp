@@ -19,17 +19,16 @@ constexpr double kTintShare = 0.35;
 
 class Overlayer {
  public:
-  Overlayer(Renderer& renderer, const Catalogue& catalogue, const StoredEpisode& stored,
-            std::shared_ptr<const Scene> scene, const OverlayRequest& request)
-      : renderer_(renderer), catalogue_(catalogue), stored_(stored), scene_(std::move(scene)), request_(request) {
-    renderer_.load(scene_);
-    for (const MaskEntry& mask : mask_key(*scene_))
-      if (mask.name.starts_with(scene_->robot.name + ".")) robot_.push_back(mask.instance);
+  Overlayer(Renderer& renderer, const Catalogue& catalogue, const StoredEpisode& stored, const OverlayRequest& request)
+      : renderer_(renderer), catalogue_(catalogue), stored_(stored), scene_(*stored.scene), request_(request) {
+    renderer_.load(stored.scene);
+    for (const MaskEntry& mask : mask_key(scene_))
+      if (mask.name.starts_with(scene_.robot.name + ".")) robot_.push_back(mask.instance);
     for (const ImageTimeRecord& one : stored_.episode.image_times)
       if (one.kind == "rgb")
         taken_[{one.frame, stored_.episode.cameras.at(static_cast<std::size_t>(one.camera)).name}] = one.time_s;
     for (const JointName& joint : stored_.episode.joints) {
-      const auto& arm = scene_->robot.arm;
+      const auto& arm = scene_.robot.arm;
       arm_.push_back(joint.part.body < 0 && std::find(arm.begin(), arm.end(), joint.part.part) != arm.end());
     }
   }
@@ -72,7 +71,7 @@ class Overlayer {
   }
   const Camera& camera_named(const std::string& name) const {
     std::vector<std::string> names;
-    for (const Camera& camera : scene_->cameras) {
+    for (const Camera& camera : scene_.cameras) {
       if (camera.name == name) return camera;
       names.push_back(camera.name);
     }
@@ -88,7 +87,7 @@ class Overlayer {
   std::optional<ScenePoses> poses_at(const ImageEntry& entry) const {
     const EpisodeRecord& episode = stored_.episode;
     const auto& frames = episode.frames;
-    SceneState state = state_at(*scene_, episode, entry.frame);
+    SceneState state = state_at(scene_, episode, entry.frame);
     const auto taken = taken_.find({entry.frame, entry.camera});
     const auto here = static_cast<std::size_t>(entry.frame);
     const double frame_s = static_cast<double>(frames[here].step) / episode.physics_hz;
@@ -104,7 +103,7 @@ class Overlayer {
       if (!std::isnan(now) && !std::isnan(then))
         state.robot_position[static_cast<std::size_t>(part.part)] = now + std::abs(share) * (then - now);
     }
-    return scene_poses(*scene_, state);
+    return scene_poses(scene_, state);
   }
 
   void overlay(const ImageEntry& entry, const ScenePoses& poses, std::vector<OutlinePoint>& points,
@@ -114,7 +113,7 @@ class Overlayer {
     const Camera& camera = camera_named(entry.camera);
     const View view{
         camera.width == real.width && camera.height == real.height ? camera : resized(camera, real.width, real.height),
-        world_from_camera(*scene_, poses, camera)};
+        world_from_camera(scene_, poses, camera)};
     DrawOptions options;
     options.kinds = PictureKinds::none();
     options.kinds.add(PictureKind::instance);
@@ -148,7 +147,7 @@ class Overlayer {
   Renderer& renderer_;
   const Catalogue& catalogue_;
   const StoredEpisode& stored_;
-  std::shared_ptr<const Scene> scene_;
+  const Scene& scene_;
   const OverlayRequest& request_;
   std::vector<int> robot_;  // its instances
   std::map<std::pair<std::int64_t, std::string>, double> taken_;
@@ -159,9 +158,8 @@ class Overlayer {
 }  // namespace
 
 Overlays overlays_of(Renderer& renderer, const Catalogue& catalogue, const StoredEpisode& stored,
-                     std::shared_ptr<const Scene> scene, const OverlayRequest& request,
-                     const std::function<void(const OverlayPicture&)>& keep) {
-  return Overlayer(renderer, catalogue, stored, std::move(scene), request).run(keep);
+                     const OverlayRequest& request, const std::function<void(const OverlayPicture&)>& keep) {
+  return Overlayer(renderer, catalogue, stored, request).run(keep);
 }
 
 }  // namespace stampede

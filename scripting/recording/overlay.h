@@ -39,10 +39,9 @@ struct Overlays {
 };
 
 // The robot is drawn at the joint states of the moment at which each picture was taken, between frames on straight
-// lines. `scene`: the episode's, perhaps with other cameras. Pictures of frames at which the joints are not known are
-// left out. `keep` gets each picture. Throws Error for cameras that the scene does not have.
+// lines. The episode's scene may have been given other cameras. Pictures of frames at which the joints are not known
+// are left out. `keep` gets each picture. Throws Error for cameras that the scene does not have.
 Overlays overlays_of(Renderer& renderer, const Catalogue& catalogue, const StoredEpisode& stored,
-                     std::shared_ptr<const Scene> scene, const OverlayRequest& request,
-                     const std::function<void(const OverlayPicture&)>& keep);
+                     const OverlayRequest& request, const std::function<void(const OverlayPicture&)>& keep);
 
 }  // namespace stampede

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text_file.h"
 #include "engine/model/camera.h"
@@ -19,12 +20,9 @@ void add_stand_ins(const RecordingFile& recording, RecordingScene& scene) {
     if (!stream.pictures()) continue;
     const auto named = [&](const Camera& camera) { return camera.name == stream.name; };
     if (std::any_of(cameras.begin(), cameras.end(), named)) continue;
-    if (!recording.cameras.empty()) {
-      std::vector<std::string> names;
-      for (const Camera& camera : cameras) names.push_back(camera.name);
+    if (!recording.cameras.empty())
       throw Error(stream.place, "the camera file has no camera '" + stream.name + "'",
-                  did_you_mean(stream.name, names));
-    }
+                  did_you_mean(stream.name, names_of(cameras)));
     const std::array<int, 2> size = first_size(recording, stream);
     Camera camera;
     camera.name = stream.name;
@@ -38,12 +36,10 @@ void add_stand_ins(const RecordingFile& recording, RecordingScene& scene) {
 }  // namespace
 
 RecordingScene scene_of(const RecordingFile& recording, const std::shared_ptr<const Library>& library, Hasher& hasher) {
-  if (recording.urdf.empty() && library->file(DefinitionKind::robot, recording.robot) == nullptr) {
-    std::vector<std::string> names;
-    for (const ScriptFile* file : library->files(DefinitionKind::robot)) names.push_back(file->name);
+  if (recording.urdf.empty() && library->file(DefinitionKind::robot, recording.robot) == nullptr)
     throw Error(recording.shown, "there is no robot '" + recording.robot + "'",
-                did_you_mean(recording.robot, names) + "; of a robot that is none of ours, give `robot.urdf`");
-  }
+                did_you_mean(recording.robot, names_of(library->files(DefinitionKind::robot))) +
+                    "; of a robot that is none of ours, give `robot.urdf`");
   StageRequest request;
   request.world = recording.world;
   request.robot = recording.robot;

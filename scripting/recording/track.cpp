@@ -6,18 +6,13 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
+#include "engine/base/text.h"
 #include "scripting/recording/csv_file.h"
 
 namespace stampede {
 namespace {
 
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 // Where each of the wanted columns is in the file.
 std::vector<std::size_t> places_of(const CsvFile& csv, const RecordedStream& stream, std::vector<TrackColumn>& columns,
@@ -41,7 +36,7 @@ std::vector<std::size_t> places_of(const CsvFile& csv, const RecordedStream& str
     const bool needed = name == "time_s" || columns[places.size() - 1].needed;
     if (found == in_header.end() && needed)
       throw Error(shown + ":1", "the column '" + name + "' is missing",
-                  "it has " + listed(csv.header()) + "; is this another robot's?");
+                  "it has " + joined(csv.header()) + "; is this another robot's?");
     places.push_back(found == in_header.end() ? kNoColumn : found->second);
   }
   return places;

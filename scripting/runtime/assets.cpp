@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/geometry/mesh.h"
+#include "scripting/library/library.h"
 
 namespace stampede {
 namespace {
@@ -62,6 +63,10 @@ const UrdfBody& Assets::urdf(const std::filesystem::path& file) {
 void Assets::remark(const Error& remark) {
   const auto same = [&](const Error& other) { return std::string_view(other.what()) == remark.what(); };
   if (std::none_of(remarks_.begin(), remarks_.end(), same)) remarks_.push_back(remark);
+}
+
+std::shared_ptr<Assets> assets_of(const Library& library, std::shared_ptr<Assets> given) {
+  return given ? std::move(given) : std::make_shared<Assets>(FileScope(library.roots().folders));
 }
 
 }  // namespace stampede

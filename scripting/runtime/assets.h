@@ -12,6 +12,8 @@
 
 namespace stampede {
 
+class Library;
+
 // Lifetime: one thread. All throw Error that names the author's place, the file and the cure; for files outside of the
 // scope too.
 class Assets {
@@ -41,5 +43,8 @@ class Assets {
   std::vector<Error> remarks_;
   std::map<std::filesystem::path, UrdfBody> urdfs_;  // a robot's takes longer than all else in a draw
 };
+
+// Of the library's folders; `given` where they are there already.
+std::shared_ptr<Assets> assets_of(const Library& library, std::shared_ptr<Assets> given = nullptr);
 
 }  // namespace stampede

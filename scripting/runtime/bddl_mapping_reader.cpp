@@ -6,6 +6,7 @@
 #include <iterator>
 #include <lua.hpp>
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "scripting/library/value.h"
 #include "scripting/lua/sandbox.h"
@@ -173,16 +174,13 @@ class MappingReader {
 
   void known_predicate(const std::string& field, const std::string& name) const {
     if (library_.domain().predicate(name) != nullptr) return;
-    std::vector<std::string> names;
-    for (const Predicate& one : library_.domain().predicates) names.push_back(one.name);
-    fail(field, "there is no predicate '" + name + "'", did_you_mean(name, names));
+    fail(field, "there is no predicate '" + name + "'", did_you_mean(name, names_of(library_.domain().predicates)));
   }
 
   // An object file or a type.
   void known_thing(const std::string& field, const std::string& name) const {
     if (library_.domain().types.contains(name) || library_.file(DefinitionKind::object, name) != nullptr) return;
-    std::vector<std::string> names;
-    for (const ScriptFile* file : library_.files(DefinitionKind::object)) names.push_back(file->name);
+    std::vector<std::string> names = names_of(library_.files(DefinitionKind::object));
     for (const auto& [type, parent] : library_.domain().types) names.push_back(type);
     fail(field, "there is no object or type '" + name + "'", did_you_mean(name, names));
   }

@@ -10,11 +10,11 @@
 namespace stampede {
 
 struct EpisodeScripts::Impl {
-  Impl(std::shared_ptr<const Library> library, std::string_view name, std::string_view variation, std::int64_t seed,
-       int further_things, std::shared_ptr<Assets> assets)
+  Impl(std::shared_ptr<const Library> library, const EpisodeJob& job, int further_things,
+       std::shared_ptr<Assets> assets)
       : tests(std::move(library)),
-        task(tests, name, variation, seed, further_things, std::move(assets)),
-        symbols(tests, name),
+        task(tests, job, further_things, std::move(assets)),
+        symbols(tests, job.task),
         skills(tests) {}
   TestState tests;
   LuaTask task;
@@ -23,13 +23,12 @@ struct EpisodeScripts::Impl {
 };
 
 // What a script that is used says wrongly is told by its own complaint, not by what comes of it.
-EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task,
-                               std::string_view variation, std::int64_t seed, int further_things,
+EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, const EpisodeJob& job, int further_things,
                                std::shared_ptr<Assets> assets) {
   try {
-    impl_ = std::make_unique<Impl>(library, task, variation, seed, further_things, std::move(assets));
+    impl_ = std::make_unique<Impl>(library, job, further_things, std::move(assets));
   } catch (const Error&) {
-    std::vector<const ScriptFile*> files = {library->file(DefinitionKind::task, task)};
+    std::vector<const ScriptFile*> files = {library->file(DefinitionKind::task, job.task)};
     for (const DefinitionKind kind : {DefinitionKind::object, DefinitionKind::world, DefinitionKind::robot})
       for (const ScriptFile* file : library->files(kind)) files.push_back(file);
     std::erase(files, nullptr);
@@ -38,6 +37,10 @@ EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::stri
   }
   library->require_sound(impl_->task.files());
 }
+
+EpisodeScripts::EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task,
+                               std::string_view variation, std::int64_t seed)
+    : EpisodeScripts(std::move(library), {std::string(task), std::string(variation), seed}) {}
 
 EpisodeScripts::~EpisodeScripts() = default;
 

@@ -6,6 +6,7 @@
 
 #include "engine/start/interfaces.h"
 #include "scripting/library/library.h"
+#include "scripting/runtime/job.h"
 
 namespace stampede {
 
@@ -14,10 +15,12 @@ class Assets;
 // One episode's scripts. Lifetime: outlives the episode's runner; used by one thread. Throws Error for bad scripts.
 class EpisodeScripts {
  public:
-  // `variation`: a canonical text of the task. `further_things`: how many stand about that have no part in it.
-  // `assets`: of the same library, where one thread makes many episodes; null: read anew.
+  // `further_things`: how many stand about that have no part in it. `assets`: of the same library, where one thread
+  // makes many episodes; null: read anew.
+  EpisodeScripts(std::shared_ptr<const Library> library, const EpisodeJob& job, int further_things = 0,
+                 std::shared_ptr<Assets> assets = nullptr);
   EpisodeScripts(std::shared_ptr<const Library> library, std::string_view task, std::string_view variation,
-                 std::int64_t seed, int further_things = 0, std::shared_ptr<Assets> assets = nullptr);
+                 std::int64_t seed);
   ~EpisodeScripts();
   TaskDraw task();  // lifetime: until these scripts end
   Symbols& symbols();

@@ -30,29 +30,26 @@ std::map<std::string, std::string> axes_of(const Library::TaskInfo& info, std::s
 
 }  // namespace
 
-LuaTask::LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed,
-                 int further_things, std::shared_ptr<Assets> assets)
+LuaTask::LuaTask(TestState& tests, EpisodeJob job, int further_things, std::shared_ptr<Assets> assets)
     : tests_(tests),
-      name_(name),
-      variation_(variation),
-      seed_(seed),
+      job_(std::move(job)),
       further_things_(further_things),
-      axes_(axes_of(info_of(*tests.library(), name), variation)),
-      assets_(assets ? std::move(assets) : std::make_shared<Assets>(FileScope(tests.library()->roots().folders))),
+      axes_(axes_of(info_of(*tests.library(), job_.task), job_.variation)),
+      assets_(assets_of(*tests.library(), std::move(assets))),
       first_(make(0)) {
   tests_.set_hand(first_.hand);
 }
 
 LuaTask::Drawn LuaTask::make(int draw) {
-  const ScriptFile* file = tests_.library()->file(DefinitionKind::task, name_);
-  if (file == nullptr) throw Error(name_, "there is no task of this name");
+  const ScriptFile* file = tests_.library()->file(DefinitionKind::task, job_.task);
+  if (file == nullptr) throw Error(job_.task, "there is no task of this name");
   ScriptState scripts(tests_.library(), "");
-  const RandomKey key = RandomKey("draw").with(name_).with(variation_).with(seed_).with(draw);
+  const RandomKey key = RandomKey("draw").with(job_.task).with(job_.variation).with(job_.seed).with(draw);
   Drawn drawn;
   scripts.protect(
-      [&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, *assets_, further_things_).read(state); });
-  drawn.task.name = name_;
-  drawn.task.variation = variation_;
+      [&](lua_State* state) { drawn = TaskReader(scripts, *file, axes_, key, *assets_).read(state, further_things_); });
+  drawn.task.name = job_.task;
+  drawn.task.variation = job_.variation;
   drawn.task.axes = axes_;
   return drawn;
 }
@@ -71,7 +68,7 @@ int LuaTask::keep_variation() {
   ScriptState& scripts = tests_.get();
   int reference = 0;
   scripts.protect([&](lua_State* state) {
-    scripts.definitions().push(DefinitionKind::task, name_);
+    scripts.definitions().push(DefinitionKind::task, job_.task);
     push_variation(state, lua_gettop(state), axes_, first_.files.front()->shown_path);
     reference = luaL_ref(state, LUA_REGISTRYINDEX);
   });
@@ -87,7 +84,7 @@ void LuaTask::call_function(const char* field, const WorldView& view) {
   }
   auto found = functions_.find(field);
   if (found == functions_.end())
-    found = functions_.emplace(field, scripts.function_of(DefinitionKind::task, name_, field)).first;
+    found = functions_.emplace(field, scripts.function_of(DefinitionKind::task, job_.task, field)).first;
   if (v_ == 0) v_ = keep_variation();
   const ViewScope scope(scripts.view, view, ViewScope::Facts::readable);
   scripts.push_kept(found->second);

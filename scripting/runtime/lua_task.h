@@ -9,6 +9,7 @@
 
 #include "scripting/library/value.h"
 #include "scripting/runtime/assets.h"
+#include "scripting/runtime/job.h"
 #include "scripting/runtime/script_state.h"
 
 namespace stampede {
@@ -17,12 +18,11 @@ namespace stampede {
 class LuaTask {
  public:
   // Throws Error for an unknown task or variation and for mistakes in its files. Sets the hand of `tests`.
-  LuaTask(TestState& tests, std::string_view name, std::string_view variation, std::int64_t seed, int further_things,
-          std::shared_ptr<Assets> assets);
+  LuaTask(TestState& tests, EpisodeJob job, int further_things, std::shared_ptr<Assets> assets);
   LuaTask(const LuaTask&) = delete;
   LuaTask& operator=(const LuaTask&) = delete;
 
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return job_.task; }
   Task draw(int number);
   std::vector<const ScriptFile*> files() const { return first_.files; }  // that took part, beside predicates and skills
 
@@ -45,8 +45,7 @@ class LuaTask {
   int keep_variation();
 
   TestState& tests_;
-  std::string name_, variation_;
-  std::int64_t seed_;
+  EpisodeJob job_;
   int further_things_;
   std::map<std::string, std::string> axes_;
   std::shared_ptr<Assets> assets_;

@@ -12,14 +12,6 @@
 
 namespace stampede {
 
-namespace {
-
-std::shared_ptr<Assets> assets_of(const Library& library, std::shared_ptr<Assets> given) {
-  return given ? std::move(given) : std::make_shared<Assets>(FileScope(library.roots().folders));
-}
-
-}  // namespace
-
 Scene object_scene(std::shared_ptr<const Library> library, const std::string& object, std::shared_ptr<Assets> assets) {
   assets = assets_of(*library, std::move(assets));
   const ScriptFile* file = library->file(DefinitionKind::object, object);
@@ -50,7 +42,7 @@ Scene world_scene(const std::shared_ptr<const Library>& library, const std::stri
   const std::map<std::string, std::string> axes;
   Scene scene;
   scripts.protect(
-      [&](lua_State* state) { scene = TaskReader(scripts, *file, axes, key, *assets, 0).read_world_alone(state); });
+      [&](lua_State* state) { scene = TaskReader(scripts, *file, axes, key, *assets).read_world_alone(state); });
   return scene;
 }
 

@@ -39,8 +39,9 @@ int spots_on(lua_State* state) {
   const std::string_view below = check_text(state, 2), object = check_text(state, 3);
   const RandomKey key = spots_key(check_random(state, 4));
   const WorldView& view = *context.view;
-  return push_poses(state, spots(*context.space, view.world(), view.object(below), view.object(object), key,
-                                 context.most, context.turned_down));
+  const Object &thing = view.object(object), &place = view.object(below);
+  return push_poses(
+      state, spots({*context.space, view.world(), thing, key, context.most, context.turned_down}, place));
 }
 
 const Region& region_of(const WorldView& view, std::string_view name) {
@@ -75,8 +76,8 @@ int spots_in_region(lua_State* state) {
     return push_poses(state, region_in_region(view, region, region_of(view, object_name), key, context.most));
   }
   if (floating) throw Error(std::string(object_name), "a body cannot float", "place it on something, or use a region");
-  return push_poses(state,
-                    region_spots(*context.space, view.world(), region, object, key, context.most, context.turned_down));
+  return push_poses(
+      state, region_spots({*context.space, view.world(), object, key, context.most, context.turned_down}, region));
 }
 
 void push_placement(lua_State* state, std::string_view object, const char* field) {  // value on top, replaced

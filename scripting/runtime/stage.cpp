@@ -1,5 +1,6 @@
 #include "scripting/runtime/stage.h"
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/model/masks.h"
 #include "scripting/runtime/task_reader.h"
@@ -10,9 +11,8 @@ namespace {
 const ScriptFile& file_of(const Library& library, DefinitionKind kind, const std::string& name,
                           const std::string& where) {
   if (const ScriptFile* file = library.file(kind, name)) return *file;
-  std::vector<std::string> names;
-  for (const ScriptFile* file : library.files(kind)) names.push_back(file->name);
-  throw Error(where, "there is no " + std::string(to_string(kind)) + " '" + name + "'", did_you_mean(name, names));
+  throw Error(where, "there is no " + std::string(to_string(kind)) + " '" + name + "'",
+              did_you_mean(name, names_of(library.files(kind))));
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ Stage stage_of(const std::shared_ptr<const Library>& library, const StageRequest
   ScriptState scripts(library, "");
   Stage stage;
   scripts.protect(
-      [&](lua_State* state) { stage = TaskReader(scripts, *file, axes, key, *assets, 0).read_stage(state, request); });
+      [&](lua_State* state) { stage = TaskReader(scripts, *file, axes, key, *assets).read_stage(state, request); });
   library->require_sound(stage.files);
   number_masks(stage.scene, key.with("masks"));
   return stage;

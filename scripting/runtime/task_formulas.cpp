@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "engine/base/names.h"
 #include "scripting/library/formula_reader.h"
 #include "scripting/library/naming.h"
 #include "scripting/runtime/task_reader.h"
@@ -27,9 +28,7 @@ FormulaContext TaskReader::context_of(const std::string& field) const {
   context.expand = [this](const std::string& group) { return members(group); };
   context.object_fault = [this](const std::string& name) -> std::optional<std::string> {
     if (drawn_.task.scene.object(name) != nullptr) return std::nullopt;
-    std::vector<std::string> known;
-    for (const Object& object : drawn_.task.scene.objects) known.push_back(object.name);
-    return did_you_mean(name, known);
+    return did_you_mean(name, names_of(drawn_.task.scene.objects));
   };
   return context;
 }

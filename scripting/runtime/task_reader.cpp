@@ -49,10 +49,10 @@ void limit_formulas(const Task& task, const Domain& domain, const std::string& f
 }  // namespace
 
 TaskReader::TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-                       RandomKey key, Assets& assets, int further_things)
-    : scripts_(scripts), file_(file), axes_(axes), key_(key), assets_(assets), further_things_(further_things) {}
+                       RandomKey key, Assets& assets)
+    : scripts_(scripts), file_(file), axes_(axes), key_(key), assets_(assets) {}
 
-LuaTask::Drawn TaskReader::read(lua_State* state) {
+LuaTask::Drawn TaskReader::read(lua_State* state, int further_things) {
   state_ = state;
   luaL_checkstack(state, 64, "task");
   scripts_.definitions().push(DefinitionKind::task, file_.name);
@@ -67,7 +67,7 @@ LuaTask::Drawn TaskReader::read(lua_State* state) {
   const std::filesystem::path folder = used(DefinitionKind::world, name.text, name).path.parent_path();
   read_world(name.text, world);
   read_objects();
-  add_clutter();
+  add_clutter(further_things);
   read_looks(world, folder);
   if (world["motion"]["planner"].present()) drawn_.task.motion_planner = world["motion"]["planner"].as_text();
   drawn_.task.observation = before(observation_from(field("observe")), observation_from(world["observe"]));
@@ -304,15 +304,15 @@ void TaskReader::add_group(const std::string& name, int index) {
 }
 
 // Drawn from all classes of the library that can pass unnoticed.
-void TaskReader::add_clutter() {
-  if (further_things_ <= 0) return;
+void TaskReader::add_clutter(int further_things) {
+  if (further_things <= 0) return;
   std::set<std::string> classes;
   for (const ScriptFile* file : scripts_.library().files(DefinitionKind::object)) classes.insert(file->name);
   std::vector<std::string> order(classes.begin(), classes.end());
   Random(key_.with("clutter")).shuffle(order);
   std::vector<std::string>& clutter = drawn_.task.clutter;
   for (const std::string& name : order) {
-    if (static_cast<int>(clutter.size()) == further_things_) return;
+    if (static_cast<int>(clutter.size()) == further_things) return;
     Value spec;
     spec.kind = Value::Kind::text;
     spec.text = name;

@@ -11,8 +11,8 @@ namespace stampede {
 class TaskReader {
  public:
   TaskReader(ScriptState& scripts, const ScriptFile& file, const std::map<std::string, std::string>& axes,
-             RandomKey key, Assets& assets, int further_things);
-  LuaTask::Drawn read(lua_State* state);
+             RandomKey key, Assets& assets);
+  LuaTask::Drawn read(lua_State* state, int further_things);
   // What stands around whatever the task: a world's fixtures, or nothing, and a robot. `file` is then the world's or
   // the robot's own.
   Stage read_stage(lua_State* state, const StageRequest& request);
@@ -31,7 +31,7 @@ class TaskReader {
   void forget_absent_classes();
   void read_objects();
   void add_group(const std::string& name, int index);
-  void add_clutter();
+  void add_clutter(int further_things);
   void place_clutter();
   void read_init();
   void read_told();
@@ -52,7 +52,6 @@ class TaskReader {
   const std::map<std::string, std::string>& axes_;
   RandomKey key_;
   Assets& assets_;
-  int further_things_;
   lua_State* state_ = nullptr;
   int task_ = 0, variation_ = 0;  // stack indices
   Colours colours_;

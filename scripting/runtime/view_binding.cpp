@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/start/fact_tracker.h"
+#include "engine/start/part_questions.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/whitelist.h"
 #include "scripting/runtime/pose_binding.h"
@@ -80,14 +82,14 @@ std::string optional_name(lua_State* state, int index) {
 
 int can_grasp(lua_State* state) {
   const std::string thing(check_text(state, 2)), before = optional_name(state, 3);
-  lua_pushboolean(state, view_of(state).can_grasp(thing, before) ? 1 : 0);
+  lua_pushboolean(state, stampede::can_grasp(view_of(state), thing, before) ? 1 : 0);
   return 1;
 }
 
 int can_move(lua_State* state) {
   const std::string part(check_text(state, 2)), to(check_text(state, 3));
   const std::string before = optional_name(state, 4), enough = optional_name(state, 5);
-  lua_pushboolean(state, view_of(state).can_move(part, to, before, enough) ? 1 : 0);
+  lua_pushboolean(state, stampede::can_move(view_of(state), part, to, before, enough) ? 1 : 0);
   return 1;
 }
 
@@ -150,7 +152,7 @@ int grasped_object(lua_State* state) {
 }
 
 int opening(lua_State* state) {
-  lua_pushnumber(state, view_of(state).opening());
+  lua_pushnumber(state, view_of(state).world().opening());
   return 1;
 }
 
@@ -186,11 +188,7 @@ int number(lua_State* state) {
   const ViewContext& context = check_context(state);
   const Object& object = context.view->object(check_text(state, 2));
   const auto declared = context.numbers->find(name);
-  if (declared == context.numbers->end()) {
-    std::vector<std::string> known;
-    for (const auto& [other, info] : *context.numbers) known.push_back(other);
-    throw unknown_number("w:number", name, known);
-  }
+  if (declared == context.numbers->end()) throw unknown_number("w:number", name, keys_of(*context.numbers));
   if (!lua_isnoneornil(state, 4))
     throw Error("w:number", "takes a thing and the name of a number: what is read of things without it is declared",
                 name + " is declared in " + declared->second.place + ": default = …, or optional = true");

@@ -5,6 +5,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/definitions.h"
 #include "scripting/library/value.h"
@@ -118,12 +119,11 @@ struct Top {
 class TaskWriter {
  public:
   TaskWriter(const std::shared_ptr<const Library>& library, const BddlProblem& problem, const NamedMapping& mapping,
-             const std::string& world, const Scene& scene, const std::string& origin)
+             const Scene& scene, const std::string& origin)
       : library_(library),
         problem_(problem),
         mapping_(with_choices(library, problem, mapping.mapping)),
         mapping_file_(mapping.file),
-        world_(world),
         scene_(scene),
         origin_(origin) {
     plain_ = from_bddl(problem, mapping_);
@@ -289,11 +289,7 @@ class TaskWriter {
   }
 
   std::string misfit(const Formula& formula) const {
-    if (formula.kind == Formula::Kind::atom) {
-      std::vector<std::string> names;
-      for (const Term& term : formula.terms) names.push_back(term.name);
-      return misfit(formula.predicate, names);
-    }
+    if (formula.kind == Formula::Kind::atom) return misfit(formula.predicate, names_of(formula.terms));
     for (const Formula& part : formula.parts)
       if (std::string why = misfit(part); !why.empty()) return why;
     return {};
@@ -438,8 +434,8 @@ class TaskWriter {
     std::string& text = result_.text;
     text = "-- Imported from " + origin_ + ": " + instruction + ".\n";
     std::replace(text.begin(), text.end() - 1, '\n', ' ');
-    text += "return task {\n  world = " + lua_text(world_) + ",\n  objects = {\n" + objects_ + "  },\n  init = {\n" +
-            init_ + "  },\n  goal = pddl [[" + to_pddl(task_.goal) + "]],\n  instructions = { " +
+    text += "return task {\n  world = " + lua_text(scene_.world) + ",\n  objects = {\n" + objects_ +
+            "  },\n  init = {\n" + init_ + "  },\n  goal = pddl [[" + to_pddl(task_.goal) + "]],\n  instructions = { " +
             lua_text(instruction) + " },\n  problem = {\n    dialect = " + lua_text(dialect_name(problem_.dialect)) +
             ",\n";
     if (!mapping_file_.empty()) text += "    mapping = " + lua_text(mapping_file_) + ",\n";
@@ -453,7 +449,6 @@ class TaskWriter {
   const BddlProblem& problem_;
   BddlMapping mapping_;
   const std::string& mapping_file_;
-  const std::string& world_;
   const Scene& scene_;
   const std::string& origin_;
   BddlTask plain_, task_;
@@ -467,9 +462,8 @@ class TaskWriter {
 }  // namespace
 
 ImportedTask task_file_from(const std::shared_ptr<const Library>& library, const BddlProblem& problem,
-                            const NamedMapping& mapping, const std::string& world, const Scene& scene,
-                            const std::string& origin) {
-  return TaskWriter(library, problem, mapping, world, scene, origin).write();
+                            const NamedMapping& mapping, const Scene& scene, const std::string& origin) {
+  return TaskWriter(library, problem, mapping, scene, origin).write();
 }
 
 std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Library>& library,

@@ -25,10 +25,9 @@ struct NamedMapping {
   std::string file;  // of worlds/bddl, by name; empty: that of the dialect
 };
 
-// `world`: the world's name; `scene`: of any of its tasks: which fixtures stand there already, and where.
+// `scene`: of any task of the world: which fixtures stand there already, and where.
 ImportedTask task_file_from(const std::shared_ptr<const Library>& library, const BddlProblem& problem,
-                            const NamedMapping& mapping, const std::string& world, const Scene& scene,
-                            const std::string& origin);
+                            const NamedMapping& mapping, const Scene& scene, const std::string& origin);
 
 // What a task was imported from, by its field `problem`; nothing for others. Throws Error where the file was damaged.
 std::optional<ImportedProblem> imported_problem(const std::shared_ptr<const Library>& library, const std::string& task);

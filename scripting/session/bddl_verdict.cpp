@@ -184,15 +184,15 @@ VerdictRecord bddl_verdict(const EpisodeRecord& episode, const ImportedProblem& 
   if (episode.frames.empty()) throw Error(episode.task, "an episode without frames has no end to judge");
   const StoredSymbols symbols = read_symbols(episode);
   const AbstractState state = abstract_state(episode, static_cast<std::int64_t>(episode.frames.size()) - 1);
+  const symbolic::View ours{state.facts, symbols.domain, symbols.problem.objects};
   BddlVerdicts verdicts;
   if (imported.problem.dialect == BddlDialect::libero) {
     const Scene scene = scene_from_document(episode.scene_document);
     const LiberoGeometry geometry(libero_geometry(episode, scene, imported));
-    verdicts =
-        judge_both(imported.problem, geometry, imported.task, state.facts, symbols.domain, symbols.problem.objects);
+    verdicts = judge_both(imported.problem, geometry, imported.task, ours);
   } else {
     const OurAtoms atoms(imported.task, state.facts, symbols.domain, symbols.problem.objects);
-    verdicts = judge_both(imported.problem, atoms, imported.task, state.facts, symbols.domain, symbols.problem.objects);
+    verdicts = judge_both(imported.problem, atoms, imported.task, ours);
   }
   std::vector<std::string>& texts = verdicts.disagreements;  // a part that is one literal is listed as both
   std::set<std::string> seen;

@@ -57,7 +57,7 @@ Formula formula_option(const std::string& text, const std::string& place) {
 }
 
 std::string misfit(const std::shared_ptr<const Library>& library, const EpisodeJob& job, const RunOptions& options) {
-  EpisodeScripts scripts(library, job.task, job.variation, job.seed);
+  EpisodeScripts scripts(library, job);
   const TaskDraw task = scripts.task();
   Task drawn = task(0);
   const std::optional<Formula> asked = altered(drawn, scripts.symbols(), options).where;

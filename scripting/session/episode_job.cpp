@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/base/hash.h"
+#include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "scripting/library/naming.h"
 #include "scripting/runtime/script_error.h"
@@ -58,9 +59,7 @@ bool agrees(const std::map<std::string, std::string>& axes, const std::vector<st
 const Library::TaskInfo& task_info(const Library& library, const std::string& name) {
   if (const ScriptFile* file = library.file(DefinitionKind::task, name)) library.require_sound({file});
   if (const Library::TaskInfo* task = library.task(name)) return *task;
-  std::vector<std::string> names;
-  for (const ScriptFile* file : library.files(DefinitionKind::task)) names.push_back(file->name);
-  throw Error("", "there is no task '" + name + "'", did_you_mean(name, names));
+  throw Error("", "there is no task '" + name + "'", did_you_mean(name, names_of(library.files(DefinitionKind::task))));
 }
 
 std::vector<std::string> matching_variations(const Library::TaskInfo& task, const std::string& text) {
@@ -190,7 +189,7 @@ PreparedEpisode::PreparedEpisode(std::shared_ptr<const Library> library, Episode
     : library_(std::move(library)),
       job_(std::move(job)),
       options_(std::move(options)),
-      scripts_(library_, job_.task, job_.variation, job_.seed, further_things(options_.perturb), std::move(assets)) {
+      scripts_(library_, job_, further_things(options_.perturb), std::move(assets)) {
   options_.seed = job_.seed;
   definitions_ = scripts_.definitions();
   key_ = episode_key(definitions_, job_, options_);

@@ -18,12 +18,6 @@ namespace stampede {
 // Seeds from here on are the test split's.
 inline constexpr std::int64_t kFirstTestSeed = 1'000'000;
 
-struct EpisodeJob {
-  std::string task, variation;
-  std::int64_t seed = 0;
-  friend auto operator<=>(const EpisodeJob&, const EpisodeJob&) = default;
-};
-
 // The `index`-th of `count` parts of a run: every `count`-th episode.
 struct Shard {
   std::int64_t index = 1, count = 1;

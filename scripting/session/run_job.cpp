@@ -97,62 +97,92 @@ void count_episode(const EpisodeRecord& episode, RunTally& tally) {
   }
 }
 
+// Any thread makes an episode; what is told and counted of it is one thread's at a time.
+class JobRun {
+ public:
+  JobRun(std::shared_ptr<const Library> library, const JobList& jobs, const RunSettings& settings, EpisodeSink* sink)
+      : library_(std::move(library)), jobs_(jobs), settings_(settings), sink_(sink) {
+    const auto busy = static_cast<int>(std::clamp<std::int64_t>(jobs.size(), 1, settings.workers));
+    encoders_ = settings.helpers + settings.workers - busy;
+    tally_.total = jobs.size();
+  }
+
+  RunTally run() {
+    const std::atomic<bool>* stop = settings_.stop;
+    if (!settings_.act) check_policies(library_, jobs_.first_of_each_task(), settings_.options, stop);
+    in_parallel(static_cast<std::size_t>(jobs_.size()), settings_.workers, stop, [&](std::size_t i, Workbench& bench) {
+      const auto place = static_cast<std::int64_t>(i);
+      try {
+        make(place, bench);
+      } catch (...) {
+        abandon(place);
+        throw;
+      }
+    });
+    tally_.interrupted = stop && stop->load() && tally_.done() < tally_.total;
+    return std::move(tally_);
+  }
+
+ private:
+  void make(std::int64_t place, Workbench& bench) {
+    const EpisodeJob job = jobs_[place];
+    if (!bench.assets) bench.assets = assets_of(*library_);
+    RunOptions options = options_for(job, settings_);
+    options.renderer = &bench.renderer;
+    options.encoders = encoders_;
+    PreparedEpisode prepared(library_, job, std::move(options), bench.assets);
+    pass_on(bench.assets->remarks());
+    if (!settings_.act && is_there(place, job.task, prepared.key())) return;
+    EpisodeRecord episode = settings_.act ? settings_.act(prepared) : prepared.run(settings_.stop);
+    if (episode.reason == Reason::interrupted) return abandon(place);
+    if (settings_.act && is_there(place, job.task, episode.key)) return;
+    count(episode);
+    if (sink_) sink_->finished(place, std::move(episode));
+  }
+
+  // The others must not wait for it.
+  void abandon(std::int64_t place) {
+    if (sink_) sink_->abandon(place);
+  }
+
+  // Then it is counted as such, and not kept again.
+  bool is_there(std::int64_t place, const std::string& task, const std::string& key) {
+    if (!sink_ || !sink_->has(key)) return false;
+    sink_->abandon(place);
+    const std::lock_guard lock(mutex_);
+    ++tally_.existing;
+    ++tally_.tasks[task].existing;
+    return true;
+  }
+
+  void pass_on(const std::vector<Error>& remarks) {
+    if (!settings_.remark || remarks.empty()) return;
+    const std::lock_guard lock(mutex_);
+    for (const Error& remark : remarks)
+      if (remarked_.insert(remark.what()).second) settings_.remark(remark);
+  }
+
+  void count(const EpisodeRecord& episode) {
+    const std::lock_guard lock(mutex_);
+    count_episode(episode, tally_);
+    if (settings_.progress) settings_.progress(episode, tally_);
+  }
+
+  const std::shared_ptr<const Library> library_;
+  const JobList& jobs_;
+  const RunSettings& settings_;
+  EpisodeSink* const sink_;
+  int encoders_ = 0;
+  std::mutex mutex_;
+  RunTally tally_;
+  std::set<std::string> remarked_;
+};
+
 }  // namespace
 
 RunTally run_jobs(std::shared_ptr<const Library> library, const JobList& jobs, const RunSettings& settings,
                   EpisodeSink* sink) {
-  RunTally tally;
-  tally.total = jobs.size();
-  const std::atomic<bool>* stop = settings.stop;
-  const auto busy = static_cast<int>(std::clamp<std::int64_t>(jobs.size(), 1, settings.workers));
-  const int encoders = settings.helpers + settings.workers - busy;
-  if (!settings.act) check_policies(library, jobs.first_of_each_task(), settings.options, stop);
-  std::mutex mutex;
-  std::set<std::string> remarked;
-  const auto pass_on = [&](const std::vector<Error>& remarks) {
-    if (!settings.remark || remarks.empty()) return;
-    const std::lock_guard lock(mutex);
-    for (const Error& remark : remarks)
-      if (remarked.insert(remark.what()).second) settings.remark(remark);
-  };
-  in_parallel(static_cast<std::size_t>(jobs.size()), settings.workers, stop, [&](std::size_t i, Workbench& bench) {
-    const auto place = static_cast<std::int64_t>(i);
-    try {
-      const EpisodeJob job = jobs[place];
-      if (!bench.assets) bench.assets = std::make_shared<Assets>(FileScope(library->roots().folders));
-      RunOptions options = options_for(job, settings);
-      options.renderer = &bench.renderer;
-      options.encoders = encoders;
-      PreparedEpisode prepared(library, job, std::move(options), bench.assets);
-      pass_on(bench.assets->remarks());
-      const auto is_there = [&](const std::string& key) {
-        if (!sink || !sink->has(key)) return false;
-        sink->abandon(place);
-        const std::lock_guard lock(mutex);
-        ++tally.existing;
-        ++tally.tasks[job.task].existing;
-        return true;
-      };
-      if (!settings.act && is_there(prepared.key())) return;
-      EpisodeRecord episode = settings.act ? settings.act(prepared) : prepared.run(stop);
-      if (episode.reason == Reason::interrupted) {
-        if (sink) sink->abandon(place);
-        return;
-      }
-      if (settings.act && is_there(episode.key)) return;
-      {
-        const std::lock_guard lock(mutex);
-        count_episode(episode, tally);
-        if (settings.progress) settings.progress(episode, tally);
-      }
-      if (sink) sink->finished(place, std::move(episode));
-    } catch (...) {
-      if (sink) sink->abandon(place);  // the others must not wait for it
-      throw;
-    }
-  });
-  tally.interrupted = stop && stop->load() && tally.done() < tally.total;
-  return tally;
+  return JobRun(std::move(library), jobs, settings, sink).run();
 }
 
 }  // namespace stampede

@@ -5,6 +5,7 @@
 #include <exception>
 #include <thread>
 
+#include "engine/base/names.h"
 #include "engine/base/processor.h"
 #include "engine/episode/episode_source.h"
 #include "engine/motion/planner.h"
@@ -135,11 +136,7 @@ SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<st
                 "leave it empty: what `run` gives then holds the whole episode");
 }
 
-std::vector<std::string> SessionCore::tasks() const {
-  std::vector<std::string> names;
-  for (const ScriptFile* file : library_->files(DefinitionKind::task)) names.push_back(file->name);
-  return names;
-}
+std::vector<std::string> SessionCore::tasks() const { return names_of(library_->files(DefinitionKind::task)); }
 
 std::vector<std::string> SessionCore::variations(const std::string& task) const {
   return task_info(*library_, task).variation_texts;
@@ -251,9 +248,7 @@ RunTally SessionCore::run_all(const RunRequest& request) {
 class TaskSource final : public EpisodeSource {
  public:
   TaskSource(std::shared_ptr<SessionCore> core, std::string task)
-      : core_(std::move(core)),
-        task_(std::move(task)),
-        assets_(std::make_shared<Assets>(FileScope(core_->library_->roots().folders))) {}
+      : core_(std::move(core)), task_(std::move(task)), assets_(assets_of(*core_->library_)) {}
 
   Opened open(const ResetRequest& request) override {
     const std::lock_guard lock(core_->mutex_);

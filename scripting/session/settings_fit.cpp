@@ -1,5 +1,6 @@
 #include "scripting/session/settings_fit.h"
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 
 namespace stampede {
@@ -17,9 +18,8 @@ std::map<std::string, CallSettings> settings_from(const std::vector<std::string>
       check_settings(*skill, set, place);
       continue;
     }
-    std::vector<std::string> names;
-    for (const ScriptFile* file : library.files(DefinitionKind::skill)) names.push_back(file->name);
-    throw Error(place, "there is no skill '" + name + "'", did_you_mean(name, names));
+    throw Error(place, "there is no skill '" + name + "'",
+                did_you_mean(name, names_of(library.files(DefinitionKind::skill))));
   }
   return all;
 }

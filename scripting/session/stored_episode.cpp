@@ -69,17 +69,16 @@ std::shared_ptr<const Scene> with_cameras(const StoredEpisode& stored, const std
   return std::make_shared<const Scene>(std::move(scene));
 }
 
-RenderedEpisode render_stored(Renderer& renderer, const StoredEpisode& stored, std::shared_ptr<const Scene> scene,
-                              const Observation& observation, const std::vector<std::int64_t>& frames,
-                              const std::atomic<bool>* stop) {
-  EpisodePainter painter(renderer, stored.episode, scene, observation);
+RenderedEpisode render_stored(Renderer& renderer, const StoredEpisode& stored, const Observation& observation,
+                              const std::vector<std::int64_t>& frames, const std::atomic<bool>* stop) {
+  EpisodePainter painter(renderer, stored.episode, stored.scene, observation);
   RenderedEpisode rendered{std::make_shared<ImageStore>(), {}, {}};
   for (const std::int64_t frame : frames) {
     if (stop && stop->load()) return {};
     paint_frames(painter, observation, {frame}, *rendered.images);
     rendered.frames.push_back(frame);
   }
-  for (const Camera& camera : scene->cameras) rendered.cameras.push_back({camera, {}});
+  for (const Camera& camera : stored.scene->cameras) rendered.cameras.push_back({camera, {}});
   for (std::size_t frame = 0; frame < stored.episode.frames.size(); ++frame) {
     const std::vector<View> views = painter.views(static_cast<std::int64_t>(frame));
     for (std::size_t i = 0; i < views.size(); ++i) {

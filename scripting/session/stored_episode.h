@@ -34,9 +34,8 @@ struct RenderedEpisode {
   std::vector<CameraTrack> cameras;  // that were drawn, at the size of their pictures, with the poses of all frames
   std::vector<std::int64_t> frames;  // that were drawn
 };
-RenderedEpisode render_stored(Renderer& renderer, const StoredEpisode& stored, std::shared_ptr<const Scene> scene,
-                              const Observation& observation, const std::vector<std::int64_t>& frames,
-                              const std::atomic<bool>* stop);
+RenderedEpisode render_stored(Renderer& renderer, const StoredEpisode& stored, const Observation& observation,
+                              const std::vector<std::int64_t>& frames, const std::atomic<bool>* stop);
 
 // Files whose text the catalogue has otherwise than the roots (those that are in both), by their shown paths.
 std::vector<std::string> changed_scripts(const EpisodeRecord& episode, const Roots& roots);

@@ -111,9 +111,27 @@ void collect_names(const Formula& formula, std::vector<std::string>& names) {
   for (const Formula& part : formula.parts) collect_names(part, names);
 }
 
-// The scene of that frame in BDDL's terms: things, where they stand, what holds, the goal.
-BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                     const AbstractState& state, const std::string& support);
+// The moment in BDDL's terms: things, where they stand, what holds, the goal.
+BddlScene bddl_scene(const EpisodeMoment& moment, const std::string& support) {
+  const auto& [episode, scene, symbols, state] = moment;
+  BddlScene result;
+  result.task = episode.task;
+  for (const LanguageRecord& sentence : episode.language)
+    if (sentence.level == LanguageLevel::task && result.instruction.empty()) result.instruction = sentence.text;
+  for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
+  for (const Object& object : scene.objects)
+    if (const auto placement = stand_of(object, scene)) result.placements.push_back(*placement);
+  for (const Fact& fact : state.facts)
+    if (const auto placement = placement_of(fact, scene, state, support)) result.placements.push_back(*placement);
+  result.facts = state.facts;
+  result.goal = symbols.problem.goal;
+  collect_names(result.goal, result.interest);
+  std::erase_if(result.interest, [&](const std::string& name) {
+    const Object* object = moment.scene.object(name);
+    return object == nullptr || object->kind == ObjectKind::hand;
+  });
+  return result;
+}
 
 // The parts of a conjunction without literals of these predicates, which are named in `remarks`.
 Formula without(const Formula& goal, const std::vector<std::string>& predicates, std::vector<std::string>& remarks) {
@@ -162,40 +180,14 @@ std::string unknown_facts(const AbstractState& state, const Domain& domain) {
   return text;
 }
 
-BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                   const AbstractState& state, const BddlMapping& mapping, const std::vector<std::string>& leave_out) {
-  BddlScene moment = bddl_scene(episode, scene, symbols, state, mapping.support);
+BddlExport bddl_at(const EpisodeMoment& moment, const BddlMapping& mapping, const std::vector<std::string>& leave_out) {
+  BddlScene scene = bddl_scene(moment, mapping.support);
   std::vector<std::string> remarks;
-  moment.goal = without(moment.goal, leave_out, remarks);
-  BddlExport result = export_bddl(moment, mapping, symbols.domain);
+  scene.goal = without(scene.goal, leave_out, remarks);
+  BddlExport result = export_bddl(scene, mapping, moment.symbols.domain);
   result.remarks.insert(result.remarks.begin(), remarks.begin(), remarks.end());
   return result;
 }
-
-namespace {
-
-BddlScene bddl_scene(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                     const AbstractState& state, const std::string& support) {
-  BddlScene result;
-  result.task = episode.task;
-  for (const LanguageRecord& sentence : episode.language)
-    if (sentence.level == LanguageLevel::task && result.instruction.empty()) result.instruction = sentence.text;
-  for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
-  for (const Object& object : scene.objects)
-    if (const auto placement = stand_of(object, scene)) result.placements.push_back(*placement);
-  for (const Fact& fact : state.facts)
-    if (const auto placement = placement_of(fact, scene, state, support)) result.placements.push_back(*placement);
-  result.facts = state.facts;
-  result.goal = symbols.problem.goal;
-  collect_names(result.goal, result.interest);
-  std::erase_if(result.interest, [&](const std::string& name) {
-    const Object* object = scene.object(name);
-    return object == nullptr || object->kind == ObjectKind::hand;
-  });
-  return result;
-}
-
-}  // namespace
 
 std::string with_notes(const BddlExport& result) {
   std::string text;
@@ -204,12 +196,11 @@ std::string with_notes(const BddlExport& result) {
   return text + result.text;
 }
 
-std::string bddl_text(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                      const AbstractState& state, const std::vector<BddlMapping>& mappings,
+std::string bddl_text(const EpisodeMoment& moment, const std::vector<BddlMapping>& mappings,
                       const std::vector<std::string>& leave_out, std::string& refusals) {
   std::string text;
   for (const BddlMapping& mapping : mappings) {
-    const BddlExport result = bddl_at(episode, scene, symbols, state, mapping, leave_out);
+    const BddlExport result = bddl_at(moment, mapping, leave_out);
     if (result.refusal.empty()) {
       text += (text.empty() ? "" : "\n") + with_notes(result);
     } else {

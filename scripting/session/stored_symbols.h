@@ -25,15 +25,21 @@ Problem problem_at(const StoredSymbols& symbols, const AbstractState& state, boo
 // As comment lines: what holds and is not known, what was believed and is not so.
 std::string unknown_facts(const AbstractState& state, const Domain& domain);
 
-// One frame as a BDDL problem. `leave_out`: predicates whose atoms are taken out of the goal where it is a conjunction;
-// remarks say so.
-BddlExport bddl_at(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                   const AbstractState& state, const BddlMapping& mapping, const std::vector<std::string>& leave_out);
+// One frame of an episode, with all that tells what it means. Lifetime: that of its parts.
+struct EpisodeMoment {
+  const EpisodeRecord& episode;
+  const Scene& scene;
+  const StoredSymbols& symbols;
+  const AbstractState& state;  // at that frame
+};
+
+// The moment as a BDDL problem. `leave_out`: predicates whose atoms are taken out of the goal where it is a
+// conjunction; remarks say so.
+BddlExport bddl_at(const EpisodeMoment& moment, const BddlMapping& mapping, const std::vector<std::string>& leave_out);
 // With comments before the text: what its words mean compared to ours, and what is not in it.
 std::string with_notes(const BddlExport& result);
 // The same by each of these mappings. What a dialect cannot say goes to `refusals`, a line each.
-std::string bddl_text(const EpisodeRecord& episode, const Scene& scene, const StoredSymbols& symbols,
-                      const AbstractState& state, const std::vector<BddlMapping>& mappings,
+std::string bddl_text(const EpisodeMoment& moment, const std::vector<BddlMapping>& mappings,
                       const std::vector<std::string>& leave_out, std::string& refusals);
 
 // Frames at which skills begin and end, in order: 0, each boundary, the last one.

@@ -66,8 +66,8 @@ void multiply(const std::filesystem::path& out, std::int64_t episodes) {
                  : column == "key"  ? ", 'copy ' || c.id"
                  : column == "seed" ? ", c.id"
                                     : ", t." + column;
-      database.run("INSERT INTO " + name + " (" + number + ", " + joined(table.columns) + ") SELECT c.id" + taken +
-                   " FROM temp.copy c CROSS JOIN few." + name + " t ON t." + number + " = c.source");
+      database.run("INSERT INTO " + name + " (" + number + ", " + quoted_columns(table.columns) + ") SELECT c.id" +
+                   taken + " FROM temp.copy c CROSS JOIN few." + name + " t ON t." + number + " = c.source");
     }
     database.run("COMMIT");
   }

@@ -121,7 +121,7 @@ Answers answer(const Json& problems, const MotionLimits& limits, int repeat) {
     JointPath found;
     for (int i = 0; i < repeat; ++i) {
       const auto before = std::chrono::steady_clock::now();
-      found = plan_path(state, start, goal, limits, RandomKey("mbm").with(problem["id"].get<int>()));
+      found = plan_path({state, start, limits, RandomKey("mbm").with(problem["id"].get<int>())}, goal);
       ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
     }
     const bool solved = found.reason == Reason::none;

@@ -22,7 +22,7 @@ void random_queries(benchmark::State& state) {
     Random random(RandomKey("bench").with(number));
     const JointVector start = random_free(collision, random), goal = random_free(collision, random);
     const auto before = std::chrono::steady_clock::now();
-    const PlannedMotion motion = plan_joints(collision, start, goal, {}, RandomKey("plan").with(number++));
+    const PlannedMotion motion = plan_joints({collision, start, {}, RandomKey("plan").with(number++)}, goal);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
     state.SetIterationTime(taken.count());
     times_ms.push_back(1e3 * taken.count());

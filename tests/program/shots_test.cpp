@@ -109,7 +109,7 @@ TEST_CASE("a drawer whose front faces away from the usual camera is shown by the
   std::vector<Shot> shots = shots_of(record, *here);
   const auto renderer = make_renderer();
   for (const std::size_t usual : {0u, 1u}) {
-    choose_cameras(*renderer, record, here, {"behind", "before"}, usual, shots);
+    choose_cameras(*renderer, {0, record, here, {}}, {"behind", "before"}, usual, shots);
     CHECK(cameras_of(shots, *here) == std::vector<std::string>{"before", "behind"});
   }
 }
@@ -123,7 +123,7 @@ TEST_CASE("a camera that sees about as much as the best one stays") {
   std::vector<Shot> shots = shots_of(record, *here);
   const auto renderer = make_renderer();
   for (const std::size_t usual : {0u, 1u}) {
-    choose_cameras(*renderer, record, here, {"one", "two"}, usual, shots);
+    choose_cameras(*renderer, {0, record, here, {}}, {"one", "two"}, usual, shots);
     CHECK(shots.front().camera == usual);
   }
 }

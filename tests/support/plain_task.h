@@ -56,8 +56,8 @@ class PlainSymbols : public Symbols {
     if (fact.predicate != "on") return {};
     const Object &obj = view.object(fact.arguments[0]), &below = view.object(fact.arguments[1]);
     std::vector<Placement> placements;
-    for (const Transform& pose : below.type == "cube" ? stack_spots(state, view.world(), below, obj, key, most)
-                                                      : free_spots(state, view.world(), below, obj, key, most))
+    for (const Transform& pose : below.type == "cube" ? stack_spots({state, view.world(), obj, key, most}, below)
+                                                      : free_spots({state, view.world(), obj, key, most}, below))
       placements.push_back({obj.name, pose});
     return placements;
   }

@@ -29,24 +29,30 @@ struct Scene {
   std::vector<Hand> hands;
 };
 
-// `where`: which moment of which unit, for tables poses and hands.
-Scene scene_at(const PlainFile& given, const KnownColumns& known, const std::string& unit, std::int64_t number,
-               const std::string& moment_column, const SqlValue& moment) {
+// Of an episode at a frame, or of a piece before or after it.
+struct GivenMoment {
+  std::string unit;  // column of tables objects, poses and hands
+  std::int64_t number = 0;
+  std::string column;  // of poses and hands
+  SqlValue at;
+};
+
+Scene scene_at(const PlainFile& given, const KnownColumns& known, const GivenMoment& moment) {
   Scene scene;
-  const Rows objects = given.query("SELECT * FROM objects WHERE " + unit + " = ?1", {number});
+  const Rows objects = given.query("SELECT * FROM objects WHERE " + moment.unit + " = ?1", {moment.number});
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Thing& thing = scene.things[objects.text(i, "object")];
     thing.size = {objects.real(i, "size_x"), objects.real(i, "size_y"), objects.real(i, "size_z")};
     const auto has = [&](const char* trait) { return objects.text(i, "traits").find(trait) != std::string::npos; };
     thing.movable = has("\"movable\""), thing.surface = has("\"surface\""), thing.container = has("\"container\"");
   }
-  const std::string where = " WHERE " + unit + " = ?1 AND " + moment_column + " = ?2";
-  const Rows poses = given.query("SELECT object, x, y, z FROM poses" + where, {number, moment});
+  const std::string where = " WHERE " + moment.unit + " = ?1 AND " + moment.column + " = ?2";
+  const Rows poses = given.query("SELECT object, x, y, z FROM poses" + where, {moment.number, moment.at});
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Thing& thing = scene.things[poses.text(i, "object")];
     thing.at = {poses.real(i, "x"), poses.real(i, "y"), poses.real(i, "z")}, thing.there = true;
   }
-  const Rows hands = given.query("SELECT * FROM hands" + where, {number, moment});
+  const Rows hands = given.query("SELECT * FROM hands" + where, {moment.number, moment.at});
   for (std::size_t i = 0; i < hands.size(); ++i)
     scene.hands.push_back({hands.text(i, "hand"),
                            {hands.real(i, "x"), hands.real(i, "y"), hands.real(i, "z")},
@@ -69,32 +75,45 @@ bool lies_in(const Thing& inner, const Thing& outer) {
   return inner.movable && outer.container && outer.there && (beside.array() < outer.size.array() / 2).all();
 }
 
+// The movable thing next to the tip of a hand that presses; empty: none.
+std::string held_by(const Hand& hand, const std::map<std::string, Thing>& things) {
+  constexpr double kNear = 0.05, kHeld = 0.5;  // m, N
+  std::string nearest;
+  double least = kNear;
+  for (const auto& [name, thing] : things)
+    if (thing.movable && thing.there && hand.force > kHeld && (thing.at - hand.tip).norm() < least)
+      least = (thing.at - hand.tip).norm(), nearest = name;
+  return nearest;
+}
+
+// A thing first; else what lies below all; empty: nothing does.
+std::string support_of(const std::string& name, const Thing& thing, const std::map<std::string, Thing>& things) {
+  std::string support;
+  for (const auto& [other, below] : things) {
+    if (name == other) continue;
+    if (rests_on(thing, below)) support = other;
+    if (support.empty() && below.surface && !below.movable && stands_above(thing, below)) support = other;
+  }
+  return support;
+}
+
 // Atoms by name; a vocabulary that has others goes without.
 std::set<std::string> atoms_of(const Scene& scene) {
-  constexpr double kNear = 0.05, kHeld = 0.5;  // m, N
   std::set<std::string> atoms, covered, held;
   for (const Hand& hand : scene.hands) {
-    std::string nearest;
-    double least = kNear;
-    for (const auto& [name, thing] : scene.things)
-      if (thing.movable && thing.there && hand.force > kHeld && (thing.at - hand.tip).norm() < least)
-        least = (thing.at - hand.tip).norm(), nearest = name;
-    if (nearest.empty()) {
+    const std::string thing = held_by(hand, scene.things);
+    if (thing.empty()) {
       atoms.insert("(hand_empty " + hand.name + ")");
       continue;
     }
-    atoms.insert("(holding " + hand.name + " " + nearest + ")");
-    held.insert(nearest);
+    atoms.insert("(holding " + hand.name + " " + thing + ")");
+    held.insert(thing);
   }
   for (const auto& [name, thing] : scene.things) {
     if (!thing.there || !thing.movable || held.contains(name)) continue;
-    std::string support;  // a thing first; else what lies below all
-    for (const auto& [other, below] : scene.things) {
-      if (name == other) continue;
-      if (lies_in(thing, below)) atoms.insert("(inside " + name + " " + other + ")");
-      if (rests_on(thing, below)) support = other;
-      if (support.empty() && below.surface && !below.movable && stands_above(thing, below)) support = other;
-    }
+    for (const auto& [other, outer] : scene.things)
+      if (name != other && lies_in(thing, outer)) atoms.insert("(inside " + name + " " + other + ")");
+    const std::string support = support_of(name, thing, scene.things);
     if (support.empty()) continue;
     atoms.insert("(on " + name + " " + support + ")");
     covered.insert(support);
@@ -126,7 +145,7 @@ Answers geometry_facts(const ResearchProblem&, const PlainFile& given) {
     for (std::int64_t frame = 0; frame < episodes.integer(i, "frames"); frame += kAskedEvery) {
       const std::int64_t episode = episodes.integer(i, "episode");
       std::vector<std::string> some;
-      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, "episode", episode, "frame", frame)))
+      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, {"episode", episode, "frame", frame})))
         if (is_known(atom)) some.push_back(atom);
       add_atoms(answers, episode, frame, some);
     }
@@ -141,7 +160,7 @@ Answers geometry_symbols(const ResearchProblem&, const PlainFile& given) {
     for (const std::string moment : {"before", "after"}) {
       const std::int64_t piece = pieces.integer(i, "piece");
       std::vector<std::string> symbols;
-      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, "piece", piece, "moment", moment)))
+      for (const std::string& atom : atoms_of(scene_at(given, known_of_hands, {"piece", piece, "moment", moment})))
         symbols.push_back("(s_" + atom.substr(1));
       add_atoms(answers, piece, moment, symbols);
     }

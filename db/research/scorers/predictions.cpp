@@ -16,18 +16,17 @@ constexpr double kMoved = 0.002;                   // m, rad: what rests jitters
 
 // A row is about a thing, a joint or a fact, and says all that there is to say of it.
 void check_rows(const ScoringJob& job) {
+  const std::vector<std::string_view> thing{"object", "x", "y", "z"}, joint{"joint", "position"}, fact{"fact"};
   const Rows& rows = job.answers.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto said = [&](const char* column) { return !rows.is_null(i, column); };
-    const bool place = said("x") && said("y") && said("z"), no_place = !said("x") && !said("y") && !said("z");
-    const bool thing = said("object") && place && !said("joint") && !said("position") && !said("fact");
-    const bool joint = said("joint") && said("position") && no_place && !said("object") && !said("fact");
-    const bool fact = said("fact") && no_place && !said("object") && !said("joint") && !said("position");
+    std::vector<std::string_view> said;
+    for (const std::string_view column : {"object", "x", "y", "z", "joint", "position", "fact"})
+      if (!rows.is_null(i, column)) said.push_back(column);
     const std::string where = job.answers.where + ", answer " + std::to_string(i + 1);
-    if (!thing && !joint && !fact)
+    if (said != thing && said != joint && said != fact)
       throw Error(where, "it is about no thing, joint or fact, or about several",
                   "say object, x, y and z, or joint and position, or fact; leave out the others");
-    if (fact) (void)fact_of(rows.text(i, "fact"), where);
+    if (said == fact) (void)fact_of(rows.text(i, "fact"), where);
   }
 }
 

@@ -74,17 +74,6 @@ struct PyReader : Owned<CatalogueReader> {
   }
 };
 
-NumpyArray pictures_of(const PyReader& self, std::int64_t episode, const std::string& column,
-                       std::vector<std::int64_t> frames, bool draw, int threads) {
-  const Using use(self.turn, "Catalogue.pictures");
-  PictureFrames all;
-  {
-    const Released free;
-    all = self->pictures(episode, column, {std::move(frames), draw, threads});
-  }
-  return std::visit([&](auto& values) { return numpy_array(std::move(values), all.shape); }, all.data);
-}
-
 void bind_columns(nb::module_& module) {
   nb::class_<PyColumn>(module, "Column", "One array of an episode, with what it means.")
       .def_prop_ro("name", [](const PyColumn& c) { return c.column->name; })
@@ -263,8 +252,20 @@ void bind_reading(nb::class_<PyReader>& reader) {
           },
           "episode"_a, "columns"_a = std::vector<std::string>(),
           "Columns or groups by name; none: all but `applicable`.")
-      .def("pictures", &pictures_of, "episode"_a, "column"_a, "frames"_a, "draw"_a = false, "threads"_a = 1,
-           R"(What one camera saw at some frames: frames x height x width (x 3 for colours).
+      .def(
+          "pictures",
+          [](const PyReader& self, std::int64_t episode, const std::string& column, std::vector<std::int64_t> frames,
+             bool draw, int threads) {
+            const Using use(self.turn, "Catalogue.pictures");
+            PictureFrames all;
+            {
+              const Released free;
+              all = self->pictures(episode, column, {std::move(frames), draw, threads});
+            }
+            return std::visit([&](auto& values) { return numpy_array(std::move(values), all.shape); }, all.data);
+          },
+          "episode"_a, "column"_a, "frames"_a, "draw"_a = false, "threads"_a = 1,
+          R"(What one camera saw at some frames: frames x height x width (x 3 for colours).
 
 uint8 sRGB, float32 m (0: nothing in range), uint16 ids. Frames that are not stored raise Error, or are drawn now.)");
 }

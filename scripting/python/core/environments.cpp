@@ -7,6 +7,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "keywords.h"
+
 namespace stampede::python {
 namespace {
 
@@ -259,11 +261,6 @@ std::function<std::unique_ptr<Policy>()> policy_maker(std::shared_ptr<Kept> fact
   };
 }
 
-PolicyEntry policy_entry(std::shared_ptr<Kept> factory, std::vector<std::string> channels, bool hidden, int width,
-                         int height, std::string version) {
-  return {policy_maker(std::move(factory)), std::move(channels), hidden, width, height, std::move(version)};
-}
-
 PyEnvironment::PyEnvironment(nb::object session_in, const std::string& task_in, const EnvironmentSettings& settings)
     : Owned("Environment", Turn::Others::fail,
             (*nb::cast<const PySession&>(session_in)).environment(task_in, settings)),
@@ -313,59 +310,52 @@ Answer asked(const PyEnvironment& self, const char* question, Answer (Environmen
   return ((*self).*answer)();
 }
 
+void set_reward(EnvironmentSettings& settings, nb::handle value, const char* where) {
+  const auto name = nb::cast<std::string>(value);
+  const auto reward = value_named<RewardKind>(
+      name, {{"sparse", RewardKind::sparse}, {"dense", RewardKind::dense}, {"task", RewardKind::task}});
+  if (!reward)
+    throw Error(std::string(where) + "(reward=)", "there is no reward '" + name + "'", "one of sparse, dense, task");
+  settings.reward = *reward;
+}
+
+void set_renderer(EnvironmentSettings& settings, nb::handle value, const char* where) {
+  const auto name = nb::cast<std::string>(value);
+  const auto renderer = value_named<DrawnBy>(name, {{"own", DrawnBy::own}, {"osmesa", DrawnBy::osmesa}});
+  if (!renderer)
+    throw Error(std::string(where) + "(renderer=)", "there is no renderer '" + name + "'", "own or osmesa");
+  settings.renderer = *renderer;
+}
+
+void set_picture_sizes(EnvironmentSettings& settings, nb::handle value, const char*) {
+  for (const auto& [camera, size] : nb::cast<std::map<std::string, std::pair<int, int>>>(value))
+    settings.picture_sizes[camera] = {size.first, size.second};
+}
+
+constexpr Keyword<EnvironmentSettings> kSettings[] = {
+    {"channels", set_field<&EnvironmentSettings::channels>},
+    {"hidden", set_field<&EnvironmentSettings::hidden>},
+    {"reward", set_reward},
+    {"frame_hz", set_field<&EnvironmentSettings::frame_hz>},
+    {"physics_hz", set_field<&EnvironmentSettings::physics_hz>},
+    {"horizon_s", set_field<&EnvironmentSettings::horizon_s>},
+    {"record", set_field<&EnvironmentSettings::record>},
+    {"width", set_field<&EnvironmentSettings::width>},
+    {"height", set_field<&EnvironmentSettings::height>},
+    {"picture_sizes", set_picture_sizes},
+    {"shadows", set_field<&EnvironmentSettings::shadows>},
+    {"renderer", set_renderer},
+    {"picture_hz", set_field<&EnvironmentSettings::picture_hz>},
+    {"rgb_noise", set_field<&EnvironmentSettings::rgb_noise>},
+    {"depth_noise", set_field<&EnvironmentSettings::depth_noise>},
+    {"torque_noise", set_field<&EnvironmentSettings::torque_noise>},
+    {"torque_model", set_field<&EnvironmentSettings::torque_model>},
+};
+
 }  // namespace
 
 EnvironmentSettings settings_from(const nb::kwargs& words, const char* where) {
-  EnvironmentSettings settings;
-  for (const auto& [key, value] : words) {
-    const auto name = nb::cast<std::string>(key);
-    if (name == "channels") {
-      settings.channels = nb::cast<std::vector<std::string>>(value);
-    } else if (name == "hidden") {
-      settings.hidden = nb::cast<bool>(value);
-    } else if (name == "reward") {
-      const auto kind = nb::cast<std::string>(value);
-      if (kind != "sparse" && kind != "dense" && kind != "task")
-        throw Error(std::string(where) + "(reward=)", "there is no reward '" + kind + "'",
-                    "one of sparse, dense, task");
-      settings.reward = kind == "dense" ? RewardKind::dense : kind == "task" ? RewardKind::task : RewardKind::sparse;
-    } else if (name == "frame_hz") {
-      settings.frame_hz = nb::cast<double>(value);
-    } else if (name == "physics_hz") {
-      settings.physics_hz = nb::cast<double>(value);
-    } else if (name == "horizon_s") {
-      settings.horizon_s = nb::cast<double>(value);
-    } else if (name == "record") {
-      settings.record = nb::cast<bool>(value);
-    } else if (name == "width") {
-      settings.width = nb::cast<int>(value);
-    } else if (name == "height") {
-      settings.height = nb::cast<int>(value);
-    } else if (name == "picture_sizes") {
-      for (const auto& [camera, size] : nb::cast<std::map<std::string, std::pair<int, int>>>(value))
-        settings.picture_sizes[camera] = {size.first, size.second};
-    } else if (name == "shadows") {
-      settings.shadows = nb::cast<bool>(value);
-    } else if (name == "renderer") {
-      const auto drawn_by = nb::cast<std::string>(value);
-      if (drawn_by != "own" && drawn_by != "osmesa")
-        throw Error(std::string(where) + "(renderer=)", "there is no renderer '" + drawn_by + "'", "own or osmesa");
-      settings.renderer = drawn_by == "osmesa" ? DrawnBy::osmesa : DrawnBy::own;
-    } else if (name == "picture_hz") {
-      settings.picture_hz = nb::cast<std::map<std::string, double>>(value);
-    } else if (name == "rgb_noise") {
-      settings.rgb_noise = nb::cast<double>(value);
-    } else if (name == "depth_noise") {
-      settings.depth_noise = nb::cast<double>(value);
-    } else if (name == "torque_noise") {
-      settings.torque_noise = nb::cast<double>(value);
-    } else if (name == "torque_model") {
-      settings.torque_model = nb::cast<std::string>(value);
-    } else {
-      throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
-    }
-  }
-  return settings;
+  return from_keywords(kSettings, words, where);
 }
 
 namespace {

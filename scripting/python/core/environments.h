@@ -39,8 +39,6 @@ struct PyEnvironment : Owned<Environment> {
 
 // A policy of Python as the engine asks it: `factory()` gives an object with `act(observation)` and, if it likes,
 // `begin(call)`. It may be called by any thread: the GIL is taken for each question.
-PolicyEntry policy_entry(std::shared_ptr<Kept> factory, std::vector<std::string> channels, bool hidden, int width,
-                         int height, std::string version);
 std::function<std::unique_ptr<Policy>()> policy_maker(std::shared_ptr<Kept> factory);
 
 EnvironmentSettings settings_from(const nb::kwargs& words, const char* where);

@@ -16,6 +16,7 @@
 #include <future>
 
 #include "environments.h"
+#include "keywords.h"
 
 namespace stampede::python {
 
@@ -29,93 +30,84 @@ using namespace nb::literals;
 
 template <typename Value>
 Value one_of(const std::string& text, const char* argument, const std::vector<std::pair<const char*, Value>>& known) {
+  if (const auto value = value_named(text, known)) return *value;
   std::string names;
-  for (const auto& [name, value] : known) {
-    if (text == name) return value;
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  }
+  for (const auto& [name, value] : known) names += (names.empty() ? "" : ", ") + std::string(name);
   throw Error(std::string(argument) + "=", "there is no '" + text + "'", "one of " + names);
 }
 
-PictureStorage pictures_from(const nb::dict& words) {
-  PictureStorage pictures;
-  for (const auto& [key, value] : words) {
-    const auto name = nb::cast<std::string>(key);
-    if (name == "frames")
-      pictures.frames = one_of<PicturesOf>(
-          nb::cast<std::string>(value), "pictures['frames']",
-          {{"none", PicturesOf::none}, {"keyframes", PicturesOf::keyframes}, {"all", PicturesOf::all}});
-    else if (name == "cameras")
-      pictures.cameras = nb::cast<std::vector<std::string>>(value);
-    else if (name == "width")
-      pictures.width = nb::cast<int>(value);
-    else if (name == "height")
-      pictures.height = nb::cast<int>(value);
-    else if (name == "rgb")
-      pictures.rgb = nb::cast<bool>(value);
-    else if (name == "depth")
-      pictures.depth = nb::cast<bool>(value);
-    else if (name == "mask")
-      pictures.instance = nb::cast<bool>(value);
-    else if (name == "semantic_mask")
-      pictures.semantic = nb::cast<bool>(value);
-    else if (name == "points")
-      pictures.points = nb::cast<bool>(value);
-    else if (name == "shadows")
-      pictures.shadows = nb::cast<bool>(value);
-    else if (name == "renderer")
-      pictures.renderer = one_of<DrawnBy>(nb::cast<std::string>(value), "pictures= renderer",
-                                          {{"own", DrawnBy::own}, {"osmesa", DrawnBy::osmesa}});
-    else if (name == "rgb_noise")
-      pictures.rgb_noise = nb::cast<double>(value);
-    else if (name == "depth_noise")
-      pictures.depth_noise = nb::cast<double>(value);
-    else
-      throw Error("pictures=", "there is no '" + name + "'",
-                  "one of frames, cameras, width, height, rgb, depth, mask, semantic_mask, points, shadows, renderer, "
-                  "rgb_noise, "
-                  "depth_noise");
-  }
-  return pictures;
+void set_frames(PictureStorage& pictures, nb::handle value, const char*) {
+  pictures.frames =
+      one_of<PicturesOf>(nb::cast<std::string>(value), "pictures['frames']",
+                         {{"none", PicturesOf::none}, {"keyframes", PicturesOf::keyframes}, {"all", PicturesOf::all}});
 }
 
-EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
-  EpisodeRequest request;
-  for (const auto& [key, value] : words) {
+void set_renderer(PictureStorage& pictures, nb::handle value, const char*) {
+  pictures.renderer = one_of<DrawnBy>(nb::cast<std::string>(value), "pictures= renderer",
+                                      {{"own", DrawnBy::own}, {"osmesa", DrawnBy::osmesa}});
+}
+
+constexpr Keyword<PictureStorage> kPictures[] = {
+    {"frames", set_frames},
+    {"cameras", set_field<&PictureStorage::cameras>},
+    {"width", set_field<&PictureStorage::width>},
+    {"height", set_field<&PictureStorage::height>},
+    {"rgb", set_field<&PictureStorage::rgb>},
+    {"depth", set_field<&PictureStorage::depth>},
+    {"mask", set_field<&PictureStorage::instance>},
+    {"semantic_mask", set_field<&PictureStorage::semantic>},
+    {"points", set_field<&PictureStorage::points>},
+    {"shadows", set_field<&PictureStorage::shadows>},
+    {"renderer", set_renderer},
+    {"rgb_noise", set_field<&PictureStorage::rgb_noise>},
+    {"depth_noise", set_field<&PictureStorage::depth_noise>},
+};
+
+void set_pictures(EpisodeRequest& request, nb::handle value, const char* where) {
+  PictureStorage pictures;
+  for (const auto& [key, one] : nb::cast<nb::dict>(value)) {
     const auto name = nb::cast<std::string>(key);
-    if (name == "variation")
-      request.variation = nb::cast<std::string>(value);
-    else if (name == "seed")
-      request.seed = nb::cast<std::int64_t>(value);
-    else if (name == "on_failure")
-      request.on_failure =
-          one_of<OnFailure>(nb::cast<std::string>(value), "on_failure",
-                            {{"undo", OnFailure::undo}, {"stop", OnFailure::stop}, {"recover", OnFailure::recover}});
-    else if (name == "controller")
-      request.controller = nb::cast<std::string>(value);
-    else if (name == "motion_planner")
-      request.motion_planner = nb::cast<std::string>(value);
-    else if (name == "set")
-      request.set = nb::cast<std::vector<std::string>>(value);
-    else if (name == "pictures")
-      request.pictures = pictures_from(nb::cast<nb::dict>(value));
-    else if (name == "where")
-      request.where = nb::cast<std::string>(value);
-    else if (name == "goal")
-      request.goal = nb::cast<std::string>(value);
-    else if (name == "behaviour")
-      request.behaviour = one_of<Behaviour>(nb::cast<std::string>(value), "behaviour",
-                                            {{"plan", Behaviour::plan},
-                                             {"random_skills", Behaviour::random_skills},
-                                             {"random_applicable", Behaviour::random_applicable}});
-    else if (name == "skills")
-      request.skills = nb::cast<int>(value);
-    else if (name == "randomise")
-      request.randomise = nb::cast<bool>(value);
-    else
-      throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
+    const Keyword<PictureStorage>* keyword = find_keyword(kPictures, name);
+    if (keyword == nullptr) {
+      std::string names;
+      for (const auto& [known, set] : kPictures) names += (names.empty() ? "" : ", ") + std::string(known);
+      throw Error("pictures=", "there is no '" + name + "'", "one of " + names);
+    }
+    keyword->set(pictures, one, where);
   }
-  return request;
+  request.pictures = std::move(pictures);
+}
+
+void set_on_failure(EpisodeRequest& request, nb::handle value, const char*) {
+  request.on_failure =
+      one_of<OnFailure>(nb::cast<std::string>(value), "on_failure",
+                        {{"undo", OnFailure::undo}, {"stop", OnFailure::stop}, {"recover", OnFailure::recover}});
+}
+
+void set_behaviour(EpisodeRequest& request, nb::handle value, const char*) {
+  request.behaviour = one_of<Behaviour>(nb::cast<std::string>(value), "behaviour",
+                                        {{"plan", Behaviour::plan},
+                                         {"random_skills", Behaviour::random_skills},
+                                         {"random_applicable", Behaviour::random_applicable}});
+}
+
+constexpr Keyword<EpisodeRequest> kRequest[] = {
+    {"variation", set_field<&EpisodeRequest::variation>},
+    {"seed", set_field<&EpisodeRequest::seed>},
+    {"on_failure", set_on_failure},
+    {"controller", set_field<&EpisodeRequest::controller>},
+    {"motion_planner", set_field<&EpisodeRequest::motion_planner>},
+    {"set", set_field<&EpisodeRequest::set>},
+    {"pictures", set_pictures},
+    {"where", set_field<&EpisodeRequest::where>},
+    {"goal", set_field<&EpisodeRequest::goal>},
+    {"behaviour", set_behaviour},
+    {"skills", set_field<&EpisodeRequest::skills>},
+    {"randomise", set_field<&EpisodeRequest::randomise>},
+};
+
+EpisodeRequest request_from(const nb::kwargs& words, const char* where) {
+  return from_keywords(kRequest, words, where);
 }
 
 // For the cycle collector: a policy's function may hold its session.
@@ -160,11 +152,8 @@ auto interruptible(const Work& work) {
   return result;
 }
 
-RunTally run_all(PySession& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
-                 std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
-  const Using use(self.turn, "Session.run_all");
-  RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
-  request.each = request_from(words, "run_all");
+RunTally run_all(PySession& self, RunRequest request, const std::optional<nb::callable>& progress,
+                 const std::optional<nb::callable>& sink) {
   if (progress)
     request.progress = [&](const RunProgress& now) {
       const Lent between_two_episodes(self.turn);
@@ -183,19 +172,8 @@ RunTally run_all(PySession& self, std::vector<std::string> tasks, std::int64_t e
   });
 }
 
-Evaluation evaluate(PySession& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
-                    std::int64_t episodes, std::int64_t first_seed, const std::string& variation,
-                    std::vector<std::string> perturb, int workers, const std::string& policy_name,
-                    const nb::kwargs& words) {
-  const Using use(self.turn, "Session.evaluate");
-  EvaluationRequest request;
-  request.episodes = episodes;
-  request.first_seed = first_seed;
-  request.variation = variation;
-  request.perturb = std::move(perturb);
-  request.workers = workers;
-  request.settings = settings_from(words, "evaluate");
-  request.policy_name = policy_name;
+Evaluation evaluate(PySession& self, const std::vector<std::string>& tasks, EvaluationRequest request,
+                    const std::optional<nb::callable>& policy) {
   if (policy) request.policy = policy_maker(std::make_shared<Kept>(*policy));
   return interruptible([&](const std::atomic<bool>& stop) {
     request.stop = &stop;
@@ -380,9 +358,17 @@ variation, seed (from 1'000'000 up: the test split), on_failure (undo, stop, rec
 (`ompl:RRTConnect`), set (list such as `pick.height=0.2`), pictures (dict: frames none|keyframes|all, cameras, width, height, rgb, depth, mask,
 semantic_mask, points, shadows, renderer (own, osmesa), rgb_noise, depth_noise), where and goal (PDDL), behaviour (plan, random_skills,
 random_applicable), skills, randomise.)")
-      .def("run_all", &run_all, "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(),
-           "sink"_a = nb::none(), "request"_a,
-           R"(Runs many episodes in several threads and keeps each, in a fixed order, whatever the number of workers.
+      .def(
+          "run_all",
+          [](PySession& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
+             std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
+            const Using use(self.turn, "Session.run_all");
+            RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
+            request.each = request_from(words, "run_all");
+            return run_all(self, std::move(request), progress, sink);
+          },
+          "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(), "sink"_a = nb::none(), "request"_a,
+          R"(Runs many episodes in several threads and keeps each, in a fixed order, whatever the number of workers.
 
 progress(episode, done, total) is called after each; sink(episode) gets each instead of the catalogue. Other arguments
 as of `run`; `seed` is the first one's.)")
@@ -506,7 +492,8 @@ key: another text, another sensor.)")
              bool hidden, int width, int height, std::string version) {
             const Using use(self.turn, "Session.add_policy");
             const auto kept = std::make_shared<Kept>(std::move(make));
-            self->add_policy(name, policy_entry(kept, std::move(channels), hidden, width, height, std::move(version)));
+            self->add_policy(name,
+                             {policy_maker(kept), std::move(channels), hidden, width, height, std::move(version)});
             self.functions["policy " + name] = kept;
           },
           "name"_a, "make"_a,
@@ -517,10 +504,24 @@ key: another text, another sensor.)")
 
 make() gives, for each call, an object with `act(observation) -> Action | None` (None: it is done), asked at each
 frame, and if it likes `begin(call)`. version is part of an episode's key: another text, another policy.)")
-      .def("evaluate", &evaluate, "tasks"_a, "policy"_a = nb::none(), "episodes"_a = 20, "first_seed"_a = 1'000'000,
-           "variation"_a = "", "perturb"_a = std::vector<std::string>(), "workers"_a = 1, "policy_name"_a = "policy",
-           "settings"_a,
-           R"(How often a policy, or without one the planner, succeeds, undisturbed and along axes of perturbation.
+      .def(
+          "evaluate",
+          [](PySession& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
+             std::int64_t episodes, std::int64_t first_seed, const std::string& variation,
+             std::vector<std::string> perturb, int workers, const std::string& policy_name, const nb::kwargs& words) {
+            const Using use(self.turn, "Session.evaluate");
+            EvaluationRequest request{.episodes = episodes,
+                                      .first_seed = first_seed,
+                                      .variation = variation,
+                                      .perturb = std::move(perturb),
+                                      .workers = workers,
+                                      .policy_name = policy_name,
+                                      .settings = settings_from(words, "evaluate")};
+            return evaluate(self, tasks, std::move(request), policy);
+          },
+          "tasks"_a, "policy"_a = nb::none(), "episodes"_a = 20, "first_seed"_a = 1'000'000, "variation"_a = "",
+          "perturb"_a = std::vector<std::string>(), "workers"_a = 1, "policy_name"_a = "policy", "settings"_a,
+          R"(How often a policy, or without one the planner, succeeds, undisturbed and along axes of perturbation.
 
 policy() gives an object with `act` and `begin`, one an episode, as of `add_policy`. Other arguments are those of
 `environment`: what it observes, rates, horizon.)");

@@ -21,7 +21,7 @@ TEST_CASE("results are taken in order and one at a time, whoever is first") {
     std::vector<int> taken;
     std::atomic<int> started = 0;
     in_order(
-        20, workers, nullptr, [&] { return ++started; }, [](int, std::size_t i) { return slow_square(i); },
+        20, {workers}, [&] { return ++started; }, [](int, std::size_t i) { return slow_square(i); },
         [&](std::size_t i, int square) {
           CHECK(i == taken.size());
           taken.push_back(square);
@@ -41,17 +41,17 @@ TEST_CASE("what is thrown first comes out, whoever waits for a turn that never c
       if (i == 3) throw std::runtime_error("three");
       return slow_square(i);
     };
-    CHECK_THROWS_WITH(in_order(20, workers, nullptr, start, make, count), "three");
+    CHECK_THROWS_WITH(in_order(20, {workers}, start, make, count), "three");
     CHECK(taken <= 3);
     const auto refuse = [](std::size_t i, int) {
       if (i == 2) throw std::runtime_error("two");
     };
     CHECK_THROWS_WITH(in_order(
-                          20, workers, nullptr, start, [](int, std::size_t i) { return slow_square(i); }, refuse),
+                          20, {workers}, start, [](int, std::size_t i) { return slow_square(i); }, refuse),
                       "two");
     const auto fail = []() -> int { throw std::runtime_error("no worker"); };
     CHECK_THROWS_WITH(in_order(
-                          20, workers, nullptr, fail, [](int, std::size_t i) { return slow_square(i); }, count),
+                          20, {workers}, fail, [](int, std::size_t i) { return slow_square(i); }, count),
                       "no worker");
   }
 }
@@ -67,7 +67,7 @@ TEST_CASE("of two that throw the first in order comes out, though the other was 
       return static_cast<int>(i);
     };
     CHECK_THROWS_WITH(in_order(
-                          20, workers, nullptr, [] { return 0; }, make, [&](std::size_t, int) { ++taken; }),
+                          20, {workers}, [] { return 0; }, make, [&](std::size_t, int) { ++taken; }),
                       "3");
     CHECK(taken == 3);
   }
@@ -77,14 +77,14 @@ TEST_CASE("a stop ends it between two results, and nothing is taken after it") {
   std::atomic<bool> stop = false;
   std::vector<std::size_t> taken;
   in_order(
-      20, 3, &stop, [] { return 0; }, [](int, std::size_t i) { return slow_square(i); },
+      20, {3, &stop}, [] { return 0; }, [](int, std::size_t i) { return slow_square(i); },
       [&](std::size_t i, int) {
         taken.push_back(i);
         stop = i == 4;
       });
   CHECK(taken == std::vector<std::size_t>{0, 1, 2, 3, 4});
   in_order(
-      0, 3, nullptr, [] { return 0; }, [](int, std::size_t) { return 0; }, [](std::size_t, int) { FAIL("no work"); });
+      0, {3}, [] { return 0; }, [](int, std::size_t) { return 0; }, [](std::size_t, int) { FAIL("no work"); });
 }
 
 }  // namespace stampede

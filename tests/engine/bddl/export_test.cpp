@@ -409,7 +409,7 @@ TEST_CASE("an exported goal holds there exactly where it holds here") {
         }
         if (named) again.insert(renamed);
       }
-      REQUIRE(judge_both(result.problem, values, task, again, {}, {}).ours == here);
+      REQUIRE(judge_both(result.problem, values, task, {again, {}, {}}).ours == here);
       ++imported;
     }
   }

@@ -160,7 +160,7 @@ TEST_CASE("forpairs is a matching for us, and the star is where the verdicts dif
       theirs.insert({"nextto", {"apple.n.01_" + row, "bowl.n.01_" + column}});
       facts.insert({"beside", {"bowl_" + column, "apple_" + row}});  // the mapping swaps the two
     }
-    const BddlVerdicts verdicts = judge_both(problem, BddlFacts(theirs), task, facts, {}, {});
+    const BddlVerdicts verdicts = judge_both(problem, BddlFacts(theirs), task, {facts, {}, {}});
     REQUIRE(verdicts.theirs == judge(problem, BddlFacts(theirs)));
     REQUIRE((verdicts.theirs || !verdicts.ours));  // theirs is the weaker
     REQUIRE(verdicts.disagreements.empty() == (verdicts.theirs == verdicts.ours));
@@ -181,7 +181,7 @@ TEST_CASE("verdicts name the literals on which they differ") {
   high.centre_m = {0.035, 0, 1.2};  // it rests on the other, 3.5 cm beside its centre
   const LiberoGeometry geometry({{"cup_1", high}, {"cup_2", low}});
   const Facts facts = {{"on", {"cup_1", "cup_2"}}, {"lifted", {"cup_1"}}};
-  const BddlVerdicts verdicts = judge_both(problem, geometry, task, facts, {}, {});
+  const BddlVerdicts verdicts = judge_both(problem, geometry, task, {facts, {}, {}});
   CHECK_FALSE(verdicts.theirs);
   CHECK(verdicts.ours);
   const std::vector<std::string> expected = {"(on cup_1 cup_2): LIBERO says no, we say yes",

@@ -73,7 +73,7 @@ TEST_CASE("a cube's grasps are reachable, free, repeatable, and the first comes 
     const Object& cube = *world.scene().object(name);
     const CollisionState state = world.collision_state();
     const JointVector home = world.arm().home();
-    const auto grasps = grasp_candidates(state, world, cube, home, RandomKey("cube"), 4);
+    const auto grasps = grasp_candidates({state, world, cube, home, RandomKey("cube")}, 4);
     REQUIRE_FALSE(grasps.empty());
     CHECK(grasps[0].world_from_tip.linear().col(2).z() < -0.99);
     const Vector3 centre = world_from_object(world, cube).translation();
@@ -85,7 +85,7 @@ TEST_CASE("a cube's grasps are reachable, free, repeatable, and the first comes 
       const Vector3 back = grasps[k].world_from_tip.inverse() * grasps[k].world_from_approach.translation();
       CHECK((back - Vector3(0, 0, -0.08)).norm() < 1e-9);
     }
-    const auto again = grasp_candidates(state, world, cube, home, RandomKey("cube"), 4);
+    const auto again = grasp_candidates({state, world, cube, home, RandomKey("cube")}, 4);
     REQUIRE(again.size() == grasps.size());
     for (std::size_t k = 0; k < grasps.size(); ++k)
       CHECK(again[k].world_from_tip.matrix() == grasps[k].world_from_tip.matrix());
@@ -102,7 +102,7 @@ TEST_CASE("authored grasps replace those from geometry") {
   authored.approach = 0.05;
   cube.grasps = {authored};
   const CollisionState state = world.collision_state();
-  const auto grasps = grasp_candidates(state, world, cube, world.arm().home(), RandomKey("authored"), 4);
+  const auto grasps = grasp_candidates({state, world, cube, world.arm().home(), RandomKey("authored")}, 4);
   REQUIRE(grasps.size() == 1);
   CHECK(grasps[0].force == 33);
   CHECK(grasps[0].width == 0.041);
@@ -118,7 +118,7 @@ TEST_CASE("of two grasps that can both be reached, the one from above comes firs
   }
   const CollisionState state = world.collision_state();
   for (int k = 0; k < 10; ++k) {
-    const auto grasps = grasp_candidates(state, world, cube, world.arm().home(), RandomKey("slant").with(k), 4);
+    const auto grasps = grasp_candidates({state, world, cube, world.arm().home(), RandomKey("slant").with(k)}, 4);
     REQUIRE(grasps.size() == 2);
     CHECK(grasps[0].world_from_tip.linear().col(2).z() < -0.99);
     CHECK(grasps[1].world_from_tip.linear().col(2).z() > -0.8);
@@ -129,7 +129,7 @@ TEST_CASE("free spots lie on the table, clear of the other cubes, and rest on it
   const World world(std::make_shared<Scene>(table_scene(12)));
   const CollisionState state = world.collision_state();
   const Scene& scene = world.scene();
-  const auto spots = free_spots(state, world, *scene.object("table"), *scene.object("cube1"), RandomKey("spots"), 50);
+  const auto spots = free_spots({state, world, *scene.object("cube1"), RandomKey("spots"), 50}, *scene.object("table"));
   REQUIRE(spots.size() == 50);
   double spread = 0;
   for (const Transform& spot : spots) {
@@ -149,7 +149,7 @@ TEST_CASE("a cube is stacked on the middle of another, with parallel sides") {
   const World world(std::make_shared<Scene>(table_scene(3)));
   const CollisionState state = world.collision_state();
   const Scene& scene = world.scene();
-  const auto spots = stack_spots(state, world, *scene.object("cube2"), *scene.object("cube1"), RandomKey("stack"), 4);
+  const auto spots = stack_spots({state, world, *scene.object("cube1"), RandomKey("stack"), 4}, *scene.object("cube2"));
   REQUIRE(spots.size() == 4);
   const Transform below = world.world_from_part({scene.body_index("cube2"), 0});
   for (const Transform& spot : spots) {
@@ -167,7 +167,7 @@ TEST_CASE("region spots keep the object inside the region, on its lower face") {
   region.name = "target";
   region.part_from_region = translation(0.6, 0.3, 0.05);
   region.size = Vector3(0.15, 0.12, 0.1);
-  const auto spots = region_spots(state, world, region, *world.scene().object("cube1"), RandomKey("region"), 20);
+  const auto spots = region_spots({state, world, *world.scene().object("cube1"), RandomKey("region"), 20}, region);
   REQUIRE(spots.size() == 20);
   for (const Transform& spot : spots) {
     CHECK(spot.translation().z() == Approx(0.021).margin(1e-6));
@@ -185,8 +185,8 @@ TEST_CASE("places that cannot be are told of where somebody asks, with what they
   const Scene& scene = world.scene();
   const Object &table = *scene.object("table"), &cube = *scene.object("cube1");
   std::vector<Looked> turned_down;
-  const auto plain = free_spots(state, world, table, cube, RandomKey("spots"), 50);
-  const auto watched = free_spots(state, world, table, cube, RandomKey("spots"), 50, &turned_down);
+  const auto plain = free_spots({state, world, cube, RandomKey("spots"), 50}, table);
+  const auto watched = free_spots({state, world, cube, RandomKey("spots"), 50, &turned_down}, table);
   REQUIRE(watched.size() == plain.size());
   for (std::size_t i = 0; i < plain.size(); ++i) CHECK(watched[i].matrix() == plain[i].matrix());
 
@@ -194,7 +194,7 @@ TEST_CASE("places that cannot be are told of where somebody asks, with what they
   Region region;
   region.part_from_region = translation(world.world_from_part({scene.body_index("cube2"), 0}).translation());
   region.size = Vector3(0.02, 0.02, 0.04);
-  CHECK(region_spots(state, world, region, cube, RandomKey("region"), 4, &turned_down).empty());
+  CHECK(region_spots({state, world, cube, RandomKey("region"), 4, &turned_down}, region).empty());
   REQUIRE(turned_down.size() > 10);
   for (const Looked& one : turned_down) {
     CHECK(one.fate == Looked::Fate::touches);
@@ -215,14 +215,14 @@ TEST_CASE("of grasps that cannot be it is known what keeps the hand, and by how 
   const World world(std::make_shared<Scene>(scene));
   const CollisionState state = world.collision_state();
   const JointVector home = world.arm().home();
-  const auto far = look_at_grasps(state, world, *world.scene().object("cube1"), home, RandomKey("why"), true);
+  const auto far = look_at_grasps({state, world, *world.scene().object("cube1"), home, RandomKey("why")}, true);
   REQUIRE(far.size() > 10);
   for (const Looked& one : far) CHECK(one.fate != Looked::Fate::usable);
   const Looked* nearest = nearest_miss(far);
   REQUIRE(nearest != nullptr);
   CHECK(nearest->fate == Looked::Fate::out_of_reach);
   CHECK((nearest->missed_m > 0.1 && nearest->missed_m < 0.8));
-  const auto near = look_at_grasps(state, world, *world.scene().object("cube2"), home, RandomKey("why"), true);
+  const auto near = look_at_grasps({state, world, *world.scene().object("cube2"), home, RandomKey("why")}, true);
   CHECK(std::any_of(near.begin(), near.end(), [](const Looked& one) { return one.fate == Looked::Fate::usable; }));
   const auto through_table = [](const Looked& one) {
     return one.fate == Looked::Fate::touches && one.touched == "table" && one.pose.linear().col(2).z() > 0.9;

@@ -29,12 +29,11 @@ std::unique_ptr<Motion> follow(const PlannedMotion& plan, FollowOptions options 
 MotionResult grasp(World& world, const Object& cube) {
   run(world, *make_hand(0.08, 20, std::nullopt));
   CollisionState state = world.collision_state();
-  const auto grasps = grasp_candidates(state, world, cube, world.arm_position(), RandomKey("grasp"), 1);
+  const auto grasps = grasp_candidates({state, world, cube, world.arm_position(), RandomKey("grasp")}, 1);
   REQUIRE_FALSE(grasps.empty());
   state.allow({world.scene().body_index(cube.body), 0});
-  const auto plan = plan_through(state, world.arm_position(),
-                                 {{"approach", grasps[0].world_from_approach}, {"grasp", grasps[0].world_from_tip}}, {},
-                                 RandomKey("reach"));
+  const auto plan = plan_through({state, world.arm_position(), {}, RandomKey("reach")},
+                                 {{"approach", grasps[0].world_from_approach}, {"grasp", grasps[0].world_from_tip}});
   REQUIRE(run(world, *follow(plan)).status == MotionStatus::done);
   return run(world, *make_hand(0, grasps[0].force, PartRef{world.scene().body_index(cube.body), 0}));
 }
@@ -42,18 +41,19 @@ MotionResult grasp(World& world, const Object& cube) {
 MotionResult lift(World& world, double height, FollowOptions options) {
   const CollisionState state = world.collision_state();
   const Transform goal = translation(0, 0, height) * state.arm().world_from_tip(world.arm_position());
-  return run(world, *follow(plan_line(state, world.arm_position(), goal, {}, {}, RandomKey("lift")), options));
+  return run(world, *follow(plan_line({state, world.arm_position(), {}, RandomKey("lift")}, goal, {}), options));
 }
 
 // The closed fingers just over the table, about to go on to `depth_m` below its top.
 std::unique_ptr<Motion> press_down(World& world, double depth_m, FollowOptions options) {
   run(world, *make_hand(0, 20, std::nullopt));
   const CollisionState state = world.collision_state();
-  const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.05)}}, {}, RandomKey("over"));
+  const auto reach =
+      plan_through({state, world.arm_position(), {}, RandomKey("over")}, {{"over", above(0.5, 0, 0.05)}});
   REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
   LineOptions line;
   line.tool_speed = 0.1;
-  return follow(plan_line(state, world.arm_position(), above(0.5, 0, -depth_m), line, {}, RandomKey("press")),
+  return follow(plan_line({state, world.arm_position(), {}, RandomKey("press")}, above(0.5, 0, -depth_m), line),
                 std::move(options));
 }
 
@@ -116,14 +116,15 @@ TEST_CASE("a press ends at the contact, or short of its target where that is all
     World world(std::make_shared<Scene>(table_scene(0)));
     run(world, *make_hand(0, 20, std::nullopt));
     const CollisionState state = world.collision_state();
-    const auto reach = plan_through(state, world.arm_position(), {{"over", above(0.5, 0, 0.1)}}, {}, RandomKey("over"));
+    const auto reach =
+        plan_through({state, world.arm_position(), {}, RandomKey("over")}, {{"over", above(0.5, 0, 0.1)}});
     REQUIRE(run(world, *follow(reach)).status == MotionStatus::done);
     FollowOptions options;
     options.stop_on_contact = mode == 0;
     options.tolerate_error = mode == 1;
     LineOptions line;
     line.tool_speed = 0.1;
-    const auto press = plan_line(state, world.arm_position(), above(0.5, 0, -0.05), line, {}, RandomKey("press"));
+    const auto press = plan_line({state, world.arm_position(), {}, RandomKey("press")}, above(0.5, 0, -0.05), line);
     const MotionResult result = run(world, *follow(press, options));
     if (mode == 2) {
       CHECK(result.status == MotionStatus::failed);
@@ -206,7 +207,7 @@ TEST_CASE("the tool keeps its own speed limit, whatever the joints could do") {
   left[5] = right[5] = 1.5;
   MotionLimits limits;
   limits.tool_speed = 1.2;
-  const auto sweep = plan_joints(state, left, right, limits, RandomKey("sweep"));
+  const auto sweep = plan_joints({state, left, limits, RandomKey("sweep")}, right);
   REQUIRE(sweep.reason == Reason::none);
   double most = 0;
   for (std::int64_t step = 0; step <= sweep.trajectory.steps(); ++step) {

@@ -25,7 +25,7 @@ JointPath asked(const CollisionState& state, const std::string& planner, int num
   MotionLimits limits;
   limits.planner = planner;
   limits.iterations = 4000;  // those that optimise use them all
-  return plan_path(state, of.start, of.goal, limits, RandomKey("way").with(number));
+  return plan_path({state, of.start, limits, RandomKey("way").with(number)}, of.goal);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST_CASE("the elbow turns where an arm could not slide something on with it as 
     PartWay slide = turning(arm.world_from_tip(start), 0);
     slide.moved = [](double share) { return translation(0, 0, share * 0.25); };
     const ToolPath rigid = follow_tool(
-        arm, start, [&](double share) { return Transform(slide.moved(share) * arm.world_from_tip(start)); }, 50,
+        arm, start, {[&](double share) { return Transform(slide.moved(share) * arm.world_from_tip(start)); }, 50},
         RandomKey("rigid"));
     if (rigid.reason == Reason::none && !first_touch_of_line(state, rigid.waypoints, 0.01)) ++as_it_is;
     const auto found = way_with_part(state, start, slide, RandomKey("way"));
@@ -116,11 +116,11 @@ TEST_CASE("a line to where the arm cannot follow is as long as it can be, where 
   const JointVector start = *state.arm().solve(above(0.5, 0, 0.3), state.arm().home(), RandomKey("start"));
   const Transform far = translation(0.5, 0, 0) * state.arm().world_from_tip(start);
   LineOptions line;
-  CHECK(plan_line(state, start, far, line, {}, RandomKey("far")).reason == Reason::unreachable);
+  CHECK(plan_line({state, start, {}, RandomKey("far")}, far, line).reason == Reason::unreachable);
   line.least_share = 0.95;
-  CHECK(plan_line(state, start, far, line, {}, RandomKey("far")).reason == Reason::unreachable);
+  CHECK(plan_line({state, start, {}, RandomKey("far")}, far, line).reason == Reason::unreachable);
   line.least_share = 0.1;
-  const auto some = plan_line(state, start, far, line, {}, RandomKey("far"));
+  const auto some = plan_line({state, start, {}, RandomKey("far")}, far, line);
   REQUIRE(some.reason == Reason::none);
   const Vector3 end = state.arm().world_from_tip(some.trajectory.knots.back().position).translation();
   CHECK(end.x() > 0.55);

@@ -30,7 +30,7 @@ Query query(const CollisionState& state, std::int64_t number) {
 
 PlannedMotion ask(const CollisionState& state, std::int64_t number) {
   const Query q = query(state, number);
-  return plan_joints(state, q.start, q.goal, {}, RandomKey("test").with(number));
+  return plan_joints({state, q.start, {}, RandomKey("test").with(number)}, q.goal);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ TEST_CASE("paths are certified, keep the ends, and stay within the joint limits"
   const CollisionState state = world.collision_state();
   for (int k = 100; k < 110; ++k) {
     const Query q = query(state, k);
-    const JointPath path = plan_path(state, q.start, q.goal, {}, RandomKey("test").with(k));
+    const JointPath path = plan_path({state, q.start, {}, RandomKey("test").with(k)}, q.goal);
     if (path.reason != Reason::none) {
       CHECK(path.waypoints.empty());
       continue;
@@ -89,7 +89,7 @@ TEST_CASE("a query has one answer: alone, after others, beside a busy thread") {
   quick.rounds = 0;
   for (int k = 0; k < 1000; ++k) {
     const Query q = query(state, 1000 + k % 10);
-    plan_path(state, q.start, q.goal, quick, RandomKey("other").with(k));
+    plan_path({state, q.start, quick, RandomKey("other").with(k)}, q.goal);
   }
   CHECK(same(alone.trajectory, ask(state, 7).trajectory));
 
@@ -116,12 +116,12 @@ TEST_CASE("no path is a result that says why") {
   into_table[3] = -1.0;
   REQUIRE_FALSE(state.free(into_table));
 
-  const PlannedMotion from = plan_joints(state, into_table, home, {}, RandomKey("a"));
+  const PlannedMotion from = plan_joints({state, into_table, {}, RandomKey("a")}, home);
   CHECK(from.reason == Reason::start_in_collision);
   CHECK(from.detail.find(" touches ") != std::string::npos);
   CHECK(from.trajectory.knots.empty());
 
-  const PlannedMotion to = plan_joints(state, home, into_table, {}, RandomKey("a"));
+  const PlannedMotion to = plan_joints({state, home, {}, RandomKey("a")}, into_table);
   CHECK(to.reason == Reason::no_path);
   CHECK(to.detail.find(" touches ") != std::string::npos);
 
@@ -130,7 +130,7 @@ TEST_CASE("no path is a result that says why") {
   int unsolved = 0;
   for (int k = 0; k < 20; ++k) {
     const Query q = query(state, k);
-    const JointPath path = plan_path(state, q.start, q.goal, none, RandomKey("b").with(k));
+    const JointPath path = plan_path({state, q.start, none, RandomKey("b").with(k)}, q.goal);
     if (path.reason == Reason::none) continue;
     CHECK(path.reason == Reason::no_path);
     CHECK(path.detail.find("1 tree") != std::string::npos);
@@ -160,8 +160,8 @@ TEST_CASE("joints that are not numbers are refused") {
   const CollisionState state = world.collision_state();
   JointVector bad = state.arm().home();
   bad[2] = std::nan("");
-  CHECK_THROWS_AS(plan_joints(state, state.arm().home(), bad, {}, RandomKey("a")), Error);
-  CHECK_THROWS_AS(plan_path(state, JointVector::Zero(3), bad, {}, RandomKey("a")), Error);
+  CHECK_THROWS_AS(plan_joints({state, state.arm().home(), {}, RandomKey("a")}, bad), Error);
+  CHECK_THROWS_AS(plan_path({state, JointVector::Zero(3), {}, RandomKey("a")}, bad), Error);
 }
 
 TEST_CASE("an arm that a line left folded into itself is turned clear first, and then goes its way") {
@@ -179,7 +179,7 @@ TEST_CASE("an arm that a line left folded into itself is turned clear first, and
     });
     if (contacts.empty() || !itself) continue;
     ++folded;
-    const PlannedMotion motion = plan_joints(state, q, from, {}, RandomKey("out").with(k));
+    const PlannedMotion motion = plan_joints({state, q, {}, RandomKey("out").with(k)}, from);
     if (motion.reason != Reason::none) continue;
     ++solved;
     CHECK(motion.trajectory.knots.front().position == q);

@@ -64,7 +64,7 @@ TEST_CASE("the corner of two lines is passed without a stop, and cut within the 
   const std::vector<ToolPiece> pieces{line(space.begin, right, "corner"), line(translation(right) * space.begin, down)};
   const Vector3 corner = (translation(right) * space.begin).translation();
   for (const double blend : {0.03, 0.01}) {
-    const auto motion = plan_pieces(space.state, space.start, pieces, {blend, false}, {}, RandomKey("corner"));
+    const auto motion = plan_pieces({space.state, space.start, {}, RandomKey("corner")}, pieces, {blend, false});
     INFO(motion.detail);
     REQUIRE(motion.reason == Reason::none);
     REQUIRE(motion.vias.size() == 1);
@@ -94,7 +94,7 @@ TEST_CASE("each piece keeps its own speed, and a stop is a stop") {
                                 line(translation(0, 0.2, 0) * space.begin, {0, 0.1, 0}, "slow")};
   pieces[0].speed = 0.3;
   pieces[1].speed = 0.05;
-  const auto flowing = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("speed"));
+  const auto flowing = plan_pieces({space.state, space.start, {}, RandomKey("speed")}, pieces, {});
   REQUIRE(flowing.reason == Reason::none);
   double fastest[2] = {0, 0}, slowest = 1;
   for (double step = 0; step < static_cast<double>(flowing.trajectory.steps()); ++step) {
@@ -107,7 +107,7 @@ TEST_CASE("each piece keeps its own speed, and a stop is a stop") {
   CHECK(fastest[1] == Approx(0.05).margin(0.003));
   CHECK(slowest > 0.045);
   pieces[0].stop = true;
-  const auto halting = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("speed"));
+  const auto halting = plan_pieces({space.state, space.start, {}, RandomKey("speed")}, pieces, {});
   REQUIRE(halting.reason == Reason::none);
   REQUIRE(halting.vias.size() == 2);
   const double halt = static_cast<double>(halting.vias[0].step);
@@ -125,7 +125,7 @@ TEST_CASE("a full circle ends where it began, and its end is not taken for its b
       around(around(space.begin, centre, std::numbers::pi).world_from_tip(1), centre, -std::numbers::pi, "back")};
   pieces[1].opening = 0.03;
   for (ToolPiece& piece : pieces) piece.turn_speed = 0.8;
-  const auto motion = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("circle"));
+  const auto motion = plan_pieces({space.state, space.start, {}, RandomKey("circle")}, pieces, {});
   INFO(motion.detail);
   REQUIRE(motion.reason == Reason::none);
   double off = 0, turning = 0;
@@ -148,28 +148,29 @@ TEST_CASE("what is wrong with a way names its piece") {
   const Space space;
   std::vector<ToolPiece> pieces{line(space.begin, {0, 0.1, 0}),
                                 line(translation(0, 0.1, 0) * space.begin, {0, 2, 0}, "far")};
-  const auto far = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("far"));
+  const auto far = plan_pieces({space.state, space.start, {}, RandomKey("far")}, pieces, {});
   CHECK(far.reason == Reason::unreachable);
   CHECK_THAT(far.detail, Catch::StartsWith("piece 2 'far': the arm cannot follow beyond"));
   CHECK(far.trajectory.knots.empty());
   pieces[1] = line(translation(0, 0.1, 0) * space.begin, {0, 0, -0.3});
-  const auto through = plan_pieces(space.state, space.start, pieces, {0.01, true}, {}, RandomKey("table"));
+  const auto through = plan_pieces({space.state, space.start, {}, RandomKey("table")}, pieces, {0.01, true});
   CHECK(through.reason == Reason::no_path);
   CHECK_THAT(through.detail, Catch::StartsWith("piece 2: ") && Catch::Contains("table"));
-  CHECK(plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("table")).reason == Reason::none);
-  CHECK_THROWS_WITH(plan_pieces(space.state, space.start, {}, {}, {}, RandomKey("none")), Catch::Contains("one piece"));
+  CHECK(plan_pieces({space.state, space.start, {}, RandomKey("table")}, pieces, {}).reason == Reason::none);
+  CHECK_THROWS_WITH(plan_pieces({space.state, space.start, {}, RandomKey("none")}, {}, {}),
+                    Catch::Contains("one piece"));
   pieces[0].speed = 0;
-  CHECK_THROWS_WITH(plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("slow")),
+  CHECK_THROWS_WITH(plan_pieces({space.state, space.start, {}, RandomKey("slow")}, pieces, {}),
                     Catch::Contains("piece 1: the tool's speed"));
-  CHECK_THROWS_AS(plan_pieces(space.state, space.start, pieces, {-1, false}, {}, RandomKey("blend")), Error);
+  CHECK_THROWS_AS(plan_pieces({space.state, space.start, {}, RandomKey("blend")}, pieces, {-1, false}), Error);
 }
 
 TEST_CASE("the same way is planned twice to the last bit") {
   const Space space;
   const std::vector<ToolPiece> pieces{line(space.begin, {0, 0.2, 0}),
                                       line(translation(0, 0.2, 0) * space.begin, {0.1, 0, 0})};
-  const auto one = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("twice"));
-  const auto two = plan_pieces(space.state, space.start, pieces, {}, {}, RandomKey("twice"));
+  const auto one = plan_pieces({space.state, space.start, {}, RandomKey("twice")}, pieces, {});
+  const auto two = plan_pieces({space.state, space.start, {}, RandomKey("twice")}, pieces, {});
   REQUIRE(one.trajectory.knots.size() == two.trajectory.knots.size());
   for (std::size_t i = 0; i < one.trajectory.knots.size(); ++i)
     CHECK(one.trajectory.knots[i].position == two.trajectory.knots[i].position);

@@ -43,7 +43,7 @@ Watched watched(World& world, Motion& motion, std::int64_t most = 8000) {
 
 void go_to(World& world, const Transform& tip) {
   const CollisionState state = world.collision_state();
-  const auto reach = plan_through(state, world.arm_position(), {{"over", tip}}, {}, RandomKey("over"));
+  const auto reach = plan_through({state, world.arm_position(), {}, RandomKey("over")}, {{"over", tip}});
   REQUIRE(reach.reason == Reason::none);
   REQUIRE(watched(world, *make_follow(reach.trajectory, {})).result.status == MotionStatus::done);
 }
@@ -52,8 +52,8 @@ Trajectory line_by(World& world, const Vector3& by, double speed) {
   LineOptions line;
   line.tool_speed = speed;
   const JointVector start = world.arm_position();
-  const auto plan = plan_line(world.collision_state(), start, translation(by) * world.arm().world_from_tip(start), line,
-                              {}, RandomKey("line"));
+  const auto plan = plan_line({world.collision_state(), start, {}, RandomKey("line")},
+                              translation(by) * world.arm().world_from_tip(start), line);
   REQUIRE(plan.reason == Reason::none);
   return plan.trajectory;
 }

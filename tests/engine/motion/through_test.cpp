@@ -20,8 +20,8 @@ TEST_CASE("an approach is passed close by, without stopping, and the grasp is re
   for (int k = 0; k < 15; ++k) {
     const double x = random.between(0.35, 0.65), y = random.between(-0.35, 0.35), yaw = random.between(-1, 1);
     const Transform grasp = above(x, y, 0.06, yaw), approach = above(x, y, 0.15, yaw);
-    const PlannedMotion motion =
-        plan_through(state, state.arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("t").with(k));
+    const PlannedMotion motion = plan_through({state, state.arm().home(), {}, RandomKey("t").with(k)},
+                                              {{"approach", approach}, {"grasp", grasp}});
     if (motion.reason != Reason::none) continue;
     ++solved;
     REQUIRE(motion.vias.size() == 1);
@@ -43,7 +43,7 @@ TEST_CASE("the last half of an approach is a straight line of the tool") {
   const CollisionState state = world.collision_state();
   const Transform grasp = above(0.5, 0.1, 0.05), approach = above(0.5, 0.1, 0.15);
   const PlannedMotion motion =
-      plan_through(state, state.arm().home(), {{"approach", approach}, {"grasp", grasp}}, {}, RandomKey("line"));
+      plan_through({state, state.arm().home(), {}, RandomKey("line")}, {{"approach", approach}, {"grasp", grasp}});
   REQUIRE(motion.reason == Reason::none);
   double worst = 0;
   for (std::int64_t step = motion.vias[0].step; step <= motion.trajectory.steps(); ++step) {
@@ -62,7 +62,7 @@ TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
   const Transform to = translation(0.1, 0.15, -0.1) * from;
   LineOptions line;
   line.tool_speed = 0.2;
-  const PlannedMotion motion = plan_line(space, arm.home(), to, line, {}, RandomKey("line"));
+  const PlannedMotion motion = plan_line({space, arm.home(), {}, RandomKey("line")}, to, line);
   REQUIRE(motion.reason == Reason::none);
   const Vector3 direction = (to.translation() - from.translation()).normalized();
   double off = 0, speed = 0, turned = 0;
@@ -92,7 +92,7 @@ TEST_CASE("a tool path round a hinge stays on its circle") {
     turn.linear() = Eigen::AngleAxisd(0.6 * s, Vector3::UnitZ()).toRotationMatrix();
     return Transform(translation(hinge) * turn * translation(-hinge) * from);
   };
-  const PlannedMotion motion = plan_tool_path(state, arm.home(), path, {}, {}, RandomKey("door"));
+  const PlannedMotion motion = plan_tool_path({state, arm.home(), {}, RandomKey("door")}, path, {});
   REQUIRE(motion.reason == Reason::none);
   double worst = 0;
   for (std::int64_t step = 0; step <= motion.trajectory.steps(); ++step) {
@@ -109,20 +109,20 @@ TEST_CASE("targets out of reach and lines into the table say so") {
   const World world(std::make_shared<Scene>(table_scene(3)));
   const CollisionState state = world.collision_state();
   const JointVector home = state.arm().home();
-  const PlannedMotion far = plan_through(state, home, {{"shelf", above(1.5, 0, 0.3)}}, {}, RandomKey("far"));
+  const PlannedMotion far = plan_through({state, home, {}, RandomKey("far")}, {{"shelf", above(1.5, 0, 0.3)}});
   CHECK(far.reason == Reason::unreachable);
   CHECK(far.detail.find("shelf") != std::string::npos);
 
-  const PlannedMotion below = plan_through(
-      state, home, {{"approach", above(0.7, 0.3, 0.1)}, {"grasp", above(0.7, 0.3, -0.02)}}, {}, RandomKey("below"));
+  const PlannedMotion below = plan_through({state, home, {}, RandomKey("below")},
+                                           {{"approach", above(0.7, 0.3, 0.1)}, {"grasp", above(0.7, 0.3, -0.02)}});
   CHECK(below.reason == Reason::no_path);
   CHECK(below.detail.find("touches table") != std::string::npos);
 
   LineOptions line;
   line.keep_clear = true;
-  const PlannedMotion into = plan_line(state, home, above(0.55, 0, -0.05), line, {}, RandomKey("into"));
+  const PlannedMotion into = plan_line({state, home, {}, RandomKey("into")}, above(0.55, 0, -0.05), line);
   CHECK(into.reason == Reason::no_path);
-  const PlannedMotion beyond = plan_line(state, home, above(1.6, 0, 0.4), {}, {}, RandomKey("beyond"));
+  const PlannedMotion beyond = plan_line({state, home, {}, RandomKey("beyond")}, above(1.6, 0, 0.4), {});
   CHECK(beyond.reason == Reason::unreachable);
   CHECK(beyond.trajectory.knots.empty());
 }
@@ -142,8 +142,8 @@ TEST_CASE("lines ahead are to be free: nothing is grasped that cannot be taken a
   const World world(std::make_shared<const Scene>(scene));
   const CollisionState state = world.collision_state();
   const auto plan = [&](double aside) {
-    return plan_through(state, state.arm().home(),
-                        {{"grasp", above(0.5, 0, 0.1)}, {"ahead", above(0.5, aside, 0.1), true}}, {}, RandomKey("l"));
+    return plan_through({state, state.arm().home(), {}, RandomKey("l")},
+                        {{"grasp", above(0.5, 0, 0.1)}, {"ahead", above(0.5, aside, 0.1), true}});
   };
   CHECK(plan(0.03).reason == Reason::none);
   const PlannedMotion into_post = plan(0.18);

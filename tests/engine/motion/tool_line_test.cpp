@@ -43,7 +43,8 @@ TEST_CASE("a line that would lead the arm into itself is not taken, and says wha
   const Transform tip = state.arm().world_from_tip(folded());
   int refused = 0;
   for (const double back : {0.02, 0.04, 0.06, 0.08, 0.10, 0.12}) {
-    const PlannedMotion motion = plan_line(state, folded(), tip * translation(0, 0, -back), {}, {}, RandomKey("back"));
+    const PlannedMotion motion =
+        plan_line({state, folded(), {}, RandomKey("back")}, tip * translation(0, 0, -back), {});
     INFO(back << " " << motion.detail);
     if (motion.reason == Reason::none) {
       CHECK(deepest_on(state, motion.trajectory) < 5e-4);
@@ -75,7 +76,7 @@ TEST_CASE("a link that would meet furniture on a line keeps off it, the hand may
     post.world_from_body = translation(0.5, 0.05, 0.1);
     scene->bodies = {post};
     const World world(scene);
-    const PlannedMotion motion = plan_line(world.collision_state(), start, line_end, line, {}, RandomKey("hand"));
+    const PlannedMotion motion = plan_line({world.collision_state(), start, {}, RandomKey("hand")}, line_end, line);
     INFO(motion.detail);
     CHECK((motion.reason == Reason::none || motion.detail.find("hand") == std::string::npos));
   }
@@ -85,7 +86,7 @@ TEST_CASE("a link that would meet furniture on a line keeps off it, the hand may
     const World world(walled);
     const CollisionState state = world.collision_state();
     REQUIRE(state.free(start));
-    const PlannedMotion motion = plan_line(state, start, line_end, line, {}, RandomKey("elbow"));
+    const PlannedMotion motion = plan_line({state, start, {}, RandomKey("elbow")}, line_end, line);
     INFO(motion.detail);
     if (motion.reason == Reason::none)
       CHECK(deepest_on(state, motion.trajectory) < 5e-4);
@@ -101,7 +102,7 @@ TEST_CASE("an arm that contact has left in itself comes away on a line, but neve
   inside << -0.7748, -0.3424, 1.6957, -3.0702, 2.5479, 3.7052, 0.3604;
   REQUIRE_FALSE(state.free(inside));
   const Transform tip = state.arm().world_from_tip(inside);
-  const PlannedMotion on = plan_line(state, inside, tip * translation(0, 0, -0.02), {}, {}, RandomKey("deeper"));
+  const PlannedMotion on = plan_line({state, inside, {}, RandomKey("deeper")}, tip * translation(0, 0, -0.02), {});
   if (on.reason == Reason::none)
     CHECK(deepest_on(state, on.trajectory) <= deepest_overlap(state, inside)->depth + 1e-3);
 }
@@ -113,7 +114,7 @@ TEST_CASE("a way in pieces on which the arm would meet itself is refused by piec
   ToolPiece back;
   back.name = "back";
   back.world_from_tip = [&](double share) { return Transform(tip * translation(0, 0, -0.1 * share)); };
-  const PlannedMotion motion = plan_pieces(state, folded(), {back}, {}, {}, RandomKey("pieces"));
+  const PlannedMotion motion = plan_pieces({state, folded(), {}, RandomKey("pieces")}, {back}, {});
   INFO(motion.detail);
   if (motion.reason == Reason::none)
     CHECK(deepest_on(state, motion.trajectory) < 5e-4);

@@ -134,7 +134,7 @@ TEST_CASE("a free body that tumbles keeps its angular momentum, and wins no ener
   btCollisionObject object;
   Dynamics dynamics(world, Vector3::Zero(), 1.0 / 240);
   const Vector3 moments(1, 2, 3);
-  FreeBody& body = dynamics.add_free({&object, 1, moments, Vector3(0.1, 0, 0), Vector3(0.1, 4, 0.1)});
+  FreeBody& body = dynamics.movers().add_free({&object, 1, moments, Vector3(0.1, 0, 0), Vector3(0.1, 4, 0.1)});
   const auto momentum = [&](double& energy) {
     const Matrix3 turn = from_bullet(object.getWorldTransform()).linear();
     const Vector3 local = turn.transpose() * body.angular;

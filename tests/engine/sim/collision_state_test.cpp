@@ -174,15 +174,15 @@ TEST_CASE("what rests in or on a thing goes with it", "[sim]") {
   stray.free = true;
   add_body(scene, stray);
   World world(shared(scene));
-  CHECK(world.loads().empty());  // nothing has touched yet
+  CHECK(loads(world).empty());  // nothing has touched yet
   run(world, 0.5);
   const int lower = body_index(world, "lower"), upper = body_index(world, "upper"),
             furniture = body_index(world, "chest");
   const PartRef drawer{furniture, 1};
-  CHECK(borne_by(world.scene(), world.loads(), drawer) == std::vector<int>{lower, upper});
-  CHECK(borne_by(world.scene(), world.loads(), {lower, 0}) == std::vector<int>{upper});
-  CHECK(borne_by(world.scene(), world.loads(), {upper, 0}).empty());
-  CHECK(borne_by(world.scene(), world.loads(), {furniture, 0}) == std::vector<int>{lower, upper});
+  CHECK(borne_by(world.scene(), loads(world), drawer) == std::vector<int>{lower, upper});
+  CHECK(borne_by(world.scene(), loads(world), {lower, 0}) == std::vector<int>{upper});
+  CHECK(borne_by(world.scene(), loads(world), {upper, 0}).empty());
+  CHECK(borne_by(world.scene(), loads(world), {furniture, 0}) == std::vector<int>{lower, upper});
 
   // Where the block was is room once the drawer is out, and where it has gone to there is none.
   const int probe = body_index(world, "stray");

@@ -45,7 +45,7 @@ Outcome searched(const Domain& domain, const Problem& problem, const PlanLimits&
   const symbolic::GroundTask task = symbolic::ground(symbolic::lift(domain, problem), {});
   const symbolic::Semantics semantics(task);
   symbolic::Heuristic heuristic(task);
-  Outcome outcome{width_search(task, semantics, heuristic, limits, semantics.initial(), task.goal), {}};
+  Outcome outcome{width_search(task, semantics, heuristic, limits, {semantics.initial(), task.goal}), {}};
   for (const int op : outcome.result.plan) outcome.plan.push_back(task.step(op));
   return outcome;
 }

@@ -3,6 +3,7 @@
 #include <lua.hpp>
 
 #include "scripting/library/definitions.h"
+#include "scripting/library/formula_reader.h"
 #include "scripting/library/library.h"
 #include "scripting/library/value.h"
 
@@ -15,11 +16,17 @@ struct Fixture {
   DefinitionState state{library};
   Formula formula(const std::string& source, const std::vector<Parameter>& parameters = {}) {
     state.sandbox().run(Sandbox::compile("return " + source, "t.lua"), "t.lua", 1);
-    const Formula result =
-        read_formula(state.state(), -1, "t.lua: goal", parameters, library->domain(), [](const std::string& group) {
-          const std::string name = group.substr(0, group.size() - 1);
-          return std::vector<std::string>{name + "1", name + "2", name + "3"};
-        });
+    FormulaContext context;
+    context.file = "t.lua";
+    context.field = "goal";
+    context.domain = &library->domain();
+    context.schema = !parameters.empty();
+    context.parameters = parameters;
+    context.expand = [](const std::string& group) {
+      const std::string name = group.substr(0, group.size() - 1);
+      return std::vector<std::string>{name + "1", name + "2", name + "3"};
+    };
+    const Formula result = formula_from(value_as_written(state.state(), -1, "t.lua: goal"), context);
     lua_pop(state.state(), 1);
     return result;
   }

@@ -1,10 +1,12 @@
+#include "db/image_writer.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "db/catalogue_impl.h"
 #include "db/count_visible.h"
-#include "db/episode_writer.h"
+#include "db/insert.h"
 #include "engine/model/camera.h"
 #include "engine/record/observation.h"
 
@@ -52,49 +54,50 @@ void check_images(const ImageStore& images, std::int64_t frames, std::size_t cam
   }
 }
 
-void EpisodeWriter::write_masks(const EpisodeRecord& episode) {
+ImageWriter::ImageWriter(const sql::Database& database, CameraWriter& cameras)
+    : database_(database),
+      cameras_(cameras),
+      mask_(insert(database, "mask", "episode, instance, name, object, class, semantic, colour")),
+      image_(insert(database, "image", "episode, frame, camera, kind, width, height, data")),
+      visible_(insert(database, "mask_pixels", "episode, frame, camera, instance, pixels")),
+      stored_(database, "SELECT data FROM image WHERE episode = ?1 AND frame = ?2 AND camera = ?3 AND kind = ?4",
+              true) {}
+
+void ImageWriter::write_masks(std::int64_t id, const EpisodeRecord& episode) {
   std::map<std::string, std::string> colours;
   for (const Object& object : episode.objects)
     if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end())
       colours.emplace(object.name, colour->second);
   for (const MaskEntry& m : episode.masks) {
     const auto colour = colours.find(m.object);
-    mask_.run(id_, m.instance, m.name, m.object, m.class_name, m.semantic,
+    mask_.run(id, m.instance, m.name, m.object, m.class_name, m.semantic,
               colour == colours.end() ? std::nullopt : std::optional(colour->second));
   }
 }
 
-void EpisodeWriter::write_image(const ImageRecord& image, int camera, const std::vector<std::uint8_t>& bytes) {
-  image_.run(id_, image.frame, camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
+void ImageWriter::write_image(std::int64_t id, const ImageRecord& image, int camera,
+                              const std::vector<std::uint8_t>& bytes) {
+  image_.run(id, image.frame, camera, image.kind, image.width, image.height, sql::Blob{as_text(bytes)});
   if (image.kind != "instance") return;
   const auto visible = image.visible.empty() ? visible_pixels(bytes) : image.visible;  // who painted it counted already
-  for (const auto& [instance, pixels] : visible) visible_.run(id_, image.frame, camera, instance, pixels);
+  for (const auto& [instance, pixels] : visible) visible_.run(id, image.frame, camera, instance, pixels);
 }
 
 // One picture in memory at a time, and one for each thread that makes some.
-void EpisodeWriter::write_images(const EpisodeRecord& episode) {
+void ImageWriter::write(std::int64_t id, const EpisodeRecord& episode) {
   if (!episode.images) return;
   episode.images->read_all([&](const ImageRecord& image, const std::vector<std::uint8_t>& bytes) {
-    write_image(image, image.camera, bytes);
+    write_image(id, image, image.camera, bytes);
   });
 }
 
-// The body's name where its part has none.
-std::string EpisodeWriter::mount_link(const Camera& camera) {
-  if (camera.mount_body.empty()) return "world";
-  std::string link = camera.mount_body;
-  if (mount_link_.start(id_, camera.mount_body, camera.mount_part).step()) mount_link_.read(link);
-  sqlite3_reset(mount_link_.handle());
-  return link;
-}
-
-int EpisodeWriter::place_camera(const CameraTrack& track, std::int64_t frames) {
-  const std::string where = "episode " + std::to_string(id_) + ", camera " + track.camera.name;
+int ImageWriter::place_camera(std::int64_t id, const CameraTrack& track, std::int64_t frames) {
+  const std::string where = "episode " + std::to_string(id) + ", camera " + track.camera.name;
   std::string question = "SELECT ";  // piece by piece: GCC 12 warns of a sum of these where there is nothing wrong
   question += kCameraColumns;
   question += ", ordinal FROM camera WHERE episode = ?1 AND name = ?2";
   sql::Statement find(database_, question);
-  if (find.start(id_, track.camera.name).step()) {
+  if (find.start(id, track.camera.name).step()) {
     Camera known;
     read_camera(find, known);
     const std::string other = difference(known, track.camera);
@@ -108,30 +111,29 @@ int EpisodeWriter::place_camera(const CameraTrack& track, std::int64_t frames) {
                            std::to_string(track.world_from_camera.size()));
   sql::Statement last(database_, "SELECT coalesce(max(ordinal), -1) + 1 FROM camera WHERE episode = ?1");
   int ordinal = 0;
-  if (last.start(id_).step()) last.read(ordinal);
-  write_camera(ordinal, track.camera);
-  write_camera_poses(ordinal, track.world_from_camera.size(),
-                     [&](std::size_t frame) { return &track.world_from_camera[frame]; });
+  if (last.start(id).step()) last.read(ordinal);
+  cameras_.write(id, ordinal, track.camera);
+  cameras_.write_poses(id, ordinal, track.world_from_camera.size(),
+                       [&](std::size_t frame) { return &track.world_from_camera[frame]; });
   return ordinal;
 }
 
 // Throws Error when other bytes are stored there.
-bool EpisodeWriter::is_stored(const ImageRecord& image, int camera, const std::string& name, std::string_view bytes) {
-  if (!stored_image_.start(id_, image.frame, camera, image.kind).step()) return false;
-  const auto* data = static_cast<const char*>(sqlite3_column_blob(stored_image_.handle(), 0));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(stored_image_.handle(), 0));
+bool ImageWriter::is_stored(std::int64_t id, const ImageRecord& image, int camera, const std::string& name,
+                            std::string_view bytes) {
+  if (!stored_.start(id, image.frame, camera, image.kind).step()) return false;
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(stored_.handle(), 0));
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(stored_.handle(), 0));
   const bool same = std::string_view(data ? data : "", size) == bytes;
-  sqlite3_reset(stored_image_.handle());
+  sqlite3_reset(stored_.handle());
   if (same) return true;
-  throw Error("episode " + std::to_string(id_) + ", frame " + std::to_string(image.frame) + ", camera " + name +
+  throw Error("episode " + std::to_string(id) + ", frame " + std::to_string(image.frame) + ", camera " + name +
                   ", kind " + image.kind,
               "another picture is stored there: it was made with another size, noise, light or version",
               "remove the stored ones, or render into a folder (--out)");
 }
 
-AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
-                                      const std::vector<CameraTrack>& cameras) {
-  id_ = id;
+AddedImages ImageWriter::add(std::int64_t id, const ImageStore& images, const std::vector<CameraTrack>& cameras) {
   sql::Statement episode(database_, "SELECT frames FROM episode WHERE id = ?1");
   std::int64_t frames = 0;
   if (!episode.start(id).step()) throw_no_episode(database_, id);
@@ -140,18 +142,18 @@ AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
   std::vector<std::optional<int>> ordinals(cameras.size());  // of the cameras that pictures are of
   for (std::size_t i = 0; i < images.count(); ++i) {
     const auto camera = static_cast<std::size_t>(images.record(i).camera);
-    if (!ordinals[camera]) ordinals[camera] = place_camera(cameras[camera], frames);
+    if (!ordinals[camera]) ordinals[camera] = place_camera(id, cameras[camera], frames);
   }
   AddedImages result;
   for (std::size_t i = 0; i < images.count(); ++i) {
     const ImageRecord& image = images.record(i);
     const auto camera = static_cast<std::size_t>(image.camera);
     const std::vector<std::uint8_t> bytes = images.read(i);
-    if (is_stored(image, *ordinals[camera], cameras[camera].camera.name, as_text(bytes))) {
+    if (is_stored(id, image, *ordinals[camera], cameras[camera].camera.name, as_text(bytes))) {
       ++result.skipped;
       continue;
     }
-    write_image(image, *ordinals[camera], bytes);
+    write_image(id, image, *ordinals[camera], bytes);
     ++result.added;
   }
   return result;

@@ -1,7 +1,7 @@
-#include <vector>
+#include "db/frame_writer.h"
 
 #include "db/catalogue_impl.h"
-#include "db/episode_writer.h"
+#include "db/insert.h"
 #include "db/table_text.h"
 #include "engine/record/action_space.h"
 
@@ -61,23 +61,47 @@ struct Running {
 
 }  // namespace
 
-void EpisodeWriter::set_running(const EpisodeRecord& episode) {
+FrameWriter::FrameWriter(const sql::Database& database, CameraWriter& cameras)
+    : database_(database),
+      cameras_(cameras),
+      frame_(insert(database, "frame",
+                    "episode, frame, step, time_s, reward, done, skill_segment, motion_segment, "
+                    "subgoal_segment, motion, subgoal")),
+      joint_state_(insert(database, "joint_state",
+                          "episode, frame, part, " + numbered("position", kJointsARow) + ", " +
+                              numbered("velocity", kJointsARow) + ", " + numbered("effort", kJointsARow))),
+      hand_state_(insert(database, "hand_state",
+                         "episode, frame, hand, x, y, z, qx, qy, qz, qw, linear_x, linear_y, linear_z, angular_x, "
+                         "angular_y, angular_z, opening, touch_1, touch_2")),
+      object_state_(insert(database, "object_state", "episode, posed, frame, x, y, z, qx, qy, qz, qw")),
+      action_channel_(insert(database, "action_channel", "episode, ordinal, space, component, name, unit")),
+      action_(insert(database, "action", "episode, frame, part, " + numbered("value", kChannelsARow))),
+      agent_action_(insert(database, "agent_action",
+                           "episode, ordinal, frame, end_frame, space, numbers, gripper, reference, controller, "
+                           "most_frames, skill, arguments, parameters, segment, reward, terminated, truncated")),
+      command_(insert(database, "command", "episode, ordinal, step, kind, payload, robot")),
+      channel_(insert(database, "channel", "episode, ordinal, name, unit, rate_hz")),
+      component_(insert(database, "channel_component", "episode, channel, ordinal, name")),
+      sample_(
+          insert(database, "sample", "episode, channel, ordinal, part, step, " + numbered("value", kComponentsARow))) {}
+
+void FrameWriter::set_running(std::int64_t id, const EpisodeRecord& episode) {
   const Running runs(episode);
   sql::Statement frame(database_,
                        "UPDATE frame SET skill_segment = ?3, motion_segment = ?4, subgoal_segment = ?5, motion = ?6, "
                        "subgoal = ?7 WHERE episode = ?1 AND frame = ?2");
   for (std::size_t i = 0; i < episode.frames.size(); ++i)
-    frame.run(id_, i, runs.skill[i], runs.motion[i], runs.subgoal[i], runs.name_of(runs.motion[i]),
+    frame.run(id, i, runs.skill[i], runs.motion[i], runs.subgoal[i], runs.name_of(runs.motion[i]),
               runs.name_of(runs.subgoal[i]));
 }
 
-void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
+void FrameWriter::write(std::int64_t id, const EpisodeRecord& episode) {
   const sql::UnknownValues unknown = unknown_values_of(episode);
   const Running runs(episode);
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     const std::optional<double> reward = unknown == sql::UnknownValues::allowed ? known(frame.reward) : frame.reward;
-    frame_.run(id_, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, reward, frame.done,
+    frame_.run(id, i, frame.step, static_cast<double>(frame.step) / episode.physics_hz, reward, frame.done,
                runs.skill[i], runs.motion[i], runs.subgoal[i], runs.name_of(runs.motion[i]),
                runs.name_of(runs.subgoal[i]));
   }
@@ -85,7 +109,7 @@ void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
     for (std::size_t part = 0; part * kJointsARow < episode.joints.size(); ++part)
-      joint_state_.run(id_, i, part, part_of<double>(frame.joint_position, part, kJointsARow, unknown),
+      joint_state_.run(id, i, part, part_of<double>(frame.joint_position, part, kJointsARow, unknown),
                        part_of<double>(frame.joint_velocity, part, kJointsARow, unknown),
                        part_of<double>(frame.joint_effort, part, kJointsARow, unknown));
   }
@@ -93,45 +117,34 @@ void EpisodeWriter::write_frames(const EpisodeRecord& episode) {
     int hand = 0;
     for (const HandRecord& h : episode.frames[i].hands) {
       const std::array<double, kHandColumns> values = columns_of(h);
-      hand_state_.run(id_, i, hand++, sql::Wide<double>{values, kHandColumns, unknown});
+      hand_state_.run(id, i, hand++, sql::Wide<double>{values, kHandColumns, unknown});
     }
   }
-  write_poses(episode);
-  write_actions(episode);
-  write_agent_actions(episode);
-  write_commands(episode);
-  write_channels(episode);
+  write_poses(id, episode);
+  write_actions(id, episode);
+  write_agent_actions(id, episode);
+  write_commands(id, episode);
+  write_channels(id, episode);
 }
 
-void EpisodeWriter::write_poses(const EpisodeRecord& episode) {
+void FrameWriter::write_poses(std::int64_t id, const EpisodeRecord& episode) {
   for (std::size_t object = 0; object < episode.posed.size(); ++object) {
     const Pose* last = nullptr;
     for (std::size_t i = 0; i < episode.frames.size(); ++i) {
       const Pose& pose = episode.frames[i].object_pose[object];
       if (last && *last == pose) continue;
-      object_state_.run(id_, object, i, pose);
+      object_state_.run(id, object, i, pose);
       last = &pose;
     }
   }
   for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera)
-    write_camera_poses(static_cast<int>(camera), episode.frames.size(), [&](std::size_t frame) {
+    cameras_.write_poses(id, static_cast<int>(camera), episode.frames.size(), [&](std::size_t frame) {
       const std::vector<Pose>& poses = episode.frames[frame].camera_pose;
       return poses.empty() ? nullptr : &poses[camera];
     });
 }
 
-void EpisodeWriter::write_camera_poses(int camera, std::size_t frames,
-                                       const std::function<const Pose*(std::size_t)>& pose_at) {
-  const Pose* last = nullptr;
-  for (std::size_t i = 0; i < frames; ++i) {
-    const Pose* pose = pose_at(i);
-    if (pose == nullptr || (last != nullptr && *last == *pose)) continue;
-    camera_pose_.run(id_, camera, i, *pose);
-    last = pose;
-  }
-}
-
-void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
+void FrameWriter::write_actions(std::int64_t id, const EpisodeRecord& episode) {
   std::size_t joints = 0;
   for (const FrameRecord& frame : episode.frames)
     if (frame.action) joints = std::max(joints, frame.action->joint_position.size());
@@ -141,10 +154,10 @@ void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
     if (joint.driven) names.push_back(joint.name);
   names.resize(std::max(joints, names.size()));
   std::size_t ordinal = 0;
-  for (std::size_t j = 0; j < joints; ++j) action_channel_.run(id_, ordinal++, "joint_position", j, names[j], "rad");
+  for (std::size_t j = 0; j < joints; ++j) action_channel_.run(id, ordinal++, "joint_position", j, names[j], "rad");
   for (std::size_t j = 0; j < kPoseNames.size(); ++j)
-    action_channel_.run(id_, ordinal++, "tool_pose", j, kPoseNames[j], j < 3 ? "m" : "1");
-  action_channel_.run(id_, ordinal, "gripper", 0, "opening", "m");
+    action_channel_.run(id, ordinal++, "tool_pose", j, kPoseNames[j], j < 3 ? "m" : "1");
+  action_channel_.run(id, ordinal, "gripper", 0, "opening", "m");
   std::vector<std::optional<double>> values;
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const auto& action = episode.frames[i].action;
@@ -156,11 +169,11 @@ void EpisodeWriter::write_actions(const EpisodeRecord& episode) {
     values.insert(values.end(), quaternion.begin(), quaternion.end());
     values.emplace_back(episode.real ? known(action->gripper) : action->gripper);
     for (std::size_t part = 0; part * kChannelsARow < values.size(); ++part)
-      action_.run(id_, i, part, part_of<std::optional<double>>(values, part, kChannelsARow));
+      action_.run(id, i, part, part_of<std::optional<double>>(values, part, kChannelsARow));
   }
 }
 
-void EpisodeWriter::write_agent_actions(const EpisodeRecord& episode) {
+void FrameWriter::write_agent_actions(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const AskedAction& one : episode.agent_actions) {
     const AgentAction& asked = one.asked;
@@ -171,31 +184,31 @@ void EpisodeWriter::write_agent_actions(const EpisodeRecord& episode) {
     if (one.segment >= 0) segment = one.segment;
     const std::string numbers = to_json_numbers(asked.values), arguments = to_json_list(asked.arguments),
                       parameters = parameters_text(asked.parameters);
-    agent_action_.run(id_, ordinal++, one.first_frame, one.end_frame, asked.space, numbers, asked.gripper, reference,
+    agent_action_.run(id, ordinal++, one.first_frame, one.end_frame, asked.space, numbers, asked.gripper, reference,
                       controller, asked.frames, skill, arguments, parameters, segment, one.reward, one.terminated,
                       one.truncated);
   }
 }
 
-void EpisodeWriter::write_commands(const EpisodeRecord& episode) {
+void FrameWriter::write_commands(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
   for (const Command& command : episode.commands) {
     const std::string bytes = operation_to_bytes(command.operation);
-    command_.run(id_, ordinal++, command.step, operation_kind(command.operation), sql::Blob{bytes},
+    command_.run(id, ordinal++, command.step, operation_kind(command.operation), sql::Blob{bytes},
                  robot_of(command.operation).value_or(0));
   }
 }
 
-void EpisodeWriter::write_channels(const EpisodeRecord& episode) {
+void FrameWriter::write_channels(std::int64_t id, const EpisodeRecord& episode) {
   std::size_t ordinal = 0;
   for (const ChannelRecord& channel : episode.channels) {
-    channel_.run(id_, ordinal, channel.name, channel.unit, channel.rate_hz);
+    channel_.run(id, ordinal, channel.name, channel.unit, channel.rate_hz);
     const std::size_t width = channel.components.size();
-    for (std::size_t c = 0; c < width; ++c) component_.run(id_, ordinal, c, channel.components[c]);
+    for (std::size_t c = 0; c < width; ++c) component_.run(id, ordinal, c, channel.components[c]);
     for (std::size_t i = 0; i < channel.steps.size(); ++i) {
       const auto values = std::span(channel.values).subspan(i * width, width);
       for (std::size_t part = 0; part * kComponentsARow < width; ++part)
-        sample_.run(id_, ordinal, i, part, channel.steps[i],
+        sample_.run(id, ordinal, i, part, channel.steps[i],
                     part_of<double>(values, part, kComponentsARow, unknown_values_of(channel, episode)));
     }
     ++ordinal;

@@ -1,0 +1,66 @@
+// Bullet's world, which finds what touches. Private to engine/sim.
+#pragma once
+
+#include <btBulletCollisionCommon.h>
+
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/sim/convex.h"
+#include "engine/sim/shapes.h"
+
+namespace stampede {
+
+constexpr int kRobot = -1;  // an object's user index is its body, the second one its part
+
+// Points of contact further apart than this, m, or that slid so far, are forgotten: a fiftieth of the smaller shape, as
+// in Bullet; but those of a robot not within 2 mm, for Bullet tells of boxes only once they lie in each other, and one
+// step without any would free what a hand presses. (So far the edge of a hole would be remembered, too.)
+double contact_margin(const btCollisionObject& one, const btCollisionObject& other);
+
+// Pairs that Bullet need not look at: parts of one body, but for links of a robot that can meet; static with static.
+struct PairFilter final : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+  std::set<std::pair<int, int>> links;  // of the robot
+};
+
+// Links are near each other all the time, in the eyes of boxes along the axes: most are told apart here, cheaply.
+struct Dispatcher final : btCollisionDispatcher {
+  explicit Dispatcher(btCollisionConfiguration* configuration) : btCollisionDispatcher(configuration) {
+    setNearCallback(look_at);
+  }
+  btPersistentManifold* getNewManifold(const btCollisionObject* one, const btCollisionObject* other) override;
+  static void look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
+  bool apart(const btCollisionObject& one, const btCollisionObject& other) const;
+  struct Piece {
+    Convex convex;
+    Transform object_from_shape;
+  };
+  std::vector<std::vector<Piece>> links;  // per part of the robot
+};
+
+struct ContactFinder {
+  ContactFinder();
+  ~ContactFinder();
+  ContactFinder(const ContactFinder&) = delete;
+  ContactFinder& operator=(const ContactFinder&) = delete;
+
+  // Takes every object out and puts it back in creation order: trees, pairs, ids and manifolds are then those of a
+  // world that was just built, whatever came before.
+  void rebuild();
+  // What was moved by hand touches nothing until contacts are found anew.
+  void forget_pairs(btCollisionObject& object);
+
+  // Order matters: destroyed from the bottom up, Bullet's world before what it points to.
+  ShapeStore shapes;
+  PairFilter filter;
+  btDefaultCollisionConfiguration configuration;
+  Dispatcher dispatcher;
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world;
+  std::vector<std::unique_ptr<btCollisionObject>> objects;  // in creation order: Bullet sorts pairs by it
+};
+
+}  // namespace stampede
