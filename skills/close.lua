@@ -42,6 +42,7 @@ return skill {
     speed = { 0.10, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "close the {part}",
+  verbs = { "close", "lower", "pull", "slide", "swing", "push" },
   run = function(robot, p, c)
     local w = robot:view()
     local pivot, gripped = w:number(p.part, "pivot"), w:number(p.part, "gripped") > 0

@@ -57,6 +57,7 @@ return skill {
   effect = { is.covers("obj", "area") },
   continuous = { speed = { 0.12, min = 0.02, max = 0.2, unit = "m/s" } },
   label = "drag the {obj} onto the {area} with the {tool}",
+  verbs = { "drag", "pull", "slide" },
   run = function(robot, p, c)
     local w = robot:view()
     local tip = p.tool .. ".tip"

@@ -12,6 +12,7 @@ return skill {
     speed = { 0.15, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "pull the {obj} out of the {slot}",
+  verbs = { "pull", "take", "remove", "lift" },
   run = function(robot, p, c)
     local w = robot:view()
     local out = seats.way_out(w, p.slot, seats.seat(w, p.obj), c.clear)

@@ -12,6 +12,7 @@ return skill {
     speed = { 0.10, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "hang the {obj} on the {hook}",
+  verbs = { "hang", "lower", "put", "drop", "insert", "slide" },
   run = function(robot, p, c)
     local w = robot:view()
     local up = w:number(p.hook, "lift")                           -- what clears the tip of the hook

@@ -11,6 +11,7 @@ return skill {
     speed = { 0.10, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "put the {obj} into the {slot}",
+  verbs = { "insert", "lower", "put", "drop", "stack", "slide", "push", "stand" },
   run = function(robot, p, c)
     local w = robot:view()
     local seated = robot:tip_for(p.obj, c.spot)

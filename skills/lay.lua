@@ -6,6 +6,7 @@ return skill {
   effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.leaning("obj", "to")) },    -- pose of the object as it touches down
   label = "lay the {obj} on the {to}",
+  verbs = { "put", "lower" },
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot)
     local over = down:offset(0, 0, 0.015)

@@ -5,6 +5,7 @@ return skill {
   precondition = { is.holding("obj"), is_not.inside("obj", "zone") },
   effect = { is.inside("obj", "zone") },
   label = "lift the {obj} into the {zone}",
+  verbs = { "lift", "hold", "remove" },
   run = function(robot, p)
     local w = robot:view()
     local zone, held = w:pose(p.zone), w:pose(p.obj)

@@ -17,6 +17,7 @@ return skill {
     speed = { 0.12, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "open the {part}",
+  verbs = { "open", "lift", "lower", "pull", "slide", "swing" },
   run = function(robot, p, c)
     local w = robot:view()
     robot:open_hand(0.05)

@@ -12,6 +12,7 @@ return skill {
     height = { 0.10, min = 0.02, max = 0.30, unit = "m" },
   },
   label = "pick up the {obj}",
+  verbs = { "take", "hold", "find", "remove", "lift", "pull", "clear" },
   run = function(robot, p, c)
     local beside = neighbours.of(robot:view(), p.obj)
     robot:open_hand(c.grasp.opening)

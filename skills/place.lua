@@ -6,6 +6,7 @@ return skill {
   effect = { is.on("obj", "to"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.on("obj", "to")) },         -- pose of the object
   label = "put the {obj} on the {to}",
+  verbs = { "put", "lower", "insert", "stack", "build", "slide", "sort", "weigh", "clear", "stand" },
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))       -- released 1 mm above: never pressed in
     robot:move_through { approach = down:offset(0, 0, 0.08), place = down, ahead = down:along(0, 0, -0.08) }

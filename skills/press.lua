@@ -6,6 +6,7 @@ return skill {
   effect = { is.pressed("button") },
   continuous = { depth = { 0.010, min = 0.006, max = 0.015, unit = "m" } }, -- below the top of the button at rest
   label = "press the {button}",
+  verbs = { "press", "push" },
   run = function(robot, p, c)
     local w = robot:view()
     robot:close_hand()

@@ -11,6 +11,7 @@ return skill {
     hold = { 0.3, min = 0.1, max = 2, unit = "s" },
   },
   label = "press the {button} with the {obj}",
+  verbs = { "press", "push" },
   run = function(robot, p, c)
     local w = robot:view()
     local place = w:exists(p.button .. ".spot") and p.button .. ".spot" or p.button

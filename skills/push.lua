@@ -39,6 +39,7 @@ return skill {
   forgets = { "covers" },                                               -- of this area or of another on the way
   continuous = { speed = { 0.12, min = 0.02, max = 0.2, unit = "m/s" } },
   label = "push the {obj} into the {area}",
+  verbs = { "push", "press", "slide" },
   run = function(robot, p, c)
     local w = robot:view()
     local goal_x, goal_y = w:position(p.area)

@@ -6,6 +6,7 @@ return skill {
   effect = { is.inside("obj", "box"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.inside("obj", "box")) },    -- pose of the object
   label = "put the {obj} into the {box}",
+  verbs = { "put", "lower", "drop", "insert", "stack", "slide", "push", "sort", "clear", "stand" },
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.005))
     robot:move_through { { "approach", down:offset(0, 0, 0.14) }, { "over", down:offset(0, 0, 0.06) }, { "ahead", down } }

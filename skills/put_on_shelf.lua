@@ -6,6 +6,7 @@ return skill {
   effect = { is.inside("obj", "shelf"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.inside("obj", "shelf")) },  -- pose of the object
   label = "put the {obj} on the {shelf}",
+  verbs = { "put", "lower", "slide", "stand" },
   run = function(robot, p, c)
     local shelf = robot:view():pose(p.shelf)
     local x, y = shelf:position()

@@ -8,6 +8,7 @@ return skill {
   forgets = { "on" },                                                   -- what the spot is of, or what lies below it
   continuous = { at = stream(is.inside("obj", "spot")) },               -- pose of the object
   label = "put the {obj} on the {spot}",
+  verbs = { "put", "lower", "sort", "weigh", "stand" },
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.at:offset(0, 0, 0.001))
     robot:move_through { approach = down:offset(0, 0, 0.08), place = down }

@@ -6,6 +6,7 @@ return skill {
   effect = { is.on("obj", "below"), is.hand_empty(), is_not.holding("obj"), is_not.lifted("obj") },
   continuous = { spot = stream(is.on("obj", "below")) },      -- pose of the object
   label = "stack the {obj} on the {below}",
+  verbs = { "stack", "lower", "put", "insert", "build" },
   run = function(robot, p, c)
     local down = robot:tip_for(p.obj, c.spot:offset(0, 0, 0.001))
     local over = down:offset(0, 0, 0.05)                                -- a cup goes into another one from there on

@@ -6,6 +6,7 @@ return skill {
   effect = { is.holding("obj"), is_not.hand_empty(), is_not.inside("obj", "shelf"), is.lifted("obj") },
   continuous = { grasp = stream("grasps") },                            -- of the object, reachable and free
   label = "take the {obj} off the {shelf}",
+  verbs = { "take", "remove" },
   run = function(robot, p, c)
     local shelf = robot:view():pose(p.shelf)
     local x, y = shelf:position()

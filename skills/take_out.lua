@@ -9,6 +9,7 @@ return skill {
     height = { 0.16, min = 0.08, max = 0.30, unit = "m" },
   },
   label = "take the {obj} out of the {box}",
+  verbs = { "take", "find", "remove", "lift", "pull" },
   run = function(robot, p, c)
     robot:open_hand(c.grasp.opening)
     robot:move_through {

@@ -10,6 +10,7 @@ return skill {
     speed = { 0.08, min = 0.02, max = 0.2, unit = "m/s" },
   },
   label = "turn the {part}",
+  verbs = { "turn", "unscrew" },
   run = function(robot, p, c)
     local w = robot:view()
     local goal, wanted = w:number(p.part, "turn_to"), w:number(p.part, "turned_at")

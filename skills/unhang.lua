@@ -12,6 +12,7 @@ return skill {
     speed = { 0.15, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "take the {obj} off the {hook}",
+  verbs = { "take", "remove", "lift", "slide" },
   run = function(robot, p, c)
     local w = robot:view()
     local up = w:number(p.hook, "lift")                           -- what frees it

@@ -10,6 +10,7 @@ return skill {
     height = { 0.10, min = 0.02, max = 0.30, unit = "m" },
   },
   label = "unscrew the {obj}",
+  verbs = { "unscrew", "open", "take", "remove", "turn" },
   run = function(robot, p, c)
     local goal = robot:view():number(p.obj, "turn_to")
     robot:open_hand(c.grasp.opening)

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/episode/runner.h"
-#include "scripting/language/chat_client.h"
-#include "scripting/language/sentence_file.h"
+#include "scripting/sentences/chat_client.h"
+#include "scripting/sentences/sentence_file.h"
 #include "scripting/program/command.h"
 #include "scripting/program/json_text.h"
 

@@ -1,4 +1,4 @@
-#include "scripting/language/paraphrase.h"
+#include "scripting/sentences/paraphrase.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include "engine/base/random.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/language_options.h"
+#include "scripting/sentences/meaning_of.h"
 #include "scripting/session/episode_job.h"
 
 namespace stampede::program {
@@ -105,7 +106,7 @@ class Asker {
   void ask(TaskSentences& sentences, const ParaphraseJob& job) {
     if (console_.stopped()) throw Error("interrupted", "");
     const std::string& task = sentences.made.task;
-    const SentenceChecker checker(*meaning_for(library_, task, job.level, job.of, job.seed, sentences.own));
+    const SentenceChecker checker(*meaning_for(library_, {task, job.level, job.of}, job.seed, sentences.own));
     if (dry_) {
       const std::vector<ChatRequest> requests = requests_of(job, checker.meaning());
       for (std::size_t i = 0; i < requests.size(); ++i)
@@ -146,7 +147,8 @@ class Asker {
                                       const std::vector<OwnSentences>& all) const {
     std::set<std::string> skills;
     if (level == LanguageLevel::skill)
-      skills = meaning_of(library_, task, all.front().variation, asked_.seed, all).skills;
+      for (const auto& [skill, sense] : meaning_of(library_, task, all.front().variation, asked_.seed, all).skills)
+        skills.insert(skill);
     std::vector<std::string> names;
     for (const auto& [name, label] : labels_of(*library_, level))
       if (level != LanguageLevel::skill || skills.contains(name)) names.push_back(name);

@@ -7,8 +7,9 @@
 #include "db/catalogue.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/language_options.h"
-#include "scripting/language/frame_questions.h"
-#include "scripting/language/paraphrase.h"
+#include "scripting/sentences/frame_questions.h"
+#include "scripting/sentences/meaning_of.h"
+#include "scripting/sentences/paraphrase.h"
 
 namespace stampede::program {
 namespace {
@@ -125,7 +126,7 @@ class Questioner {
     if (!client_) return pattern;
     const auto [found, is_new] = worded_.try_emplace(pattern, pattern);
     if (!is_new) return found->second;
-    const SentenceChecker checker(meaning_of_label("question", pattern, ""));
+    const SentenceChecker checker(meaning_of_label(*library_, "question", pattern, ""));
     SentenceFile kept;
     const ParaphraseJob job{LanguageLevel::world, pattern, Grain::goal, 4, 2, 0};
     tally_.add(paraphrase(job, checker, {"is the {a} there?", "what is the {a} made of?"}, *client_, kept,

@@ -18,6 +18,9 @@ class SkillReader {
     info_.label = node_["label"].text;
     info_.stiffness = node_["stiffness"].number;
     check_label(definition_, info_.parameters);
+    info_.moves = texts_of(node_["moves"]);
+    info_.verbs = texts_of(node_["verbs"]);
+    if (info_.verbs.empty()) info_.verbs.push_back(info_.label.substr(0, info_.label.find(" the {")));
     if (const std::string& name = node_["controller"].text; !name.empty()) read_controller(name);
     info_.forgets = texts_of(node_["forgets"]);
     for (const std::string& forgotten : info_.forgets)
@@ -26,7 +29,7 @@ class SkillReader {
     read_continuous(draft_, definition_, info_);
     read_replaced();
     read_cases();
-    for (const std::string& moved : texts_of(node_["moves"])) end_moved(moved);
+    for (const std::string& moved : info_.moves) end_moved(moved);
     for (const Action& action : domain_.actions)
       if (action.skill == info_.name) info_.actions.push_back(action.name);
     return std::move(info_);

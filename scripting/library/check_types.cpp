@@ -35,6 +35,10 @@ class TypeReader {
       const Value& parent = entry.is_table() ? entry["parent"] : entry;
       domain_.types[name] = parent.is_text() ? parent.text : kRootType;
       origins_[name] = {&definition, path};
+      for (const auto& [key, value] : entry.fields)
+        if (key != "parent" && key != "nouns")
+          definition.complain(path + "." + key, "a type has no field '" + key + "'",
+                              name + " = { parent = \"thing\", nouns = \"what else it is called\" }");
       check_name(name, path, definition.complainer(), "type name");
     }
     declare_traits(definition, prefix + "traits.", node["traits"]);

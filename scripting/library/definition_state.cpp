@@ -153,7 +153,8 @@ void DefinitionState::push(DefinitionKind kind, std::string_view name) {
     if (!error.where().empty()) throw;
     throw Error(file->shown_path, error.message(), error.hint());
   }
-  const bool plain = kind == DefinitionKind::types || kind == DefinitionKind::colours || kind == DefinitionKind::module;
+  const bool plain = kind == DefinitionKind::types || kind == DefinitionKind::colours ||
+                     kind == DefinitionKind::words || kind == DefinitionKind::module;
   std::string got = luaL_typename(lua, -1);
   if (lua_istable(lua, -1) && !plain) {
     lua_getfield(lua, -1, "kind");

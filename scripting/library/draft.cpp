@@ -87,7 +87,7 @@ void LibraryDraft::read_definitions() {
       if (const Record* fields = record(to_string(file.kind))) {
         check_record(*fields, definition.node, {}, definition.complainer());
       }
-      if (file.description.empty() && file.kind != DefinitionKind::colours) {
+      if (file.description.empty() && file.kind != DefinitionKind::colours && file.kind != DefinitionKind::words) {
         complaints_.add(Error(place_in(file, 1),
                               "the first line is no comment that describes the " + std::string(to_string(file.kind)),
                               "begin the file with -- and one sentence"));

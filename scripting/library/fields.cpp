@@ -86,6 +86,8 @@ const Record kSkill{
       "joint_position, joint_impedance or cartesian_impedance"},
      {"stiffness", "number", false, "0", "N/m or N m/rad", "of an impedance controller; 0: its default"},
      {"label", "string", true, "", "", "what it does in words, with {params}", "\"pick up the {obj}\""},
+     {"verbs", "string[]", false, "its label's", "", "that tell of it in sentences, the first its own",
+      "{ \"take\", \"lift\" }"},
      {"reads", "{declared_number}", false, "{}", "",
       "numbers of its things that it reads, beside those of their traits",
       "{ depth = { \"how far it goes down\", of = \"button\", unit = \"m\", default = 0.01 } }"},
@@ -159,6 +161,8 @@ const Record kPredicate{
 
 const std::vector<Field> kBodyFields = {
     {"type", "string", false, "", "", "its class in the type tree of worlds/types.lua", "\"cube\""},
+    {"nouns", "string", false, "\"\"", "", "what else it is called in sentences, beside its own name and its types'",
+     "\"mug beaker\""},
     {"traits", "string[]", false, "{}", "", "what can be done with it", "{ \"movable\", \"graspable\" }"},
     {"shape", "shape", false, "", "", "its one shape", "box { 0.04, 0.04, 0.04 }"},
     {"shapes", "shape[]", false, "{}", "", "its shapes, convex each", "{ box { 0.1, 0.1, 0.02 } }"},

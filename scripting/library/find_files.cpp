@@ -29,6 +29,7 @@ constexpr Home kHomes[] = {{"tasks", DefinitionKind::task},
 DefinitionKind kind_of(const std::string& shown_path) {
   if (shown_path == "worlds/types.lua") return DefinitionKind::types;
   if (shown_path == "worlds/colours.lua") return DefinitionKind::colours;
+  if (shown_path == "worlds/words.lua") return DefinitionKind::words;
   const std::string folder = shown_path.substr(0, shown_path.rfind('/'));
   for (const Home& home : kHomes) {
     if (folder == home.folder) return home.kind;
@@ -65,12 +66,17 @@ std::vector<fs::path> lua_files(const fs::path& root, const char* folder, std::v
   return found;
 }
 
-// A file of a later root replaces one of the same name, but its types and colours add to those of the roots before it.
+// A file of a later root replaces one of the same name, but its types, colours and words add to those of the roots before it.
 void stand_beside(const fs::path& root, const std::map<std::string, ScriptFile>& files, ScriptFile& file) {
   const std::string folder = fs::weakly_canonical(root).filename().string(), stem = file.name;
   std::string plain;
   for (const char c : folder) plain += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  for (int n = 2; files.contains(file.shown_path); ++n) {
+  const auto taken = [&] {
+    return std::any_of(files.begin(), files.end(), [&](const auto& one) {
+      return one.first == file.shown_path || (one.second.kind == file.kind && one.second.name == file.name);
+    });
+  };
+  for (int n = 2; taken(); ++n) {
     file.name = stem + std::to_string(n);
     file.shown_path = plain + (n > 2 ? std::to_string(n) : "") + "/worlds/" + stem + ".lua";
   }
@@ -83,7 +89,8 @@ void read_file(const fs::path& root, const fs::path& path, std::map<std::string,
   file.shown_path = path.lexically_relative(root).generic_string();
   file.kind = kind_of(file.shown_path);
   file.name = path.stem().string();
-  if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours) stand_beside(root, files, file);
+  if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.kind == DefinitionKind::words)
+    stand_beside(root, files, file);
   try {
     file.source = stampede::read_file(path, kLargest);
     require_text(file.source, file.shown_path);
@@ -129,6 +136,8 @@ std::string_view to_string(DefinitionKind kind) {
       return "types";
     case DefinitionKind::colours:
       return "colours";
+    case DefinitionKind::words:
+      return "words";
     case DefinitionKind::module:
       return "module";
   }

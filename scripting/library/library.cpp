@@ -38,7 +38,8 @@ std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Err
 namespace {
 
 bool is_shared(const ScriptFile& file) {
-  return file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.replaces;
+  return file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours ||
+         file.kind == DefinitionKind::words || file.replaces;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/language/english.h"
 #include "engine/start/interfaces.h"
 #include "scripting/library/numbers.h"
 
@@ -16,7 +17,7 @@ struct lua_State;
 
 namespace stampede {
 
-enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, module };
+enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, words, module };
 std::string_view to_string(DefinitionKind kind);
 
 // The smallest file of a kind that passes `check` beside our worlds and predicates (for `stampede new`).
@@ -87,6 +88,7 @@ class Library {
   const std::map<std::string, PredicateTraits>& predicate_traits() const { return vocabulary_.predicate_traits; }
   bool can_hide(const std::string& predicate) const { return vocabulary_.hiding.contains(predicate); }
   const SkillInfo* skill(std::string_view name) const;
+  const std::shared_ptr<const English>& english() const { return vocabulary_.english; }
   const Numbers& numbers() const { return vocabulary_.numbers; }
 
   struct TaskInfo {
@@ -108,6 +110,7 @@ class Library {
     std::map<std::vector<std::string>, Domain> domains;  // by TaskInfo::skills, where there are some
     std::map<std::string, PredicateTraits> predicate_traits;
     std::set<std::string> hiding;  // predicates whose files say `observable`
+    std::shared_ptr<const English> english;  // with nouns of types and objects, and verbs of skills
     Numbers numbers;               // that things can have, as files declare them
     std::map<std::string, SkillInfo, std::less<>> skills;
     std::map<std::string, TaskInfo, std::less<>> tasks;

@@ -5,11 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "../scripting/language/model_answers.h"
-#include "../scripting/language/stub_server.h"
+#include "../scripting/sentences/model_answers.h"
+#include "../scripting/sentences/stub_server.h"
 #include "db/catalogue.h"
-#include "scripting/language/meaning.h"
+#include "engine/start/options.h"
 #include "scripting/library/library.h"
+#include "scripting/sentences/meaning_of.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {
@@ -102,8 +103,8 @@ TEST_CASE("subgoals have sentences: the author's and a model's, each beside its 
   const std::size_t begin = listed.out.find("count=");
   const std::string first = listed.out.substr(begin, listed.out.find('"', begin) - begin);
   const auto library = Library::load({{kRoot, folder.text()}});
-  const Meaning meaning =
-      meaning_of_subgoal(library, "press_all", first, "first_one", 0, sentences_of(library, "press_all"));
+  const Meaning meaning = *meaning_for(library, {"press_all", LanguageLevel::subgoal, subgoal_key("first_one", first)}, 0,
+                                       sentences_of(library, "press_all"));
   const std::string colour = meaning.own.front().substr(9, meaning.own.front().find(" button") - 9);
   const stub::Server server([&](int, const std::string& body) {
     if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};

@@ -1,0 +1,58 @@
+// One sentence being checked: its reading beside what it has to mean and what its author says, for the rules.
+#pragma once
+
+#include "engine/language/claims.h"
+#include "engine/record/record.h"
+
+namespace stampede {
+
+class Sentence {
+ public:
+  Sentence(std::string text, const Meaning& meaning, const Claims& claims, LanguageGrain grain);
+
+  const std::string text;
+  const Meaning& meaning;
+  const Claims& claims;
+  const LanguageGrain grain;
+  const Reading reading;
+  const English& english;
+
+  const Segment& segment(const Mention& mention) const { return reading.segments[mention.segment]; }
+  // Words of what tells nothing of this variation.
+  std::set<std::size_t> beside() const;
+
+  // The author says so.
+  bool vouched(const Segment& segment) const { return claims.segments.contains(content_of(reading, segment)); }
+  bool vouched(const Mention& mention) const { return vouched(segment(mention)); }
+  // What is said there holds anyway: it has no part in this.
+  bool spares(const Segment& segment) const;
+  bool spares_others(const Segment& segment) const;  // `and no others`, `leave the other blocks alone`
+  bool spares_idle(const Segment& segment) const;    // `spare the tomatoes`: things that have no part in it
+  bool leaves_idle(const Segment& segment) const;    // `leave the chicken where it is`, `the left one shut`
+  bool denies_start(const Segment& segment) const;   // `it should no longer be on its stand`
+  // `take the handle`, `go to the button`, `take the seat by its grip`: on the way to what is done
+  bool leads_on(const Segment& segment) const;
+  bool leads(const Segment& segment) const;  // there is a verb in a later one
+
+  bool lifts() const;   // the plan ends in the air, above the table
+  bool swings() const;  // what is opened or closed has something to take hold of
+  std::set<std::string> directions() const;
+  const Word* verb(const Mention& mention) const {
+    return mention.verb_at ? &reading.words[*mention.verb_at] : nullptr;
+  }
+  bool after(const Mention& mention, WordClass of) const { return reading.at(mention.after, of); }
+  const Word& head(const Mention& mention) const { return reading.words[mention.head]; }
+  bool stands_on_table(const Mention& mention) const;  // `the button on the table`: that goes without saying
+
+  // How many there are of what a noun names, and how many of these are handled.
+  std::pair<int, int> all_and_handled(const std::string& sense) const;
+  bool names_as(std::size_t own) const;  // all that that sentence of the author names of what is wanted
+  bool names_all() const;                // what is carried, and to where; else what is handled
+  std::vector<std::string> goal_things() const;
+  bool is_named(const std::string& name) const;
+
+ private:
+  bool is_implied(const std::string& name) const;
+};
+
+}  // namespace stampede

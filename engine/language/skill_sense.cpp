@@ -1,0 +1,128 @@
+#include "engine/language/skill_sense.h"
+
+#include <algorithm>
+
+namespace stampede {
+namespace {
+
+// Parameters of which an atom of these predicates stands in the formula, not denied.
+void named_in(const Formula& formula, const std::set<std::string>& predicates, std::set<std::string>& names) {
+  if (formula.kind == Formula::Kind::negation) return;
+  if (formula.kind == Formula::Kind::atom && predicates.contains(formula.predicate))
+    for (const Term& term : formula.terms) names.insert(term.name);
+  for (const Formula& part : formula.parts) named_in(part, predicates, names);
+}
+
+std::set<std::string> ways_in(const std::string& label, const Lexicon& lexicon) {
+  std::set<std::string> ways;
+  for (const Word& word : lexicon.read(label)) {
+    if (word.is("inside")) ways.insert("in");
+    if (word.is("upon")) ways.insert("on");
+    if (word.is("away")) ways.insert("out");
+  }
+  return ways;
+}
+
+class SenseReader {
+ public:
+  SenseReader(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held, const English& english)
+      : skill_(skill), domain_(domain), held_(held), lexicon_(std::make_shared<English>(english)) {}
+
+  SkillSense read() {
+    read_effects();
+    find_parameters();
+    sense_.takes = taken_.contains(name(sense_.handled));
+    sense_.puts = put_.contains(name(sense_.handled));
+    sense_.raises = !sense_.puts && (sense_.takes || before_.contains(name(sense_.handled)));
+    sense_.of_parts = !sense_.puts && !(sense_.takes && skill_.parameters.size() > 2);
+    find_places();
+    sense_.ways.merge(ways_in(skill_.label, lexicon_));
+    read_verbs();
+    find_directions();
+    return std::move(sense_);
+  }
+
+ private:
+  const std::string& name(int parameter) const { return skill_.parameters[static_cast<std::size_t>(parameter)].name; }
+  bool is_moved(const std::string& parameter) const {
+    return std::find(skill_.moves.begin(), skill_.moves.end(), parameter) != skill_.moves.end();
+  }
+
+  void read_effects() {
+    const Action& action = *domain_.action(skill_.actions.front());
+    named_in(action.precondition, held_, before_);
+    for (const Effect& effect : action.effects) {
+      if (!effect.forall.empty()) continue;
+      if (held_.contains(effect.predicate)) {
+        for (const Term& term : effect.terms) (effect.negated ? put_ : taken_).insert(term.name);
+      } else if (!effect.negated) {
+        if (const Predicate* predicate = domain_.predicate(effect.predicate))
+          sense_.ways.merge(ways_in(predicate->label, lexicon_));
+        made_.push_back(&effect);
+      }
+    }
+  }
+
+  void find_parameters() {
+    bool found = false;
+    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i) {
+      if (skill_.parameters[static_cast<std::size_t>(i)].type == "hand") continue;
+      if (is_moved(name(i))) sense_.moved.insert(i);
+      if (before_.contains(name(i)) && !put_.contains(name(i)) && !is_moved(name(i))) sense_.tool = i;
+      const bool about = skill_.moves.empty() ? sense_.tool != i : is_moved(name(i));
+      if (about && !std::exchange(found, true)) sense_.handled = i;
+    }
+  }
+
+  // What is put down is put where the first thing that becomes true of it says; with more to it, it serves that.
+  void find_places() {
+    std::set<std::string> first;
+    for (const Effect* effect : made_) {
+      for (const Term& term : effect->terms) first.insert(term.name);
+      if (first.contains(name(sense_.handled)) && first.size() > 1) break;
+      first.clear();
+    }
+    int others = 0;
+    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i) {
+      if (i == sense_.handled || skill_.parameters[static_cast<std::size_t>(i)].type == "hand") continue;
+      ++others;
+      if (!sense_.takes && (!sense_.puts || first.contains(name(i)))) sense_.places.insert(i);
+    }
+    if (sense_.puts && others > 1) sense_.tool = sense_.handled;
+  }
+
+  void read_verbs() {
+    for (const std::string& verb : skill_.verbs) {
+      const std::vector<Word> words = lexicon_.read(verb);
+      if (words.empty()) continue;
+      if (sense_.verb.empty()) sense_.verb = words.front().sense;
+      if (words.front().is("openness")) sense_.directions.insert(words.front().sense);
+    }
+  }
+
+  void find_directions() {
+    const bool in = sense_.ways.contains("in");
+    if (sense_.raises) sense_.directions.insert("up");
+    if (sense_.takes) sense_.directions.insert("out");
+    if (sense_.takes && sense_.ways.contains("out")) sense_.directions.insert("remove");
+    if (sense_.puts && in) sense_.directions.insert({"in", "insert"});
+    if (sense_.puts && !in) sense_.directions.insert("down");
+  }
+
+  const SkillInfo& skill_;
+  const Domain& domain_;
+  const std::set<std::string>& held_;
+  const Lexicon lexicon_;
+  SkillSense sense_;
+  std::set<std::string> before_, taken_, put_;  // parameters that are held before, after, no longer
+  std::vector<const Effect*> made_;             // what becomes true
+};
+
+}  // namespace
+
+SkillSense skill_sense(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
+                       const English& english) {
+  return SenseReader(skill, domain, held, english).read();
+}
+
+}  // namespace stampede
