@@ -35,6 +35,7 @@ const std::map<std::string, std::string>& rules() {
                                                {"fact", kAtom},
                                                {"width", whole("width", "1", "65536")},
                                                {"height", whole("height", "1", "65536")}};
+    made["arm_joint"] = whole("arm_joint", "1", "16");
     for (const char* count : {"ordinal", "steps", "choice"}) made[count] = whole(count, "0", many);
     for (const char* flag : {"open_end", "driven", "held"}) made[flag] = whole(flag, "0", "1");
     for (const char* list :
@@ -83,6 +84,8 @@ class DatasetCheck {
       return std::find(columns.begin(), columns.end(), name) != columns.end();
     };
     if (!has(unit_)) return;  // such as the vocabulary, whose rows are texts
+    if (table == "joints" && !has("arm_joint"))
+      refuse_unfit(file_, "its table joints does not say which joints are the arm's (column arm_joint)");
     const std::string rows =
         " FROM " + table + " t LEFT JOIN " + unit_ + "s u ON u." + unit_ + " = t." + unit_ + " WHERE ";
     if (any(rows + "typeof(t." + unit_ + ") <> 'integer' OR u." + unit_ + " IS NULL"))

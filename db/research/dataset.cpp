@@ -1,9 +1,11 @@
 #include "db/research/dataset.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "db/research/answers.h"
+#include "db/research/arm_joints.h"
 #include "db/research/computed_tables.h"
 #include "db/research/datasheet.h"
 #include "db/research/leaks.h"
@@ -61,6 +63,26 @@ bool takes(Part part, const std::string& split) {
   return part == Part::all || (part == Part::test) == (split == "test");
 }
 
+ArmJoints arm_joints_of(const Catalogue& catalogue, const std::vector<Member>& members) {
+  std::map<std::int64_t, int> of_episode;
+  ArmJoints arm;
+  int fewest = 0;  // of a test episode; 0: none has one
+  for (const Member& one : members) {
+    const auto [counted, is_new] = of_episode.try_emplace(one.episode, 0);
+    if (is_new)
+      counted->second =
+          static_cast<int>(catalogue
+                               .query("SELECT count(arm_joint) AS joints FROM joints WHERE episode = ?1 AND frame = 0",
+                                      {.parameters = {one.episode}})
+                               .integer(0, "joints"));
+    const int joints = counted->second;
+    arm.most = std::max(arm.most, joints);
+    if (one.split == "test" && joints > 0) fewest = fewest == 0 ? joints : std::min(fewest, joints);
+  }
+  arm.fewest = fewest == 0 ? arm.most : fewest;
+  return arm;
+}
+
 // Rows of a SELECT into a table, with the unit's number before each; what is written is hashed.
 class TableFiller : public RowReceiver {
  public:
@@ -113,18 +135,24 @@ std::size_t parameters_of(const std::string& select) {
   return 0;
 }
 
-void ask(const Catalogue& catalogue, const std::string& table, const Member& one, RowReceiver& receiver) {
+// Episodes are asked for tables one by one, and the tables have columns for all joints of the longest arm.
+struct Source {
+  const Catalogue& catalogue;
+  ArmJoints arm;
+};
+
+void ask(const Source& source, const std::string& table, const Member& one, RowReceiver& receiver) {
   if (const ComputedTable* computed = find_computed_table(table)) {
-    const Rows rows = computed->rows(catalogue, one.episode);
+    const Rows rows = computed->rows(source.catalogue, one.episode);
     receiver.columns(rows.columns);
     for (const auto& row : rows.rows) receiver.row(row);
     return;
   }
-  const DatasetTable* source = find_dataset_table(table);
-  if (!source) throw Error("db/datasets", "there is no file " + table + ".sql");
+  const DatasetTable* file = find_dataset_table(table);
+  if (!file) throw Error("db/datasets", "there is no file " + table + ".sql");
   std::vector<SqlValue> parameters = {one.episode, one.segment, one.split};
-  parameters.resize(parameters_of(source->select));
-  catalogue.query(source->select, receiver, {.parameters = parameters});
+  parameters.resize(parameters_of(file->select));
+  source.catalogue.query(with_arm_joints(file->select, source.arm.most), receiver, {.parameters = parameters});
 }
 
 // Whether a table has a row, or one with a value in a column; asks for no more than that.
@@ -147,14 +175,14 @@ class ValueFinder : public RowReceiver {
 };
 
 // A data set that nobody could learn from, or that nothing could be scored against, is none.
-void check_needs(const Catalogue& catalogue, const ResearchProblem& problem, const std::vector<Member>& members,
+void check_needs(const Source& source, const ResearchProblem& problem, const std::vector<Member>& members,
                  const std::string& where) {
   const auto has = [&](const Need& need, const std::vector<TableUse>& uses, bool test) {
     ValueFinder finder(need.column);
     for (const TableUse& use : uses)
       for (const Member& one : members)
         if (use.table() == need.table && takes(use.part, one.split) && (one.split == "test") == test && !finder.found())
-          ask(catalogue, use.select, one, finder);
+          ask(source, use.select, one, finder);
     return finder.found();
   };
   for (const Need& need : problem.needs)
@@ -172,7 +200,7 @@ void check_needs(const Catalogue& catalogue, const ResearchProblem& problem, con
     }
 }
 
-std::int64_t fill(const Catalogue& catalogue, const std::vector<TableUse>& uses, const std::vector<Member>& members,
+std::int64_t fill(const Source& source, const std::vector<TableUse>& uses, const std::vector<Member>& members,
                   TableFiller filler) {
   std::string table;
   for (const TableUse& use : uses) {
@@ -180,7 +208,7 @@ std::int64_t fill(const Catalogue& catalogue, const std::vector<TableUse>& uses,
     for (const Member& one : members) {
       if (!takes(use.part, one.split)) continue;
       filler.of_unit(one.number);
-      ask(catalogue, use.select, one, filler);
+      ask(source, use.select, one, filler);
     }
   }
   return filler.rows();
@@ -247,21 +275,24 @@ std::string text_of(const PlainFile& file, const char* column) {
 std::string dataset_id(const PlainFile& file) { return text_of(file, "id"); }
 std::string dataset_problem(const PlainFile& file) { return text_of(file, "problem"); }
 
-DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest& request) {
+DatasetReport make_dataset(const ResearchProblem& asked, const DatasetRequest& request) {
   const SplitRule rule = split_rule(request.split);
-  check_folder(request.given, kGivenFile, problem);
-  if (!request.hidden.empty()) check_folder(request.hidden, kHiddenFile, problem);
+  check_folder(request.given, kGivenFile, asked);
+  if (!request.hidden.empty()) check_folder(request.hidden, kHiddenFile, asked);
   const Catalogue catalogue = Catalogue::open(request.catalogue);
-  const std::vector<SplitEpisode> episodes = episodes_to_split(catalogue, problem.demos_only);
+  const std::vector<SplitEpisode> episodes = episodes_to_split(catalogue, asked.demos_only, request.where);
   if (episodes.empty())
-    throw Error(
-        request.catalogue.string(),
-        problem.demos_only ? "no episode of this catalogue succeeded" : "no episode of this catalogue has frames",
-        problem.name + " is made of " + (problem.demos_only ? "successes" : "episodes with frames") +
-            ": `stampede query FILE failures_by_reason` says why there are none");
+    throw Error(request.catalogue.string(),
+                std::string(asked.demos_only ? "no episode of this catalogue succeeded"
+                                             : "no episode of this catalogue has frames") +
+                    (request.where.empty() ? "" : ", of those where " + request.where),
+                asked.name + " is made of " + (asked.demos_only ? "successes" : "episodes with frames") +
+                    ": `stampede query FILE failures_by_reason` says why there are none");
   const Split split = split_episodes(episodes, rule);
-  const std::vector<Member> members = members_of(catalogue, problem, episodes, split);
-  check_needs(catalogue, problem, members, request.catalogue.string());
+  const std::vector<Member> members = members_of(catalogue, asked, episodes, split);
+  const Source source{catalogue, arm_joints_of(catalogue, members)};
+  const ResearchProblem problem = with_arm_joints(asked, source.arm);
+  check_needs(source, problem, members, request.catalogue.string());
   make_folder(request.given);
   if (!request.hidden.empty()) make_folder(request.hidden);
 
@@ -273,8 +304,8 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
   if (!request.hidden.empty()) hidden.emplace(request.hidden / kHiddenFile);
   DatasetReport report;
   const char* unit = unit_column(problem);
-  report.given_rows = fill(catalogue, problem.given, members, TableFiller(unit, &given, hasher));
-  report.hidden_rows = fill(catalogue, problem.hidden, members, TableFiller(unit, hidden ? &*hidden : nullptr, hasher));
+  report.given_rows = fill(source, problem.given, members, TableFiller(unit, &given, hasher));
+  report.hidden_rows = fill(source, problem.hidden, members, TableFiller(unit, hidden ? &*hidden : nullptr, hasher));
   report.id = hasher.digest();
   std::vector<std::int64_t> tests;
   for (const Member& one : members) {
@@ -294,6 +325,7 @@ DatasetReport make_dataset(const ResearchProblem& problem, const DatasetRequest&
   // After the files, by which a folder is known to be ours.
   DatasheetFacts facts = datasheet_facts(catalogue, episodes, split, rule);
   const Leaks leaks = leaks_of(catalogue, episodes, split, rule);
+  facts.where = request.where;
   facts.leaks = leaks_text(leaks, rule);
   report.leaks = leaks_line(leaks);
   write_text_file(request.given / "answers.example.json", example_answers(problem, report.id, tests));

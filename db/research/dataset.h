@@ -15,6 +15,7 @@ namespace stampede::research {
 struct DatasetRequest {
   std::filesystem::path catalogue, given, hidden;  // hidden may be empty: that part is not written
   std::string split = "seeds";
+  std::string where = {};  // which episodes, in SQL over view episodes; empty: all
 };
 
 struct DatasetReport {

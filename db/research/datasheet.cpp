@@ -180,6 +180,7 @@ std::string hidden_sheet(const ResearchProblem& problem, const DatasheetFacts& f
       "Split: `{}`.\n\n{}\n",
       problem.name, report.id, counts_text(problem, report), listed(facts.tasks), facts.split,
       tables_text(problem.hidden, problem));
+  if (!facts.where.empty()) text += "Of the catalogue's episodes those where `" + facts.where + "`.\n\n";
   if (!facts.held_out.empty()) {
     text += "## Held out of training\n\n| kind | what | after it |\n|---|---|---|\n";
     for (const HeldOut& one : facts.held_out)

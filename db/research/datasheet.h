@@ -20,6 +20,7 @@ struct DatasheetFacts {
   std::map<std::string, std::int64_t> sentences;  // by who wrote them: template, person or model
   bool pictures = false;
   std::vector<HeldOut> held_out;
+  std::string where;  // which episodes of the catalogue, in SQL; empty: all
   std::string leaks;  // what training shows of what is held out, as Markdown
 };
 DatasheetFacts datasheet_facts(const Catalogue& catalogue, const std::vector<SplitEpisode>& episodes,

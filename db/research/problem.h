@@ -28,7 +28,7 @@ struct Need {
 
 // A column of the answers. `optional`: it may be left out.
 struct AnswerColumn {
-  std::string name;
+  std::string name;  // `j*`: one for each joint of the arm (arm_joints.h)
   AnswerType type = AnswerType::text;
   std::string about;
   std::string example;  // empty: left out of the example of answers

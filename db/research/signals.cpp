@@ -17,9 +17,8 @@ const std::vector<std::string> kHandColumns = {
     "linear_y", "linear_z", "angular_x", "angular_y", "angular_z", "opening", "touch_1", "touch_2"};
 
 void read_joints(const PlainFile& given, const KnownColumns& known, const std::string& unit, Signals& signals) {
-  // Fingers slide; a robot's arm turns. The name is all that the table says of a joint.
   const Rows rows = given.query("SELECT frame, joint, position, velocity FROM joints WHERE " + unit +
-                                    " = ?1 AND joint NOT LIKE '%finger%' ORDER BY frame, joint",
+                                    " = ?1 AND arm_joint IS NOT NULL ORDER BY frame, arm_joint",
                                 {signals.unit});
   std::vector<double> position, velocity;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -52,10 +51,12 @@ void read_hand(const PlainFile& given, const KnownColumns& known, const std::str
 // Columns of what is learned from together, or of what is learned and what is asked.
 void check_alike(Eigen::Index columns, Eigen::Index others) {
   if (columns == others) return;
-  throw Error("baseline",
-              "episodes of the data set differ in what was measured: " + std::to_string(columns) +
-                  " numbers a frame, " + "and " + std::to_string(others),
-              "make a data set of episodes of one robot, of which some are for training");
+  throw Error(
+      "baseline",
+      "episodes of the data set differ in what was measured: " + std::to_string(columns) + " numbers a frame, " +
+          "and " + std::to_string(others),
+      "their arms have different numbers of joints, or not all was recorded: make a data set of one robot, of which "
+      "some episodes are for training, with `stampede dataset … --where \"world = 'NAME'\"`");
 }
 
 // The sum of squared distances to the centres, which it moves.

@@ -20,7 +20,8 @@ struct Signals {
   Eigen::VectorXd opening() const { return hand.col(13); }
 };
 
-// Of all units whose split is in `splits`, by number. Fingers are left out of the joints: the hand has its opening.
+// Of all units whose split is in `splits`, by number. The joints are the arm's, from the base on; the hand has its
+// opening.
 std::vector<Signals> signals_of(const PlainFile& given, const std::vector<std::string>& splits);
 
 // Joint speeds, speed and height of the tip, opening and how it changes, forces where they were measured: what segments

@@ -241,10 +241,11 @@ SplitRule split_rule(std::string_view text) {
   return rule;
 }
 
-std::vector<SplitEpisode> episodes_to_split(const Catalogue& catalogue, bool demos_only) {
+std::vector<SplitEpisode> episodes_to_split(const Catalogue& catalogue, bool demos_only, const std::string& where) {
   const std::string which = demos_only ? "demos" : "episodes";
   std::map<std::int64_t, SplitEpisode> all;
-  const Rows rows = catalogue.query("SELECT episode, key, task, split FROM " + which + " WHERE frames > 0");
+  const Rows rows = catalogue.query("SELECT episode, key, task, split FROM " + which + " WHERE frames > 0" +
+                                    (where.empty() ? "" : " AND (" + where + ")"));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SplitEpisode& one = all[rows.integer(i, "episode")];
     one.id = rows.integer(i, "episode"), one.key = rows.text(i, "key");

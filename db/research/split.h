@@ -31,7 +31,9 @@ struct SplitEpisode {
   std::set<std::string> classes;    // of its objects
   std::vector<std::string> skills;  // in order
 };
-std::vector<SplitEpisode> episodes_to_split(const Catalogue& catalogue, bool demos_only);
+// Those with frames; `where`: a condition over columns of view episodes, empty: none. Throws Error for one that is no
+// SQL.
+std::vector<SplitEpisode> episodes_to_split(const Catalogue& catalogue, bool demos_only, const std::string& where);
 
 // What was kept out of training, for the hidden part.
 struct HeldOut {

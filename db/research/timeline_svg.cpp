@@ -111,12 +111,16 @@ std::vector<double> opening_of(const PlainFile& hidden, std::int64_t episode) {
   return values;
 }
 
-std::map<std::string, std::vector<double>> speeds_of(const PlainFile& hidden, std::int64_t episode) {
-  std::map<std::string, std::vector<double>> speeds;
+// Of the arm, from the base on.
+std::vector<std::pair<std::string, std::vector<double>>> speeds_of(const PlainFile& hidden, std::int64_t episode) {
+  std::vector<std::pair<std::string, std::vector<double>>> speeds;
   const Rows rows = hidden.query(
-      "SELECT joint, velocity FROM joints WHERE episode = ?1 AND joint NOT LIKE '%finger%' ORDER BY frame", {episode});
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    speeds[rows.text(i, "joint")].push_back(std::abs(rows.real(i, "velocity")));
+      "SELECT joint, velocity FROM joints WHERE episode = ?1 AND arm_joint IS NOT NULL ORDER BY arm_joint, frame",
+      {episode});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (speeds.empty() || speeds.back().first != rows.text(i, "joint")) speeds.push_back({rows.text(i, "joint"), {}});
+    speeds.back().second.push_back(std::abs(rows.real(i, "velocity")));
+  }
   return speeds;
 }
 

@@ -67,8 +67,10 @@ ArrayMaker::ArrayMaker(const EpisodeRecord& episode, const FrameTables& tables, 
     const JointName& joint = episode.joints[i];
     (joint.driven && joint.part.body < 0 ? driven : other_joints_).push_back(i);
   }
-  // Commanded joints are the arm's; fingers follow them on the chain.
-  const std::size_t arm = std::min(tables.commanded > 0 ? tables.commanded : driven.size(), driven.size());
+  // Commanded joints are the arm's, or where nothing was commanded those that turn; fingers follow them on the chain.
+  const auto turning = static_cast<std::size_t>(
+      std::ranges::count_if(driven, [&](std::size_t joint) { return episode.joints[joint].kind == "hinge"; }));
+  const std::size_t arm = std::min(tables.commanded > 0 ? tables.commanded : turning, driven.size());
   arm_.assign(driven.begin(), driven.begin() + static_cast<std::ptrdiff_t>(arm));
   fingers_.assign(driven.begin() + static_cast<std::ptrdiff_t>(arm), driven.end());
 }

@@ -15,7 +15,7 @@ _stampede() {
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
     paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;
     questions) words="--out --per-frame --frames --rephrase --url --model --timeout --retries --rate --price-in --price-out --force --root --path --json --help" ;;
-    dataset) words="--list --out --hidden --split --root --path --json --help" ;;
+    dataset) words="--list --out --hidden --split --where --root --path --json --help" ;;
     baseline) words="--list --out --force --root --path --json --help" ;;
     score) words="--hidden --out --figure --episode --physics --workers --force --root --path --json --help" ;;
     replay) words="--root --path --json --help" ;;

@@ -61,8 +61,8 @@ ExitCode do_dataset(const Arguments& arguments, Console& console) {
   const research::ResearchProblem& problem = research::find_problem(arguments.text("PROBLEM"));
   const std::string out = arguments.text("--out"), hidden = arguments.text("--hidden");
   if (!hidden.empty()) refuse_nested(out, hidden);
-  const research::DatasetReport report =
-      research::make_dataset(problem, {arguments.text("FILE"), out, hidden, arguments.text("--split")});
+  const research::DatasetReport report = research::make_dataset(
+      problem, {arguments.text("FILE"), out, hidden, arguments.text("--split"), arguments.text("--where")});
   if (arguments.flag("--json")) {
     JsonText json;
     json.object().field("dataset", report.id).field("problem", problem.name).field("out", out);
@@ -109,8 +109,16 @@ CommandRow dataset_command() {
         Takes::text,
         "seeds",
         {},
+        false},
+       {"--where",
+        "SQL",
+        "of which episodes, by columns of view `episodes`: of one robot's world, say, where a catalogue has several",
+        Takes::text,
+        "",
+        {},
         false}},
       {"stampede dataset --list", "stampede dataset segments demos.db --out given --hidden hidden",
+       "stampede dataset transfer all.db --out one_arm --hidden one_arm_hidden --where \"world = 'tabletop'\"",
        "stampede dataset behaviour buttons.db --out behaviour --hidden behaviour_hidden --split count=2"},
       do_dataset};
 }

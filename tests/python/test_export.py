@@ -13,7 +13,7 @@ import pytest
 
 import stampede
 from stampede.export import export, rlds
-from stampede.export.steps import JOINT_SPEED, TOOL_SPEED, Steps, matrices, rotation_vectors
+from stampede.export.steps import TOOL_SPEED, Steps, matrices, rotation_vectors
 
 FORMATS = ["robomimic", "libero", "mimicgen", "maniskill", "lerobot", "rlds", "mcap", "rlbench"]
 
@@ -74,12 +74,75 @@ def test_deltas_add_up_to_the_path_of_the_reference(made: Path, kind: str) -> No
     assert np.allclose(actions[:, :width] * steps.bounds(kind)[1][:width], natural[:, :width], atol=1e-6)
 
 
-def test_scales_are_those_of_the_action_spaces() -> None:
-    world = stampede.Session().environment("reach_target", channels=["time"])
-    world.reset(stampede.Reset(seed=1))
+def _waved(catalogue: Path, task: str, *paths: Path) -> tuple[stampede.StoredEpisode, dict[str, Any]]:
+    """An episode in which all joints are told to turn a little in each frame, and the upper bounds of its spaces."""
+    session = stampede.Session(paths=list(paths), catalogue=catalogue)
+    world = session.environment(task, channels=["joint_positions"], record=True)
+    goal = world.reset(stampede.Reset(seed=1))["joint_positions"]
     upper = {space.name: [one.upper for one in space.components] for space in world.spaces()}
-    assert np.allclose(upper["joint_delta"], JOINT_SPEED / world.frame_hz)
-    assert np.allclose(upper["tool_delta"], TOOL_SPEED / world.frame_hz)
+    for _ in range(10):
+        goal = goal + 0.01
+        assert not world.step(stampede.Action("joint_position", goal.tolist())).refusal
+    world.episode()
+    return list(stampede.Catalogue(catalogue))[-1], upper
+
+
+def _four_joints(folder: Path) -> Path:
+    """Scripts with a crane of four joints and a hand, and a task `wave`."""
+    mass = "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial>"
+    urdf = "".join(f"<link name='{name}'>{mass}</link>" for name in ["foot", "a", "b", "c", "palm", "left", "right"])
+    axes = [("foot", "a", "0 0 1"), ("a", "b", "0 1 0"), ("b", "c", "0 1 0"), ("c", "palm", "0 1 0")]
+    for k, (parent, child, axis) in enumerate(axes, 1):
+        urdf += f"<joint name='turn{k}' type='revolute'><parent link='{parent}'/><child link='{child}'/>"
+        urdf += f"<origin xyz='{0.2 * (k > 2)} 0 {0.4 * (k < 2)}'/><axis xyz='{axis}'/>"
+        urdf += f"<limit lower='-2' upper='2' velocity='{1 + k / 10}' effort='50'/></joint>"
+    for side, sign in (("left", 1), ("right", -1)):
+        urdf += f"<joint name='{side}_slide' type='prismatic'><parent link='palm'/><child link='{side}'/>"
+        urdf += f"<axis xyz='0 {sign} 0'/><limit lower='0' upper='0.03' velocity='0.2' effort='20'/></joint>"
+    robot = (
+        'urdf = "crane.urdf", arm = { "turn1", "turn2", "turn3", "turn4" }, fingers = { "left_slide", "right_slide" },'
+        ' pads = { "left", "right" }, tip = { link = "palm", at = { 0.08, 0, 0 } }, home = { 0, -0.6, 0.9, 0 },'
+        " limits = { acceleration = 10, jerk = 5000 }, opening = 0.06, grip_force = 20"
+    )
+    table = 'fixtures = { table = { "work_table", at = { 0.19, 0, 0.75 } } }'
+    files = {
+        "worlds/robots/crane.urdf": f"<robot name='crane'>{urdf}</robot>",
+        "worlds/robots/crane.lua": f"-- A crane.\nreturn robot {{ {robot} }}\n",
+        "worlds/yard.lua": f'-- It.\nreturn world {{ robot = {{ "crane", at = {{ -0.3, 0, 0.75 }} }}, {table} }}\n',
+        "tasks/wave.lua": '-- Go to the mark.\nreturn task { world = "yard", instructions = { "go to the mark" },\n'
+        '  objects = { mark = { "floating_target", at = { 0.2, 0.3, 1.2 } } },\n'
+        '  init = { is.hand_empty() }, goal = is.at("mark") }\n',
+    }
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+def test_scales_are_those_of_the_action_spaces_of_any_arm(tmp_path: Path) -> None:
+    own = _four_joints(tmp_path / "own")
+    for task, joints, paths in (("reach_target", 7, []), ("wave", 4, [own])):
+        episode, upper = _waved(tmp_path / "waved.db", task, *paths)
+        steps = Steps(episode)
+        assert np.allclose(upper["joint_delta"], steps.bounds("joint_delta")[1])
+        assert np.allclose(upper["tool_delta"], TOOL_SPEED / episode.frame_hz)
+        assert np.allclose(upper["joint_position"], steps.bounds("joint_position")[1])
+        assert np.allclose(upper["gripper"], steps.opening)
+        assert steps.actions("joint_position").shape == (10, joints + 1)
+        assert np.allclose(steps.gripper, 1)  # it was open all the time
+
+
+def test_arms_of_other_sizes_are_exported_apart(tmp_path: Path) -> None:
+    both, own = tmp_path / "both.db", _four_joints(tmp_path / "own")
+    _waved(both, "reach_target")
+    _waved(both, "wave", own)
+    with pytest.raises(stampede.Error, match="RLBench's demos are a Panda's"):
+        run(both, tmp_path / "rlbench", "rlbench", "--where", "task = 'wave'")
+    for name in FORMATS[:6]:
+        run(both, tmp_path / name, name, "--where", "task = 'wave'")
+        if name in ("lerobot", "rlds"):  # others have a file a task
+            with pytest.raises(stampede.Error, match="not those of the first episode"):
+                run(both, tmp_path / f"{name}_both", name, "--where", "frames > 1")
 
 
 def _film(path: Path) -> tuple[list[float], np.ndarray]:

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "db/research/arm_joints.h"
 #include "db/research/baseline.h"
 #include "db/research/baselines/functions.h"
 #include "db/research/check_dataset.h"
@@ -82,7 +83,7 @@ Answers answer_by(const Baseline& baseline, const std::filesystem::path& given_f
     for (const std::string& problem : baseline.problems) served += (served.empty() ? "" : ", ") + problem;
     throw Error("baseline", baseline.name + " does not answer " + name, "it answers " + served);
   }
-  const ResearchProblem& problem = find_problem(name);
+  const ResearchProblem problem = with_arm_joints(find_problem(name), arm_joints_of(given));
   Answers answers = fitting(given, [&] { return baseline.answer(problem, given); });
   answers.dataset = dataset_id(given);
   answers.problem = name;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "db/research/arm_joints.h"
 #include "db/research/baselines/functions.h"
 #include "db/research/check_dataset.h"
 #include "db/research/signals.h"
@@ -27,7 +28,7 @@ Eigen::RowVectorXd piece_row(const Signals& signals) {
   return row;
 }
 
-// What an action is learned from, and its target beside the present position.
+// What an action is learned from, and its target: joints beside their present positions, and the opening.
 struct Steps {
   Eigen::MatrixXd features, targets;
 };
@@ -48,7 +49,8 @@ Steps steps_of(const PlainFile& given, const std::vector<Signals>& all) {
         {signals.unit});
     const Eigen::MatrixXd state = state_features(signals);
     Eigen::MatrixXd some(static_cast<Eigen::Index>(rows.size()), state.cols());
-    Eigen::MatrixXd wanted(static_cast<Eigen::Index>(rows.size()), 8);
+    const Eigen::Index joints = signals.position.cols();
+    Eigen::MatrixXd wanted(static_cast<Eigen::Index>(rows.size()), joints + 1);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const std::int64_t frame = rows.integer(i, "frame");  // training episodes have every frame
@@ -56,31 +58,34 @@ Steps steps_of(const PlainFile& given, const std::vector<Signals>& all) {
         refuse_unfit(given,
                      "episode " + std::to_string(signals.unit) + " lacks joints of frame " + std::to_string(frame));
       some.row(row) = state.row(frame);
-      for (int j = 0; j < 7; ++j) {
-        const std::string name = "action_j" + std::to_string(j + 1);
-        const bool there = j < signals.position.cols() && !rows.is_null(i, name);
-        wanted(row, j) = there ? rows.real(i, name) - signals.position(frame, j) : 0;
+      for (Eigen::Index j = 0; j < joints; ++j) {
+        const std::string name = column_of_joint("action_j", static_cast<int>(j) + 1);
+        wanted(row, j) = rows.is_null(i, name) ? 0 : rows.real(i, name) - signals.position(frame, j);
       }
-      wanted(row, 7) = rows.real(i, "action_gripper");
+      wanted(row, joints) = rows.real(i, "action_gripper");
     }
     features.push_back(some), targets.push_back(wanted);
   }
   return {stacked(features), stacked(targets)};
 }
 
-template <typename Guess>  // of a row of features: eight numbers, joints beside the present ones
+template <typename Guess>  // of a row of features: joints beside the present ones, opening
 Answers actions_by(const PlainFile& given, Guess guess) {
   Answers answers;
+  const Eigen::Index most = arm_joints_of(given).most;
   for (const Signals& signals : signals_of(given, {"test"})) {
+    const Eigen::Index joints = signals.position.cols();
+    if (joints > most)
+      refuse_unfit(given, "the arm of episode " + std::to_string(signals.unit) + " has more joints than table actions");
     const Eigen::MatrixXd state = state_features(signals);
     for (std::size_t i = 0; i < signals.frames.size(); ++i) {
       if (signals.frames[i] % kActionEvery != 0) continue;
       const auto row = static_cast<Eigen::Index>(i);
       const Eigen::RowVectorXd wanted = guess(signals, row, state.row(row));
       std::vector<SqlValue> answer = {signals.unit, signals.frames[i]};
-      for (Eigen::Index j = 0; j < 7; ++j)
-        answer.emplace_back(wanted(j) + (j < signals.position.cols() ? signals.position(row, j) : 0));
-      answer.emplace_back(wanted(7));
+      for (Eigen::Index j = 0; j < joints; ++j) answer.emplace_back(wanted(j) + signals.position(row, j));
+      answer.resize(static_cast<std::size_t>(2 + most));  // NULL of joints that this arm has not
+      answer.emplace_back(wanted(joints));
       answers.rows.rows.push_back(answer);
     }
   }
@@ -111,8 +116,8 @@ Answers one_cluster(const ResearchProblem&, const PlainFile& given) {
 
 Answers stay_there(const ResearchProblem&, const PlainFile& given) {
   return actions_by(given, [](const Signals& signals, Eigen::Index row, const auto&) -> Eigen::RowVectorXd {
-    Eigen::RowVectorXd wanted = Eigen::RowVectorXd::Zero(8);
-    wanted(7) = signals.opening()(row);
+    Eigen::RowVectorXd wanted = Eigen::RowVectorXd::Zero(signals.position.cols() + 1);
+    wanted.tail(1)(0) = signals.opening()(row);
     return wanted;
   });
 }

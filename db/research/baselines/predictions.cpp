@@ -7,7 +7,9 @@
 #include <map>
 #include <set>
 
+#include "db/research/arm_joints.h"
 #include "db/research/baselines/functions.h"
+#include "db/research/check_dataset.h"
 #include "db/research/known_columns.h"
 #include "db/research/signals.h"
 #include "db/research/symbols_of.h"
@@ -25,7 +27,7 @@ struct Body {
 
 struct Joint {
   double now = 0, step = 0;  // rad or m; a frame
-  int command = 0;           // 1 to 7: of the arm, by name; 0: of a thing or finger
+  int command = 0;           // which joint of the arm it is, 1 next to the base; 0: of a thing or finger
 };
 
 struct Context {
@@ -39,19 +41,20 @@ struct Context {
 void read_joints(const PlainFile& given, double frame_hz, std::map<std::int64_t, Context>& by_frame) {
   if (by_frame.empty()) return;
   const std::int64_t episode = by_frame.begin()->second.episode;
-  for (const char* table : {"joints", "object_joints"}) {
-    const Rows rows = given.query(std::string("SELECT frame, joint, position, velocity FROM ") + table +
-                                      " WHERE episode = ?1 AND frame % 40 = 0 ORDER BY frame, joint",
-                                  {episode});
-    std::map<std::int64_t, int> arm;  // how many so far
+  const int most = arm_joints_of(given).most;
+  for (const auto& [table, arm_joint] : {std::pair{"joints", "arm_joint"}, {"object_joints", "NULL"}}) {
+    const Rows rows =
+        given.query(std::string("SELECT frame, joint, position, velocity, ") + arm_joint + " AS arm_joint FROM " +
+                        table + " WHERE episode = ?1 AND frame % 40 = 0 ORDER BY frame, joint",
+                    {episode});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto context = by_frame.find(rows.integer(i, "frame"));
       if (context == by_frame.end() || rows.is_null(i, "position")) continue;
-      const bool driven = table == std::string("joints") && rows.text(i, "joint").find("finger") == std::string::npos;
-      const int command = driven ? ++arm[context->first] : 0;
+      const auto command = rows.is_null(i, "arm_joint") ? 0 : static_cast<int>(rows.integer(i, "arm_joint"));
+      if (command > most)
+        refuse_unfit(given, "the arm of episode " + std::to_string(episode) + " has more joints than table actions");
       const double velocity = rows.is_null(i, "velocity") ? 0 : rows.real(i, "velocity");  // of recorded fingers
-      context->second.joints[rows.text(i, "joint")] = {rows.real(i, "position"), velocity / frame_hz,
-                                                       command <= 7 ? command : 0};
+      context->second.joints[rows.text(i, "joint")] = {rows.real(i, "position"), velocity / frame_hz, command};
     }
   }
 }
@@ -202,7 +205,7 @@ double commanded(const PlainFile& given, const Context& context, std::int64_t ho
 
 Eigen::RowVector2d joint_inputs(const PlainFile& given, const Context& context, const Joint& joint,
                                 std::int64_t horizon) {
-  const std::string column = "action_j" + std::to_string(joint.command);
+  const std::string column = column_of_joint("action_j", joint.command);
   return {joint.step, joint.command == 0 ? 0 : commanded(given, context, horizon, column, joint.now) - joint.now};
 }
 

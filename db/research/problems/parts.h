@@ -46,12 +46,9 @@ inline const AnswerColumn kDomain = {"domain", AnswerType::text, "a PDDL domain,
 
 inline AnswerColumn number(const char* name, const char* about) { return {name, AnswerType::real, about, "0.0"}; }
 
+// `j*`: a column for each joint of the data set's arm, see arm_joints.h.
 inline std::vector<AnswerColumn> action_columns() {
-  std::vector<AnswerColumn> columns = {kEpisode, kFrame};
-  for (const char* joint : {"j1", "j2", "j3", "j4", "j5", "j6", "j7"})
-    columns.push_back(number(joint, "commanded position, rad"));
-  columns.push_back(number("gripper", "commanded opening, m"));
-  return columns;
+  return {kEpisode, kFrame, number("j*", "commanded position"), number("gripper", "commanded opening, m")};
 }
 
 inline const std::string kSegmentScore =
@@ -67,7 +64,8 @@ inline const std::string kOperatorScore =
     "problems: sound, complete, how dear, and with --physics N run by the engine.";
 inline const std::string kActionScore =
     "Offline, at every 20th frame of the test episodes, which is all that is given of them: root mean square error of "
-    "the commanded joints (rad) and share of frames where the gripper is told to open or close as it was. Success is "
+    "the commanded joints (rad; each arm's own, however many) and share of frames where the gripper is told to open or "
+    "close as it was. Success is "
     "measured with the policy in the loop: `stampede evaluate TASK --policy \"…\"`, with `--variation` for held-out "
     "values.";
 

@@ -71,24 +71,25 @@ void score_positions(const ScoringJob& job, const Places& places, std::int64_t h
   }
 }
 
-// Of the arm all hinges; of things the joints that moved, hinges and sliders apart.
+// Of the arm all joints; of things the joints that moved, hinges and sliders apart.
 void score_joints(const ScoringJob& job, const Places& places, std::int64_t horizon, std::vector<Figure>& figures) {
   if (places.empty() || !job.hidden.has("joints")) return;
   Errors arm, hinges, sliders;
   const Rows rows = job.hidden.query(
-      "SELECT a.episode, a.frame, a.joint, a.kind, a.driven, a.position, b.position AS before FROM joints a JOIN "
+      "SELECT a.episode, a.frame, a.joint, a.kind, a.driven, a.arm_joint, a.position, b.position AS before FROM joints "
+      "a JOIN "
       "joints "
       "b ON b.episode = a.episode AND b.joint = a.joint AND b.frame = a.frame - ?1 WHERE a.frame % ?2 = ?1 "
       "ORDER BY a.episode, a.frame, a.joint",
       {horizon, kPredictedEvery});
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool hinge = rows.text(i, "kind") == "hinge", driven = rows.integer(i, "driven") != 0;
-    if (driven && !hinge) continue;  // fingers
+    const bool hinge = rows.text(i, "kind") == "hinge", of_arm = !rows.is_null(i, "arm_joint");
+    if (rows.integer(i, "driven") != 0 && !of_arm) continue;  // fingers
     const std::size_t row =
         row_about(job, places, {rows.integer(i, "episode"), rows.integer(i, "frame"), rows.text(i, "joint")});
     const double there = rows.real(i, "position"), moved = std::abs(there - rows.real(i, "before"));
-    if (!driven && moved < kMoved) continue;
-    (driven ? arm : hinge ? hinges : sliders).add(std::abs(job.answers.rows.real(row, "position") - there), moved);
+    if (!of_arm && moved < kMoved) continue;
+    (of_arm ? arm : hinge ? hinges : sliders).add(std::abs(job.answers.rows.real(row, "position") - there), moved);
   }
   const std::string on = std::to_string(horizon) + " frames on, ";
   add_figures(arm, "joint", horizon, "the arm's joints " + on + "rad", figures);

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <set>
 
+#include "db/research/arm_joints.h"
 #include "db/research/check_dataset.h"
 #include "db/research/dataset.h"
 #include "db/research/scorer.h"
@@ -99,7 +100,7 @@ Scored score(const std::filesystem::path& answers_file, const std::filesystem::p
              const ScoreOptions& options) {
   const PlainFile hidden = open_dataset(hidden_folder / kHiddenFile);
   const std::string id = dataset_id(hidden);
-  const ResearchProblem& problem = find_problem(dataset_problem(hidden));
+  const ResearchProblem problem = with_arm_joints(find_problem(dataset_problem(hidden)), arm_joints_of(hidden));
   const Answers answers = read_answers(answers_file, problem);
   check_identity(answers, problem, id);
   check_texts(answers, problem);

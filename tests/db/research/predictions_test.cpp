@@ -24,12 +24,12 @@ class HiddenFutures {
       file.table(table, {"episode", "frame", "object", "x", "y", "z"});
       for (const std::int64_t frame : kFrames) file.row({kOne, frame, text(object), come(frame), 0.0, 0.0});
     }
-    file.table("joints", {"episode", "frame", "joint", "kind", "driven", "position"});
+    file.table("joints", {"episode", "frame", "joint", "kind", "driven", "arm_joint", "position"});
     for (const std::int64_t frame : kFrames) {
-      file.row({kOne, frame, text("arm1"), text("hinge"), kOne, come(frame)});
-      file.row({kOne, frame, text("drawer"), text("slider"), std::int64_t{0}, come(frame)});
-      file.row({kOne, frame, text("finger"), text("slider"), kOne, come(frame)});
-      file.row({kOne, frame, text("other"), text("slider"), std::int64_t{0}, 0.3});
+      file.row({kOne, frame, text("arm1"), text("hinge"), kOne, kOne, come(frame)});
+      file.row({kOne, frame, text("drawer"), text("slider"), std::int64_t{0}, {}, come(frame)});
+      file.row({kOne, frame, text("thumb"), text("hinge"), kOne, {}, come(frame)});
+      file.row({kOne, frame, text("other"), text("slider"), std::int64_t{0}, {}, 0.3});
     }
     file.table("facts", {"episode", "frame", "fact"});
     for (const std::int64_t frame : kFrames) {

@@ -92,9 +92,10 @@ void write_lifts(const std::filesystem::path& folder) {
                   rises ? 0.01 * static_cast<double>(frame) : 0.0});
       }
   file.table("object_joints", {"episode", "frame", "joint", "position", "velocity"});
-  file.table("joints", {"episode", "frame", "joint", "position", "velocity"});
+  file.table("joints", {"episode", "frame", "joint", "arm_joint", "position", "velocity"});
   for (std::int64_t e = 1; e <= kEpisodes; ++e)
-    for (std::int64_t frame = 0; frame < kFrames; ++frame) file.row({e, frame, text("joint1"), 0.0, 0.0});
+    for (std::int64_t frame = 0; frame < kFrames; ++frame)
+      file.row({e, frame, text("joint1"), std::int64_t{1}, 0.0, 0.0});
   file.table("hands", {"episode", "frame", "hand", "x", "y", "z", "qx", "qy", "qz", "qw", "linear_x", "linear_y",
                        "linear_z", "angular_x", "angular_y", "angular_z", "opening", "touch_1", "touch_2"});
   for (std::int64_t e = 1; e <= kEpisodes; ++e)

@@ -67,6 +67,7 @@ TEST_CASE("numbers of a data set that can be none are refused before anything co
            {"UPDATE episodes SET episode = x'00'", "a row of episodes"},
            {"UPDATE episodes SET split = 7", "a row of episodes"},
            {"DROP TABLE episodes", "lacks the table episodes"},
+           {"CREATE TABLE \"joints\" (\"episode\", \"joint\")", "does not say which joints are the arm's"},
            {"CREATE VIEW v AS SELECT 1", "plain tables only"}}) {
     INFO(sql);
     const Hidden hidden("segments_supervised");

@@ -7,44 +7,13 @@
 #include "lab.h"
 #include "scripting/recording/export_recording.h"
 #include "scripting/session/stored_episode.h"
+#include "tests/support/crane.h"
 
 using namespace stampede;
 using namespace stampede::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-// It turns at its foot, and bends at shoulder, elbow and wrist: shapes are boxes, so that no other file is needed.
-const char* const kUrdf = R"(<robot name="crane">
-  <link name="foot"><inertial><mass value="8"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
-    <visual><origin xyz="0 0 0.2"/><geometry><box size="0.12 0.12 0.4"/></geometry></visual>
-    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.12 0.12 0.4"/></geometry></collision></link>
-  <link name="mast"><inertial><mass value="2"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>
-  <link name="boom"><inertial><mass value="2"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial>
-    <visual><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.05 0.05"/></geometry></visual>
-    <collision><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.05 0.05"/></geometry></collision></link>
-  <link name="forearm"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-    <visual><origin xyz="0.125 0 0"/><geometry><box size="0.25 0.05 0.05"/></geometry></visual></link>
-  <link name="palm"><inertial><mass value="0.5"/><inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial>
-    <visual><geometry><box size="0.04 0.1 0.03"/></geometry></visual></link>
-  <link name="left"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial>
-    <collision><origin xyz="0 0 -0.05"/><geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
-  <link name="right"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial>
-    <collision><origin xyz="0 0 -0.05"/><geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
-  <joint name="turn" type="revolute"><parent link="foot"/><child link="mast"/><origin xyz="0 0 0.4"/><axis xyz="0 0 1"/>
-    <limit lower="-2.5" upper="2.5" velocity="2" effort="50"/></joint>
-  <joint name="shoulder" type="revolute"><parent link="mast"/><child link="boom"/><axis xyz="0 1 0"/>
-    <limit lower="-1.8" upper="0.8" velocity="2" effort="50"/></joint>
-  <joint name="elbow" type="revolute"><parent link="boom"/><child link="forearm"/><origin xyz="0.3 0 0"/><axis xyz="0 1 0"/>
-    <limit lower="-2.6" upper="2.6" velocity="2" effort="30"/></joint>
-  <joint name="wrist" type="revolute"><parent link="forearm"/><child link="palm"/><origin xyz="0.25 0 0"/><axis xyz="0 1 0"/>
-    <limit lower="-3" upper="3" velocity="3" effort="10"/></joint>
-  <joint name="left_slide" type="prismatic"><parent link="palm"/><child link="left"/><axis xyz="0 1 0"/>
-    <limit lower="0" upper="0.03" velocity="0.2" effort="20"/></joint>
-  <joint name="right_slide" type="prismatic"><parent link="palm"/><child link="right"/><axis xyz="0 -1 0"/>
-    <limit lower="0" upper="0.03" velocity="0.2" effort="20"/></joint>
-</robot>
-)";
 
 const char* const kRobot = R"({ "name": "crane", "urdf": "crane.urdf", "arm": ["turn", "shoulder", "elbow", "wrist"],
   "tip": { "link": "palm", "at": [0.08, 0, 0] }, "fingers": ["left_slide", "right_slide"], "opening": 0.06,
@@ -56,7 +25,7 @@ std::array<double, 4> crane_at(double time) {
 
 // The lab with that robot in place of the panda, for two seconds, with a camera on its palm.
 void put_crane(const Lab& lab) {
-  lab.write("crane.urdf", kUrdf);
+  lab.write("crane.urdf", kCraneUrdf);
   std::string joints =
       "time_s,turn_position_rad,shoulder_position_rad,elbow_position_rad,wrist_position_rad,shoulder_effort_nm\n";
   for (int row = 0; row <= 200; ++row) {
@@ -121,12 +90,16 @@ TEST_CASE("a robot of one's own comes as a URDF, and its poses are those of its 
     CHECK(std::abs(tip.quaternion[3]) == Approx(std::abs(std::cos(turn / 2) * std::cos(bent / 2))).margin(1e-5));
     CHECK(frame.hands[0].opening == Approx(0.05));
   }
+  const Rows steps = catalogue.query("SELECT * FROM steps WHERE frame = 17");
+  CHECK(steps.real(0, "j4") == e.frames[17].joint_position[3]);
+  CHECK(steps.is_null(0, "j5"));  // a finger is no joint of the arm
+  CHECK(steps.real(0, "action_x") == e.frames[17].action->tool_pose.position[0]);
   const StoredEpisode stored = read_stored(catalogue, id);
   REQUIRE(stored.scene);  // whole: without the folder
   CHECK(stored.scene->robot.body.parts.size() == 7);
   export_recording(catalogue, stored, lab.folder() / "again");
   CHECK_THROWS_WITH(record_of(lab.folder() / "again", our_library(), {}), Contains("there is no robot 'crane'"));
-  lab.write("again/crane.urdf", kUrdf);
+  lab.write("again/crane.urdf", kCraneUrdf);
   nlohmann::json json = nlohmann::json::parse(lab.read("again/recording.json"));
   json["robot"] = nlohmann::json::parse(kRobot);
   lab.write("again/recording.json", json.dump());

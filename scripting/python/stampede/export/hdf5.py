@@ -16,7 +16,7 @@ from typing import Any
 
 from stampede.catalogue import StoredEpisode
 from stampede.export.pieces import Pieces
-from stampede.export.steps import ACTIONS, OPENING, Array, Steps
+from stampede.export.steps import ACTIONS, Array, Steps
 from stampede.faults import fault
 
 Facts = dict[str, Any]  # as JSON has them
@@ -49,7 +49,7 @@ def scale_of(steps: Steps, action: str) -> Facts:
         "action_space": action,
         "action_names": steps.action_names(action),
         "action_lower": [*map(float, lower), 0.0],
-        "action_upper": [*map(float, upper), OPENING],
+        "action_upper": [*map(float, upper), steps.opening],
         **({"channel_names": json.dumps(steps.channel_names)} if steps.channels else {}),
     }
 

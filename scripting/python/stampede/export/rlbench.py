@@ -40,6 +40,7 @@ from stampede.rlbench.backend.observing import observation_of
 from stampede.rlbench.backend.pickles import demo_bytes
 from stampede.rlbench.backend.pictures import CameraView, camera_misc, depth_to_unit
 from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_misc, ignoring_frames, kept_frames, numbers_at
+from stampede.rlbench.backend.scene import Scene
 from stampede.rlbench.backend.utils import float_array_to_rgb, mask_to_rgb_handles
 from stampede.rlbench.demo import Demo
 from stampede.rlbench.observation_config import CAMERAS, ObservationConfig
@@ -124,6 +125,12 @@ class Writer:
                 f"episode {episode.id}",
                 "it is a recording of a real robot, and RLBench's folders are of variations of a simulated task",
                 "--where \"outcome = 'success' AND source <> 'real'\" leaves such out; lerobot and others take them",
+            )
+        if episode.arrays("joint_positions")["joint_positions"].shape[1] != Scene.joint_count:
+            raise fault(
+                f"episode {episode.id}",
+                f"its arm does not have {Scene.joint_count} joints, and RLBench's demos are a Panda's",
+                "lerobot and others take any arm",
             )
         if episode.task not in self._orders:
             try:

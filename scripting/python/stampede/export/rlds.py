@@ -131,6 +131,7 @@ class Writer:
         first = described[0]
         for episode, one in zip(self._episodes, described, strict=True):
             check_names(episode, one["channels"], first["channels"])
+            check_names(episode, {"state": one["state"]}, {"state": first["state"]})
         same_things = all(one["things"] == first["things"] for one in described)
         parts = ["features", "things"] if same_things else ["features"]
         splits = []

@@ -9,6 +9,7 @@ that up.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -24,10 +25,8 @@ Array = NDArray[Any]
 
 ACTIONS = ("joint_delta", "joint_position", "tool_delta")
 
-# Bounds of the action spaces of these names (stampede/action.h): what -1 and 1 stand for.
-JOINT_SPEED = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])  # rad/s
+# What -1 and 1 stand for in the action space of the tool (stampede/action.h), of every arm.
 TOOL_SPEED = np.array([1.7, 1.7, 1.7, 2.5, 2.5, 2.5])  # m/s, rad/s
-OPENING = 0.08  # m
 
 _COLUMNS = (
     "joint_positions",
@@ -126,12 +125,27 @@ def check_names(episode: StoredEpisode, names: Mapping[str, list[str]], first: M
             )
 
 
+def _limits_of(episode: StoredEpisode) -> tuple[Array, float]:
+    """The greatest speeds of the arm's joints, rad/s, and opening of the hand, m: of the robot that the episode has."""
+    rows = episode.catalogue.query(
+        "SELECT document -> '$.robot' AS robot FROM scene WHERE hash = (SELECT scene FROM episodes WHERE episode = ?1)",
+        episode.id,
+    )
+    if not len(rows):
+        raise fault(f"episode {episode.id}", "its robot is not stored with it", "mcap needs no limits of joints")
+    robot = json.loads(str(rows.values("robot")[0]))
+    if "$asset" in robot:  # what several scenes have in common lies beside them
+        rows = episode.catalogue.query("SELECT body FROM asset WHERE hash = ?1", robot["$asset"])
+        robot = json.loads(str(rows.values("body")[0]))
+    return np.array([one["velocity"] for one in robot["limits"]]), float(robot["opening_max"])
+
+
 class Steps:
     """The steps of one episode. Arrays have F - 1 rows, unless they say otherwise.
 
     further: more columns that are read at once. channels: columns, or groups of them (`object_pose`), that were asked
-    for beside the format's own. Raises Error for an episode of fewer than two frames, for one of another arm than the
-    Panda, and for a channel that is not there or has no row of numbers a frame.
+    for beside the format's own. Raises Error for an episode of fewer than two frames, for one whose robot is not stored
+    with it, and for a channel that is not there or has no row of numbers a frame.
     """
 
     def __init__(self, episode: StoredEpisode, further: Sequence[str] = (), channels: Sequence[str] = ()) -> None:
@@ -141,8 +155,7 @@ class Steps:
         self.arrays = episode.arrays(*_COLUMNS, *further, *channels)
         self.count = episode.frames - 1
         self._asked = channels
-        if self.arrays["joint_positions"].shape[1] != len(JOINT_SPEED):
-            raise fault(f"episode {episode.id}", "its arm does not have seven joints", "only the Panda can be exported")
+        self.joint_speed, self.opening = _limits_of(episode)  # rad/s, m: the most
         self._check_known()
 
     def _check_known(self) -> None:
@@ -196,7 +209,7 @@ class Steps:
 
     @cached_property
     def commanded_joints(self) -> Array:
-        """F x 7, rad: where the reference was at each frame."""
+        """F x joints of the arm, rad: where the reference was at each frame."""
         commanded = self.arrays["action/joint_position"][:-1]
         return np.concatenate([self.arrays["joint_positions"][:1], commanded])
 
@@ -213,7 +226,7 @@ class Steps:
     @cached_property
     def gripper(self) -> Array:
         """-1: closed … 1: open."""
-        return np.clip(2 * self.commanded_opening / OPENING - 1, -1, 1)
+        return np.clip(2 * self.commanded_opening / max(self.opening, 1e-9) - 1, -1, 1)
 
     def natural_actions(self, kind: str) -> Array:
         """In rad, m and rotation vectors, the opening in m last."""
@@ -237,7 +250,10 @@ class Steps:
         """What -1 and 1 stand for, without the gripper."""
         rate = self.episode.frame_hz
         if kind == "joint_delta":
-            return -JOINT_SPEED / rate, JOINT_SPEED / rate
+            if not self.joint_speed.all():
+                told = "a joint of its arm has no greatest speed"
+                raise fault(f"episode {self.episode.id}", told, "--action joint_position")
+            return -self.joint_speed / rate, self.joint_speed / rate
         if kind == "tool_delta":
             return -TOOL_SPEED / rate, TOOL_SPEED / rate
         return self._joint_limits
