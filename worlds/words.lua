@@ -213,7 +213,7 @@ return {
   },
   particles = { -- that belong to a verb: `switch on the lamp`
     switch = "on off", turn = "on off", insert = "in", push = "in", slide = "in",
-    take = "off", pull = "off", lift = "off", remove = "off",
+    take = "off", pull = "off", lift = "off", remove = "off", clean = "off",
   },
 
   -- What a thing is after a preposition: where something goes to or comes from, its whole, a means; else as they say.

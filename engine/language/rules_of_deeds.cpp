@@ -284,20 +284,23 @@ Fault other_way_in(const Sentence& sentence) {
     for (const Reading& own : sentence.claims.own)
       for (const Mention& one : own.mentions)
         if (one.sense == mention.sense && one.part == "to") ways.insert(way_of(own, one));
-    bool into = false;
+    bool planned = false;
     for (const ToldStep& step : sentence.meaning.steps) {
       const SkillSense& sense = sentence.meaning.sense_of(step);
-      for (std::size_t i = 0; i < step.arguments.size(); ++i) {
-        if (!sense.puts || static_cast<int>(i) == sense.handled || !sense.ways.contains("in")) continue;
-        if (!names(mention, step.arguments[i]) && !names_whole(mention, step.arguments[i])) continue;
-        into = true;
-        if (names(mention, step.arguments[i]))
-          ways.insert(sense.ways.begin(), sense.ways.end());
-        else
+      for (const int place : sense.places) {
+        const std::string& argument = step.arguments[static_cast<std::size_t>(place)];
+        const bool whole = names_whole(mention, argument);
+        if (!sense.puts || (!whole && !names(mention, argument))) continue;
+        planned = true;
+        const auto said = sense.ways.find(place);
+        if (said == sense.ways.end()) continue;
+        if (whole && said->second.contains("in"))
           ways.insert("in");
+        else
+          ways.insert(said->second.begin(), said->second.end());
       }
     }
-    if (into && !ways.contains(way)) return marked(way) + " the " + mention.sense;
+    if (planned && !ways.contains(way)) return marked(way) + " the " + mention.sense;
   }
   return {};
 }
@@ -392,7 +395,7 @@ Fault ends_early(const Sentence& sentence) {
   const SkillSense& end = meaning.sense_of(meaning.steps.back());
   for (const std::string& verb : ours)
     if (skills_of(sentence, verb).contains(last) &&
-        (away || !end.ways.contains("out") || !sentence.english.has(verb, "grasping")))
+        (away || !(end.takes && end.leaves) || !sentence.english.has(verb, "grasping")))
       return {};
   const Texts reached = skills_told(sentence, ours);
   for (std::size_t i = 0; i < sentence.claims.done.size(); ++i) {

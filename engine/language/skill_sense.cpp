@@ -1,6 +1,7 @@
 #include "engine/language/skill_sense.h"
 
 #include <algorithm>
+#include <map>
 
 namespace stampede {
 namespace {
@@ -13,13 +14,16 @@ void named_in(const Formula& formula, const std::set<std::string>& predicates, s
   for (const Formula& part : formula.parts) named_in(part, predicates, names);
 }
 
-std::set<std::string> ways_in(const std::string& label, const Lexicon& lexicon) {
-  std::set<std::string> ways;
+// Of `put the {obj} on the {shelf}`: on, of shelf.
+std::map<std::string, std::string> ways_in(const std::string& label, const Lexicon& lexicon) {
+  std::map<std::string, std::string> ways;
+  std::string way;
   for (const Word& word : lexicon.read(label)) {
-    if (word.is("inside")) ways.insert("in");
-    if (word.is("upon")) ways.insert("on");
-    if (word.is("away")) ways.insert("out");
+    if (word.is("inside")) way = "in";
+    if (word.is("upon")) way = "on";
+    if (word.text.starts_with('{')) ways[word.text.substr(1, word.text.size() - 2)] = std::exchange(way, "");
   }
+  std::erase_if(ways, [](const auto& one) { return one.second.empty(); });
   return ways;
 }
 
@@ -36,7 +40,7 @@ class SenseReader {
     sense_.raises = !sense_.puts && (sense_.takes || before_.contains(name(sense_.handled)));
     sense_.of_parts = !sense_.puts && !(sense_.takes && skill_.parameters.size() > 2);
     find_places();
-    sense_.ways.merge(ways_in(skill_.label, lexicon_));
+    find_ways();
     read_verbs();
     find_directions();
     return std::move(sense_);
@@ -56,8 +60,6 @@ class SenseReader {
       if (held_.contains(effect.predicate)) {
         for (const Term& term : effect.terms) (effect.negated ? put_ : taken_).insert(term.name);
       } else if (!effect.negated) {
-        if (const Predicate* predicate = domain_.predicate(effect.predicate))
-          sense_.ways.merge(ways_in(predicate->label, lexicon_));
         made_.push_back(&effect);
       }
     }
@@ -91,6 +93,25 @@ class SenseReader {
     if (sense_.puts && others > 1) sense_.tool = sense_.handled;
   }
 
+  // As its label says, and those of what becomes true.
+  void find_ways() {
+    for (const auto& [parameter, way] : ways_in(skill_.label, lexicon_)) add_way(parameter, way);
+    for (const Effect* effect : made_) {
+      const Predicate* predicate = domain_.predicate(effect->predicate);
+      if (predicate == nullptr) continue;
+      const std::map<std::string, std::string> ways = ways_in(predicate->label, lexicon_);
+      for (std::size_t i = 0; i < predicate->parameters.size(); ++i)
+        if (const auto found = ways.find(predicate->parameters[i].name); found != ways.end())
+          add_way(effect->terms[i].name, found->second);
+    }
+    for (const Word& word : lexicon_.read(skill_.label)) sense_.leaves |= word.is("away");
+  }
+
+  void add_way(const std::string& parameter, const std::string& way) {
+    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i)
+      if (name(i) == parameter) sense_.ways[i].insert(way);
+  }
+
   void read_verbs() {
     for (const std::string& verb : skill_.verbs) {
       const std::vector<Word> words = lexicon_.read(verb);
@@ -101,10 +122,11 @@ class SenseReader {
   }
 
   void find_directions() {
-    const bool in = sense_.ways.contains("in");
+    const bool in =
+        std::any_of(sense_.ways.begin(), sense_.ways.end(), [](const auto& one) { return one.second.contains("in"); });
     if (sense_.raises) sense_.directions.insert("up");
     if (sense_.takes) sense_.directions.insert("out");
-    if (sense_.takes && sense_.ways.contains("out")) sense_.directions.insert("remove");
+    if (sense_.takes && sense_.leaves) sense_.directions.insert("remove");
     if (sense_.puts && in) sense_.directions.insert({"in", "insert"});
     if (sense_.puts && !in) sense_.directions.insert("down");
   }

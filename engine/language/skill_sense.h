@@ -1,6 +1,7 @@
 // What a skill does with its arguments, as sentences tell it: read once from its effects, its label and `moves`.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,9 +18,10 @@ struct SkillSense {
   int handled = 0;                   // the parameter that it is about
   int tool = -1;                     // that it handles it with: held before and after, or put down to serve
   std::set<int> moved, places;
-  std::string verb;                  // the sense of its first
-  std::set<std::string> ways;        // how sentences say where the object goes, or whence it comes: in, on, out
-  std::set<std::string> directions;  // in which something moves: up, out, open …
+  std::string verb;                           // the sense of its first
+  std::map<int, std::set<std::string>> ways;  // how sentences say that it is at a parameter's place: in, on
+  bool leaves = false;                        // it is taken out of something, or off it
+  std::set<std::string> directions;           // in which something moves: up, out, open …
 };
 
 // Of the skill's first action. `held`: predicates of what the pads grasp.

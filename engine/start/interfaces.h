@@ -156,12 +156,12 @@ struct SkillInfo {
   std::vector<ContinuousInfo> continuous;
   ControllerKind controller = ControllerKind::joint_position;
   double stiffness = 0;
-  std::string label;                 // "pick up the {obj}"
-  std::vector<std::string> forgets;  // predicates whose facts contact leaves uncertain
-  std::vector<std::string> actions;  // names in the domain, one per case
+  std::string label;                    // "pick up the {obj}"
+  std::vector<std::string> forgets;     // predicates whose facts contact leaves uncertain
+  std::vector<std::string> actions;     // names in the domain, one per case
   std::vector<std::string> moves = {};  // parameters that it moves
   std::vector<std::string> verbs = {};  // that tell of it in sentences, the first its own
-  std::string replaces = {};         // the skill whose place it takes where a task or world asks for it; empty: none
+  std::string replaces = {};            // the skill whose place it takes where a task or world asks for it; empty: none
 };
 
 struct ContinuousValue {

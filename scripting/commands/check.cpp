@@ -9,10 +9,10 @@
 #include "scripting/commands/check_built.h"
 #include "scripting/commands/check_failures.h"
 #include "scripting/commands/commands.h"
-#include "scripting/sentences/sentence_file.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/runtime/episode_scripts.h"
+#include "scripting/sentences/sentence_file.h"
 #include "scripting/session/run_job.h"
 
 namespace stampede::program {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/episode/runner.h"
-#include "scripting/sentences/chat_client.h"
-#include "scripting/sentences/sentence_file.h"
 #include "scripting/program/command.h"
 #include "scripting/program/json_text.h"
+#include "scripting/sentences/chat_client.h"
+#include "scripting/sentences/sentence_file.h"
 
 namespace stampede::program {
 

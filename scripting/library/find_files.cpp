@@ -66,7 +66,8 @@ std::vector<fs::path> lua_files(const fs::path& root, const char* folder, std::v
   return found;
 }
 
-// A file of a later root replaces one of the same name, but its types, colours and words add to those of the roots before it.
+// A file of a later root replaces one of the same name, but its types, colours and words add to those of the roots
+// before it.
 void stand_beside(const fs::path& root, const std::map<std::string, ScriptFile>& files, ScriptFile& file) {
   const std::string folder = fs::weakly_canonical(root).filename().string(), stem = file.name;
   std::string plain;

@@ -109,9 +109,9 @@ class Library {
     Domain domain;
     std::map<std::vector<std::string>, Domain> domains;  // by TaskInfo::skills, where there are some
     std::map<std::string, PredicateTraits> predicate_traits;
-    std::set<std::string> hiding;  // predicates whose files say `observable`
+    std::set<std::string> hiding;            // predicates whose files say `observable`
     std::shared_ptr<const English> english;  // with nouns of types and objects, and verbs of skills
-    Numbers numbers;               // that things can have, as files declare them
+    Numbers numbers;                         // that things can have, as files declare them
     std::map<std::string, SkillInfo, std::less<>> skills;
     std::map<std::string, TaskInfo, std::less<>> tasks;
   };

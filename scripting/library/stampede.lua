@@ -40,6 +40,7 @@
 ---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
 ---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
 ---@field label string  what it does in words, with {params}
+---@field verbs? string[]  that tell of it in sentences, the first its own (default its label's)
 ---@field reads? table<string, stampede.declared_number>  numbers of its things that it reads, beside those of their traits (default {})
 ---@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
@@ -73,6 +74,7 @@
 -- A thing: shape, mass, type, traits, parts, grasps
 ---@class stampede.object
 ---@field type? stampede.type_name|string  its class in the type tree of worlds/types.lua
+---@field nouns? string  what else it is called in sentences, beside its own name and its types' (default "")
 ---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})
@@ -176,6 +178,7 @@
 -- A moving part of an object
 ---@class stampede.part
 ---@field type? stampede.type_name|string  its class in the type tree of worlds/types.lua
+---@field nouns? string  what else it is called in sentences, beside its own name and its types' (default "")
 ---@field traits? (stampede.trait_name|string)[]  what can be done with it (default {})
 ---@field shape? stampede.shape  its one shape
 ---@field shapes? stampede.shape[]  its shapes, convex each (default {})

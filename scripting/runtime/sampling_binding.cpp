@@ -40,8 +40,7 @@ int spots_on(lua_State* state) {
   const RandomKey key = spots_key(check_random(state, 4));
   const WorldView& view = *context.view;
   const Object &thing = view.object(object), &place = view.object(below);
-  return push_poses(
-      state, spots({*context.space, view.world(), thing, key, context.most, context.turned_down}, place));
+  return push_poses(state, spots({*context.space, view.world(), thing, key, context.most, context.turned_down}, place));
 }
 
 const Region& region_of(const WorldView& view, std::string_view name) {

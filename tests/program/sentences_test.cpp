@@ -103,8 +103,8 @@ TEST_CASE("subgoals have sentences: the author's and a model's, each beside its 
   const std::size_t begin = listed.out.find("count=");
   const std::string first = listed.out.substr(begin, listed.out.find('"', begin) - begin);
   const auto library = Library::load({{kRoot, folder.text()}});
-  const Meaning meaning = *meaning_for(library, {"press_all", LanguageLevel::subgoal, subgoal_key("first_one", first)}, 0,
-                                       sentences_of(library, "press_all"));
+  const Meaning meaning = *meaning_for(library, {"press_all", LanguageLevel::subgoal, subgoal_key("first_one", first)},
+                                       0, sentences_of(library, "press_all"));
   const std::string colour = meaning.own.front().substr(9, meaning.own.front().find(" button") - 9);
   const stub::Server server([&](int, const std::string& body) {
     if (stub::asks_back(body)) return stub::Reply{stub::chat(stub::right_answer(body, meaning))};

@@ -77,7 +77,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 };
 
 // Rooms in one line: each may include all before it, and what is left of the first.
-const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library",  "scripting/runtime",
+const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library",   "scripting/runtime",
                                              "scripting/session", "scripting/sentences", "scripting/recording",
                                              "scripting/program", "scripting/commands"};
 
