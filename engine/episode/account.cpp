@@ -3,18 +3,20 @@
 #include "engine/record/keyframes.h"
 #include "engine/start/language.h"
 #include "engine/start/planning.h"
+#include "engine/start/relations.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
 
-// The world's own domain, the same for all its tasks; where the goal has an order, also what the planner is asked.
+// The world's own domain, the same for all its tasks; where the goal has an order or asks for relations that skills
+// make by where they put things, also what the planner is asked.
 void write_problem(const Task& task, const Domain& domain, const Rollout& rollout, EpisodeRecord& record) {
   const Domain own = named_by_content(domain);
   record.documents.push_back({DocumentKind::pddl_domain, to_pddl(own)});
   record.documents.push_back(
       {DocumentKind::pddl_problem, to_pddl(world_problem(task, rollout.facts()), own, record.beside_goal)});
-  if (task.stages.empty()) return;
+  if (task.stages.empty() && relations_asked(task, rollout.facts()).empty()) return;
   const PlanningTask planning = planning_task(task, domain, rollout.facts(), rollout.stage());
   const Domain ordered = named_by_content(planning.domain);
   record.documents.push_back({DocumentKind::ordered_domain, to_pddl(ordered)});

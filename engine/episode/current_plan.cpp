@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/start/relations.h"
 #include "engine/symbolic/drawn_choice.h"
 #include "engine/symbolic/pddl.h"
 
@@ -36,6 +37,8 @@ SkillResult CurrentPlan::again(std::size_t done) {
   return {};
 }
 
+bool CurrentPlan::relates() const { return !relations_asked(rollout_.task(), rollout_.facts()).empty(); }
+
 void CurrentPlan::take(Course course) {
   steps = std::move(course.steps);
   assumed_ = std::move(course.assumed);
@@ -45,9 +48,9 @@ bool CurrentPlan::stands(const Obstruction& one) const {
   return (rollout_.view().world_from(one.blocker).translation() - one.at).norm() < kMoved_m;
 }
 
-PlanningTask CurrentPlan::problem(const std::vector<Obstruction>& standing, const Facts& assumed) const {
+PlanningTask CurrentPlan::problem(const std::vector<Obstruction>& standing, const Facts& assumed, bool by_any) const {
   PlanningTask planning =
-      planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage(), standing);
+      planning_task(rollout_.task(), rollout_.domain(), rollout_.facts(), rollout_.stage(), standing, by_any);
   keep_known(planning.problem, rollout_.facts(), assumed);
   return planning;
 }
@@ -68,8 +71,13 @@ AssumingPlan CurrentPlan::ask_planner() const {
                [&](const Obstruction& one) { return stands(one); });
   if (options_.planner)
     for (const PlanStep& step : forbidden) standing.push_back({step, {}, {}});
-  AssumingPlan found = plan_assuming(problem(standing, {}), conceivable(rollout_.facts()), key_of("assume"),
-                                     [&](const PlanningTask& planning) { return ask(planning); });
+  const auto plan = [&](bool by_any) {
+    return plan_assuming(problem(standing, {}, by_any), conceivable(rollout_.facts()), key_of("assume"),
+                         [&](const PlanningTask& planning) { return ask(planning); });
+  };
+  AssumingPlan found = plan(false);
+  if (!found.outcome.solved && relates())
+    if (AssumingPlan other = plan(true); other.outcome.solved) found = std::move(other);  // the other thing makes room
   if (!found.outcome.solved && rollout_.task().empty_hand)
     found.outcome.explanation += "; the hand must be empty at the end, unless the task says hand = \"any\"";
   return found;
@@ -114,13 +122,18 @@ CallSettings CurrentPlan::set(std::size_t index) const {
 
 SkillResult CurrentPlan::watch(std::size_t done, int segment) {
   look(done, segment);
-  if (given_ || done >= steps.size() || !expected_) return {};
+  if (given_ || !expected_) return {};
+  if (done >= steps.size()) {  // more was hoped for of where things are put than could be
+    if (!relates() || rollout_.holds_now(rollout_.task().goal)) return {};
+    forbidden = {steps[done - 1]};  // it would bring about no more; what was in vain before may not be now
+    return again(done);
+  }
   const FactTracker& facts = rollout_.facts();
   const Facts open = assumed_.empty() ? Facts{} : conceivable(facts);
   const bool wrong = std::any_of(assumed_.begin(), assumed_.end(),
                                  [&](const Fact& fact) { return !open.contains(fact) && !facts.known(fact); });
   if (!wrong && *expected_ == facts.basic()) return {};
-  const PlanningTask planning = problem({}, assumed_);
+  const PlanningTask planning = problem({}, assumed_, true);
   const Plan rest(steps.begin() + static_cast<std::ptrdiff_t>(done), steps.end());
   if (validate(planning.domain, planning.problem, rest).valid) return {};
   return again(done);

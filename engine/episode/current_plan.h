@@ -22,6 +22,7 @@ class CurrentPlan {
 
   SkillResult make();                    // the task's own steps, or the planner's
   SkillResult again(std::size_t done);   // the first `done` steps stay, the rest is planned from here
+  bool relates() const;                  // the goal asks for relations that skills make by where they put things
   bool given() const { return given_; }  // the task's own steps: never planned again
   std::size_t size() const { return steps.size(); }
 
@@ -53,7 +54,7 @@ class CurrentPlan {
  private:
   AssumingPlan ask_planner() const;
   PlanOutcome ask(const PlanningTask& planning) const;
-  PlanningTask problem(const std::vector<Obstruction>& standing, const Facts& assumed) const;
+  PlanningTask problem(const std::vector<Obstruction>& standing, const Facts& assumed, bool by_any) const;
   RandomKey key_of(const char* purpose) const;
   void look(std::size_t done, int segment);
   bool stands(const Obstruction& one) const;

@@ -162,10 +162,21 @@ bool Undo::try_again(const SkillResult& failed) {
   return true;
 }
 
+// What is put down beside something has nowhere else to go: then from before the step that took it.
 bool Undo::go_round(const SkillResult& blocked) {
-  track_.back_to(places_[i_]);
+  const std::size_t here = i_;
   Detour detour{i_, plan_.course(), plan_.obstructions.size()};
-  if (!plan_.avoid(blocked, i_)) return false;
+  const auto found = [&] {
+    track_.back_to(places_[i_]);
+    return plan_.avoid(blocked, i_);
+  };
+  if (!found() && (!plan_.relates() || i_-- == 0 || !found())) {
+    i_ = here;
+    track_.back_to(places_[i_]);
+    return false;
+  }
+  detour.index = i_;
+  places_.resize(i_ + 1);
   detours_.push_back(std::move(detour));
   failures_.assign(plan_.size() + 1, 0);
   return true;

@@ -1,6 +1,7 @@
 // Streams of grasps and placements: candidate k is a pure function of the key and k.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,16 @@ std::vector<Looked> look_at_grasps(const GraspQuery& query, bool measure);
 // Of how many grasps each cause keeps the hand: `of 72 grasps the best: 12 touch pot; others: 60 out of reach`.
 std::string why_no_grasp(std::span<const Looked> grasps);
 
+// A level rectangle about its middle, whatever the height: m.
+struct SpotWindow {
+  Transform world_from_middle = Transform::Identity();
+  double half_x = 0, half_y = 0;
+  bool contains(const Transform& place) const {
+    const Vector3 at = world_from_middle.inverse() * place.translation();
+    return std::abs(at.x()) <= half_x && std::abs(at.y()) <= half_y;
+  }
+};
+
 // What places are sought for: a free body, at most so many of them.
 // Lifetime: refers to state, world and object.
 struct SpotQuery {
@@ -56,6 +67,7 @@ struct SpotQuery {
   RandomKey key;
   int most;
   std::vector<Looked>* turned_down = nullptr;  // where somebody asks why: what was drawn and cannot be is added there
+  std::optional<SpotWindow> within = {};       // free_spots: of the body's frame
 };
 
 // Places where a free body fits on top of a surface part: uniformly over the upper faces of its shapes, upright with

@@ -272,7 +272,9 @@ std::vector<Transform> free_spots(const SpotQuery& query, const Object& surface)
   return search.keep_free([&] {
     const Face& face = draw_face(faces, search.random());
     const Quaternion rotation = search.draw_rotation();
-    return search.place_on(face, search.foot_on(face, rotation), rotation);
+    std::optional<Transform> place = search.place_on(face, search.foot_on(face, rotation), rotation);
+    if (place && query.within && !query.within->contains(*place)) place.reset();
+    return place;
   });
 }
 

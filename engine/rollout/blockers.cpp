@@ -4,6 +4,8 @@
 #include <set>
 #include <tuple>
 
+#include "engine/start/relations.h"
+
 namespace stampede {
 namespace {
 
@@ -40,7 +42,9 @@ std::set<PartRef> parts_of(const std::vector<std::string>& arguments, const Scen
   return parts;
 }
 
-std::vector<Candidate> candidates(const std::vector<std::string>& arguments, const WorldView& view, int held) {
+// `places`: what they are near to.
+std::vector<Candidate> candidates(const std::vector<std::string>& arguments, const std::vector<std::string>& places,
+                                  const WorldView& view, int held) {
   const Scene& scene = view.scene();
   const std::set<PartRef> about = parts_of(arguments, scene);
   std::vector<Candidate> near;
@@ -48,7 +52,7 @@ std::vector<Candidate> candidates(const std::vector<std::string>& arguments, con
     const std::optional<PartRef> part = movable_part(scene, thing);
     if (!part || part->body == held || about.contains(*part)) continue;
     double distance = kNear;
-    for (const std::string& name : arguments) {
+    for (const std::string& name : places) {
       const Object* other = scene.object(name);
       if (other == nullptr || other->kind == ObjectKind::hand) continue;
       distance =
@@ -78,7 +82,11 @@ void name_blockers(Rollout& rollout, const SkillContext& context, SkillResult& r
                    const std::function<bool()>& works) {
   if (!context.mode.find_blockers || context.arguments.empty()) return;
   const int held = rollout.keep ? rollout.keep->body : -1;
-  const std::vector<Candidate> near = candidates(context.arguments, rollout.view(), held);
+  std::vector<std::string> places = context.arguments;
+  for (const Literal& literal : relations_asked(rollout.task(), rollout.facts()))
+    if (const auto& names = literal.fact.arguments; names.front() == places.front())
+      places.insert(places.end(), names.begin() + 1, names.end());
+  const std::vector<Candidate> near = candidates(context.arguments, places, rollout.view(), held);
   const auto works_without = [&](const std::vector<Candidate>& things) {
     rollout.imagined_away.clear();
     for (const auto& [distance, name, part] : things) rollout.imagined_away.push_back(part);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/rollout/agent_action.h"
+#include "engine/start/relations.h"
 
 namespace stampede {
 
@@ -14,7 +15,7 @@ Rollout::Rollout(Symbols& symbols, const PreparedStart& start, SensorReader sens
       stop_(stop),
       world_(start.scene),
       view_(world_),
-      facts_(symbols, view_),
+      facts_(symbols, view_, named_by(task_, symbols)),
       recorder_(view_),
       sensors_(std::move(sensors)),
       steps_per_frame_(start.scene->physics_hz / start.scene->frame_hz),

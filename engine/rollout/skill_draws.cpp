@@ -6,6 +6,7 @@
 #include "engine/motion/planner.h"
 #include "engine/rollout/call_motion.h"
 #include "engine/start/part_questions.h"
+#include "engine/start/relations.h"
 
 namespace stampede {
 namespace {
@@ -123,6 +124,7 @@ class StreamDraws {
     std::vector<Looked> looked;
     int tried = 0;
   };
+  std::vector<Placement> ways(const ContinuousInfo& info, const Fact& fact, const CollisionState& space) const;
   Places look_at(const std::vector<Placement>& placements, const CollisionState& space) const;
   bool explains() const { return context_.mode.explain || impasse_ != nullptr; }
 
@@ -190,6 +192,29 @@ Reason StreamDraws::grasp(const ContinuousInfo& info, ContinuousValue& value) {
   return Reason::none;
 }
 
+// What the predicate samples; where the goal asks for relations that this skill makes, of these and more what meets
+// them.
+std::vector<Placement> StreamDraws::ways(const ContinuousInfo& info, const Fact& fact,
+                                         const CollisionState& space) const {
+  constexpr int kSamples = 64;
+  const RandomKey key = context_.key.with(info.name);
+  std::vector<Literal> asked = relations_asked(rollout_.task(), rollout_.facts());
+  const auto gone = [&](const std::string& name) {  // imagined elsewhere: what is asked beside it is not in the way
+    return std::ranges::find(rollout_.imagined_away, rollout_.view().part_of(name)) != rollout_.imagined_away.end();
+  };
+  std::erase_if(asked, [&](const Literal& literal) {
+    const std::vector<std::string> makers = symbols_.traits(literal.fact.predicate).made_by;
+    const auto& names = literal.fact.arguments;
+    return std::ranges::find(makers, context_.info->name) == makers.end() || std::ranges::any_of(names, gone);
+  });
+  const bool about = std::ranges::any_of(asked, [&](const Literal& literal) {
+    const auto& names = literal.fact.arguments;
+    return std::ranges::find(names, fact.arguments.front()) != names.end();
+  });
+  if (!about) return symbols_.sample(fact, rollout_.view(), space, key, kSamples);
+  return related_placements(asked, fact, rollout_.view(), space, symbols_, key, kSamples);
+}
+
 StreamDraws::Places StreamDraws::look_at(const std::vector<Placement>& placements, const CollisionState& space) const {
   constexpr int kMostMeasured = 12;
   const PlaceTrial trial(rollout_, space, context_.key.with("ik"));
@@ -218,14 +243,12 @@ StreamDraws::Places StreamDraws::look_at(const std::vector<Placement>& placement
 }
 
 Reason StreamDraws::place(const ContinuousInfo& info, ContinuousValue& value) {
-  constexpr int kSamples = 64;
   Fact fact{info.literal.predicate, {}};
   for (const std::string& name : info.literal.arguments) fact.arguments.push_back(argument(context_, name));
   const auto space = planning_space(rollout_, touchable(rollout_, context_));
   std::vector<Looked> turned_down;
   const Symbols::Watching watching(symbols_, impasse_ != nullptr ? &turned_down : nullptr);
-  const auto placements = symbols_.sample(fact, rollout_.view(), *space, context_.key.with(info.name), kSamples);
-  const Places places = look_at(placements, *space);
+  const Places places = look_at(ways(info, fact, *space), *space);
   value.pose = places.chosen ? places.chosen : places.tight;
   if (impasse_ != nullptr) {
     impasse_->subject = fact.arguments.empty() ? "" : fact.arguments.front();

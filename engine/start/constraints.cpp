@@ -265,6 +265,22 @@ class Checker {
 
 }  // namespace
 
+std::string related_to_itself(const Formula& formula, const Domain& domain) {
+  for (const Formula& part : formula.parts)
+    if (formula.kind == Formula::Kind::conjunction)
+      if (std::string found = related_to_itself(part, domain); !found.empty()) return found;
+  const Predicate* predicate = formula.kind == Formula::Kind::atom ? domain.predicate(formula.predicate) : nullptr;
+  if (predicate == nullptr || predicate->kind != PredicateKind::basic) return {};
+  const auto within = [](const Term& whole, const Term& part) {
+    return part.name == whole.name || part.name.starts_with(whole.name + ".");
+  };
+  for (const Term& one : formula.terms)
+    for (const Term& other : formula.terms)
+      if (&one != &other && !one.variable && !other.variable && within(one, other))
+        return formula.predicate + " of " + one.name + " and " + other.name;
+  return {};
+}
+
 StaticFacts static_facts(const Scene& scene, const Domain& domain) {
   StaticFacts known;
   for (const Object& thing : scene.objects) {
@@ -304,6 +320,9 @@ Formula checked_formula(const Formula& formula, const Domain& domain, const std:
                         const std::string& place) {
   Formula checked = Checker(domain, objects, place).check(formula, {});
   symbolic::limit_instances(checked, {Facts{}, domain, objects}, place);
+  if (const std::string found = related_to_itself(checked, domain); !found.empty())
+    throw Error(place, "there is no fact " + found,
+                "no thing is related to itself or its own part: name another thing");
   return checked;
 }
 

@@ -34,9 +34,13 @@ std::set<std::string> predicates_of(const Formula& formula);  // that it names, 
 std::string atom_fault(const Fact& fact, const Domain& domain, const std::vector<TypedObject>& objects,
                        const Facts& known);
 
+// What no fact can be, and the formula asks for in any case: a basic predicate of a thing and itself, or its own part.
+// "left_of of cube1 and cube1"; empty: there is no such part.
+std::string related_to_itself(const Formula& formula, const Domain& domain);
+
 // The formula with the hand filled in where an atom leaves it out and there is one hand. Throws Error for unknown
-// predicates, types and objects (with the nearest as cure), wrong numbers of arguments and variables that nothing
-// binds. `place` starts the message: `--where`, `--goal`.
+// predicates, types and objects (with the nearest as cure), wrong numbers of arguments, variables that nothing
+// binds and what relates a thing to itself. `place` starts the message: `--where`, `--goal`.
 Formula checked_formula(const Formula& formula, const Domain& domain, const std::vector<TypedObject>& objects,
                         const std::string& place);
 

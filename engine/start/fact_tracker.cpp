@@ -25,6 +25,10 @@ std::vector<std::string> candidates(const Parameter& parameter, const Domain& do
   return names;
 }
 
+void erase_hands(const Scene& scene, std::vector<std::string>& names) {
+  std::erase_if(names, [&](const std::string& name) { return scene.object(name)->kind == ObjectKind::hand; });
+}
+
 bool whole_and_part(const std::string& a, const std::string& b) {
   return a.size() < b.size() ? b.starts_with(a) && b[a.size()] == '.'
                              : a != b && a.starts_with(b) && a[b.size()] == '.';
@@ -95,7 +99,9 @@ void FactTracker::enumerate(const WorldView& view, const std::set<std::string>& 
       derived_names_.insert(predicate.name);
       continue;
     }
-    if (predicate.kind == PredicateKind::start && !asked.contains(predicate.name)) continue;
+    const PredicateTraits traits = symbols_.traits(predicate.name);
+    const bool where_named = predicate.kind == PredicateKind::start || traits.only_named;
+    if (where_named && !asked.contains(predicate.name)) continue;
     const bool attribute = std::any_of(view.scene().objects.begin(), view.scene().objects.end(),
                                        [&](const Object& thing) { return thing.attributes.contains(predicate.name); });
     if (attribute) continue;  // known without reading the world
@@ -104,18 +110,15 @@ void FactTracker::enumerate(const WorldView& view, const std::set<std::string>& 
     std::vector<std::string> variables;
     for (const Parameter& parameter : predicate.parameters) {
       choices.push_back(candidates(parameter, domain, view, objects_));
+      if (traits.only_named && parameter.type.empty()) erase_hands(view.scene(), choices.back());
       count = symbolic::times(count, static_cast<std::int64_t>(choices.back().size()));
       variables.push_back(parameter.name);
     }
     if (count > symbolic::kMostInstances)
       symbolic::too_many_instances(predicate.name, variables, count, symbolic::kMostInstances,
                                    "predicate " + predicate.name);
-    Group group{predicate.name,
-                symbols_.traits(predicate.name),
-                predicate.kind == PredicateKind::fixed,
-                symbols_.can_hide(predicate.name),
-                names_.size(),
-                0};
+    Group group{predicate.name, traits, predicate.kind == PredicateKind::fixed, symbols_.can_hide(predicate.name),
+                names_.size(),  0};
     Fact fact{predicate.name, {}};
     combine(choices, group.fixed, fact, names_);
     group.count = names_.size() - group.first;
@@ -389,6 +392,10 @@ void FactTracker::refresh_derived(std::int64_t step) {
   for (const Fact& fact : now)
     if (derived_names_.contains(fact.predicate)) state_.derived_since.try_emplace(fact, step);
   state_.facts = std::move(now);
+}
+
+bool FactTracker::follows(const std::string& predicate) const {
+  return std::ranges::any_of(groups_, [&](const Group& group) { return group.predicate == predicate; });
 }
 
 int FactTracker::index_of(const Fact& fact) const {

@@ -26,7 +26,8 @@ std::vector<AttributeFact> attribute_facts(const Scene& scene, const Domain& dom
 // regions (unless they are static: `part_of` may be). Copy its State to undo.
 class FactTracker {
  public:
-  // `asked`: predicates of kind start that are read too; nothing but a test of a start asks for them.
+  // `asked`: predicates of kind start, which nothing but a test of a start asks for, and those that are followed only
+  // where they are named, which are read too.
   FactTracker(Symbols& symbols, const WorldView& view, const std::set<std::string>& asked = {});
 
   // Starts from values read elsewhere (after settling, in the world the start was made in).
@@ -48,6 +49,9 @@ class FactTracker {
   std::vector<Fact> never_seen() const;  // what can hide and could not be seen so far: nobody knows whether it holds
   bool pending(const Fact& fact) const;  // its raw value differs from the debounced one
   const Domain& domain() const { return symbols_.domain(); }
+  const Symbols& symbols() const { return symbols_; }
+  const Facts& fixed() const { return static_; }             // traits and attributes
+  bool follows(const std::string& predicate) const;          // a basic one
   const std::vector<Fact>& atoms() const { return names_; }  // all ground atoms of basic predicates, in a fixed order
   std::int64_t changes() const { return changes_; }          // grows whenever what holds or is known changes
   // What no eye can see now: things of which a fact holds that hides, and is not observable.

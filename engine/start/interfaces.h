@@ -5,7 +5,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -70,7 +72,8 @@ struct Task {
   std::vector<Literal> init;                   // in the order in which they are made true
   // Must hold at the start too; bindings and alternatives are drawn, and go before a literal of init about the same.
   std::optional<Formula> where;
-  std::vector<Fact> told;  // of what nobody can see at the start, that which the instructions tell
+  std::set<std::string> named;  // predicates that its functions, below, read by name
+  std::vector<Fact> told;       // of what nobody can see at the start, that which the instructions tell
   Formula goal;
   std::vector<Formula> stages;  // in_order { … }; goal is their conjunction
   std::optional<std::vector<TaskStep>> steps;
@@ -104,6 +107,11 @@ struct PredicateTraits {
   std::vector<std::string> mutex;  // predicates that cannot hold of the same first argument
   // Of its margins: `m`, `rad`, or kUnitOfJoint; empty: it has none, or does not say.
   std::string margin_unit = {};
+  bool only_named = false;  // followed in those tasks alone that name it
+  // Of a relation that no skill declares, such as left_of: skills that make it by where they put its first thing, and
+  // all that end it, with the parameter that they move.
+  std::vector<std::string> made_by = {};
+  std::vector<std::pair<std::string, std::string>> moved_by = {};
 };
 inline constexpr const char* kUnitOfJoint = "m or rad";  // that of the joint of the first argument
 

@@ -16,7 +16,8 @@ class JointSearch {
     for (const Literal& literal : asked.literals) {
       const bool about = !literal.fact.arguments.empty() && literal.fact.arguments.front() == asked.object;
       const bool within = about && symbols.traits(literal.fact.predicate).requires_pairs == Pairs::near;
-      if (within || asked.conditions.contains(literal.fact.predicate)) tests_.push_back(literal);
+      const bool related = !symbols.traits(literal.fact.predicate).made_by.empty();
+      if (within || related || asked.conditions.contains(literal.fact.predicate)) tests_.push_back(literal);
       if (literal.negated || !about) continue;
       proposing_.push_back(literal);
       if (within) within_.push_back(literal);

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/start/effects.h"
+#include "engine/start/relations.h"
 #include "engine/symbolic/instances.h"
 
 namespace stampede {
@@ -91,6 +92,51 @@ void obstruct(PlanningTask& planning, const Obstruction& obstruction, const std:
   planning.problem.init.insert({name, {}});
 }
 
+// Is there no order of putting things down in which each relation is made by its first thing, the others standing?
+bool in_a_circle(const std::vector<Literal>& relations) {
+  std::set<std::string> waiting;
+  for (const Literal& one : relations)
+    if (!one.negated) waiting.insert(one.fact.arguments.front());
+  const auto waits = [&](const std::string& thing) {  // for another that has yet to be put down
+    return std::ranges::any_of(relations, [&](const Literal& one) {
+      const auto& names = one.fact.arguments;
+      return !one.negated && names.front() == thing &&
+             std::any_of(names.begin() + 1, names.end(), [&](const auto& name) { return waiting.contains(name); });
+    });
+  };
+  while (!waiting.empty()) {
+    const auto next = std::ranges::find_if_not(waiting, waits);
+    if (next == waiting.end()) return true;
+    waiting.erase(next);
+  }
+  return false;
+}
+
+// Whoever puts the things down makes the relations that are asked of them, and whoever moves them ends them.
+void relate(PlanningTask& planning, const std::vector<Literal>& relations, const FactTracker& facts, bool by_any) {
+  std::set<std::string> named;
+  for (const Literal& relation : relations) {
+    const Fact& fact = relation.fact;
+    const PredicateTraits traits = facts.symbols().traits(fact.predicate);
+    named.insert(fact.arguments.begin(), fact.arguments.end());
+    std::vector<Term> terms;
+    for (const std::string& name : fact.arguments) terms.push_back({false, name});
+    for (Action& action : planning.domain.actions) {
+      const bool makes = !relation.negated && std::ranges::find(traits.made_by, action.skill) != traits.made_by.end();
+      for (const auto& [skill, moved] : traits.moved_by) {
+        if (skill != action.skill) continue;
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+          Formula same;
+          same.kind = Formula::Kind::equal;
+          same.terms = {{true, moved}, terms[i]};
+          action.effects.push_back({{}, std::move(same), fact.predicate, terms, !(makes && (by_any || i == 0))});
+        }
+      }
+    }
+  }
+  add_constants(named, facts.objects(), planning.domain);
+}
+
 // That the literal holds after the action, but for what the action ends.
 Formula true_after(const Action& action, const Literal& literal) {
   std::vector<Formula> ways = {formula_of(literal)};
@@ -139,11 +185,13 @@ std::string beside_goal(const Task& task) {
 }
 
 PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
-                           const std::vector<Obstruction>& obstructions) {
+                           const std::vector<Obstruction>& obstructions, bool by_any) {
   PlanningTask planning{domain, world_problem(task, facts)};
   for (TypedObject& constant : planning.domain.constants)  // a thing may be called as a part of another is
     for (const TypedObject& object : planning.problem.objects)
       if (object.name == constant.name) constant = object;
+  if (const std::vector<Literal> relations = relations_asked(task, facts); !relations.empty())
+    relate(planning, relations, facts, by_any || in_a_circle(relations));
   for (std::size_t i = 0; i < obstructions.size(); ++i)
     obstruct(planning, obstructions[i], "obstructed_" + std::to_string(i + 1), facts.objects());
   const std::vector<Formula>& stages = task.stages;

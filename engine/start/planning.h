@@ -23,9 +23,10 @@ struct Obstruction {
 // `reached` parts of an ordered goal are done already. An ordered goal becomes fluents `stage_1 …` that conditional
 // effects advance, and `out_of_order`, which must stay false; each part must be a conjunction of ground literals.
 // Obstructions become fluents `obstructed_1 …` that must end before their action; without any the problem is the plain
-// one that catalogues keep.
+// one that catalogues keep. Relations that the goal asks for (relations.h) become effects of the skills that make them;
+// `by_any`: whichever of their things these put down, not the first alone.
 PlanningTask planning_task(const Task& task, const Domain& domain, const FactTracker& facts, int reached,
-                           const std::vector<Obstruction>& obstructions = {});
+                           const std::vector<Obstruction>& obstructions = {}, bool by_any = false);
 
 // A ground action drawn at random: each action that has any with equal chance, then each binding of its parameters to
 // objects of their types and traits; with `applicable` only those whose precondition holds. Result: nothing when no

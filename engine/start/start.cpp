@@ -13,6 +13,7 @@
 #include "engine/start/constraints.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/joint_placement.h"
+#include "engine/start/relations.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -146,20 +147,6 @@ bool all_at_rest(const WorldView& view) {
       if (body >= 0 && view.scene().bodies[static_cast<std::size_t>(body)].free) return false;
     }
   return true;
-}
-
-// The scene as it is now: what a fresh world starts from.
-Scene settled(const WorldView& view) {
-  Scene scene = view.scene();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    Body& body = scene.bodies[i];
-    const int index = static_cast<int>(i);
-    if (body.free) body.world_from_body = view.world().world_from_part({index, 0});
-    for (std::size_t part = 1; part < body.parts.size(); ++part)
-      if (body.parts[part].joint.kind != JointKind::fixed)
-        body.parts[part].joint.initial = view.world().joint_position({index, static_cast<int>(part)});
-  }
-  return scene;
 }
 
 // What keeps a draw from being a start: two things that lie in each other, or an arm that touches.
@@ -512,6 +499,7 @@ class StartMaker {
   std::set<std::string> asked() const {
     std::set<std::string> names = where_ ? predicates_of(*where_) : std::set<std::string>{};
     std::erase_if(names, [&](const std::string& name) { return !start_only(name); });
+    names.merge(named_by(task_, symbols_));
     return names;
   }
   // The first of them that is not met.
@@ -549,7 +537,7 @@ class StartMaker {
     if (holds(task_.goal, tracker.facts(), symbols_.domain(), tracker.objects()) &&
         (!task_.also || task_.also(with_facts)))
       return refuse(kGoalHolds);
-    start.scene = std::make_shared<const Scene>(settled(view));
+    start.scene = std::make_shared<const Scene>(scene_as_it_is(view));
     start.values = std::move(values);
     start.history = view.history();
     return true;

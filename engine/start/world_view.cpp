@@ -337,4 +337,17 @@ void WorldView::close_frame() {
   if (history_.poses.size() > kRestFrames) history_.poses.pop_front();
 }
 
+Scene scene_as_it_is(const WorldView& view) {
+  Scene scene = view.scene();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body& body = scene.bodies[i];
+    const int index = static_cast<int>(i);
+    if (body.free) body.world_from_body = view.world().world_from_part({index, 0});
+    for (std::size_t part = 1; part < body.parts.size(); ++part)
+      if (body.parts[part].joint.kind != JointKind::fixed)
+        body.parts[part].joint.initial = view.world().joint_position({index, static_cast<int>(part)});
+  }
+  return scene;
+}
+
 }  // namespace stampede

@@ -101,4 +101,7 @@ class WorldView {
   History history_;
 };
 
+// The scene as it is now, but for the robots' arms: what a fresh world starts from.
+Scene scene_as_it_is(const WorldView& view);
+
 }  // namespace stampede

@@ -103,6 +103,12 @@ PredicateTraits traits_of(const Definition& definition) {
   traits.remember = node["remember"].boolean;
   traits.margin_unit = node["margin_unit"].text;
   traits.requires_pairs = required_pairs(definition);
+  traits.only_named = node["only_named"].boolean;
+  traits.made_by = texts_of(node["made_by"]);
+  for (const char* field : {"only_named", "made_by"})
+    if (node[field].present() && kind_of(node) != PredicateKind::basic)
+      definition.complain(field, "only a predicate whose `holds` is read all the time has it",
+                          "take it out of this file");
   traits.ends_when_moved = ends_when_moved(definition);
   if (traits.settle_s < 0) definition.complain("settle", "a settle time is not negative");
   if (traits.momentary && traits.settle_s > 0)

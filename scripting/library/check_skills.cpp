@@ -162,12 +162,30 @@ class SkillReader {
   SkillInfo info_;
 };
 
+// Relations that skills make by where they put things: who makes them, and who ends them.
+void relate(LibraryDraft& draft) {
+  auto& vocabulary = draft.vocabulary();
+  for (const auto& [name, definition] : draft.of(DefinitionKind::predicate)) {
+    PredicateTraits& traits = vocabulary.predicate_traits[name];
+    const std::vector<std::string> said = traits.made_by;
+    if (said.empty()) continue;
+    for (const std::string& skill : said)
+      if (draft.library()->file(DefinitionKind::skill, skill) == nullptr)
+        definition.complain_unknown("made_by", "skill", skill, names_of(draft.library()->files(DefinitionKind::skill)));
+    for (const auto& [skill, info] : vocabulary.skills) {
+      if (listed(said, info.replaces)) traits.made_by.push_back(skill);
+      for (const std::string& moved : info.moves) traits.moved_by.emplace_back(skill, moved);
+    }
+  }
+}
+
 }  // namespace
 
 void read_skills(LibraryDraft& draft) {
   auto& vocabulary = draft.vocabulary();
   const Definitions& skills = draft.of(DefinitionKind::skill);
   for (const auto& [name, definition] : skills) vocabulary.skills[name] = SkillReader(draft, definition).read();
+  relate(draft);
   std::map<std::string, std::string> owner;
   for (const Action& action : vocabulary.domain.actions) {
     const auto [found, fresh] = owner.emplace(action.name, action.skill);

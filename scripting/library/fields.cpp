@@ -148,6 +148,12 @@ const Record kPredicate{
      {"remember", "boolean", false, "false", "", "stays true once true"},
      {"ends_when", "string", false, "", "",
       "\"moved\": it ends when a skill moves one of its things, also one that knows nothing of it", "\"moved\""},
+     {"only_named", "boolean", false, "false", "",
+      "followed, and so a fact, in those tasks alone that name it: in a formula, or in a function as a text"},
+     {"made_by", "string[]", false, "{}", "",
+      "skills that make it true by where they put its first thing, when the goal asks for it; what moves one of its "
+      "things ends it",
+      "{ \"place\" }"},
      {"requires", "string", false, "\"all\"", "",
       "what can hold at all: pairs that are \"touching\" or \"near\"; \"held\": the last is in the hand"},
      {"mutex", "string[]", false, "{}", "",

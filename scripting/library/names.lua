@@ -5,6 +5,8 @@
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
 ---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
+---@field between fun(obj: string, one: string, other: string): stampede.literal  the {obj} is between the {one} and the {other} (obj: movable, one: anything, other: anything)
+---@field beyond fun(obj: string, other: string): stampede.literal  the {obj} is beyond the {other} (obj: movable, other: anything)
 ---@field blocked fun(place: string): stampede.literal  something is before or above the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
@@ -15,12 +17,15 @@
 ---@field hand_empty fun(): stampede.literal  the hand is empty
 ---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
 ---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
+---@field in_front_of fun(obj: string, other: string): stampede.literal  the {obj} is in front of the {other} (obj: movable, other: anything)
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
 ---@field joined fun(obj: string): stampede.literal  the {obj} is screwed on (obj: threaded)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field left_of fun(obj: string, other: string): stampede.literal  the {obj} is to the left of the {other} (obj: movable, other: anything)
 ---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
+---@field near fun(obj: string, other: string): stampede.literal  the {obj} is near the {other} (obj: movable, other: anything)
 ---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
 ---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
@@ -33,6 +38,7 @@
 ---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
 ---@field reachable_behind fun(obj: string, door: string): stampede.literal  the {obj} is where a hand can take it once the {door} is open (obj: graspable, door: openable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
+---@field right_of fun(obj: string, other: string): stampede.literal  the {obj} is to the right of the {other} (obj: movable, other: anything)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -45,6 +51,8 @@
 ---@field apart fun(a: string, b: string): stampede.literal  the {a} stands apart from the {b} (a: movable, b: movable)
 ---@field at fun(place: string): stampede.literal  the hand is at the {place} (place: target)
 ---@field behind fun(place: string, part: string): stampede.literal  the {place} is behind the {part} (place: anything, part: openable)
+---@field between fun(obj: string, one: string, other: string): stampede.literal  the {obj} is between the {one} and the {other} (obj: movable, one: anything, other: anything)
+---@field beyond fun(obj: string, other: string): stampede.literal  the {obj} is beyond the {other} (obj: movable, other: anything)
 ---@field blocked fun(place: string): stampede.literal  something is before or above the {place} (place: anything)
 ---@field clear fun(x: string): stampede.literal  nothing is on the {x} (x: stackable)
 ---@field closed fun(part: string): stampede.literal  the {part} is closed (part: openable)
@@ -55,12 +63,15 @@
 ---@field hand_empty fun(): stampede.literal  the hand is empty
 ---@field hanging fun(obj: string, hook: string): stampede.literal  the {obj} hangs on the {hook} (obj: movable, hook: hook)
 ---@field holding fun(obj: string): stampede.literal  the hand holds the {obj} (obj: movable)
+---@field in_front_of fun(obj: string, other: string): stampede.literal  the {obj} is in front of the {other} (obj: movable, other: anything)
 ---@field in_slot fun(obj: string, slot: string): stampede.literal  the {obj} is in the {slot} (obj: movable, slot: slot)
 ---@field inside fun(obj: string, box: string): stampede.literal  the {obj} is inside the {box} (obj: movable, box: container)
 ---@field joined fun(obj: string): stampede.literal  the {obj} is screwed on (obj: threaded)
 ---@field leaning fun(obj: string, below: string): stampede.literal  the {obj} leans on the {below} (obj: movable & flat, below: surface)
+---@field left_of fun(obj: string, other: string): stampede.literal  the {obj} is to the left of the {other} (obj: movable, other: anything)
 ---@field lever fun(obj: string, value: string): stampede.literal  the lever of the {obj} is {value} (obj: anything, value: value)
 ---@field lifted fun(obj: string): stampede.literal  the {obj} is lifted (obj: movable)
+---@field near fun(obj: string, other: string): stampede.literal  the {obj} is near the {other} (obj: movable, other: anything)
 ---@field on fun(obj: string, below: string): stampede.literal  the {obj} is on the {below} (obj: movable, below: support)
 ---@field open fun(part: string): stampede.literal  the {part} is open (part: openable)
 ---@field outside fun(obj: string, area: string): stampede.literal  the {obj} lies outside the {area} (obj: movable, area: marked)
@@ -73,6 +84,7 @@
 ---@field reachable fun(obj: string): stampede.literal  the {obj} is where a hand can take it (obj: graspable)
 ---@field reachable_behind fun(obj: string, door: string): stampede.literal  the {obj} is where a hand can take it once the {door} is open (obj: graspable, door: openable)
 ---@field rests_on fun(spot: string, below: string): stampede.literal  what is on the {spot} rests on what is on the {below} (spot: raised, below: spot)
+---@field right_of fun(obj: string, other: string): stampede.literal  the {obj} is to the right of the {other} (obj: movable, other: anything)
 ---@field spaced fun(a: string, b: string): stampede.literal  the {a} keeps its distance from the {b} (a: anything, b: anything)
 ---@field switched_on fun(set: string): stampede.literal  the {set} is switched on (set: aim)
 ---@field turned fun(part: string): stampede.literal  the {part} is turned (part: turnable)
@@ -176,6 +188,8 @@
 ---| "apart"
 ---| "at"
 ---| "behind"
+---| "between"
+---| "beyond"
 ---| "blocked"
 ---| "clear"
 ---| "closed"
@@ -186,12 +200,15 @@
 ---| "hand_empty"
 ---| "hanging"
 ---| "holding"
+---| "in_front_of"
 ---| "in_slot"
 ---| "inside"
 ---| "joined"
 ---| "leaning"
+---| "left_of"
 ---| "lever"
 ---| "lifted"
+---| "near"
 ---| "on"
 ---| "open"
 ---| "outside"
@@ -204,6 +221,7 @@
 ---| "reachable"
 ---| "reachable_behind"
 ---| "rests_on"
+---| "right_of"
 ---| "spaced"
 ---| "switched_on"
 ---| "turned"

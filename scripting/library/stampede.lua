@@ -65,6 +65,8 @@
 ---@field momentary? boolean  read at every physics step, without settle time (default false)
 ---@field remember? boolean  stays true once true (default false)
 ---@field ends_when? string  "moved": it ends when a skill moves one of its things, also one that knows nothing of it
+---@field only_named? boolean  followed, and so a fact, in those tasks alone that name it: in a formula, or in a function as a text (default false)
+---@field made_by? string[]  skills that make it true by where they put its first thing, when the goal asks for it; what moves one of its things ends it (default {})
 ---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
 ---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/start/call_settings.h"
+#include "engine/start/constraints.h"
 #include "scripting/library/checks.h"
 #include "scripting/library/source_lines.h"
 
@@ -56,7 +57,7 @@ void TaskFormulas::check_init() {
   const Value* init = field("init");
   const bool sound = init == nullptr || draft_.complaints().guarded([&] {
     const Beginning beginning = beginning_from(*init, where_);
-    if (beginning.constraint) check_arguments(*beginning.constraint);
+    if (beginning.constraint) check_whole(*beginning.constraint);
     for (const Literal& literal : beginning.literals) {
       check_literal(literal);
       placed.push_back(placed_by(literal));
@@ -88,13 +89,13 @@ void TaskFormulas::check_told() {
 
 void TaskFormulas::check_goal(const Value& goal) {
   where_.field = "goal";
-  draft_.complaints().guarded([&] { check_arguments(formula_from(goal, where_)); });
+  draft_.complaints().guarded([&] { check_whole(formula_from(goal, where_)); });
 }
 
 void TaskFormulas::check_subgoals(const Value& subgoals) {
   where_.field = "subgoals";
   const auto check_one = [&](const Value& formula) {
-    draft_.complaints().guarded([&] { check_arguments(formula_from(formula, where_)); });
+    draft_.complaints().guarded([&] { check_whole(formula_from(formula, where_)); });
   };
   for (const auto& [name, formula] : subgoals.fields) check_one(formula);
   for (const Value& one : subgoals.items)
@@ -157,7 +158,16 @@ void TaskFormulas::check_setting(const SkillInfo& skill, const std::string& name
 void TaskFormulas::check_literal(const Literal& literal) {
   std::vector<Term> terms;
   for (const std::string& argument : literal.fact.arguments) terms.push_back({false, argument});
-  check_arguments(atom(literal.fact.predicate, terms));
+  const Formula formula = atom(literal.fact.predicate, terms);
+  if (literal.negated) return check_arguments(formula);
+  check_whole(formula);
+}
+
+void TaskFormulas::check_whole(const Formula& formula) {
+  check_arguments(formula);
+  if (const std::string found = related_to_itself(formula, domain_); !found.empty())
+    draft_.complaints().add(Error(definition_.place(where_.field), "there is no fact " + found,
+                                  "no thing is related to itself or its own part: name another thing"));
 }
 
 void TaskFormulas::check_arguments(const Formula& formula) {

@@ -28,6 +28,7 @@ class TaskFormulas {
   // Of a literal of init: the thing that it places, or nothing.
   std::string placed_by(const Literal& literal) const;
   // Objects named in an atom must have the type and traits that its predicate asks for.
+  void check_whole(const Formula& formula);  // all that a field asks for
   void check_arguments(const Formula& formula);
   void check_argument(const Formula& named, std::size_t argument, const Parameter& parameter);
   void check_literal(const Literal& literal);

@@ -374,6 +374,9 @@ function stampede_world_view:exists(thing) end
 function stampede_world_view:objects(trait) end
 ---@return string
 function stampede_world_view:hand() end
+-- Where the robot stands: x ahead of it, y to its left
+---@return stampede.pose
+function stampede_world_view:base() end
 -- The tool centre point
 ---@return stampede.pose
 function stampede_world_view:tip() end
@@ -394,12 +397,16 @@ function stampede_world_view:observed(predicate, ...) end
 ---@param predicate? stampede.predicate_name
 ---@return string[][]
 function stampede_world_view:facts(predicate) end
--- In `sample`: poses of the thing where it would rest on the surface, free of others
+-- In `sample`: poses of the thing where it would rest on the surface, free of others; with `centre`, those alone whose
+-- frame is at most x and y (m) from it along its axes
 ---@param surface string
 ---@param thing string
 ---@param rng stampede.random
+---@param centre? stampede.pose
+---@param x? number
+---@param y? number
 ---@return stampede.pose[]
-function stampede_world_view:free_spots(surface, thing, rng) end
+function stampede_world_view:free_spots(surface, thing, rng, centre, x, y) end
 -- In `sample`: poses of the thing on top of another
 ---@param below string
 ---@param thing string

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <lua.hpp>
 
+#include "scripting/library/source_lines.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/runtime/task_reader.h"
 #include "scripting/runtime/variation.h"
@@ -26,6 +27,14 @@ std::map<std::string, std::string> axes_of(const Library::TaskInfo& info, std::s
   if (variation.empty() && info.variations.empty()) return {};
   throw Error("task " + info.name, "has no variation '" + std::string(variation) + "'",
               texts.empty() ? "it has none" : "the first of " + std::to_string(texts.size()) + " is " + texts[0]);
+}
+
+// Predicates that a task's functions may read: w:fact("left_of", …).
+std::set<std::string> read_by_name(const Library& library, const ScriptFile& file) {
+  std::set<std::string> names;
+  for (const std::string& text : mentions_in(file.source).texts)
+    if (library.predicate_traits().contains(text)) names.insert(text);
+  return names;
 }
 
 }  // namespace
@@ -51,6 +60,7 @@ LuaTask::Drawn LuaTask::make(int draw) {
   drawn.task.name = job_.task;
   drawn.task.variation = job_.variation;
   drawn.task.axes = axes_;
+  if (drawn.also || drawn.fails || drawn.reward) drawn.task.named = read_by_name(*tests_.library(), *file);
   return drawn;
 }
 

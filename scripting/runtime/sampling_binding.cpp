@@ -32,6 +32,12 @@ int push_poses(lua_State* state, const std::vector<Transform>& poses) {
   return 1;
 }
 
+// `centre, x, y`: only spots that are at most so far from the centre along its axes.
+std::optional<SpotWindow> window_at(lua_State* state, int index) {
+  if (lua_isnoneornil(state, index)) return std::nullopt;
+  return SpotWindow{check_pose(state, index), luaL_checknumber(state, index + 1), luaL_checknumber(state, index + 2)};
+}
+
 template <auto spots>
 int spots_on(lua_State* state) {
   const ViewContext& context = sampling_context(state);
@@ -40,7 +46,9 @@ int spots_on(lua_State* state) {
   const RandomKey key = spots_key(check_random(state, 4));
   const WorldView& view = *context.view;
   const Object &thing = view.object(object), &place = view.object(below);
-  return push_poses(state, spots({*context.space, view.world(), thing, key, context.most, context.turned_down}, place));
+  return push_poses(
+      state,
+      spots({*context.space, view.world(), thing, key, context.most, context.turned_down, window_at(state, 5)}, place));
 }
 
 const Region& region_of(const WorldView& view, std::string_view name) {

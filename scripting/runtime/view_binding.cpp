@@ -257,6 +257,12 @@ int hand(lua_State* state) {
   return 1;
 }
 
+// Where the robot stands: x ahead of it, y to its left.
+int base(lua_State* state) {
+  push_pose(state, view_of(state).scene().robot.body.world_from_body);
+  return 1;
+}
+
 int tip(lua_State* state) {
   const ViewContext& context = check_context(state);
   push_pose(state, context.view->world_from(context.hand));
@@ -287,6 +293,10 @@ Fact check_fact(lua_State* state, int index, const FactTracker& facts) {
   for (std::size_t i = 0; predicate != nullptr && i < wanted && fact.arguments.size() + 1 == wanted; ++i) {
     if (predicate->parameters[i].type == "hand")
       fact.arguments.insert(fact.arguments.begin() + static_cast<std::ptrdiff_t>(i), context.hand);
+  }
+  if (predicate != nullptr && facts.symbols().traits(fact.predicate).only_named && !facts.follows(fact.predicate)) {
+    throw Error("w", "facts of '" + fact.predicate + "' are kept only in tasks that name it",
+                "name it in the task's own file, as is." + fact.predicate + "(…) or \"" + fact.predicate + "\"");
   }
   if (fact.arguments.size() != wanted) {
     throw Error("w", "'" + fact.predicate + "' is about " + std::to_string(wanted) + " things, not " +
@@ -364,6 +374,7 @@ constexpr luaL_Reg kMethods[] = {
     {"exists", lua_function<exists>},
     {"objects", lua_function<objects>},
     {"hand", lua_function<hand>},
+    {"base", lua_function<base>},
     {"tip", lua_function<tip>},
     {"time", lua_function<time>},
     {"fact", lua_function<fact>},

@@ -2,6 +2,7 @@
 
 #include "engine/rollout/assumptions.h"
 #include "engine/start/altered_task.h"
+#include "engine/start/relations.h"
 #include "engine/start/start.h"
 #include "engine/symbolic/pddl.h"
 
@@ -35,7 +36,7 @@ StartQuestion question_at_start(EpisodeScripts& scripts, const RunOptions& optio
   World world(question.start.scene);
   WorldView view(world);
   view.restore(start.history);
-  FactTracker facts(scripts.symbols(), view);
+  FactTracker facts(scripts.symbols(), view, named_by(task, scripts.symbols()));
   facts.begin(start.values);  // as the episode begins: a fresh world has no contacts to read `on` from
   facts.look(view);
   facts.tell(task.told);

@@ -313,6 +313,36 @@ TEST_CASE("golden: formulas") {
             .find("derived: 'clear' depends on its own negation") != std::string::npos);
 }
 
+TEST_CASE("golden: no thing is related to itself, where that is asked for in any case") {
+  const std::string goal = "is.holding(\"lone\")",
+                    cure = "\n    no thing is related to itself or its own part: name another thing\n";
+  Files files = sound_files();
+  files["worlds/predicates/between.lua"] =
+      "-- Amid.\nreturn predicate {\n  params = { \"obj: movable\", \"one\", \"other\" },\n"
+      "  label = \"the {obj} is between\",\n  only_named = true,\n  made_by = { \"pick\" },\n"
+      "  holds = function(w, a, b, c) return true end,\n}\n";
+  const auto with = [&](const std::string& file, const std::string& from, const std::string& to) {
+    Files changed = files;
+    std::string& text = changed[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return Root(changed).complaints();
+  };
+  CHECK(Root(files).complaints().empty());
+  CHECK(with("tasks/take.lua", goal, "is.between(\"lone\", \"block1\", \"block2\")").empty());
+  CHECK(with("tasks/take.lua", goal, "is.between(\"lone\", \"block1\", \"block1\")") ==
+        "tasks/take.lua:7: there is no fact between of block1 and block1" + cure);
+  CHECK(with("tasks/take.lua", goal, "{ is.holding(\"lone\"), is.between(\"lone\", \"lone\", \"block1\") }") ==
+        "tasks/take.lua:7: there is no fact between of lone and lone" + cure);
+  CHECK(
+      with("tasks/take.lua", goal, "{ is.holding(\"lone\"), is_not.between(\"lone\", \"lone\", \"block1\") }").empty());
+  CHECK(with("worlds/predicates/between.lua", "\"pick\"", "\"pik\"")
+            .find("worlds/predicates/between.lua:6: made_by: there is no skill 'pik'\n    did you mean 'pick'?") == 0);
+  CHECK(with("worlds/predicates/between.lua", "  holds = function(w, a, b, c) return true end",
+             "  derived = is.clear(\"obj\")")
+            .find("only_named: only a predicate whose `holds` is read all the time has it") != std::string::npos);
+}
+
 TEST_CASE("golden: tips of tools") {
   const std::string shape = "mass = 0.1 }";
   CHECK(said("worlds/objects/cube.lua", shape, "mass = 0.1, tip = { at = { 0, 0, -0.05 } } }").empty());

@@ -1,7 +1,7 @@
 // Symbols beside the raw state: facts, what is known of them, and who may read them.
 #include <catch2/catch.hpp>
 
-#include "engine/start/fact_tracker.h"
+#include "engine/start/relations.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;
@@ -24,7 +24,7 @@ struct Watched {
   EpisodeScripts scripts;
   World world{std::make_shared<const Scene>(scripts.task()(0).scene)};
   WorldView view{world};
-  FactTracker tracker{scripts.symbols(), view};
+  FactTracker tracker{scripts.symbols(), view, named_by(scripts.task()(0), scripts.symbols())};
 };
 
 }  // namespace
@@ -66,4 +66,11 @@ TEST_CASE("an unknown predicate and a wrong number of things are errors, not fal
   Watched watched("ask_wrongly");
   CHECK_THROWS_WITH(watched.scripts.task()(0).also(watched.view), Catch::Contains("did you mean 'on'"));
   CHECK_THROWS_WITH(watched.scripts.task()(0).fails(watched.view), Catch::Contains("2 things, not 1"));
+}
+
+TEST_CASE("a test reads relations that it names; one that nobody names is an error, not false") {
+  Watched watched("ask_unnamed");
+  CHECK(watched.scripts.task()(0).also(watched.view));
+  CHECK_THROWS_WITH(watched.scripts.task()(0).fails(watched.view),
+                    Catch::Contains("facts of 'left_of' are kept only in tasks that name it"));
 }

@@ -1,0 +1,13 @@
+-- The object is beyond the other, at its back, as the robot sees it from where it stands: towards +x of its base.
+local relations = require "worlds.lib.relations"
+
+return predicate {
+  params = { "obj: movable", "other" },
+  label = "the {obj} is beyond the {other}",
+  settle = 0.1, -- s
+  only_named = true,
+  made_by = { "place" },
+  margin_unit = "m", -- how far it could go back, or to either hand
+  holds = function(w, obj, other) return relations.beside(w, "beyond", obj, other) end,
+  sample = function(w, obj, other, rng) return relations.places_beside(w, "beyond", obj, other, rng) end,
+}
