@@ -118,7 +118,7 @@ CommandRow dataset_command() {
         {},
         false}},
       {"stampede dataset --list", "stampede dataset segments demos.db --out given --hidden hidden",
-       "stampede dataset transfer all.db --out one_arm --hidden one_arm_hidden --where \"world = 'tabletop'\"",
+       "stampede dataset transfer demos.db --out one_arm --hidden one_arm_hidden --where \"world = 'tabletop'\"",
        "stampede dataset behaviour buttons.db --out behaviour --hidden behaviour_hidden --split count=2"},
       do_dataset};
 }

@@ -71,9 +71,10 @@ class BodyCheck {
   void check_joint(const Value& joint, const std::string& where) {
     if (!joint.present()) return;
     if (const auto range = range_of(joint)) {
-      const double initial = joint.number_or("initial", 0);
+      const Value& initial = joint["initial"];
+      const bool known = initial.is_number() || !initial.present();
       if (range->lower >= range->upper) complain(where + ".range", "ends before it begins", "range = { lower, upper }");
-      if (range->lower < range->upper && !range->contains(initial))
+      if (range->lower < range->upper && known && !range->contains(initial.plain_number(0)))
         complain(where + ".initial", "the position at the start is outside range", "move one of them");
     }
     refuse_negative(joint, where + ".", {"damping", "friction", "spring", "detent"});
@@ -93,7 +94,7 @@ class BodyCheck {
   void check_lets_go(const Value& joint, const std::string& where) {
     const Value& lets_go = joint["lets_go"];
     const auto range = range_of(joint);
-    const double initial = joint.number_or("initial", 0);
+    const double initial = joint["initial"].plain_number(0);
     if (lets_go.is_number() && range && (!range->contains(lets_go.number) || lets_go.number == initial))
       complain(where + ".lets_go", "the joint never gets there", "a position within range that is not the first");
     for (const char* other : {"damping", "spring", "stiffness", "detent", "latch", "follows"})
@@ -116,7 +117,7 @@ class BodyCheck {
   void check_grasps() {
     double widest = 0;
     for (const auto& [name, robot] : draft_.of(DefinitionKind::robot))
-      widest = std::max(widest, robot.node.number_or("opening", kOpening));
+      widest = std::max(widest, robot.node["opening"].plain_number(kOpening));
     for (std::size_t i = 0; widest > 0 && i < body_["grasps"].items.size(); ++i) {
       const Value& width = body_["grasps"].items[i]["width"];
       if (width.is_number() && width.number > widest)

@@ -141,11 +141,13 @@ void read_english(const Value& words, English& english, const Complain& complain
 }
 
 void add_nouns(const std::string& name, const Value& nouns, English& english) {
-  const std::vector<std::string> words = name_words(name);
-  if (words.empty()) return;
-  const Lexicon lexicon(std::make_shared<English>(english));
-  for (const std::string& noun : each_word(nouns))
-    english.add(noun, lexicon.sense_of_noun(words.back()), WordKind::noun);
+  const std::vector<std::string> words = name_words(name), others = each_word(nouns);
+  if (words.empty() || others.empty()) return;
+  Lexicon lexicon(std::make_shared<English>(english));
+  lexicon.learn_noun(words.back());
+  const std::string sense = lexicon.sense_of_noun(words.back());
+  english.add(words.back(), sense, WordKind::noun);
+  for (const std::string& noun : others) english.add(noun, sense, WordKind::noun);
 }
 
 void add_verbs(const std::string& skill, const std::vector<std::string>& verbs, English& english) {

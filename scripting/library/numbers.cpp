@@ -86,8 +86,8 @@ void NumberTable::declare(const NumberDeclaration& number) {
   info.place = number.definition.place(number.path);
   const Unit* unit = unit_named(info.unit);
   if (unit == nullptr) info.unit.clear();  // so that values have one that there is
-  info.most = node.number_or("max", unit == nullptr ? kUnits[0].most : unit->most);
-  info.least = node.number_or("min", -info.most);
+  info.most = node["max"].plain_number(unit == nullptr ? kUnits[0].most : unit->most);
+  info.least = node["min"].plain_number(-info.most);
   const auto fault = [&](const char* field, const std::string& what, const std::string& cure) {
     numbers_.emplace(name, info);  // so that one fault is one complaint
     number.definition.complain(number.path + field, what, cure);

@@ -32,6 +32,7 @@ struct Value {
   bool is_text() const { return kind == Kind::text; }
   bool is_table() const { return kind == Kind::table; }
   bool is_number() const { return kind == Kind::number; }
+  double plain_number(double otherwise) const { return is_number() ? number : otherwise; }  // drawn ones are none
   bool is_function() const { return kind == Kind::function; }
   const Value& operator[](std::string_view field) const;  // absent: nothing
   std::string tag() const;                                // field `tag` when it is text

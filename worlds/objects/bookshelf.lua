@@ -15,6 +15,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = wood, shapes = shapes,
+  nouns = "bookcase",
   parts = {
     shelf = {
       type = "level", traits = { "container", "shelf" }, fixed = true, mass = 1, colour = wood, friction = 0.6,

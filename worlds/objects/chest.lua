@@ -33,6 +33,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = { 0.66, 0.50, 0.33 },
+  nouns = "dresser",
   shapes = {
     box { 0.22, 0.26, 0.75, at = { 0.01, 0, -0.375 } }, -- what it stands on
     box { 0.22, 0.26, 0.01, at = { 0.01, 0, 0.005 } },

@@ -5,6 +5,7 @@ local wood, dark = { 0.80, 0.72, 0.58 }, { 0.60, 0.50, 0.38 }
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = wood,
+  nouns = "pantry",
   shapes = {
     box { depth + 0.012, width + 0.03, 0.95, at = { 0.006, 0, -0.475 }, colour = dark },
     box { depth + 0.012, 0.015, height, at = { 0.006, width / 2 + 0.0075, height / 2 } },

@@ -28,6 +28,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = body, shapes = shapes,
+  nouns = "refrigerator",
   parts = {
     shelf = { -- the floor of the lower compartment
       type = "level", traits = { "container", "shelf" }, fixed = { at = { 0, 0, wall } }, mass = 1, colour = inner, friction = 0.6,

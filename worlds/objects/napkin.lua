@@ -7,6 +7,7 @@ end
 
 return object {
   type = "board", traits = { "support" }, fixed = true, colour = { 0.86, 0.88, 0.80 },
+  nouns = "serviette",
   shapes = {
     box { 0.20, 0.23, thick, at = { 0, 0, thick / 2 } },
     box { 0.19, 0.012, 0.0004, at = { 0, 0.095, thick }, colour = { 0.40, 0.52, 0.36 }, collides = false },

@@ -5,6 +5,7 @@ local depth, width, foot, height, wall = 0.26, 0.38, 0.06, 0.36, 0.014 -- m; foo
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = steel,
+  nouns = "cooker stove",
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.50, 0.40, 0.30 } }, -- what it stands on
     box { depth, width, foot, at = { 0, 0, foot / 2 } },

@@ -9,6 +9,7 @@ end
 
 return object {
   type = "thing", traits = { "movable", "graspable" }, mass = 0.015, friction = 0.7, rolling = 0.002,
+  nouns = "trash garbage waste litter",
   colour = { 0.91, 0.90, 0.85 },
   grasps = grasps,
   shape = hull {

@@ -14,6 +14,7 @@ local function from_above(x, yaw) return { at = { x, 0, 0 }, rpy = { math.pi, 0,
 
 return object {
   type = "meat", traits = { "movable", "graspable" }, mass = 0.22,
+  nouns = "beef",
   shapes = {
     slab({ { -0.065, -0.010 }, { -0.060, 0.022 }, { -0.045, -0.031 }, { 0.045, -0.031 }, { 0.062, -0.018 }, { 0.062, 0.022 } }, { 0.52, 0.10, 0.09 }),
     slab({ { -0.060, 0.022 }, { -0.045, 0.031 }, { 0.045, 0.031 }, { 0.062, 0.022 } }, { 0.96, 0.86, 0.72 }),

@@ -1,4 +1,5 @@
 // Every mistake is named with file, line, field and cure. Each test changes one line of a sound root.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -121,6 +122,43 @@ TEST_CASE("golden: fields") {
   CHECK(said("skills/pick.lua", "  label = \"take the {obj}\",\n", "") ==
         "skills/pick.lua:2: label: a skill needs the field 'label': what it does in words, with {params}\n"
         "    such as label = \"pick up the {obj}\"\n");
+}
+
+TEST_CASE("a number may be drawn, and what is none is one complaint with its place") {
+  const auto initial = [](const std::string& value) {
+    return said("worlds/objects/desk.lua", "shape =",
+                "parts = { flap = { shape = box { 0.1, 0.1, 0.1 }, mass = 1, hinge = { range = { 1, 2 }, initial = " +
+                    value + " } } }, shape =");
+  };
+  const auto opening = [](const std::string& value) {
+    return said("worlds/robots/panda.lua", "home =", "opening = " + value + ", home =");
+  };
+  CHECK(initial("between(1, 2)").empty());
+  CHECK(opening("between(0.1, 0.2)").empty());
+  CHECK(initial("0.5").find("worlds/objects/desk.lua:2: parts.flap.hinge.initial: the position at the start") == 0);
+  const std::string wrong = initial("\"far\"");
+  INFO(wrong);
+  CHECK(wrong.find("worlds/objects/desk.lua:2: parts.flap.hinge.initial: expects number, this is") == 0);
+  CHECK(std::count(wrong.begin(), wrong.end(), '\n') <= 2);
+  CHECK(opening("\"wide\"").find("worlds/robots/panda.lua:2: opening: expects number, this is") == 0);
+}
+
+TEST_CASE("each root's types count, and its colours, however many roots there are") {
+  const auto more = [](const std::string& type, const std::string& colour) {
+    return Files{{"worlds/types.lua", "-- Types.\nreturn { types = { " + type + " = { parent = \"thing\" } } }\n"},
+                 {"worlds/colours.lua", "-- Colours.\nreturn { " + colour + " = { 1, 1, 0 } }\n"}};
+  };
+  Files tasks = more("cone", "mauve");
+  tasks["worlds/objects/hat.lua"] =
+      "-- A hat.\nreturn object { type = \"cone\", traits = { \"movable\" }, shape = box { 0.1, 0.1, 0.1 }, mass = "
+      "0.1, colour = \"mauve\" }\n";
+  const Root first(sound_files()), second(more("orb", "plum")), third(tasks);
+  std::vector<Error> errors;
+  const auto library = Library::load({{first.path(), second.path(), third.path()}}, errors);
+  for (const Error& error : errors) UNSCOPED_INFO(error.what());
+  CHECK(errors.empty());
+  CHECK(library->domain().types.contains("orb"));
+  CHECK(library->domain().types.contains("cone"));
 }
 
 TEST_CASE("golden: how an episode starts") {

@@ -68,7 +68,7 @@ TEST_CASE("an unknown predicate and a wrong number of things are errors, not fal
   CHECK_THROWS_WITH(watched.scripts.task()(0).fails(watched.view), Catch::Contains("2 things, not 1"));
 }
 
-TEST_CASE("a test reads relations that it names; one that nobody names is an error, not false") {
+TEST_CASE("a test reads relations that it names, and one that nobody names is an error") {
   Watched watched("ask_unnamed");
   CHECK(watched.scripts.task()(0).also(watched.view));
   CHECK_THROWS_WITH(watched.scripts.task()(0).fails(watched.view),
