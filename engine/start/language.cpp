@@ -92,7 +92,7 @@ double rightness(const Scene& scene, const Vector3& point) {
     const Vector3 seen = camera.mount_from_camera.inverse() * point;
     return seen.x() / std::max(seen.z(), 1e-3);
   }
-  return -point.y();
+  return point.y();  // of who looks at the robot
 }
 
 constexpr double kClear = 0.03;  // of the distance: by so much one is seen beside another

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/start/language.h"
 #include "engine/start/start.h"
 #include "tests/tasks/run_task.h"
 
@@ -30,6 +31,18 @@ class CubesAt {
   void put(const std::string& name, double x, double y, double yaw = 0) {
     Body& body = scene_.bodies[static_cast<std::size_t>(scene_.body_index(name))];
     body.world_from_body = translation(x, y, 0.77) * Eigen::AngleAxisd(yaw, Vector3::UnitZ());
+  }
+  void recolour(const std::string& name, const std::string& colour) {
+    for (Object& object : scene_.objects)
+      if (object.name == name) object.attributes["colour"] = colour;
+  }
+  std::string called(const std::string& name) const { return phrase(scene_, name); }
+  // Of the thing's middle in the front camera's picture, from the left; in focal lengths.
+  double column(const std::string& name) const {
+    const auto front = std::ranges::find(scene_.cameras, "front", &Camera::name);
+    const Body& body = scene_.bodies[static_cast<std::size_t>(scene_.body_index(name))];
+    const Vector3 seen = front->mount_from_camera.inverse() * body.world_from_body.translation();
+    return seen.x() / seen.z();
   }
   void turn_robot(double yaw) { scene_.robot.body.world_from_body.rotate(Eigen::AngleAxisd(yaw, Vector3::UnitZ())); }
   Symbols::Value value(const std::string& predicate, std::vector<std::string> arguments) {
@@ -63,34 +76,46 @@ std::vector<Fact> at_the_end(const EpisodeRecord& episode) {
 
 }  // namespace
 
-TEST_CASE("left, right, front and beyond are seen from where the robot stands") {
+TEST_CASE("left, right, front and beyond are seen by who stands opposite the robot, as in the front camera's picture") {
   CubesAt cubes;
   cubes.put("blue_cube", 0.2, 0);
-  cubes.put("red_cube", 0.2, 0.1);
+  cubes.put("red_cube", 0.2, -0.1);
   cubes.put("green_cube", 0.5, 0.5);
   CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(0.06).margin(1e-6));
   CHECK(cubes.margin("right_of", {"red_cube", "blue_cube"}) == Approx(-0.14).margin(1e-6));
   CHECK(cubes.margin("right_of", {"blue_cube", "red_cube"}) == Approx(0.06).margin(1e-6));
   CHECK(cubes.margin("in_front_of", {"red_cube", "blue_cube"}) == Approx(-0.1).margin(1e-6));
-  cubes.put("red_cube", 0.1, 0.02);  // nearer to the robot
+  CHECK(cubes.column("red_cube") < cubes.column("blue_cube"));
+  cubes.put("red_cube", 0.3, 0.02);  // further from the robot, nearer to the camera
   CHECK(cubes.margin("in_front_of", {"red_cube", "blue_cube"}) == Approx(0.06).margin(1e-6));
   CHECK(cubes.margin("beyond", {"blue_cube", "red_cube"}) == Approx(0.06).margin(1e-6));
-  CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(-0.08).margin(1e-6));
-  cubes.turn_robot(std::numbers::pi / 2);  // it looks along +y: its left is -x
+  CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(-0.12).margin(1e-6));
+  cubes.turn_robot(std::numbers::pi / 2);  // it looks along +y: the left of who looks at it is +x
   CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(0.06).margin(1e-6));
   CHECK(cubes.margin("in_front_of", {"red_cube", "blue_cube"}) < 0);
+}
+
+TEST_CASE("sentences that tell things apart have the same left as the relation") {
+  CubesAt cubes;
+  cubes.recolour("green_cube", "red");
+  cubes.put("blue_cube", 0.5, 0.5);
+  cubes.put("red_cube", 0.2, -0.1);
+  cubes.put("green_cube", 0.2, 0.1);
+  CHECK(cubes.margin("left_of", {"red_cube", "green_cube"}) > 0);
+  CHECK(cubes.called("red_cube") == "left red cube");
+  CHECK(cubes.called("green_cube") == "right red cube");
 }
 
 TEST_CASE("a thing is at one side only: the one at which it is furthest off, wholly beside the other") {
   CubesAt cubes;
   cubes.put("blue_cube", 0.2, 0);
   cubes.put("green_cube", 0.5, 0.5);
-  cubes.put("red_cube", 0.26, 0.08);
+  cubes.put("red_cube", 0.26, -0.08);
   CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(0.02).margin(1e-6));
-  CHECK(cubes.margin("beyond", {"red_cube", "blue_cube"}) == Approx(-0.02).margin(1e-6));
-  cubes.put("red_cube", 0.2, 0.03);  // they would be in each other, seen from above
+  CHECK(cubes.margin("in_front_of", {"red_cube", "blue_cube"}) == Approx(-0.02).margin(1e-6));
+  cubes.put("red_cube", 0.2, -0.03);  // they would be in each other, seen from above
   CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(-0.01).margin(1e-6));
-  cubes.put("red_cube", 0.2, 0.045, std::numbers::pi / 4);  // turned, it is wider
+  cubes.put("red_cube", 0.2, -0.045, std::numbers::pi / 4);  // turned, it is wider
   CHECK(cubes.margin("left_of", {"red_cube", "blue_cube"}) == Approx(0.025 - 0.02 * std::sqrt(2)).margin(1e-6));
 }
 

@@ -17,7 +17,7 @@ local function turned(turn, wide, make)
   return list
 end
 
--- To the left (`sign` 1) or the right (-1).
+-- At its side towards +y (`sign` 1) or -y (-1).
 local function at_side(sign, how)
   local yaw = sign * math.pi / 2 + (how.lean or 0)
   return turned(how.turn, how.wide, function(from, to, further)
@@ -51,12 +51,12 @@ end
 --   far    the greatest x of what stands at a side, m (0.24)
 --   most   how far from the middle of the edge what stands behind may be, m (0.22)
 
--- To the left or right of the table. What is tall belongs there: behind it, it would hide everything from the camera in front.
+-- At either side of the table. What is tall belongs there: behind it, it would hide everything from the camera in front.
 function places.beside_the_table(how) return any_of_them(at_side(1, how), at_side(-1, how)) end
 
 function places.behind_the_table(how) return any_of_them(behind(how)) end
 
--- To the left of the table or behind it: for what has a door that would be between the arm and its inside on the right.
+-- On the robot's left, +y, or behind the table: for what has a door that would be between the arm and its inside on the right.
 function places.left_or_behind(how) return any_of_them(behind(how), at_side(1, how)) end
 
 -- At any of the three sides.

@@ -1,5 +1,6 @@
--- Where things are beside others, seen from above. The one point of view is the robot's own, where it stands: left is +y of
--- its base, right -y; what is nearer to it is in front, what is further away is beyond.
+-- Where things are beside others, seen from above. The one point of view is that of somebody who stands opposite the robot
+-- and looks at it, as the front camera does: left is -y of its base, right +y; what is further from the robot is in front,
+-- what is nearer to it is beyond.
 local relations = {}
 
 local far = 0.22 -- m: how far beside a thing places are looked for first
@@ -8,10 +9,10 @@ local far = 0.22 -- m: how far beside a thing places are looked for first
 local function direction(w, name)
   local _, _, yaw = w:base():rpy()
   local c, s = math.cos(yaw), math.sin(yaw)
-  if name == "left_of" then return -s, c end
-  if name == "right_of" then return s, -c end
-  if name == "in_front_of" then return -c, -s end
-  return c, s
+  if name == "left_of" then return s, -c end
+  if name == "right_of" then return -s, c end
+  if name == "in_front_of" then return c, s end
+  return -c, -s
 end
 
 -- How far the thing's box reaches from its middle along a level direction.
@@ -31,7 +32,7 @@ local function way(w, from, to)
   local x, y = w:position(from)
   local u, v = w:position(to)
   local length = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
-  if length < 1e-6 then return 0, direction(w, "beyond") end
+  if length < 1e-6 then return 0, direction(w, "in_front_of") end
   return length, (u - x) / length, (v - y) / length
 end
 

@@ -1,4 +1,4 @@
--- The object is beyond the other, at its back, as the robot sees it from where it stands: towards +x of its base.
+-- The object is beyond the other, for somebody who stands opposite the robot and looks at it: towards -x of its base.
 local relations = require "worlds.lib.relations"
 
 return predicate {

@@ -1,4 +1,4 @@
--- The object is in front of the other, as the robot sees it from where it stands: nearer to it, towards -x of its base.
+-- The object is in front of the other, for somebody who stands opposite the robot and looks at it: towards +x of its base.
 local relations = require "worlds.lib.relations"
 
 return predicate {

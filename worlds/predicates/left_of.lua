@@ -1,4 +1,4 @@
--- The object is to the left of the other, as the robot sees it from where it stands: towards +y of its base.
+-- The object is to the left of the other, for somebody who stands opposite the robot and looks at it: towards -y of its base.
 local relations = require "worlds.lib.relations"
 
 return predicate {
