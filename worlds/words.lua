@@ -269,7 +269,6 @@ return {
     both = "both",
     all = "all both",
     polite = "a an the please kindly now you can could", -- with it a sentence says no more than without
-    pronoun = "it them",
     again = "again",
     already = "already",
     instead = "instead",
@@ -306,7 +305,6 @@ return {
     grasping = "take",
     taking = "take remove lift find hold pull clear", -- what stands on a place is taken from there
     fetching = "take remove lift", -- brings a thing to any place
-    carrying = "put insert stack hang drop take",
     putting = "put insert drop stack hang stand lower point lift",
     putting_in = "put insert drop hang", -- put it in
     putting_up = "put",
