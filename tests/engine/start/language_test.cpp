@@ -29,7 +29,7 @@ TEST_CASE("things that share their words are told apart from left to right") {
   Scene scene = table_scene(2);
   put(scene, "cube1", {0.5, 0.2, 0.02});
   put(scene, "cube2", {0.5, -0.2, 0.02});
-  CHECK(phrases(scene, 2) == Words{"left cube", "right cube"});  // without a camera, as the robot sees them
+  CHECK(phrases(scene, 2) == Words{"right cube", "left cube"});  // without a camera, for who looks at the robot
 
   Camera front;  // looks at the robot, upside up
   front.name = "front";
@@ -38,8 +38,8 @@ TEST_CASE("things that share their words are told apart from left to right") {
   CHECK(phrases(scene, 2) == Words{"right cube", "left cube"});
 
   Scene five = table_scene(5);  // at -0.2, -0.1 … 0.2
-  CHECK(phrases(five, 5) == Words{"rightmost cube", "fourth cube from the left", "third cube from the left",
-                                  "second cube from the left", "leftmost cube"});
+  CHECK(phrases(five, 5) == Words{"leftmost cube", "second cube from the left", "third cube from the left",
+                                  "fourth cube from the left", "rightmost cube"});
   CHECK(phrase(five, "table") == "table");
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("nothing is said of what is hidden, nor of a thing's own regions") {
   blocked.parameters = {{"a", "", {}}};
   domain.predicates.push_back(blocked);
   const Facts made = {own, {"blocked", {"table.inside"}}, {"blocked", {"cube1"}}};
-  CHECK(describe_world(made, domain, scene) == std::vector<std::string>{"something is before the right cube"});
+  CHECK(describe_world(made, domain, scene) == std::vector<std::string>{"something is before the left cube"});
   const Facts holds = {hides, lies, open, own};
   CHECK(mentionable(holds, {lies, open, own}, domain, scene) == Facts{open, own});
   CHECK(mentionable(holds, holds, domain, scene) == holds);  // seen, or told
