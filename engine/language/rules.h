@@ -39,6 +39,7 @@ enum class Rejection {
 std::string_view to_string(Rejection reason);
 
 using Grain = LanguageGrain;
+inline std::string quoted(const std::string& word) { return "'" + word + "'"; }
 using Fault = std::optional<std::string>;  // what is wrong, for people: which word, which thing; nothing: all is well
 
 // One way in which a sentence can be wrong. Each is needed: without it some wrong sentence of the tests would pass.

@@ -6,8 +6,6 @@
 namespace stampede {
 namespace {
 
-std::string marked(const std::string& word) { return "'" + word + "'"; }
-
 const std::set<std::string>& skills_of(const Sentence& sentence, const std::string& verb) {
   return sentence.meaning.lexicon.skills_of(verb);
 }
@@ -32,7 +30,7 @@ Fault other_verb(const Sentence& sentence) {
       continue;
     const auto& skills = skills_of(sentence, word.sense);
     if (std::none_of(skills.begin(), skills.end(), [&](const auto& one) { return meaning.skills.contains(one); }))
-      return marked(word.sense);
+      return quoted(word.sense);
   }
   return {};
 }
@@ -46,7 +44,7 @@ Fault other_direction(const Sentence& sentence) {
     const bool switches = sentence.english.has(direction, "switching");
     const bool planned = std::any_of(sentence.meaning.skills.begin(), sentence.meaning.skills.end(),
                                      [&](const auto& one) { return one.second.directions.contains(direction); });
-    if (switches || (own.contains(opposite->second) && !planned)) return marked(direction);
+    if (switches || (own.contains(opposite->second) && !planned)) return quoted(direction);
   }
   return {};
 }
@@ -265,7 +263,7 @@ Fault other_role(const Sentence& sentence) {
     if (mention.things.empty() || mention.other || sentence.vouched(segment) || sentence.spares(segment)) continue;
     const bool until = sentence.reading.at(segment.intro, "until");
     if (!until && (has_role(sentence, mention) || sentence.stands_on_table(mention))) continue;
-    if (!has_authors_role(sentence, mention)) return "the " + mention.sense + " as " + marked(mention.role());
+    if (!has_authors_role(sentence, mention)) return "the " + mention.sense + " as " + quoted(mention.role());
   }
   return {};
 }
@@ -300,7 +298,7 @@ Fault other_way_in(const Sentence& sentence) {
           ways.insert(said->second.begin(), said->second.end());
       }
     }
-    if (planned && !ways.contains(way)) return marked(way) + " the " + mention.sense;
+    if (planned && !ways.contains(way)) return quoted(way) + " the " + mention.sense;
   }
   return {};
 }
@@ -339,7 +337,7 @@ Fault other_order(const Sentence& sentence) {
       // `open the dishwasher` is its door, whatever else of it is opened after
       if (i >= reached && next < 0 && (concern == Concern::itself || any == i || any >= reached)) next = i;
     }
-    if (next < 0 && any >= 0) return marked(sentence.reading.words[*segment.verb].text) + " comes earlier";
+    if (next < 0 && any >= 0) return quoted(sentence.reading.words[*segment.verb].text) + " comes earlier";
     reached = std::max(next, next < 0 ? reached : next);
   }
   return {};
@@ -366,7 +364,7 @@ Fault other_order_of_verbs(const Sentence& sentence) {
   for (std::size_t i = 0; i < ours.size() && sentence.reading.segments.size() > 1; ++i)
     for (std::size_t k = i + 1; k < ours.size(); ++k)
       if (ours[i] != ours[k] && in_any(ours[k], ours[i]) && !in_any(ours[i], ours[k]))
-        return marked(ours[k]) + " comes before " + marked(ours[i]);
+        return quoted(ours[k]) + " comes before " + quoted(ours[i]);
   return {};
 }
 
@@ -417,7 +415,7 @@ Fault undone(const Sentence& sentence) {
     if (!segment.verb) continue;
     const std::string& verb = sentence.reading.verb_of(segment);
     if (done.contains(verb) && sentence.reading.any(segment, "back") && !sentence.vouched(segment))
-      return marked(verb) + " and back";
+      return quoted(verb) + " and back";
     done.insert(verb);
   }
   return {};

@@ -21,8 +21,6 @@ Fault in_each(const Sentence& sentence) {
   return {};
 }
 
-std::string in_quotes(const std::string& word) { return "'" + word + "'"; }
-
 bool any_thing(const Sentence& sentence, const Mention& mention, const auto& test) {
   return std::any_of(mention.things.begin(), mention.things.end(),
                      [&](const std::string& name) { return test(*sentence.meaning.thing(name)); });
@@ -32,20 +30,24 @@ bool is_claimed(const Sentence& sentence, const std::string& attribute, const Me
   return sentence.claims.attributes.contains({attribute, mention.sense});
 }
 
+// A word of its names, or of the author's for it.
+bool is_called(const Sentence& sentence, const std::string& word, const Mention& mention) {
+  return is_claimed(sentence, word, mention) ||
+         any_thing(sentence, mention, [&](const SpokenThing& thing) { return thing.words.contains(word); });
+}
+
 Fault not_there(const Sentence& sentence, const Mention& mention) {
   const Word& noun = sentence.head(mention);
   const bool there = mention.sense.empty() || noun.is("general") || (noun.is("air") && sentence.lifts()) ||
                      (noun.is("grip") && sentence.swings()) || sentence.claims.senses.contains(mention.sense) ||
                      std::any_of(sentence.meaning.things.begin(), sentence.meaning.things.end(),
                                  [&](const SpokenThing& one) { return one.words.contains(mention.sense); });
-  return there ? std::nullopt : Fault(in_quotes(mention.sense));
+  return there ? std::nullopt : Fault(quoted(mention.sense));
 }
 
 Fault no_such(const Sentence& sentence, const Mention& mention) {
   for (const std::string& word : mention.modifiers)
-    if (!is_claimed(sentence, word, mention) &&
-        !any_thing(sentence, mention, [&](const SpokenThing& thing) { return thing.words.contains(word); }))
-      return in_quotes(word + " " + mention.sense);
+    if (!is_called(sentence, word, mention)) return quoted(word + " " + mention.sense);
   return {};
 }
 
@@ -108,14 +110,14 @@ Fault one_for_several(const Sentence& sentence, const Mention& mention) {
     for (const Mention& one : reading.mentions)
       if (one.sense == mention.sense) (one.plural ? ever_plural : ever_single) = true;
   const int count = count_of(sentence, mention, &ThingRoles::wanted);
-  if (mention.plural && ever_single && !ever_plural && count == 1) return "several of " + in_quotes(mention.sense);
-  if (!mention.plural && ever_plural && !ever_single && count > 1) return "only one of " + in_quotes(mention.sense);
+  if (mention.plural && ever_single && !ever_plural && count == 1) return "several of " + quoted(mention.sense);
+  if (!mention.plural && ever_plural && !ever_single && count > 1) return "only one of " + quoted(mention.sense);
   return {};
 }
 
 Fault side_twice(const Sentence&, const Mention& mention) {
   const bool twice = Texts(mention.places.begin(), mention.places.end()).size() < mention.places.size();
-  return twice ? Fault(in_quotes(mention.places.front()) + " twice") : std::nullopt;
+  return twice ? Fault(quoted(mention.places.front()) + " twice") : std::nullopt;
 }
 
 Fault other_side(const Sentence& sentence, const Mention& mention) {
@@ -123,15 +125,13 @@ Fault other_side(const Sentence& sentence, const Mention& mention) {
     if (!is_claimed(sentence, place, mention) && !any_thing(sentence, mention, [&](const SpokenThing& thing) {
           return thing.words.contains(place) && thing.roles.wanted;
         }))
-      return in_quotes(place);
+      return quoted(place);
   return {};
 }
 
 Fault bare_claim(const Sentence& sentence, const Mention& mention) {
   for (const std::string& word : mention.adjectives)
-    if (!is_claimed(sentence, word, mention) &&
-        !any_thing(sentence, mention, [&](const SpokenThing& thing) { return thing.words.contains(word); }))
-      return in_quotes(word) + " " + mention.sense;
+    if (!is_called(sentence, word, mention)) return quoted(word) + " " + mention.sense;
   return {};
 }
 
@@ -165,7 +165,7 @@ Fault colour_of_nothing(const Sentence& sentence) {
     const bool borne = std::any_of(things.begin(), things.end(), [&](const SpokenThing& one) {
       return one.roles.wanted && one.colours.contains(colour);
     });
-    if (!borne && !sentence.claims.senses.contains(colour)) return in_quotes(colour);
+    if (!borne && !sentence.claims.senses.contains(colour)) return quoted(colour);
   }
   return {};
 }
@@ -182,7 +182,7 @@ Fault missing_colour(const Sentence& sentence) {
 
 Fault side_of_nothing(const Sentence& sentence) {
   for (const auto& [before, place] : free_places(sentence.reading))
-    if (!sentence.claims.places.contains({before, place})) return in_quotes(before + " " + place);
+    if (!sentence.claims.places.contains({before, place})) return quoted(before + " " + place);
   return {};
 }
 
@@ -227,7 +227,7 @@ Fault missing_mark(const Sentence& sentence) {
   });
   if (alone && said.size() >= least) return {};
   for (const std::string& sense : marks.ours)
-    if (!set.contains(sense)) return "no word says " + in_quotes(sense);
+    if (!set.contains(sense)) return "no word says " + quoted(sense);
   return "which variation is meant";
 }
 

@@ -6,8 +6,6 @@
 namespace stampede {
 namespace {
 
-std::string quoted(const std::string& word) { return "'" + word + "'"; }
-
 Fault one_word(const Sentence& sentence) {
   const std::size_t count = sentence.reading.words.size();
   return count < 2 ? Fault(std::to_string(count) + " words") : std::nullopt;

@@ -10,17 +10,19 @@ Sentence::Sentence(std::string said, const Meaning& meant, const Claims& claimed
       claims(claimed),
       grain(of_grain),
       reading(read_sentence(text, meaning)),
-      english(meaning.lexicon.english()) {}
+      english(meaning.lexicon.english()) {
+  for (const Segment& segment : reading.segments) {
+    vouched_.push_back(claims.segments.contains(content_of(reading, segment)));
+    spares_.push_back(spares_others(segment) || keeps_others(reading, segment) || leaves_idle(segment) ||
+                      denies_start(segment));
+  }
+}
 
 std::set<std::size_t> Sentence::beside() const {
   std::set<std::size_t> words = totals_in(reading);
   for (const Segment& segment : reading.segments)
     for (std::size_t i = segment.begin; i < segment.end && spares(segment); ++i) words.insert(i);
   return words;
-}
-
-bool Sentence::spares(const Segment& segment) const {
-  return spares_others(segment) || keeps_others(reading, segment) || leaves_idle(segment) || denies_start(segment);
 }
 
 bool Sentence::spares_others(const Segment& segment) const {

@@ -22,10 +22,10 @@ class Sentence {
   std::set<std::size_t> beside() const;
 
   // The author says so.
-  bool vouched(const Segment& segment) const { return claims.segments.contains(content_of(reading, segment)); }
+  bool vouched(const Segment& segment) const { return vouched_[number(segment)]; }
   bool vouched(const Mention& mention) const { return vouched(segment(mention)); }
   // What is said there holds anyway: it has no part in this.
-  bool spares(const Segment& segment) const;
+  bool spares(const Segment& segment) const { return spares_[number(segment)]; }
   bool spares_others(const Segment& segment) const;  // `and no others`, `leave the other blocks alone`
   bool spares_idle(const Segment& segment) const;    // `spare the tomatoes`: things that have no part in it
   bool leaves_idle(const Segment& segment) const;    // `leave the chicken where it is`, `the left one shut`
@@ -52,7 +52,12 @@ class Sentence {
   bool is_named(const std::string& name) const;
 
  private:
+  std::size_t number(const Segment& segment) const {
+    return static_cast<std::size_t>(&segment - reading.segments.data());
+  }
   bool is_implied(const std::string& name) const;
+
+  std::vector<bool> vouched_, spares_;  // by segment: every rule asks
 };
 
 }  // namespace stampede

@@ -29,8 +29,9 @@ std::map<std::string, std::string> ways_in(const std::string& label, const Lexic
 
 class SenseReader {
  public:
-  SenseReader(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held, const English& english)
-      : skill_(skill), domain_(domain), held_(held), lexicon_(std::make_shared<English>(english)) {}
+  SenseReader(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
+              std::shared_ptr<const English> english)
+      : skill_(skill), domain_(domain), held_(held), lexicon_(std::move(english)) {}
 
   SkillSense read() {
     read_effects();
@@ -143,8 +144,8 @@ class SenseReader {
 }  // namespace
 
 SkillSense skill_sense(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
-                       const English& english) {
-  return SenseReader(skill, domain, held, english).read();
+                       std::shared_ptr<const English> english) {
+  return SenseReader(skill, domain, held, std::move(english)).read();
 }
 
 }  // namespace stampede

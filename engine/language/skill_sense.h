@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,6 +27,6 @@ struct SkillSense {
 
 // Of the skill's first action. `held`: predicates of what the pads grasp.
 SkillSense skill_sense(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
-                       const English& english);
+                       std::shared_ptr<const English> english);
 
 }  // namespace stampede

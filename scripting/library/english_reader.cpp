@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/language/lexicon.h"
 #include "scripting/library/name_lists.h"
 
 namespace stampede {
@@ -25,9 +24,10 @@ std::set<std::string> set_of(const Value& value) {
 // What a field of the file becomes.
 class EnglishReader {
  public:
-  EnglishReader(English& english, const Complain& complain) : english_(english), complain_(complain) {}
+  EnglishReader(const Definition& file, English& english) : file_(file), english_(english) {}
 
-  void read(const Value& words) {
+  void read() {
+    const Value& words = file_.node;
     using Reader = void (EnglishReader::*)(const Value&);
     static const std::map<std::string, Reader> kFields = {{"kinds", &EnglishReader::kinds},
                                                           {"endings", &EnglishReader::endings},
@@ -43,7 +43,7 @@ class EnglishReader {
     for (const auto& [name, reader] : kFields) (this->*reader)(words[name]);
     const std::vector<std::string> known = keys_of(kFields);
     for (const auto& [name, value] : words.fields)
-      if (!kFields.contains(name)) complain_(name, "there is no such field", did_you_mean(name, known));
+      if (!kFields.contains(name)) file_.complain(name, "there is no such field", did_you_mean(name, known));
   }
 
  private:
@@ -56,14 +56,14 @@ class EnglishReader {
         for (const std::string& word : each_word(synonyms)) english_.add(word, sense, static_cast<WordKind>(i));
     }
     for (const auto& [name, words] : value.fields)
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        complain_("kinds." + name, "there is no kind of words '" + name + "'", did_you_mean(name, known));
+      if (!listed(known, name)) file_.complain_unknown("kinds." + name, "kind of words", name, known);
   }
 
   void endings(const Value& value) {
     for (const Value& one : value.items) {
       if (one.items.size() != 2 || one.items[0].text.empty())
-        complain_("endings", "an ending is { what a form ends with, what the word has there }", "{ \"ies\", \"y\" }");
+        file_.complain("endings", "an ending is { what a form ends with, what the word has there }",
+                       "{ \"ies\", \"y\" }");
       else
         english_.endings.push_back(
             {one.items[0].text, one.items[1].text, one["unless"].text, one["plural"].boolean, one["done"].boolean});
@@ -123,41 +123,36 @@ class EnglishReader {
     for (const auto& [name, words] : value.fields) {
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
-        complain_("classes." + name, "there is no class of words '" + name + "'", did_you_mean(name, known));
+        file_.complain_unknown("classes." + name, "class of words", name, known);
       else
         for (const std::string& word : each_word(words))
           english_.classes[word].set(static_cast<std::size_t>(found - known.begin()));
     }
   }
 
+  const Definition& file_;
   English& english_;
-  const Complain& complain_;
 };
 
 }  // namespace
 
-void read_english(const Value& words, English& english, const Complain& complain) {
-  EnglishReader(english, complain).read(words);
-}
+void read_english(const Definition& file, English& english) { EnglishReader(file, english).read(); }
 
-void add_nouns(const std::string& name, const Value& nouns, English& english) {
+void WordsOfThings::add_nouns(const std::string& name, const Value& nouns) {
   const std::vector<std::string> words = name_words(name), others = each_word(nouns);
   if (words.empty() || others.empty()) return;
-  Lexicon lexicon(std::make_shared<English>(english));
-  lexicon.learn_noun(words.back());
-  const std::string sense = lexicon.sense_of_noun(words.back());
-  english.add(words.back(), sense, WordKind::noun);
-  for (const std::string& noun : others) english.add(noun, sense, WordKind::noun);
+  const std::string sense = lexicon_.sense_of_noun(words.back());
+  english_.add(words.back(), sense, WordKind::noun);
+  for (const std::string& noun : others) english_.add(noun, sense, WordKind::noun);
 }
 
-void add_verbs(const std::string& skill, const std::vector<std::string>& verbs, English& english) {
-  const Lexicon lexicon(std::make_shared<English>(english));
+void WordsOfThings::add_verbs(const std::string& skill, const std::vector<std::string>& verbs) {
   for (const std::string& verb : verbs) {
-    const std::vector<Word> words = lexicon.read(verb);
+    const std::vector<Word> words = lexicon_.read(verb);
     if (words.empty()) continue;
     const Word& word = words.front();
-    if (word.kind != WordKind::verb) english.add(word.text, word.text, WordKind::verb);
-    english.skills[word.kind == WordKind::verb ? word.sense : word.text].insert(skill);
+    if (word.kind != WordKind::verb) english_.add(word.text, word.text, WordKind::verb);
+    english_.skills[word.kind == WordKind::verb ? word.sense : word.text].insert(skill);
   }
 }
 

@@ -19,7 +19,7 @@ SkillSense sense_of(const Library& library, const std::string& skill) {
   std::set<std::string> held;
   for (const auto& [name, traits] : library.predicate_traits())
     if (traits.requires_pairs == Pairs::held) held.insert(name);
-  return skill_sense(*library.skill(skill), library.domain(), held, *library.english());
+  return skill_sense(*library.skill(skill), library.domain(), held, library.english());
 }
 
 void learn_sentences(Meaning& meaning) {
