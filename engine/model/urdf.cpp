@@ -4,6 +4,7 @@
 #include <tinyxml.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -155,9 +156,11 @@ urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
   check_count(file, text);
   TiXmlDocument xml;  // urdfdom reads it again, but does not tell the line of a mistake
   xml.Parse(text.c_str());
-  if (xml.Error())
-    throw Error(file.string() + ":" + std::to_string(xml.ErrorRow()), std::string("malformed XML: ") + xml.ErrorDesc(),
-                "close every element and quote every attribute");
+  if (xml.Error()) {
+    const auto last = 1 + std::count(text.begin(), text.end(), '\n');  // where it ends too early, it tells no row
+    throw Error(file.string() + ":" + std::to_string(xml.ErrorRow() > 0 ? xml.ErrorRow() : last),
+                std::string("malformed XML: ") + xml.ErrorDesc(), "close every element and quote every attribute");
+  }
   check_document(file, xml);
   std::string messages;
   urdf::ModelInterfaceSharedPtr model;

@@ -93,14 +93,7 @@ TEST_CASE("catalogues of earlier releases are read as they are, and the file is 
     const std::string before = bytes_of(folder / "old.db");
     const Catalogue old = Catalogue::open(folder / "old.db");
     REQUIRE(!old.episodes().empty());
-    for (const SqlFile& view : embedded_views()) {
-      INFO(view.name);
-      CHECK_NOTHROW(old.query("SELECT * FROM " + view.name + " LIMIT 5"));
-    }
-    for (const NamedQuery& query : named_queries()) {
-      INFO(query.name);
-      CHECK_NOTHROW(old.query(query.name));
-    }
+    for (const EpisodeSummary& episode : old.episodes()) CHECK(!old.read_episode(episode.id).frames.empty());
     if (stored.filename() != "schema7.db.gz")  // nothing was undone in it
       CHECK(std::get<std::int64_t>(old.query("SELECT count(*) FROM tries WHERE undone").rows[0][0]) > 0);
     CHECK_THROWS_WITH(old.query("SELECT colour FROM segments"), Contains("segments has episode task"));
@@ -128,7 +121,7 @@ TEST_CASE("a catalogue of an earlier release that is opened to write becomes one
   }
 }
 
-TEST_CASE("views of an earlier release answer the same before it is migrated and after") {
+TEST_CASE("views and named queries answer the same of an earlier release before it is migrated and after") {
   for (const fs::path& stored : stored_releases()) {
     INFO(stored);
     const Folder folder;
@@ -144,6 +137,10 @@ TEST_CASE("views of an earlier release answer the same before it is migrated and
         question += ", " + std::to_string(i);
       const QueryResult answer = now.query(question);
       CHECK(old.query(question).rows == answer.rows);
+    }
+    for (const NamedQuery& query : named_queries()) {
+      INFO(query.name);
+      CHECK(old.query(query.name).rows == now.query(query.name).rows);
     }
     for (const char* view : {"actions", "frames", "joints", "masks", "sensors", "steps", "transitions"})
       CHECK(now.query(std::string("SELECT * FROM ") + view, {{}, 5}).rows.size() == 5);

@@ -129,12 +129,12 @@ TEST_CASE("a slot that is smaller than what is to go into it is refused, in goal
   CHECK(says(start.out, "tasks/t.lua:5: init: 'rod' does not fit"));
 }
 
-TEST_CASE("a malformed URDF is a complaint with its file") {
+TEST_CASE("a malformed URDF is one complaint, with its line and the cure") {
   const Folder mine;
   std::string arm = file_text(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.lua");
   arm.replace(arm.find("panda.urdf"), 10, "arm.urdf");
   put(mine, "worlds/robots/arm.lua", arm);
-  put(mine, "worlds/robots/arm.urdf", "<robot name=\"arm\"><link name=\"a\"><inertial>");
+  put(mine, "worlds/robots/arm.urdf", "<robot name=\"arm\">\n<link name=\"a\"><inertial>");
   put(mine, "worlds/w.lua", "-- A bare world.\nreturn world { robot = { \"arm\" }, fixtures = {} }\n");
   put(mine, "tasks/t.lua",
       "-- Nothing.\nreturn task { world = \"w\", objects = {}, goal = { is.hand_empty() }, instructions = { \"wait\" } "
@@ -142,7 +142,9 @@ TEST_CASE("a malformed URDF is a complaint with its file") {
   const Said check = checked(mine);
   INFO(check.out);
   CHECK(check.code == kBadInput);
-  CHECK(says(check.out, "arm.urdf"));
+  CHECK(says(check.out, "worlds/robots/arm.urdf:2: malformed XML: "));
+  CHECK(says(check.out, "close every element and quote every attribute"));
+  CHECK(says(check.out, ", 1 mistake\n"));
 }
 
 TEST_CASE("a goal that no skill reaches names the literal and what is missing") {

@@ -18,9 +18,25 @@ TEST_CASE("the reference holds the help of every command, word for word, and is 
   }
 }
 
-TEST_CASE("shell completion is fresh and names every command") {
+TEST_CASE("shell completion is fresh, and bash completes every command and each of its options by it") {
   const std::string completion = file_text(STAMPEDE_SOURCE_DIR "/scripting/commands/completion.bash");
   CHECK(completion == bash_completion(all_commands()));
+  const Folder folder;
+  const auto proposed = [&](const std::string& words) {  // each between spaces
+    const std::string script = folder / "ask.bash", answer = folder / "answer";
+    std::ofstream(script) << completion << "COMP_WORDS=(stampede " << words
+                          << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_stampede\necho \" ${COMPREPLY[*]} \" >"
+                          << answer << "\n";
+    REQUIRE(std::system(("bash " + script).c_str()) == 0);
+    return file_text(answer);
+  };
+  for (const CommandRow& command : all_commands()) {
+    INFO(command.name);
+    CHECK_THAT(proposed(command.name.substr(0, 1)), Catch::Contains(" " + command.name + " "));
+    const std::string options = proposed(command.name + " --");
+    for (const OptionRow& option : all_options(command)) CHECK_THAT(options, Catch::Contains(" " + option.name + " "));
+  }
+  CHECK(proposed("x") == "  \n");
 }
 
 TEST_CASE("the program's own help lists the commands and the exit codes") {

@@ -265,13 +265,20 @@ TEST_CASE("labels come later too, and take the place of those of the same sort")
   Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
   const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
   EpisodeRecord e = catalogue.read_episode(id);
-  SegmentRecord segment;
-  segment.kind = SegmentKind::skill, segment.skill = "wave", segment.span = {0, 1'000'000, 0, 20};
-  segment.labelled_by = Labeller::model;
-  e.segments = {segment};
-  for (int round = 0; round < 2; ++round) {
+  const auto rows = [&](const std::string& of) { return catalogue.query("SELECT * FROM " + of).rows; };
+  const auto facts = rows("facts"), sentences = rows("instructions");
+  REQUIRE((!e.segments.empty() && !facts.empty() && !sentences.empty()));
+  for (const std::string skill : {"wave", "wave", "point"}) {
+    SegmentRecord segment;
+    segment.kind = SegmentKind::skill, segment.skill = skill, segment.span = {0, 1'000'000, 0, 20};
+    segment.labelled_by = Labeller::model;
+    e.segments = {segment};
     catalogue.set_labels(id, e);
-    CHECK(catalogue.query("SELECT * FROM frames WHERE skill = 'wave'").rows.size() == 20);
-    CHECK(catalogue.query("SELECT * FROM segments WHERE labelled_by = 'model'").rows.size() == 1);
+    CHECK(rows("frames WHERE skill = '" + skill + "'").size() == 20);
+    CHECK(rows("frames WHERE skill IS NOT NULL").size() == 20);  // none of those that were there before
+    CHECK(rows("segments").size() == 1);
+    CHECK(rows("segments WHERE labelled_by = 'model' AND skill = '" + skill + "'").size() == 1);
+    CHECK(rows("facts") == facts);
+    CHECK(rows("instructions") == sentences);
   }
 }
