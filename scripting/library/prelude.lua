@@ -396,11 +396,12 @@ local function has_axes(node, depth)
   return false
 end
 
-local function filled(node, v)
-  if type(node) == "string" then return with_axes(node, v) end
+-- `but_sentences`: texts that stand in no formula are left alone, they are sentences of subgoals.
+local function filled(node, v, but_sentences)
+  if type(node) == "string" then return but_sentences and node or with_axes(node, v) end
   if type(node) ~= "table" then return node end
-  local copy = {}
-  for key, value in pairs(node) do copy[key] = filled(value, v) end
+  local copy, outside = {}, but_sentences and node.tag == nil
+  for key, value in pairs(node) do copy[key] = filled(value, v, outside) end
   if copy.tag == "except" then return words.colours.except(table.unpack(copy)) end
   if copy.tag == "sample_of" and copy.n > #copy.values then say("sample_of draws %d of %d values", copy.n, #copy.values) end
   return copy
@@ -410,9 +411,9 @@ local define_task = words.task
 function words.task(fields)
   local definition = define_task(fields)
   if definition.world == nil then definition.world = "tabletop" end
-  for _, name in ipairs { "objects", "init", "told", "goal", "steps" } do
+  for _, name in ipairs { "objects", "init", "told", "goal", "steps", "subgoals" } do
     local field = definition[name]
-    if type(field) ~= "function" and has_axes(field, 1) then definition[name] = function(v) return filled(field, v) end end
+    if has_axes(field, 1) then definition[name] = function(v) return filled(field, v, name == "subgoals") end end
   end
   local goal, init = definition.goal, definition.init
   local implied = api.hand_empty and definition.hand ~= "any"

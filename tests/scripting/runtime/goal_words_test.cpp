@@ -160,7 +160,8 @@ TEST_CASE("names, entries and colours with an axis in them are those of the vari
   const Written named(rest + "objects = { cup = { \"tumbler\", colour = \"{colour}\", count = \"{size}\" }, " + box +
                       ", other = { \"cube\", count = 3, colour = sample_of(colours.except(\"{colour}\"), 3) } }, " +
                       "init = { is.on(\"cup*\", \"table\"), is.on(\"other*\", \"table\"), is.closed(\"box.{part}\") }, "
-                      "goal = { is.open(\"box.{part}\"), is.on(\"cup{size}\", \"table\"), stays(\"others\") }");
+                      "goal = { is.open(\"box.{part}\"), is.on(\"cup{size}\", \"table\"), stays(\"others\") }, "
+                      "subgoals = { { \"first\", is.open(\"box.{part}\"), \"open the {part}\" } }");
   const Written computed(
       rest + "objects = function(v) return { cup = { \"tumbler\", colour = v.colour, count = v.size }, " + box +
       ", other = { \"cube\", count = 3, colour = sample_of(colours.except(v.colour), 3) } } end, " +
@@ -171,6 +172,9 @@ TEST_CASE("names, entries and colours with an axis in them are those of the vari
   for (const char* variation : {"colour=red,part=lid,size=1", "colour=blue,part=lid,size=2"}) {
     const Task one = named.task(variation), other = computed.task(variation);
     CHECK(to_pddl(one.goal) == to_pddl(other.goal));
+    REQUIRE(one.subgoals.size() == 1);
+    CHECK(to_pddl(one.subgoals[0].formula) == "(open box--lid)");
+    CHECK(one.subgoals[0].sentence == "open the lid");
     REQUIRE(one.scene.objects.size() == other.scene.objects.size());
     for (std::size_t i = 0; i < one.scene.objects.size(); ++i)
       CHECK(one.scene.objects[i].attributes == other.scene.objects[i].attributes);
