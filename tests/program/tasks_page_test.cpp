@@ -58,3 +58,21 @@ TEST_CASE("the page says of every task what success and yaw are, beside RLBench'
   for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tasks"))
     if (entry.path().extension() == ".lua") CHECK(listed.contains(entry.path().stem()));
 }
+
+TEST_CASE("the page of skills tells of skills that there are which tasks use them, and of tasks that there are") {
+  std::istringstream page(file_text(std::string(STAMPEDE_SOURCE_DIR) + "/skills/README.md"));
+  bool within = false;
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("<!-- ")) within = line == "<!-- begin uses -->";
+    if (!within || !line.starts_with("| `")) continue;
+    INFO(line);
+    ++rows;
+    const std::size_t end = line.find('`', 3);
+    CHECK(std::filesystem::exists(STAMPEDE_SOURCE_DIR "/skills/" + line.substr(3, end - 3) + ".lua"));
+    std::istringstream tasks(line.substr(end + 3, line.rfind('|') - end - 3));
+    for (std::string task; tasks >> task;)
+      CHECK(std::filesystem::exists(STAMPEDE_SOURCE_DIR "/tasks/" + task + ".lua"));
+  }
+  CHECK(rows > 15);
+}
