@@ -10,7 +10,8 @@ local near = 0.010   -- m: what is left when it is there
 -- A stroke of `way` m along a side of the object that is at x, y: to which of both sides the tool points is chosen by how far
 -- out that brings the hand, which is `reach` from the tip. `worst`: how far out hand or object come.
 local function stroke_of(side, way, x, y, reach, out)
-  local sign, best = way > 0 and 1 or -1, nil
+  local sign = way > 0 and 1 or -1
+  local best ---@type table
   for _, hand in ipairs { 1, -1 } do
     local one = { x = sign * side.x, y = sign * side.y, way = math.abs(way), half = side.half }
     one.worst = out(x + way * side.x, y + way * side.y)
@@ -35,7 +36,7 @@ local function next_stroke(w, p, reach)
     for i, side in ipairs(list) do way[i] = (goal_x - x) * side.x + (goal_y - y) * side.y end
     local second = 3 - first
     for _, share in ipairs { 1, 0.5 } do
-      local at_x, at_y, start, worst = x, y, nil, 0
+      local at_x, at_y, start, worst = x, y, nil, 0.0
       for _, one in ipairs { { first, share }, { second, 1 }, { first, 1 - share } } do
         local side, long = list[one[1]], way[one[1]] * one[2]
         if math.abs(long) >= near then

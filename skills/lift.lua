@@ -9,12 +9,14 @@ return skill {
   run = function(robot, p)
     local w = robot:view()
     local zone, held = w:pose(p.zone), w:pose(p.obj)
+    ---@type number[], number[]
     local at, size = { zone:inverse():times(held):position() }, { w:size(p.zone) }
     for i = 1, 3 do
+      ---@type number
       local room = math.max(0, size[i] / 2 - 0.04) -- m from its middle; 4 cm from its faces
       at[i] = math.max(-room, math.min(room, at[i]))
     end
-    local goal = zone:times(pose(at[1], at[2], at[3]))
+    local goal = zone:times(pose { at = at })
     robot:move_to(robot:tip_for(p.obj, held:with_position(goal:position())))
   end,
 }

@@ -1,6 +1,5 @@
 -- Drop the toy basketball through the hoop; the box below the net keeps it.
 return task {
-  world = "tabletop",
   objects = { hoop = { "basketball_hoop" }, ball = { "basketball" } },
   init = { is.on("hoop", "table"), is.apart("ball", "hoop"), is.on("ball", "table"), is.reachable("ball") },
   goal = { is.inside("ball", "hoop"), stays("hoop") },

@@ -1,13 +1,7 @@
 -- Point the remote control at the television and go one channel up or down.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   variations = { channel = { "next", "previous" } },
-  objects = {
-    tv = { "television", place = places.beside_the_table { gap = 0.16, turn = deg(45), wide = 0.52 } },
-    remote = { "remote_control" },
-  },
+  objects = { tv = { "television" }, remote = { "remote_control" } },
   init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"),
     is_not.pressed("remote.plus_button"), is_not.pressed("remote.minus_button") },
   goal = function(v)

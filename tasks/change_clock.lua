@@ -1,6 +1,5 @@
 -- Set the desk clock a quarter of an hour on: turn its minute hand to the red mark.
 return task {
-  world = "tabletop",
   objects = { clock = { "desk_clock", at = on_table { between(0.12, 0.30), between(-0.22, 0.22) }, yaw = between(-math.pi, math.pi) } },
   init = { is_not.turned("clock.minute_hand") },
   goal = { is.turned("clock.minute_hand") },

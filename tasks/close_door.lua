@@ -2,7 +2,6 @@
 local places = require "worlds.lib.places"
 
 return task {
-  world = "tabletop",
   objects = { doorway = { "doorway", place = places.beside_the_table { gap = 0.06, turn = deg(45), far = 0.15, wide = 0.44 },
     joints = { door = between(deg(26), deg(60)) } } },
   init = { is_not.closed("doorway.door"), is.workable("doorway.door") },

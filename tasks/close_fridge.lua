@@ -2,7 +2,6 @@
 local places = require "worlds.lib.places"
 
 return task {
-  world = "tabletop",
   objects = {
     fridge = { "fridge", place = places.round_the_table { gap = 0.13, turn = deg(45), wide = 0.32 },
       joints = { door = between(math.rad(32), math.rad(50)) } },

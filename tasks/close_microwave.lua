@@ -2,7 +2,6 @@
 local places = require "worlds.lib.places"
 
 return task {
-  world = "tabletop",
   objects = {
     microwave = { "microwave", place = places.round_the_table { gap = 0.13, turn = deg(22), wide = 0.36 },
       joints = { door = between(math.rad(30), math.rad(50)) } },

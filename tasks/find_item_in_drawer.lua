@@ -1,18 +1,13 @@
 -- Find the tin that lies in one of three closed drawers, and put it on the table; no sentence says in which.
 -- Nobody knows: drawers are opened, in a drawn order, until the tin is seen. What is known by then: `observed_facts`.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   variations = { hidden_in = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", place = places.round_the_table { gap = 0.12, turn = deg(22), wide = 0.26 } },
+    chest = { "chest" },
     item = { "tin", colour = one_of(colours.names) },
   },
-  init = function(v)
-    return { is.inside("item", "chest." .. v.hidden_in .. "_drawer"),
-      is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") }
-  end,
+  init = { is.inside("item", "chest.{hidden_in}_drawer"),
+    is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") },
   goal = { is.on("item", "table") },
   instructions = {
     "find the tin in the chest and put it on the table",

@@ -1,10 +1,7 @@
 -- Fill the cup that stands on the table with ice: push the lever in the fridge's niche back with it, and keep it in the hand.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   objects = {
-    fridge = { "ice_fridge", place = places.beside_the_table { gap = 0.15, turn = deg(45), wide = 0.40 } },
+    fridge = { "ice_fridge" },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = { is.on("cup", "table"), is_not.pressed("fridge.lever") },

@@ -1,6 +1,5 @@
 -- Hang the picture frame that stands on the table on its hook.
 return task {
-  world = "tabletop",
   objects = {
     hanger = { "frame_hanger", at = on_table { between(0.10, 0.28), between(-0.22, 0.22) }, yaw = between(-math.pi, math.pi) },
     frame = { "picture_frame" },

@@ -1,14 +1,11 @@
 -- Put the square ring over the peg of one colour; the two other pegs stay bare.
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    return {
-      target = { "square_peg", colour = v.colour },
-      other = { "square_peg", count = 2, colour = sample_of(colours.except(v.colour), 2) },
-      ring = { "square_ring" },
-    }
-  end,
+  objects = {
+    target = { "square_peg", colour = "{colour}" },
+    other = { "square_peg", count = 2, colour = sample_of(colours.except("{colour}"), 2) },
+    ring = { "square_ring" },
+  },
   init = { is.on("target", "table"), is.on("other*", "table"), is.on("ring", "table"), is_not.crowds("target", "ring"),
     is_not.crowds("other1", "ring"), is_not.crowds("other2", "ring") },
   goal = { is.hanging("ring", "target.peg") },

@@ -1,6 +1,5 @@
 -- Plug the USB stick that lies on the table into one of the computer's two ports.
 return task {
-  world = "tabletop",
   objects = {
     computer = { "desktop_computer", at = on_table { between(0.16, 0.24), between(-0.16, 0.16) }, yaw = between(-math.pi, math.pi) },
     stick = { "usb_stick", colour = one_of { "red", "blue", "green", "orange", "magenta" } },

@@ -2,7 +2,6 @@
 local lamps = require "worlds.lib.lamps"
 
 return task {
-  world = "tabletop",
   objects = {
     lamp = { "table_lamp", shapes = lamps.shapes(true), at = on_table { between(0.10, 0.30), between(-0.22, 0.22) },
       yaw = between(-math.pi, math.pi) },

@@ -1,6 +1,5 @@
 -- Switch the table lamp on by the button on its foot.
 return task {
-  world = "tabletop",
   objects = {
     lamp = { "table_lamp", at = on_table { between(0.10, 0.30), between(-0.22, 0.22) },
       yaw = between(-math.pi, math.pi) },

@@ -1,6 +1,5 @@
 -- Lift the block that bears the number; the two others stay where they are.
 return task {
-  world = "tabletop",
   variations = { digit = { 1, 2, 3 } },
   objects = {
     block1 = { "numbered_block_1" },
@@ -9,7 +8,7 @@ return task {
     space = { "raised_space", at = { 0.19, 0, 1.05 } },
   },
   init = { is.on("block1", "table"), is.on("block2", "table"), is.on("block3", "table") },
-  goal = function(v) return { is.holding("block" .. v.digit), is.inside("block" .. v.digit, "space") } end,
+  goal = { is.holding("block{digit}"), is.inside("block{digit}", "space") },
   instructions = {
     "raise the cube marked {digit} well off the table",
     "find the cube that says {digit} and raise it high",

@@ -1,12 +1,11 @@
 -- Put the chicken or the steak on the grill; the other one stays where it is.
 return task {
-  world = "tabletop",
   variations = { meat = { "chicken", "steak" } },
   objects = { grill = { "grill" }, chicken = { "chicken" }, steak = { "steak" } },
   init = { is.on("grill", "table"), is.on("chicken", "table"), is.on("steak", "table"),
     is_not.crowds("grill", "chicken"), is_not.crowds("grill", "steak"),
     is_not.crowds("chicken", "steak"), is_not.crowds("steak", "chicken") },
-  goal = function(v) return { is.on(v.meat, "grill"), stays("others") } end,
+  goal = { is.on("{meat}", "grill"), stays("others") },
   instructions = {
     "lay the {meat} across the bars of the grate",
     "start cooking the {meat} and leave the other meat where it is",

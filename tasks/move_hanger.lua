@@ -1,6 +1,5 @@
 -- Move the clothes hanger from the one rail to the other.
 return task {
-  world = "tabletop",
   objects = {
     from = { "clothes_rail", at = on_table { between(0.12, 0.26), between(0.14, 0.24) }, yaw = between(math.pi - 0.5, math.pi + 0.5) },
     to = { "clothes_rail", at = on_table { between(0.12, 0.26), between(-0.24, -0.14) }, yaw = between(math.pi - 0.5, math.pi + 0.5) },

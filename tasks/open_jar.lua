@@ -1,14 +1,12 @@
 -- Unscrew the lid of the jar of one colour and put it on the table; the other jar stays shut.
+local anywhere = on_table { between(0.08, 0.32), between(-0.28, 0.28) }
+
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    local anywhere = on_table { between(0.08, 0.32), between(-0.28, 0.28) }
-    return {
-      jar = { "jar", colour = v.colour, at = anywhere, yaw = between(-math.pi, math.pi) },
-      other = { "jar", colour = one_of(colours.except(v.colour)), at = anywhere, yaw = between(-math.pi, math.pi) },
-    }
-  end,
+  objects = {
+    jar = { "jar", colour = "{colour}", at = anywhere, yaw = between(-math.pi, math.pi) },
+    other = { "jar", colour = one_of(colours.except("{colour}")), at = anywhere, yaw = between(-math.pi, math.pi) },
+  },
   init = { is.spaced("jar", "other"), is.joined("jar.lid"), is.joined("other.lid") },
   goal = { is.on("jar.lid", "table"), stays("others") },
   instructions = {

@@ -1,6 +1,5 @@
 -- Put the phone that lies on the table into its cradle.
 return task {
-  world = "tabletop",
   objects = { cradle = { "phone_cradle" }, phone = { "phone" } },
   init = { is.on("cradle", "table"), is.on("phone", "table"), is_not.crowds("cradle", "phone") },
   goal = { is.in_slot("phone", "cradle.seat") },

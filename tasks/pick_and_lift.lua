@@ -1,14 +1,11 @@
 -- Pick up the block of one colour and hold it in the zone in the air; two other blocks stay where they are.
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    return {
-      target = { "cube", colour = v.colour },
-      other = { "cube", colour = one_of(colours.except(v.colour)), count = 2 },
-      zone = { "air_zone", at = { between(0.10, 0.28), between(-0.22, 0.22), between(0.95, 1.10) } },
-    }
-  end,
+  objects = {
+    target = { "cube", colour = "{colour}" },
+    other = { "cube", colour = one_of(colours.except("{colour}")), count = 2 },
+    zone = { "air_zone", at = { between(0.10, 0.28), between(-0.22, 0.22), between(0.95, 1.10) } },
+  },
   init = { is.on("target", "table"), is.on("other*", "table") },
   goal = { is.holding("target"), is.inside("target", "zone") },
   hold = 0.5, -- s

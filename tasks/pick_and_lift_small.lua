@@ -2,7 +2,6 @@
 local words = { cube = "cube", cylinder = "cylinder", prism = "triangular prism", star = "star", moon = "moon" }
 
 return task {
-  world = "tabletop",
   variations = { form = { "cube", "cylinder", "prism", "star", "moon" } },
   objects = {
     small_cube = { "small_cube" },
@@ -14,7 +13,7 @@ return task {
   },
   init = { is.on("small_cube", "table"), is.on("small_cylinder", "table"), is.on("small_prism", "table"),
     is.on("small_star", "table"), is.on("small_moon", "table") },
-  goal = function(v) return { is.holding("small_" .. v.form), is.inside("small_" .. v.form, "zone") } end,
+  goal = { is.holding("small_{form}"), is.inside("small_{form}", "zone") },
   instructions = function(v)
     local what = words[v.form]
     return {

@@ -1,13 +1,10 @@
 -- Pick up the cup of one colour; a cup of another colour stays where it is.
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    return {
-      cup = { "cup", colour = v.colour },
-      other = { "cup", colour = one_of(colours.except(v.colour)) },
-    }
-  end,
+  objects = {
+    cup = { "cup", colour = "{colour}" },
+    other = { "cup", colour = one_of(colours.except("{colour}")) },
+  },
   init = { is.on("cup", "table"), is.on("other", "table"), is.apart("cup", "other") },
   goal = { is.holding("cup"), is.lifted("cup") },
   also = function(w) return w:bottom("cup") > w:top("table") + 0.05 end, -- m: clear of where it stood

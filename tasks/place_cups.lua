@@ -1,6 +1,5 @@
 -- Hang one, two or all three mugs that stand on the table on the mug tree.
 return task {
-  world = "tabletop",
   variations = { count = { 1, 2, 3 } },
   objects = {
     tree = { "mug_tree", at = on_table { between(0.10, 0.20), between(-0.15, 0.15) },

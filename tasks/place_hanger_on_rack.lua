@@ -1,6 +1,5 @@
 -- Take the clothes hanger out of its low holder and hang it on the rail.
 return task {
-  world = "tabletop",
   objects = {
     holder = { "hanger_holder", at = on_table { between(0.08, 0.26), between(0.14, 0.26) }, yaw = between(math.pi - 0.7, math.pi + 0.7) },
     rack = { "clothes_rail", at = on_table { between(0.14, 0.26), between(-0.24, -0.12) }, yaw = between(math.pi - 0.5, math.pi + 0.5) },

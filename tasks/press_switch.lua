@@ -1,6 +1,5 @@
 -- Flip the rocker switch to its other side.
 return task {
-  world = "tabletop",
   objects = { switch = { "rocker_switch", at = on_table { between(0.06, 0.36), between(-0.30, 0.30) }, yaw = between(-math.pi, math.pi) } },
   init = { is_not.pressed("switch.rocker") },
   goal = { is.pressed("switch.rocker") },

@@ -1,14 +1,12 @@
 -- Put one, two or all three books that stand on the table on the shelf beside it; the others stay where they are.
-local places = require "worlds.lib.places"
-
+---@type string[]
 local names = { "red_book", "green_book", "blue_book" }
 local words = { "red book", "red book and the green one", "red, the green and the blue book" }
 
 return task {
-  world = "tabletop",
   variations = { count = { 1, 2, 3 } },
   objects = {
-    bookshelf = { "bookshelf", place = places.beside_the_table { gap = 0.185, turn = deg(28), above = 0.2, far = 0.20, wide = 0.62 } },
+    bookshelf = { "bookshelf" },
     red_book = { "book", colour = "red" }, green_book = { "book", colour = "green" }, blue_book = { "book", colour = "blue" },
   },
   init = { is.on("red_book", "table"), is.apart("green_book", "red_book"), is.on("green_book", "table"),

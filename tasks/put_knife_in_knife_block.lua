@@ -1,6 +1,5 @@
 -- Put the knife that lies on the chopping board into the slot of the knife block.
 return task {
-  world = "tabletop",
   objects = { block = { "knife_block" }, board = { "chopping_board" }, knife = { "knife" } },
   init = { is.on("board", "table"), is.on("block", "table"), is.on("knife", "board"),
     is_not.crowds("block", "knife") },

@@ -2,7 +2,6 @@
 local racks = require "worlds.lib.dish_racks"
 
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
   objects = function(v)
     local others = colours.except(v.colour)
@@ -12,7 +11,7 @@ return task {
     return { rack = { "dish_rack", shapes = rack.shapes, regions = rack.regions }, stand = { "plate_stand" }, plate = { "plate" } }
   end,
   init = { is.on("rack", "table"), is.on("stand", "table"), is.apart("stand", "rack"), is.in_slot("plate", "stand.slot") },
-  goal = function(v) return { is.in_slot("plate", "rack." .. v.colour .. "_slot") } end,
+  goal = is.in_slot("plate", "rack.{colour}_slot"),
   instructions = {
     "put the plate between the {colour} posts of the dish rack",
     "the plate belongs in the {colour} slot of the rack",

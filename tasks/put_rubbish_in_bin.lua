@@ -1,6 +1,5 @@
 -- Throw the crumpled paper into the bin; the tomatoes stay on the table.
 return task {
-  world = "tabletop",
   objects = { bin = { "bin" }, rubbish = { "rubbish" }, tomato = { "tomato", count = 2 } },
   init = { is.on("bin", "table"), is.apart("rubbish", "bin"), is.on("rubbish", "table"),
     is.on("tomato*", "table") },

@@ -1,6 +1,5 @@
 -- Put both shoes into the box, which is shut.
 return task {
-  world = "tabletop",
   objects = {
     box = { "lidded_box", at = on_table { between(0.16, 0.26), between(-0.05, 0.05) }, yaw = between(deg(-22), deg(22)) },
     left = { "shoe" }, right = { "shoe" },

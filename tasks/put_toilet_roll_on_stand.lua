@@ -1,6 +1,5 @@
 -- Put the toilet roll that lies on the table on the rod of its stand.
 return task {
-  world = "tabletop",
   objects = {
     stand = { "toilet_roll_stand", at = on_table { between(0.12, 0.19), between(-0.18, 0.18) },
       yaw = between(-0.62 * math.pi, 0.62 * math.pi) }, -- the rod does not point at the robot

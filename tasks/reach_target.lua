@@ -1,14 +1,12 @@
 -- Bring the tip of the hand into the target of one colour; two others are there to be ignored.
+local anywhere = { between(0.06, 0.34), between(-0.32, 0.32), between(0.86, 1.18) } -- m
+
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    local anywhere = { between(0.06, 0.34), between(-0.32, 0.32), between(0.86, 1.18) }
-    return {
-      target = { "floating_target", colour = v.colour, at = anywhere },
-      other = { "floating_target", count = 2, colour = one_of(colours.except(v.colour)), at = anywhere },
-    }
-  end,
+  objects = {
+    target = { "floating_target", colour = "{colour}", at = anywhere },
+    other = { "floating_target", count = 2, colour = one_of(colours.except("{colour}")), at = anywhere },
+  },
   init = { is.hand_empty(), is.pairwise("spaced", "target", "other*") },
   goal = { is.at("target") },
   hold = 0.2, -- s

@@ -1,6 +1,5 @@
 -- Take one or two of the three mugs off the mug tree and put them on the table; the others stay where they hang.
 return task {
-  world = "tabletop",
   variations = { count = { 1, 2 } },
   objects = {
     tree = { "mug_tree", at = on_table { between(0.18, 0.25), between(-0.13, 0.13) },

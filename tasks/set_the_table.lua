@@ -6,7 +6,6 @@ local function beside(side)
 end
 
 return task {
-  world = "tabletop",
   objects = {
     mat = { "place_mat", at = on_table { between(0.11, 0.21), between(-0.06, 0.06) }, yaw = between(-0.15, 0.15) },
     napkin = { "napkin", place = one_of { beside(1), beside(-1) } },

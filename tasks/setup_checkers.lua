@@ -17,7 +17,6 @@ local function is_lost(v, colour, number)
 end
 
 return task {
-  world = "tabletop",
   variations = each(range(1, #lost), function(case) return { count = lost[case].count, case = case } end),
   objects = function(v)
     local objects = { board = { "checkers_board", at = on_table { between(0.16, 0.21), between(-0.07, 0.07), boards.high },

@@ -6,14 +6,13 @@ local men = chess.men
 local function astray(v)
   local places = {}
   for k = 1, v.count do
-    local file = (v.case * 3 + k * 5) % 8 + 1
+    local file = ((v.case * 3 + k * 5) % 8 + 1) --[[@as integer]]
     places[men[(v.case * 11 + v.count * 7 + k * 13) % #men + 1].name] = string.sub("abcdefgh", file, file) .. 3 + (v.case + k) % 4
   end
   return places
 end
 
 return task {
-  world = "tabletop",
   variations = { count = { 1, 2, 3 }, case = range(1, 6) },
   objects = function()
     local objects = { board = { "chess_board", at = on_table { between(0.16, 0.21), between(-0.07, 0.07), boards.high },

@@ -1,6 +1,5 @@
 -- Slide the block, which is too wide to be taken, into the marked area of the table.
 return task {
-  world = "tabletop",
   objects = {
     block = { "wide_block" },
     target = { "target_area", at = on_table { between(0.11, 0.28), between(-0.25, 0.25) }, yaw = between(-math.pi, math.pi) },

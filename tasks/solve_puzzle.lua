@@ -1,6 +1,5 @@
 -- Put the last piece of the puzzle into its place.
 return task {
-  world = "tabletop",
   objects = { puzzle = { "puzzle_frame" }, piece = { "puzzle_piece" } },
   init = { is.on("puzzle", "table"), is.on("piece", "table"), is_not.crowds("puzzle", "piece") },
   goal = { is.in_slot("piece", "puzzle.hole") },

@@ -1,17 +1,14 @@
 -- Sort thirty small blocks that lie about into three trays by their colours: sixty skills, one colour after the other.
 return task {
-  world = "tabletop",
   variations = each(colours.apart(3), function(c) return { first = c[1], second = c[2], third = c[3] } end),
-  objects = function(v)
-    return {
-      a = { "sorting_block", colour = v.first, count = 10 },
-      b = { "sorting_block", colour = v.second, count = 10 },
-      c = { "sorting_block", colour = v.third, count = 10 },
-      a_tray = { "tray", colour = v.first, at = on_table { 0.315, -0.25, 0.005 } },
-      b_tray = { "tray", colour = v.second, at = on_table { 0.315, 0, 0.005 } },
-      c_tray = { "tray", colour = v.third, at = on_table { 0.315, 0.25, 0.005 } },
-    }
-  end,
+  objects = {
+    a = { "sorting_block", colour = "{first}", count = 10 },
+    b = { "sorting_block", colour = "{second}", count = 10 },
+    c = { "sorting_block", colour = "{third}", count = 10 },
+    a_tray = { "tray", colour = "{first}", at = on_table { 0.315, -0.25, 0.005 } },
+    b_tray = { "tray", colour = "{second}", at = on_table { 0.315, 0, 0.005 } },
+    c_tray = { "tray", colour = "{third}", at = on_table { 0.315, 0.25, 0.005 } },
+  },
   init = { is.on("a*", "table"), is.on("b*", "table"), is.on("c*", "table"),
     is.reachable("a*"), is.reachable("b*"), is.reachable("c*") },
   goal = { is.on("a*", "a_tray"), is.on("b*", "b_tray"), is.on("c*", "c_tray") },

@@ -1,13 +1,10 @@
 -- Stack two to four blocks of one colour in any order; leave the other colours alone.
 return task {
-  world = "tabletop",
   variations = { height = { 2, 3, 4 }, colour = colours.names },
-  objects = function(v)
-    return {
-      block = { "cube", colour = v.colour, count = 4 },
-      other = { "cube", colour = one_of(colours.except(v.colour)), count = 4 },
-    }
-  end,
+  objects = {
+    block = { "cube", colour = "{colour}", count = 4 },
+    other = { "cube", colour = one_of(colours.except("{colour}")), count = 4 },
+  },
   init = { is.on("block*", "table"), is.on("other*", "table") },
   goal = function(v) return any_order("block*", v.height, function(b, i) return is.on(b[i], b[i - 1]) end) end,
   horizon = 240, -- s

@@ -1,11 +1,10 @@
 -- Put two cups into the one of the colour that is named, which stays where it is.
 return task {
-  world = "tabletop",
   variations = { colour = colours.names },
-  objects = function(v)
-    local others = sample_of(colours.except(v.colour), 2)
-    return { base = { "stacking_cup", colour = v.colour }, cup = { "stacking_cup", count = 2, colour = others } }
-  end,
+  objects = {
+    base = { "stacking_cup", colour = "{colour}" },
+    cup = { "stacking_cup", count = 2, colour = sample_of(colours.except("{colour}"), 2) },
+  },
   init = { is.on("base", "table"), is.on("cup*", "table") },
   goal = { is.on("base", "table"), any_of {
     all_of { is.on("cup1", "base"), is.on("cup2", "cup1") }, all_of { is.on("cup2", "base"), is.on("cup1", "cup2") } } },

@@ -1,6 +1,5 @@
 -- Lay the bottle of wine that stands on the table into the rack, foot first.
 return task {
-  world = "tabletop",
   objects = {
     rack = { "wine_rack", at = on_table { between(0.20, 0.30), between(-0.18, 0.18) }, yaw = between(-math.pi / 4, math.pi / 4) },
     bottle = { "wine_bottle" },

@@ -1,6 +1,5 @@
 -- Take the picture frame off the hook and put it on the table.
 return task {
-  world = "tabletop",
   objects = {
     hanger = { "frame_hanger", at = on_table { between(0.10, 0.28), between(-0.22, 0.22) }, yaw = between(-math.pi, math.pi) },
     frame = { "picture_frame" },

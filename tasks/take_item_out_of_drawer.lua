@@ -1,18 +1,13 @@
 -- Open the drawer that holds the block, take the block out and put it on the table.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   variations = { level = { "bottom", "middle", "top" } },
   objects = {
-    chest = { "chest", place = places.round_the_table { gap = 0.12, turn = deg(22), wide = 0.26 } },
+    chest = { "chest" },
     item = { "cube", colour = one_of(colours.names) },
   },
-  init = function(v)
-    return { is.inside("item", "chest." .. v.level .. "_drawer"), is.workable("chest." .. v.level .. "_drawer"),
-      is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") }
-  end,
-  told = function(v) return { is.inside("item", "chest." .. v.level .. "_drawer") } end,
+  init = { is.inside("item", "chest.{level}_drawer"), is.workable("chest.{level}_drawer"),
+    is.closed("chest.bottom_drawer"), is.closed("chest.middle_drawer"), is.closed("chest.top_drawer") },
+  told = { is.inside("item", "chest.{level}_drawer") },
   goal = { is.on("item", "table") },
   instructions = {
     "take the block out of the {level} drawer and put it on the table",

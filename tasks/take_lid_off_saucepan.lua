@@ -1,10 +1,6 @@
 -- Take the lid off the saucepan by its knob and hold it above the pan.
 return task {
-  world = "tabletop",
-  objects = {
-    saucepan = { "saucepan" },
-    lid = { "saucepan_lid" },
-  },
+  objects = { saucepan = { "saucepan" }, lid = { "saucepan_lid" } },
   init = { is.on("saucepan", "table"), is.on("lid", "saucepan") },
   goal = { is.holding("lid"), is.inside("lid", "saucepan.overhead_space"), is.on("saucepan", "table") },
   instructions = {

@@ -1,6 +1,5 @@
 -- Take the pepper that is weighed off the scales and put it on the table; the needle goes back.
 return task {
-  world = "tabletop",
   variations = { colour = { "green", "red", "yellow" } },
   objects = {
     scales = { "kitchen_scales", at = on_table { between(0.14, 0.30), between(-0.20, 0.20) }, yaw = between(math.pi - 0.8, math.pi + 0.8) },

@@ -1,10 +1,9 @@
 -- Take the plate out of the slot of one colour and lay it on the table, face up.
 return task {
-  world = "tabletop",
   variations = { colour = { "black", "red", "purple" } },
   objects = { rack = { "dish_rack" }, plate = { "plate" } },
-  init = function(v) return { is.on("rack", "table"), is.in_slot("plate", "rack." .. v.colour .. "_slot") } end,
-  goal = function(v) return { is_not.in_slot("plate", "rack." .. v.colour .. "_slot"), is.on("plate", "table") } end,
+  init = { is.on("rack", "table"), is.in_slot("plate", "rack.{colour}_slot") },
+  goal = { is_not.in_slot("plate", "rack.{colour}_slot"), is.on("plate", "table") },
   also = function(w) -- it lies and does not lean
     local x, y, z = w:position("plate")
     local _, _, above = w:pose("plate"):along(0, 0, 1):position()

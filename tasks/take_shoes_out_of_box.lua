@@ -1,6 +1,5 @@
 -- Take both shoes out of the box, which is shut, and put them on the table.
 return task {
-  world = "tabletop",
   objects = {
     box = { "lidded_box", at = on_table { between(0.16, 0.26), between(-0.05, 0.05) }, yaw = between(deg(-22), deg(22)) },
     left = { "shoe" }, right = { "shoe" },

@@ -1,6 +1,5 @@
 -- Pull the umbrella out of the umbrella stand and hold it clear.
 return task {
-  world = "tabletop",
   objects = {
     stand = { "umbrella_stand", at = on_table { between(0.06, 0.28), between(-0.28, 0.28) }, yaw = between(-math.pi, math.pi) },
     umbrella = { "umbrella" },

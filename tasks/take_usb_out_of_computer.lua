@@ -1,6 +1,5 @@
 -- Take the USB stick out of the computer and put it on the table.
 return task {
-  world = "tabletop",
   objects = {
     computer = { "desktop_computer", at = on_table { between(0.16, 0.24), between(-0.16, 0.16) }, yaw = between(-math.pi, math.pi) },
     stick = { "usb_stick", colour = one_of { "red", "blue", "green", "orange", "magenta" } },

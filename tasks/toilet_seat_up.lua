@@ -1,6 +1,5 @@
 -- Raise the seat of the toilet.
 return task {
-  world = "tabletop",
   objects = { toilet = { "toilet", at = on_table { between(0.16, 0.28), between(-0.18, 0.18) }, yaw = between(deg(-45), deg(45)) } },
   init = { is.closed("toilet.seat") },
   goal = { is.open("toilet.seat") },

@@ -1,10 +1,9 @@
 -- Open one of the two taps of the basin by a quarter turn; the other one stays shut.
 return task {
-  world = "tabletop",
   variations = { side = { "left", "right" } },
   objects = { basin = { "basin_tap", at = on_table { between(0.10, 0.30), between(-0.20, 0.20) }, yaw = between(-math.pi, math.pi) } },
   init = { is_not.turned("basin.left_tap"), is_not.turned("basin.right_tap") },
-  goal = function(v) return { is.turned("basin." .. v.side .. "_tap"), stays("others") } end,
+  goal = { is.turned("basin.{side}_tap"), stays("others") },
   instructions = function(v) -- the basin may stand any way round: the mark says which side is meant
     local mark = v.side == "left" and "red" or "blue"
     return {

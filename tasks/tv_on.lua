@@ -1,12 +1,6 @@
 -- Point the remote control at the television and switch that on.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
-  objects = {
-    tv = { "television", place = places.beside_the_table { gap = 0.16, turn = deg(45), wide = 0.52 } },
-    remote = { "remote_control" },
-  },
+  objects = { tv = { "television" }, remote = { "remote_control" } },
   init = { is.on("remote", "table"), is.reachable("remote"), is_not.pointing_at("remote", "tv"), is_not.pressed("remote.power_button") },
   goal = in_order { is.pointing_at("remote", "tv"),
     all_of { is.pressed("remote.power_button"), is.pointing_at("remote", "tv") } },

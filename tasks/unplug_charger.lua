@@ -1,6 +1,5 @@
 -- Pull the charger out of the wall socket.
 return task {
-  world = "tabletop",
   objects = {
     outlet = { "outlet", at = on_table { between(0.18, 0.34), between(-0.20, 0.20) }, yaw = between(-0.42 * math.pi, 0.42 * math.pi) },
     charger = { "charger" },

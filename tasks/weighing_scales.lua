@@ -1,6 +1,5 @@
 -- Weigh one of the three peppers: put it on the tray of the scales; the needle must have moved.
 return task {
-  world = "tabletop",
   variations = { colour = { "green", "red", "yellow" } },
   objects = {
     scales = { "kitchen_scales", at = on_table { between(0.14, 0.30), between(-0.20, 0.20) }, yaw = between(math.pi - 0.8, math.pi + 0.8) },
@@ -8,13 +7,7 @@ return task {
   },
   init = { is.on("green_pepper", "table"), is.on("red_pepper", "table"), is.on("yellow_pepper", "table"),
     is.reachable("green_pepper"), is.reachable("red_pepper"), is.reachable("yellow_pepper") },
-  goal = function(v)
-    local goal = { is.on(v.colour .. "_pepper", "scales.tray") }
-    for _, colour in ipairs { "green", "red", "yellow" } do
-      if colour ~= v.colour then goal[#goal + 1] = is.on(colour .. "_pepper", "table") end
-    end
-    return goal
-  end,
+  goal = { is.on("{colour}_pepper", "scales.tray"), stays("others") },
   also = function(w) return w:joint("scales.needle") > 0.8 end, -- rad
   instructions = {
     "weigh the {colour} pepper",

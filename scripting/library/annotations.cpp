@@ -43,18 +43,19 @@ std::string signature(std::string_view description) {
                                                                       {"p", "table<string, any>"},
                                                                       {"c", "table<string, any>"}};
   constexpr std::string_view kHead = "function(";
-  if (!description.starts_with(kHead)) return "fun(...: any): any";
+  const std::string more = "...: any): any, any?";  // a test may return its margin second
+  if (!description.starts_with(kHead)) return "fun(" + more;
   description = description.substr(kHead.size(), description.find(')') - kHead.size());
   std::string text = "fun(";
   while (!description.empty()) {
     const std::string_view name = description.substr(0, description.find(", "));
     const auto type = kTypes.find(name);
-    if (type == kTypes.end()) return text + "...: any): any";  // names of objects, perhaps a random stream
+    if (type == kTypes.end()) return text + more;  // names of objects, perhaps a random stream
     text += std::string(name) + ": " + std::string(type->second);
     description.remove_prefix(std::min(name.size() + 2, description.size()));
     if (!description.empty()) text += ", ";
   }
-  return text + "): any";
+  return text + "): any, any?";
 }
 
 // Texts that names.lua knows all of. Others are no error: a file may be about to be written.
@@ -70,8 +71,8 @@ std::string type_of(const Field& field) {
   return type.replace(function, 8, "(" + signature(field.description) + ")");
 }
 
-std::string annotation(const Field& field) {
-  std::string text = "---@field " + std::string(field.name) + (field.required ? " " : "? ") + type_of(field);
+std::string annotation(const Field& field, bool required) {
+  std::string text = "---@field " + std::string(field.name) + (required ? " " : "? ") + type_of(field);
   if (field.of_variation) text += "|fun(v: table<string, any>): any";
   text += "  ";
   text += field.description;
@@ -84,11 +85,15 @@ std::string class_of(const Record& one) {
   const std::string_view name = one.name;
   std::string text = "\n-- " + std::string(one.description) + "\n---@class " + class_name(name);
   if (name == "entry") text += ": stampede.object";  // its fields go before those of the file
+  if (name == "task" || name == "world" || name == "robot") text += ": stampede.closed";
   text += "\n";
   if (*one.head != 0) {
     text += "---@field [integer] " + (name == "entry" ? "stampede.object_name|string" : lua_type(one.head)) + "\n";
   }
-  for (const Field& field : one.fields) text += annotation(field);
+  // What extends another may leave anything out.
+  const bool extends = std::any_of(one.fields.begin(), one.fields.end(),
+                                   [](const Field& field) { return field.name == std::string_view("extends"); });
+  for (const Field& field : one.fields) text += annotation(field, field.required && !extends);
   return text;
 }
 
@@ -164,6 +169,8 @@ std::string name_annotations(const Library& library) {
     predicates.insert(one.name);
     literals += symbol(one.name, one.parameters, false, one.label);
   }
+  for (const std::string& trait : traits)  // a predicate too
+    if (!predicates.contains(trait)) literals += symbol(trait, {{"x", "", {}}}, false, "it has the trait");
   for (const ScriptFile* file : library.files(DefinitionKind::skill)) {
     const SkillInfo* skill = library.skill(file->name);
     if (skill != nullptr) calls += symbol(file->name, skill->parameters, true, skill->label);

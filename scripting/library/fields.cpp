@@ -7,7 +7,7 @@ namespace {
 const Record kTask{
     "task",
     "What is to be done: objects, how they start, what must be true at the end",
-    {{"world", "string", true, "", "", "the world file it takes place in", "\"tabletop\""},
+    {{"world", "string", false, "\"tabletop\"", "", "the world file it takes place in", "\"kitchen\""},
      {"variations", "table|table[]", false, "{}", "", "axes (their product) or an explicit list of variations",
       "{ height = { 2, 3 }, colour = colours.names }"},
      {"where", "function", false, "", "", "function(v): false leaves a combination of the axes out"},
@@ -24,9 +24,10 @@ const Record kTask{
       "at the end: empty, or any; what the goal says of the hand or of things held goes before it", "\"any\""},
      {"skills", "string[]", false, "{}", "", "skills that extend or replace others, for this task", "{ \"my_open\" }"},
      {"steps", "call[]|call", false, "", "", "the skills to execute, instead of a plan", "{ act.pick(\"cup\") }", true},
-     {"also", "function", false, "", "", "function(w): a further test beside the goal"},
-     {"fails", "function", false, "", "", "function(w): true ends the episode as failed"},
-     {"reward", "function", false, "", "", "function(w): a shaped reward, added to 1 at success"},
+     {"also", "function", false, "", "", "function(w, v): a further test beside the goal"},
+     {"fails", "function", false, "", "",
+      "function(w, v): true ends the episode as failed, for the reason failed_by_task"},
+     {"reward", "function", false, "", "", "function(w, v): a shaped reward, added to 1 at success"},
      {"subgoals", "table", false, "{}", "",
       "formulas by name, or a list in order of { \"name\", formula } or { \"name\", formula, \"sentence\" }; {axis} in "
       "it is "
@@ -56,8 +57,6 @@ const Record kEntry{
      {"yaw", "number", false, "0", "rad", "turn about the vertical", "deg(90)"},
      {"rpy", "vector", false, "{ 0, 0, 0 }", "rad", "orientation about fixed axes, instead of yaw"},
      {"quaternion", "numbers", false, "", "", "orientation x y z w, instead of yaw"},
-     {"place", "place", false, "", "", "at and a turn together, where one draw chooses both",
-      "one_of { { at = on_table { 0.5, 0 } }, { at = on_table { 0.1, 0.5 }, yaw = deg(90) } }"},
      {"joints", "table", false, "{}", "rad or m",
       "initial joint positions by part; of a robot, where its arm starts instead of at home",
       "{ top_drawer = between(0.08, 0.14) }"}},
@@ -199,6 +198,9 @@ const Record kObject{
     "object", "A thing: shape, mass, type, traits, parts, grasps",
     body_fields_and(
         {{"fixed", "boolean", false, "not movable", "", "stands still (furniture)"},
+         {"place", "place", false, "", "",
+          "at and a turn together, where one draw chooses both; an entry's at goes before it",
+          "one_of { { at = on_table { 0.5, 0 } }, { at = on_table { 0.1, 0.5 }, yaw = deg(90) } }"},
          {"region", "region", false, "", "", "the whole object is a region: no mass, no contact"},
          {"parts", "{part}", false, "{}", "", "articulated parts, addressed object.part"},
          {"urdf", "string", false, "", "", "a URDF file beside this one, instead of shapes"},

@@ -256,6 +256,7 @@ class Reader {
     for (const Predicate& predicate : domain_.predicates) known.push_back(predicate.name);
     std::string hint = did_you_mean(name, known);
     if (hint.empty()) hint = alike(name, known);
+    if (name == "same") hint = "equal(\"?x\", \"?y\") says so";
     if (domain_.types.contains(name)) hint = "it is a type: write exists(\"?x: " + name + "\", …)";
     fail("there is no predicate '" + name + "'", hint);
   }
@@ -445,7 +446,6 @@ class Reader {
 
   Formula literal_formula(const Value& node) {
     const std::string& name = node["predicate"].text;
-    if (name == "same" && domain_.predicate(name) == nullptr) return equal(node);
     check_predicate(node);
     if (node["implied"].boolean && holds_something_) return {};
     if (const Predicate* known = domain_.predicate(name);

@@ -12,7 +12,6 @@ std::string new_file(DefinitionKind kind, std::string_view name) {
     case DefinitionKind::task:
       return "-- Lift a cube: say here in one line what is to be done.\n"
              "return task {\n"
-             "  world = \"tabletop\",\n"
              "  objects = { item = { \"cube\", colour = \"red\" } },\n"
              "  init = { is.on(\"item\", \"table\") },\n"
              "  goal = is.lifted(\"item\"),\n"

@@ -375,9 +375,46 @@ local function with_empty_hand(goal)
   return parts
 end
 
+-- Names with {axis} in them: "chest.{level}_drawer", with the variation's value for it. A text that is {axis} and no
+-- more is the value itself.
+local function with_axes(text, v)
+  local open = string.find(text, "{")
+  local close = open and string.find(text, "}", open)
+  if not close then return text end
+  local value = v[string.sub(text, open + 1, close - 1)]
+  if value == nil then say("'%s': there is no axis '%s'", text, string.sub(text, open + 1, close - 1)) end
+  if open == 1 and close == #text then return value end
+  return string.sub(text, 1, open - 1) .. tostring(value) .. with_axes(string.sub(text, close + 1), v)
+end
+
+local function has_axes(node, depth)
+  if type(node) == "string" then return string.find(node, "{") ~= nil end
+  if type(node) ~= "table" or depth > 32 then return false end -- deeper: the reader says
+  for _, value in pairs(node) do
+    if has_axes(value, depth + 1) then return true end
+  end
+  return false
+end
+
+-- `but_sentences`: texts that stand in no formula are left alone, they are sentences of subgoals.
+local function filled(node, v, but_sentences)
+  if type(node) == "string" then return but_sentences and node or with_axes(node, v) end
+  if type(node) ~= "table" then return node end
+  local copy, outside = {}, but_sentences and node.tag == nil
+  for key, value in pairs(node) do copy[key] = filled(value, v, outside) end
+  if copy.tag == "except" then return words.colours.except(table.unpack(copy)) end
+  if copy.tag == "sample_of" and copy.n > #copy.values then say("sample_of draws %d of %d values", copy.n, #copy.values) end
+  return copy
+end
+
 local define_task = words.task
 function words.task(fields)
   local definition = define_task(fields)
+  if definition.world == nil then definition.world = "tabletop" end
+  for _, name in ipairs { "objects", "init", "told", "goal", "steps", "subgoals" } do
+    local field = definition[name]
+    if has_axes(field, 1) then definition[name] = function(v) return filled(field, v, name == "subgoals") end end
+  end
   local goal, init = definition.goal, definition.init
   local implied = api.hand_empty and definition.hand ~= "any"
   local function finished(what, v)
@@ -435,13 +472,13 @@ local function drawn(fields) return setmetatable(fields, draw) end
 -- Draws, per episode ----------------------------------------------------------------------------------------------------
 function words.one_of(...)
   local values = { ... }
-  if #values == 1 and type(values[1]) == "table" and values[1].tag == nil then values = values[1] end
+  if #values == 1 and type(values[1]) == "table" and (values[1].tag == nil or values[1].tag == "except") then values = values[1] end
   if #values == 0 then say("one_of draws from nothing") end
   return drawn { tag = "one_of", values = values, line = here() }
 end
 function words.sample_of(values, n)
   if type(values) ~= "table" or math.type(n) ~= "integer" then say("sample_of takes a list and a whole number") end
-  if n > #values then say("sample_of draws %d of %d values", n, #values) end
+  if n > #values and values.tag ~= "except" then say("sample_of draws %d of %d values", n, #values) end
   return drawn { tag = "sample_of", values = values, n = n, line = here() }
 end
 function words.between(low, high)
@@ -561,6 +598,7 @@ end
 local confused = 32
 function colours.except(...)
   local others = {}
+  if has_axes({ ... }, 1) then return { tag = "except", ... } end -- filled() asks again
   for _, name in ipairs { ... } do
     for _, one in ipairs(type(name) == "table" and name or { name }) do others[#others + 1] = one end
   end

@@ -23,7 +23,7 @@ void SceneOutline::add(const std::string& name, const Value& entry, const Librar
   OutlinedThing& thing = things[name];
   thing = {either("type").is_text() ? either("type").text : region ? "region" : "", texts_of(either("traits"))};
   thing.known = found != nullptr;
-  thing.positioned = entry["at"].present() || entry["place"].present();
+  thing.positioned = entry["at"].present() || either("place").present();
   const bool fixed =
       either("fixed").kind == Value::Kind::boolean ? either("fixed").boolean : !listed(thing.traits, "movable");
   thing.free = found != nullptr && !fixed && !region;

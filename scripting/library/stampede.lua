@@ -2,10 +2,10 @@
 -- Made by `stampede doc` from the field tables of scripting/library/fields.cpp: do not edit.
 
 -- What is to be done: objects, how they start, what must be true at the end
----@class stampede.task
----@field world stampede.world_name|string  the world file it takes place in
+---@class stampede.task: stampede.closed
+---@field world? stampede.world_name|string  the world file it takes place in (default "tabletop")
 ---@field variations? table|table[]  axes (their product) or an explicit list of variations (default {})
----@field where? (fun(v: table<string, any>): any)  function(v): false leaves a combination of the axes out
+---@field where? (fun(v: table<string, any>): any, any?)  function(v): false leaves a combination of the axes out
 ---@field objects? table<string, stampede.entry>|fun(v: table<string, any>): any  the objects by name; count = n makes name1 … namen (default {})
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
@@ -13,9 +13,9 @@
 ---@field hand? string  at the end: empty, or any; what the goal says of the hand or of things held goes before it (default empty)
 ---@field skills? string[]  skills that extend or replace others, for this task (default {})
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan
----@field also? (fun(w: stampede.world_view): any)  function(w): a further test beside the goal
----@field fails? (fun(w: stampede.world_view): any)  function(w): true ends the episode as failed
----@field reward? (fun(w: stampede.world_view): any)  function(w): a shaped reward, added to 1 at success
+---@field also? (fun(w: stampede.world_view, v: table<string, any>): any, any?)  function(w, v): a further test beside the goal
+---@field fails? (fun(w: stampede.world_view, v: table<string, any>): any, any?)  function(w, v): true ends the episode as failed, for the reason failed_by_task
+---@field reward? (fun(w: stampede.world_view, v: table<string, any>): any, any?)  function(w, v): a shaped reward, added to 1 at success
 ---@field subgoals? table|fun(v: table<string, any>): any  formulas by name, or a list in order of { "name", formula } or { "name", formula, "sentence" }; {axis} in it is the variation's value (default {})
 ---@field horizon? number|fun(v: table<string, any>): any  the longest an episode may take [s] (default 120)
 ---@field observe? stampede.observe  pictures and sensors to record; goes before the world's, field by field (default {})
@@ -32,17 +32,17 @@
 
 -- A parameterised action: when it may be done, what it brings about, and how
 ---@class stampede.skill
----@field params string[]  "name: type & trait"; the hand is appended by itself
+---@field params? string[]  "name: type & trait"; the hand is appended by itself
 ---@field precondition? stampede.formula[]|stampede.formula  what must hold before (default {})
 ---@field effect? stampede.effect[]|stampede.effect  what holds afterwards; tested after each run (default {})
 ---@field cases? table<string, stampede.case>  instead of precondition and effect: several operators that share run
 ---@field continuous? table  continuous parameters by name: a number or vector with min max unit, or a stream (default {})
 ---@field controller? string  joint_position, joint_impedance or cartesian_impedance (default "joint_position")
 ---@field stiffness? number  of an impedance controller; 0: its default [N/m or N m/rad] (default 0)
----@field label string  what it does in words, with {params}
+---@field label? string  what it does in words, with {params}
 ---@field verbs? string[]  that tell of it in sentences, the first its own (default its label's)
 ---@field reads? table<string, stampede.declared_number>  numbers of its things that it reads, beside those of their traits (default {})
----@field run (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any)  function(robot, p, c): p parameters, c continuous parameters
+---@field run? (fun(robot: stampede.robot_view, p: table<string, any>, c: table<string, any>): any, any?)  function(robot, p, c): p parameters, c continuous parameters
 ---@field forgets? string[]  predicates that contact leaves uncertain (default {})
 ---@field cost? integer  of the action in a plan (default 1)
 ---@field moves? string[]  parameters that it moves: what ends_when "moved" of them ends (default {})
@@ -52,12 +52,12 @@
 
 -- A typed symbol with a test on the state of the world
 ---@class stampede.predicate
----@field params string[]  "name: type & trait"; one of type hand may be left out in literals
----@field label string  the fact in words, with {params}
----@field holds? (fun(w: stampede.world_view, ...: any): any)  function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds
+---@field params? string[]  "name: type & trait"; one of type hand may be left out in literals
+---@field label? string  the fact in words, with {params}
+---@field holds? (fun(w: stampede.world_view, ...: any): any, any?)  function(w, …): does it hold, and a signed margin if there is one: not negative exactly while it holds
 ---@field derived? stampede.formula  the formula that it stands for, instead of holds
 ---@field reads? table<string, stampede.declared_number>  numbers of its things that it reads, beside those of their traits (default {})
----@field sample? (fun(w: stampede.world_view, ...: any): any)  function(w, …, rng): poses or joint positions that make it true
+---@field sample? (fun(w: stampede.world_view, ...: any): any, any?)  function(w, …, rng): poses or joint positions that make it true
 ---@field static? boolean  cannot change in an episode: read once, at the start (default false)
 ---@field start_only? boolean  a condition for init and --where, tested when a start is drawn; never a fact, so no goal or skill names it (default false)
 ---@field extends? string  a predicate whose fields it has where it gives none itself; it holds where that one holds and its own test too
@@ -70,7 +70,7 @@
 ---@field requires? string  what can hold at all: pairs that are "touching" or "near"; "held": the last is in the hand (default "all")
 ---@field mutex? string[]  predicates that cannot hold of the same first argument: no start is drawn with both (default {})
 ---@field functional? boolean|string  at most one value of the last (or named) parameter: no start is drawn with two (default false)
----@field observable? (fun(w: stampede.world_view, ...: any): any)|boolean  function(w, …): can one see now whether it holds; false: never (default true)
+---@field observable? (fun(w: stampede.world_view, ...: any): any, any?)|boolean  function(w, …): can one see now whether it holds; false: never (default true)
 ---@field margin_unit? string  unit of the margin; channel `margins` is of the predicates that say one; "m or rad": the joint's
 
 -- A thing: shape, mass, type, traits, parts, grasps
@@ -95,6 +95,7 @@
 ---@field size? number[]|number[]|number  edge lengths where a file builds its shape from them [m]
 ---@field scale? number|number[]  of its meshes (default 1)
 ---@field fixed? boolean  stands still (furniture) (default not movable)
+---@field place? stampede.place  at and a turn together, where one draw chooses both; an entry's at goes before it
 ---@field region? stampede.region  the whole object is a region: no mass, no contact
 ---@field parts? table<string, stampede.part>  articulated parts, addressed object.part (default {})
 ---@field urdf? string  a URDF file beside this one, instead of shapes
@@ -102,7 +103,7 @@
 ---@field declares? table  types, traits and numbers of its own, as worlds/types.lua does: { types = {…}, traits = {…}, numbers = {…} } (default {})
 
 -- Where tasks take place: robot, fixtures, cameras, sensors, light
----@class stampede.world
+---@class stampede.world: stampede.closed
 ---@field robot stampede.entry  the robot file and where it stands
 ---@field skills? string[]  skills that extend or replace others, for its tasks (default {})
 ---@field fixtures? table<string, stampede.entry>  objects that every task has (default {})
@@ -119,7 +120,7 @@
 ---@field frame_hz? integer  recorded frames; divides physics_hz [Hz] (default 20)
 
 -- What a URDF cannot say about an arm
----@class stampede.robot
+---@class stampede.robot: stampede.closed
 ---@field urdf string  the URDF file beside this one
 ---@field arm string[]  its driven joints from base to tip
 ---@field tip table  the tool centre point: link, at, rpy [m, rad]
@@ -151,7 +152,6 @@
 ---@field yaw? number  turn about the vertical [rad] (default 0)
 ---@field rpy? number[]  orientation about fixed axes, instead of yaw [rad] (default { 0, 0, 0 })
 ---@field quaternion? number[]  orientation x y z w, instead of yaw
----@field place? stampede.place  at and a turn together, where one draw chooses both
 ---@field joints? table  initial joint positions by part; of a robot, where its arm starts instead of at home [rad or m] (default {})
 
 -- Where something stands

@@ -2,6 +2,8 @@
 -- The words of the authoring language and the methods of w, robot, rng and poses, for editors (LuaLS). stampede.lua has
 -- the fields of each kind of file, names.lua the predicates, skills, types … that there are.
 
+-- What has no other fields than its own
+---@class stampede.closed: { [string]: never }
 ---@class stampede.draw
 ---@class stampede.on_table
 ---@class stampede.formula
@@ -44,9 +46,9 @@ function in_order(...) end
 ---@return stampede.formula
 function any_order(group, n, f) end
 
--- forall("?x: block", is.on("?x", "table")): variables, then a formula or a function of the variables
----@param ... string|stampede.formula|fun(...: string): stampede.formula
----@return stampede.formula
+-- forall("?x: block", is.on("?x", "table")): variables, then a formula (in effects: an effect) or a function of the variables
+---@param ... string|stampede.formula|stampede.effect|fun(...: string): stampede.formula
+---@return stampede.literal
 function forall(...) end
 
 -- exists("?x: block", is.on("?x", "table")): variables, then a formula or a function of the variables
@@ -485,7 +487,7 @@ function stampede_world_view:place(thing, at) end
 ---@field name? string
 ---@field open? number
 
----@class stampede.grasp
+---@class stampede.found_grasp
 ---@field pose stampede.pose
 ---@field approach stampede.pose
 ---@field on_object stampede.pose
@@ -501,7 +503,7 @@ local stampede_robot_view = {}
 function stampede_robot_view:open_hand(opening) end
 -- With an object, it must end up held
 ---@param object? string
----@param options? { force: number }
+---@param options? { force: number? }
 function stampede_robot_view:close_hand(object, options) end
 -- { approach = pose, grasp = pose }: approach first, then others by name, last grasp, goal, place or target. Or
 -- { { "name", pose }, … } in the order written. All but the last are passed without a stop.
@@ -540,19 +542,19 @@ function stampede_robot_view:move_joints(positions) end
 -- on: the arm goes so that it can follow until there, if it can
 ---@param part string
 ---@param position number
----@param options? { speed: number, most_force: number, pivot: number, retreat: number, as_far_as_it_goes: boolean, then_to: number }
+---@param options? { speed: number?, most_force: number?, pivot: number?, retreat: number?, as_far_as_it_goes: boolean?, then_to: number? }
 function stampede_robot_view:move_part(part, position, options) end
 -- The joint position nearest to `to` that the arm can take the held part to from here
 ---@param part string
 ---@param to number
----@param options? { pivot: number, retreat: number }
+---@param options? { pivot: number?, retreat: number? }
 ---@return number
 function stampede_robot_view:reach_of_part(part, to, options) end
 -- A grasp of the part, where it is now, from which the arm can take it to `to`, or as far as any: its `reach`
 ---@param part string
 ---@param to number
----@param options? { pivot: number, retreat: number }
----@return stampede.grasp|nil
+---@param options? { pivot: number?, retreat: number? }
+---@return stampede.found_grasp|nil
 function stampede_robot_view:find_grasp(part, to, options) end
 -- Pieces one after the other, in one motion that stops where a piece says so and at the end
 ---@param pieces stampede.piece[]

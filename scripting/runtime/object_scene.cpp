@@ -22,7 +22,7 @@ Scene object_scene(std::shared_ptr<const Library> library, const std::string& ob
   scripts.protect([&](lua_State* state) {
     const Colours colours = read_colours(state, key);
     scripts.definitions().push(DefinitionKind::object, object);
-    Value fields = read_value(state, -1, {key, 0, file->shown_path, {}}, object);
+    Value fields = read_value(state, -1, {key, 0, file->shown_path, {"place"}}, object);
     for (const char* reserved : {"kind", "name", "tag", "line"}) fields.fields.erase(reserved);
     SceneBuilder builder("portrait", colours);
     builder.add_fixture({object, object, std::move(fields), file->path.parent_path(), assets.get()});

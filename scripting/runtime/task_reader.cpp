@@ -14,10 +14,13 @@
 namespace stampede {
 namespace {
 
-// An entry's fields replace the file's; its attributes and numbers are added to the file's. What `place` holds goes
-// where the entry's own at, yaw, rpy and quaternion would be: so one draw can choose all of them.
+// An entry's fields replace the file's; its attributes and numbers are added to the file's. What `place` holds, the
+// entry's or else the file's, goes where the entry's own at, yaw, rpy and quaternion would be: so one draw can choose
+// all of them.
 Value overlaid(Value file, const Value& entry) {
-  for (const auto& [key, value] : entry["place"].fields) {
+  const Value place = entry["place"].present() ? entry["place"] : file["place"];
+  file.fields.erase("place");
+  for (const auto& [key, value] : place.fields) {
     if (entry[key].present())
       throw Error(value.place, "place says '" + key + "', and the entry says it too", "leave one out");
     file.fields[key] = value;
@@ -120,11 +123,11 @@ const ScriptFile& TaskReader::used(DefinitionKind kind, const std::string& name,
   return *file;
 }
 
-Value TaskReader::definition(DefinitionKind kind, const std::string& name, const std::string& path,
-                             const Value& where) {
+Value TaskReader::definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where,
+                             std::vector<std::string> skip) {
   const ScriptFile& file = used(kind, name, where);
   scripts_.definitions().push(kind, name);
-  Value value = read_value(state_, -1, {key_, variation_, file.shown_path, {}}, path);
+  Value value = read_value(state_, -1, {key_, variation_, file.shown_path, std::move(skip), table_top_}, path);
   lua_pop(state_, 1);
   for (const char* reserved : {"kind", "name", "tag", "line"}) value.fields.erase(reserved);
   return value;
@@ -135,7 +138,10 @@ ObjectSource TaskReader::source_of(const Value& spec, const std::string& name, c
                              : spec.items.empty()           ? spec["object"]
                                                             : spec.items[0];
   ObjectSource source{name, class_value.as_text(), {}, {}, &assets_};
-  source.fields = overlaid(definition(DefinitionKind::object, source.class_name, path, class_value), spec);
+  const bool stands =
+      spec["at"].present() || spec["place"].present() || !table_top_;  // where the file says is not asked
+  const std::vector<std::string> skip = stands ? std::vector<std::string>{"place"} : std::vector<std::string>();
+  source.fields = overlaid(definition(DefinitionKind::object, source.class_name, path, class_value, skip), spec);
   source.folder = used(DefinitionKind::object, source.class_name, class_value).path.parent_path();
   return source;
 }

@@ -42,7 +42,8 @@ class TaskReader {
   std::string filled(const std::string& text) const;
 
   ObjectSource source_of(const Value& spec, const std::string& name, const std::string& path);
-  Value definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where);
+  Value definition(DefinitionKind kind, const std::string& name, const std::string& path, const Value& where,
+                   std::vector<std::string> skip = {});
   const ScriptFile& used(DefinitionKind kind, const std::string& name, const Value& where);
   std::vector<std::string> members(const std::string& group) const;
   FormulaContext context_of(const std::string& field) const;

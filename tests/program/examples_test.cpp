@@ -1,6 +1,7 @@
 // Every example of a help text is run as it stands, but for how much of it and where.
 #include <catch2/catch.hpp>
 #include <map>
+#include <set>
 
 #include "scripting/commands/commands.h"
 #include "tests/program/say.h"
@@ -158,6 +159,80 @@ TEST_CASE("the page of the first task: its files are right, and its commands do 
     if (words[0] == "plan") CHECK(says(said.out, "tap"));
   }
   CHECK(commands == 7);
+}
+
+namespace {
+
+// A Lua or JSON block of the page of the language: its file, and where it is marked as wrong what is said of it.
+struct Example {
+  std::string name, text;
+  bool wrong = false;
+  std::vector<std::string> complaints;
+};
+
+// A Lua file is named in its first line, `-- tasks/tower.lua: …`; another one in the line before its block.
+std::vector<Example> examples_of(const std::string& page) {
+  std::vector<Example> examples;
+  std::istringstream lines(page);
+  std::string before, fence;
+  for (std::string line; std::getline(lines, line); before = line) {
+    if (fence.empty() && (line.starts_with("```lua") || line.starts_with("```json"))) {
+      fence = line;
+      examples.push_back(
+          {line == "```json" ? before.substr(1, before.size() - 3) : "", "", line == "```lua wrong", {}});
+    } else if (!fence.empty() && line == "```") {
+      fence.clear();
+    } else if (!fence.empty()) {
+      Example& one = examples.back();
+      if (one.name.empty()) one.name = line.substr(3, line.find(".lua") + 1);
+      one.text += line + "\n";
+    } else if (line.starts_with("> ")) {
+      examples.back().complaints.push_back(line.substr(2));
+    }
+  }
+  return examples;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the page of the language: its files are right, its tasks run, and what is wrong on it is refused in its words") {
+  const Folder folder;
+  const std::vector<Example> examples = examples_of(file_text(STAMPEDE_SOURCE_DIR "/scripting/LANGUAGE.md"));
+  std::set<std::string> kinds;
+  int wrong = 0;
+  for (const Example& one : examples) {
+    INFO(one.name);
+    REQUIRE(one.name.find('/') != std::string::npos);
+    if (one.wrong) continue;
+    put(folder, one.name, one.text);
+    kinds.insert(one.name.substr(0, one.name.rfind('/')));
+  }
+  CHECK(kinds ==
+        std::set<std::string>{"skills", "tasks", "worlds", "worlds/objects", "worlds/predicates", "worlds/robots"});
+  put(folder, "worlds/robots/slow_panda.urdf", file_text(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.urdf"));
+  const Said right = checked(folder);
+  INFO(right.out << right.err);
+  CHECK(right.code == kDone);
+  for (const Example& one : examples) {
+    INFO(one.name);
+    if (one.wrong) {
+      ++wrong;
+      put(folder, one.name, one.text);
+      const Said said = checked(folder, {fs::path(one.name).stem()});
+      INFO(said.out << said.err);
+      CHECK(said.code == kBadInput);
+      CHECK_FALSE(one.complaints.empty());
+      for (const std::string& complaint : one.complaints) CHECK(says(said.out, complaint + "\n"));
+      fs::remove(folder / one.name);
+    } else if (one.name.starts_with("tasks/")) {
+      const Said said = say({"run", fs::path(one.name).stem(), "--root", STAMPEDE_SOURCE_DIR, "--path", folder.text(),
+                             "--workers", "1", "--out", folder / "demos.db"});
+      INFO(said.out << said.err);
+      CHECK(said.code == kDone);
+    }
+  }
+  CHECK(wrong >= 3);
 }
 
 }  // namespace stampede::program

@@ -1,6 +1,8 @@
 // The figures of tasks/README.md are of the tasks as they are now: tests/bench/tasks_page writes them anew.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -13,23 +15,18 @@ using namespace stampede::program;
 
 namespace {
 
-// `<!-- figures of stack_blocks: HASH -->`
-std::map<std::string, std::string> hashes_on_page() {
+// `HASH stack_blocks`
+std::map<std::string, std::string> hashes_of_page() {
   std::map<std::string, std::string> hashes;
-  std::istringstream page(file_text(std::string(STAMPEDE_SOURCE_DIR) + "/tasks/README.md"));
-  const std::string mark = "<!-- figures of ";
-  for (std::string line; std::getline(page, line);) {
-    if (!line.starts_with(mark)) continue;
-    const std::size_t colon = line.find(": ");
-    hashes[line.substr(mark.size(), colon - mark.size())] = line.substr(colon + 2, 32);
-  }
+  std::ifstream file(STAMPEDE_SOURCE_DIR "/tests/bench/tasks_page.hashes");
+  for (std::string hash, task; file >> hash >> task;) hashes[task] = hash;
   return hashes;
 }
 
 }  // namespace
 
 TEST_CASE("every task is on the page with figures of its present files: else run tests/bench/tasks_page") {
-  const auto hashes = hashes_on_page();
+  const auto hashes = hashes_of_page();
   std::istringstream tasks(say({"list", "--json"}).out);
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tasks")) {
@@ -60,4 +57,22 @@ TEST_CASE("the page says of every task what success and yaw are, beside RLBench'
   }
   for (const auto& entry : std::filesystem::directory_iterator(STAMPEDE_SOURCE_DIR "/tasks"))
     if (entry.path().extension() == ".lua") CHECK(listed.contains(entry.path().stem()));
+}
+
+TEST_CASE("the page of skills tells of skills that there are which tasks use them, and of tasks that there are") {
+  std::istringstream page(file_text(std::string(STAMPEDE_SOURCE_DIR) + "/skills/README.md"));
+  bool within = false;
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("<!-- ")) within = line == "<!-- begin uses -->";
+    if (!within || !line.starts_with("| `")) continue;
+    INFO(line);
+    ++rows;
+    const std::size_t end = line.find('`', 3);
+    CHECK(std::filesystem::exists(STAMPEDE_SOURCE_DIR "/skills/" + line.substr(3, end - 3) + ".lua"));
+    std::istringstream tasks(line.substr(end + 3, line.rfind('|') - end - 3));
+    for (std::string task; tasks >> task;)
+      CHECK(std::filesystem::exists(STAMPEDE_SOURCE_DIR "/tasks/" + task + ".lua"));
+  }
+  CHECK(rows > 15);
 }

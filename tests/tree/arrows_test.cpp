@@ -113,6 +113,24 @@ bool may_see_public(const std::string& room, const std::string& part) {
   return place(part) <= place(room);
 }
 
+// `| its SQL rows | session → db → record |` of engine/README.md; a room goes by the last part of its name.
+std::vector<std::vector<std::string>> walks() {
+  const std::string arrow = " → ", end = " |";
+  std::vector<std::vector<std::string>> walks;
+  std::ifstream file(kRoot / "engine/README.md");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("| ") || line.find(arrow) == std::string::npos) continue;
+    std::vector<std::string>& walk = walks.emplace_back();
+    line = line.substr(line.find(end) + 3, line.rfind(end) - line.find(end) - 3);
+    for (std::size_t at = 0; at != std::string::npos;) {
+      const std::size_t next = line.find(arrow, at);
+      walk.push_back(line.substr(at, next - at));
+      at = next == std::string::npos ? next : next + arrow.size();
+    }
+  }
+  return walks;
+}
+
 }  // namespace
 
 TEST_CASE("no folder includes one to its right") {
@@ -130,6 +148,30 @@ TEST_CASE("no folder includes one to its right") {
         const std::string own = room_of(fs::relative(file, kRoot).string(), arrows), other = room_of(include, arrows);
         CHECK((other == own || arrows.at(own).contains(other)));
       }
+}
+
+TEST_CASE("walks through the rooms go downhill: each room includes the next, which may not include it") {
+  const auto arrows = all_arrows();
+  const auto room_called = [&](const std::string& name) {
+    for (const auto& [room, uses] : arrows)
+      if (room == name || room.ends_with("/" + name)) return room;
+    return std::string();
+  };
+  std::size_t steps = 0;
+  for (const std::vector<std::string>& walk : walks())
+    for (std::size_t i = 0; i + 1 < walk.size(); ++i, ++steps) {
+      const std::string from = room_called(walk[i]), to = room_called(walk[i + 1]);
+      INFO(walk[i] << " to " << walk[i + 1]);
+      REQUIRE((!from.empty() && !to.empty()));
+      CHECK_FALSE(arrows.at(to).contains(from));
+      const std::vector<fs::path> files = sources(from);
+      CHECK(std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+        const std::vector<std::string> names = includes(file);
+        return std::any_of(names.begin(), names.end(),
+                           [&](const std::string& name) { return room_of(name, arrows) == to; });
+      }));
+    }
+  CHECK(steps > 20);
 }
 
 TEST_CASE("public headers stand alone: they include the standard library and each other") {

@@ -29,6 +29,7 @@ function boards.spot(file, rank, high)
   return { at = { x, y, high / 2 }, size = { 0.022, 0.022, high + 0.004 }, traits = { "container", "spot" } }
 end
 
+---@type { regions: table<string, table>, squares: table<string, string[]> }
 boards.checkers = { regions = {}, squares = { red = {}, black = {} } } -- the squares of each side's men, by name
 for _, rank in ipairs { 1, 2, 3, 6, 7, 8 } do
   for file = 1, 8 do
@@ -36,7 +37,8 @@ for _, rank in ipairs { 1, 2, 3, 6, 7, 8 } do
       local colour = rank < 4 and "red" or "black"
       local of_colour = boards.checkers.squares[colour]
       local name, spot = colour .. "_square" .. #of_colour + 1, boards.spot(file, rank, 0.016)
-      of_colour[#of_colour + 1], spot.type = name, colour .. "_square"
+      table.insert(of_colour, name)
+      spot.type = colour .. "_square"
       boards.checkers.regions[name] = spot
     end
   end

@@ -19,6 +19,7 @@ function chess.piece(name)
     cylinder { 0.0065, kind.high - 0.024, at = { 0, 0, (kind.high - 0.008) / 2 - middle } },
     cylinder { head, 0.016, at = { 0, 0, top - 0.008 } },
   }
+  ---@type stampede.shape[]
   local visual = { lathe { { 0.013, -middle }, { 0.013, 0.005 - middle }, { 0.009, 0.010 - middle }, { 0.0055, top - 0.020 },
     { head, top - 0.016 }, { head, top - (name == "pawn" and 0.006 or 0.002) }, { 0.003, top }, segments = 20 } }
   if name == "king" then

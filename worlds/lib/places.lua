@@ -27,10 +27,10 @@ local function at_side(sign, how)
   end)
 end
 
-local function behind(how)
-  local most = how.most or 0.22
+-- Across the table from the robot.
+local function across(how)
   return turned(how.turn, how.wide, function(from, to, further)
-    return { at = on_table { between(0.40 + how.gap + further, 0.44 + how.gap + further), between(-most, most), how.above or 0 },
+    return { at = on_table { between(0.40 + how.gap + further, 0.44 + how.gap + further), between(-0.22, 0.22), how.above or 0 },
       yaw = between(from, to) }
   end)
 end
@@ -49,17 +49,15 @@ end
 --   lean   by how much what stands at a side is turned from facing straight across, rad: a door that opens wide has its
 --          hinge, to the right of who stands before it, further from the arm then (0)
 --   far    the greatest x of what stands at a side, m (0.24)
---   most   how far from the middle of the edge what stands behind may be, m (0.22)
+-- Sides of the table are named as relations are (lib/relations.lua), by who stands opposite the robot: +y is on the right.
 
--- At either side of the table. What is tall belongs there: behind it, it would hide everything from the camera in front.
+-- At either side of the table. What is tall belongs there: across it, it would hide everything from the camera in front.
 function places.beside_the_table(how) return any_of_them(at_side(1, how), at_side(-1, how)) end
 
-function places.behind_the_table(how) return any_of_them(behind(how)) end
+-- On the right, +y, or across: for what has a door that would be between the arm and its inside on the left.
+function places.right_or_across(how) return any_of_them(across(how), at_side(1, how)) end
 
--- On the robot's left, +y, or behind the table: for what has a door that would be between the arm and its inside on the right.
-function places.left_or_behind(how) return any_of_them(behind(how), at_side(1, how)) end
-
--- At any of the three sides.
-function places.round_the_table(how) return any_of_them(behind(how), at_side(1, how), at_side(-1, how)) end
+-- At any of these three sides.
+function places.round_the_table(how) return any_of_them(across(how), at_side(1, how), at_side(-1, how)) end
 
 return places

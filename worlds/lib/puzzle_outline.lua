@@ -14,7 +14,7 @@ local function side(turn, out)
     end
   end
   for _, p in ipairs(profile) do
-    points[#points + 1] = { p[1] * math.cos(turn) - p[2] * math.sin(turn), p[1] * math.sin(turn) + p[2] * math.cos(turn) }
+    table.insert(points, { p[1] * math.cos(turn) - p[2] * math.sin(turn), p[1] * math.sin(turn) + p[2] * math.cos(turn) })
   end
 end
 

@@ -19,7 +19,7 @@ end
 local function reach(w, thing, x, y)
   local at = w:pose(thing)
   local from_x, from_y = at:position()
-  local sizes, sum = { w:size(thing) }, 0
+  local sizes, sum = { w:size(thing) }, 0.0
   for i, axis in ipairs { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } do
     local to_x, to_y = at:along(axis[1], axis[2], axis[3]):position()
     sum = sum + math.abs((to_x - from_x) * x + (to_y - from_y) * y) * sizes[i] / 2

@@ -9,11 +9,11 @@ function seats.loop(w, obj) return w:exists(obj .. ".loop") and obj .. ".loop" o
 
 -- The body or part that a region belongs to.
 function seats.owner(region)
-  local last
+  local last = 0
   for i = 1, #region do
     if string.sub(region, i, i) == "." then last = i end
   end
-  return last and string.sub(region, 1, last - 1) or region
+  return last > 0 and string.sub(region, 1, last - 1) or region
 end
 
 -- The pose of `obj` at which its part `place` lies at `wanted`.
@@ -35,6 +35,7 @@ end
 
 -- How little the hand likes a pose of the object: while it holds it, by how much it must turn, rad; else how far its top
 -- is from the hand, m.
+---@param w stampede.world_view
 local function effort(w, obj, wanted)
   if w:grasped(obj) then
     local _, _, _, scalar = (w:pose(obj):inverse() * wanted):quaternion()
@@ -67,6 +68,7 @@ end
 -- contains what has not left it yet; seated is more: at most `deep` above the region's lower face, `play` beside its
 -- middle, and `askew` (rad) out of its direction (`either_way`: or against it); an angle counts as what it puts a point 10 cm
 -- off out by.
+---@param w stampede.world_view
 function seats.seated(w, obj, place, region, deep, askew, either_way)
   local distance = w:region_distance(region, place)
   if distance > 0 then return -distance end
@@ -81,6 +83,7 @@ function seats.seated(w, obj, place, region, deep, askew, either_way)
 end
 
 -- From where `place` is now to `clear` beyond the end of the slot or hook, straight along it: { x, y, z }.
+---@param w stampede.world_view
 function seats.way_out(w, region, place, clear)
   local _, _, length = w:size(region)
   local _, _, z = (w:pose(region):inverse() * w:pose(place)):position()

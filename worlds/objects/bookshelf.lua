@@ -1,4 +1,5 @@
 -- A wide bookshelf, open towards -x: a shelf 0.95 m above the floor, where its frame is.
+local places = require "worlds.lib.places"
 local width, depth, height = 0.60, 0.22, 0.40 -- m, inside
 local wood, dark = { 0.58, 0.38, 0.22 }, { 0.45, 0.29, 0.16 }
 
@@ -15,6 +16,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = wood, shapes = shapes,
+  place = places.beside_the_table { gap = 0.185, turn = deg(28), above = 0.2, far = 0.20, wide = 0.62 },
   nouns = "bookcase",
   parts = {
     shelf = {

@@ -1,6 +1,7 @@
 -- A cabinet with three drawers that open towards -x; its frame is below the drawers, 0.75 m above the floor.
 -- A grasp of the handle by a hand that comes forwards and down at an angle; level hands do not reach all heights.
 -- `side` 1 or -1: which finger is on which side of the handle.
+local places = require "worlds.lib.places"
 local function from_above(degrees, side)
   local pitch = math.pi / 2 - math.rad(degrees)
   return {
@@ -33,6 +34,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = { 0.66, 0.50, 0.33 },
+  place = places.round_the_table { gap = 0.12, turn = deg(22), wide = 0.26 },
   nouns = "dresser",
   shapes = {
     box { 0.22, 0.26, 0.75, at = { 0.01, 0, -0.375 } }, -- what it stands on

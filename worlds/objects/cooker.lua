@@ -1,5 +1,6 @@
 -- A small cooker on a cupboard: two hot plates, an oven below, and on its slanted panel a knob for each; the panel looks
 -- along -x and up. Its frame is below it, 0.75 m above the floor.
+local places = require "worlds.lib.places"
 local white, steel, black = { 0.92, 0.92, 0.91 }, { 0.70, 0.72, 0.75 }, { 0.10, 0.10, 0.11 }
 local depth, width, height, slant = 0.24, 0.40, 0.10, deg(45) -- m; of the panel, from upright
 local front = -depth / 2
@@ -41,5 +42,6 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = steel, shapes = shapes,
+  place = places.round_the_table { gap = 0.13, turn = deg(45), wide = 0.40 },
   parts = { oven_knob = knob(0, { "turnable" }, { 0.85, 0.10, 0.10 }), left_knob = knob(0.12, {}, white), right_knob = knob(-0.12, {}, white) },
 }

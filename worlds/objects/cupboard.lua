@@ -1,10 +1,12 @@
 -- A small cupboard without doors, open towards -x: a shelf 0.95 m above the floor, where its frame is, and a lower part
 -- that is shut.
+local places = require "worlds.lib.places"
 local width, depth, height = 0.42, 0.24, 0.42 -- m, inside
 local wood, dark = { 0.80, 0.72, 0.58 }, { 0.60, 0.50, 0.38 }
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = wood,
+  place = places.beside_the_table { gap = 0.195, turn = deg(45), above = 0.2, wide = 0.44 },
   nouns = "pantry",
   shapes = {
     box { depth + 0.012, width + 0.03, 0.95, at = { 0.006, 0, -0.475 }, colour = dark },

@@ -1,6 +1,7 @@
 -- A small dishwasher on a cupboard: behind its flap, which swings down towards -x, a rack that slides out, with one slot for a
 -- plate. Its frame is below it, 0.75 m above the floor.
 local lids, racks = require "worlds.lib.lids", require "worlds.lib.dish_racks"
+local places = require "worlds.lib.places"
 local white, inner, wire = { 0.90, 0.91, 0.92 }, { 0.62, 0.64, 0.67 }, { 0.80, 0.81, 0.83 }
 local depth, width, foot, height, wall = 0.27, 0.34, 0.05, 0.36, 0.014 -- m; foot: up to its floor
 
@@ -15,6 +16,7 @@ rack.shapes[#rack.shapes + 1] = cylinder { 0.008, 0.030, at = { -0.106, 0, 0.044
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = white,
+  place = places.round_the_table { gap = 0.15, turn = deg(45), wide = 0.34 },
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.55, 0.50, 0.45 } }, -- what it stands on
     box { depth, width, foot, at = { 0, 0, foot / 2 } },

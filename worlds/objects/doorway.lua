@@ -1,12 +1,13 @@
 -- A door in its frame, about a third of its real size, that a lever holds shut; it opens towards -x. Its frame is below it, 0.75 m
 -- above the floor.
-local levers = require "worlds.lib.levers"
+local levers, places = require "worlds.lib.levers", require "worlds.lib.places"
 local wood, frame = { 0.86, 0.84, 0.78 }, { 0.55, 0.42, 0.30 }
 local width, height, post, thick = 0.34, 0.66, 0.05, 0.024 -- m
 local lever_z = 0.36
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = frame,
+  place = places.beside_the_table { gap = 0.06, turn = deg(45), lean = -0.10, wide = 0.44 },
   shapes = {
     box { 0.08, width + 2 * post, 0.75, at = { 0.04, 0, -0.375 }, colour = { 0.75, 0.73, 0.70 } }, -- the wall below
     box { 0.05, post, height, at = { 0.012, width / 2 + post / 2 + 0.002, height / 2 } },

@@ -1,5 +1,5 @@
 -- A small fridge on a cupboard, its freezer on top; both doors open towards -x. Its frame is below it, 0.75 m above the floor.
-local doors = require "worlds.lib.doors"
+local doors, places = require "worlds.lib.doors", require "worlds.lib.places"
 local body, steel, inner = { 0.90, 0.91, 0.92 }, { 0.72, 0.74, 0.77 }, { 0.96, 0.97, 0.98 }
 local depth, width, low, high, wall = 0.24, 0.32, 0.38, 0.16, 0.014 -- m; low, high: of the two compartments
 
@@ -28,6 +28,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = body, shapes = shapes,
+  place = places.round_the_table { gap = 0.13, turn = deg(25), lean = -0.16, wide = 0.32 },
   nouns = "refrigerator",
   parts = {
     shelf = { -- the floor of the lower compartment

@@ -1,5 +1,6 @@
 -- A fridge that gives ice: in the niche of its front, which looks along -x, a lever hangs that a cup pushes back. Its
 -- frame is 0.75 m above the floor.
+local places = require "worlds.lib.places"
 local steel, dark, ice = { 0.78, 0.80, 0.83 }, { 0.16, 0.17, 0.19 }, { 0.80, 0.92, 0.98 }
 local width, high, front, back, deep = 0.40, 0.40, -0.12, 0.12, 0.09 -- m; deep: of the niche
 local side, foot, roof = 0.130, 0.05, 0.33                           -- m: half the width of the niche, its floor and its roof
@@ -30,6 +31,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = steel, shapes = shapes,
+  place = places.beside_the_table { gap = 0.15, turn = deg(45), wide = 0.40 },
   parts = {
     lever = {
       type = "lever", traits = { "pressable" }, mass = 0.05, colour = { 0.92, 0.93, 0.95 }, friction = 0.3,

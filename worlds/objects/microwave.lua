@@ -1,10 +1,11 @@
 -- A microwave oven on a cupboard; its door opens towards -x. Its frame is below it, 0.75 m above the floor.
-local doors = require "worlds.lib.doors"
+local doors, places = require "worlds.lib.doors", require "worlds.lib.places"
 local body, dark, inner = { 0.82, 0.83, 0.85 }, { 0.12, 0.12, 0.14 }, { 0.90, 0.90, 0.88 }
 local depth, width, height, wall, panel = 0.24, 0.36, 0.22, 0.012, 0.08 -- m; panel: beside the door
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = body,
+  place = places.round_the_table { gap = 0.13, turn = deg(22), lean = -0.14, wide = 0.36 },
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.60, 0.45, 0.30 } }, -- what it stands on
     box { depth, width, wall, at = { 0, 0, wall / 2 } },

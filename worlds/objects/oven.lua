@@ -1,10 +1,11 @@
 -- An oven on a cupboard, with a flap that swings down towards -x and a shelf inside. Its frame is below it, 0.75 m above the floor.
-local lids = require "worlds.lib.lids"
+local lids, places = require "worlds.lib.lids", require "worlds.lib.places"
 local steel, dark, inner = { 0.74, 0.75, 0.77 }, { 0.12, 0.12, 0.13 }, { 0.28, 0.28, 0.30 }
 local depth, width, foot, height, wall = 0.26, 0.38, 0.06, 0.36, 0.014 -- m; foot: up to the shelf
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = steel,
+  place = places.round_the_table { gap = 0.14, turn = deg(45), wide = 0.38 },
   nouns = "cooker stove",
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.50, 0.40, 0.30 } }, -- what it stands on

@@ -1,4 +1,5 @@
 -- A safe with three shelves, its door open; it opens towards -x. Its frame is below it, 0.75 m above the floor.
+local places = require "worlds.lib.places"
 local steel, dark, brass = { 0.34, 0.36, 0.40 }, { 0.24, 0.25, 0.28 }, { 0.75, 0.62, 0.28 }
 local width, depth, pitch = 0.36, 0.22, 0.22 -- m; pitch: from shelf to shelf
 
@@ -13,6 +14,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = steel,
+  place = places.beside_the_table { gap = 0.17, turn = deg(45), wide = 0.38 },
   shapes = {
     box { depth + 0.03, width + 0.06, 0.75, at = { 0.015, 0, -0.375 }, colour = { 0.55, 0.43, 0.31 } }, -- what it stands on
     box { depth + 0.03, width + 0.06, 0.012, at = { 0.015, 0, 0.006 } },

@@ -1,6 +1,6 @@
 -- A low cabinet with two doors that slide apart, each past its side; it opens towards -x. Its frame is below it, 0.75 m above
 -- the floor.
-local doors = require "worlds.lib.doors"
+local doors, places = require "worlds.lib.doors", require "worlds.lib.places"
 local wood, dark, glass = { 0.72, 0.56, 0.38 }, { 0.40, 0.28, 0.18 }, { 0.62, 0.75, 0.80 }
 local depth, width, height, wall = 0.22, 0.64, 0.33, 0.012 -- m
 
@@ -36,6 +36,7 @@ end
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = wood,
+  place = places.round_the_table { gap = 0.13, turn = deg(16) },
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = dark }, -- what it stands on
     box { depth, width, wall, at = { 0, 0, wall / 2 } },

@@ -1,5 +1,6 @@
 -- A television on a cabinet; its screen faces -x. It shows a test card once a remote control that points at it has had its
 -- power button pressed. Its frame is on the cabinet, 0.75 m above the floor.
+local places = require "worlds.lib.places"
 local black, frame = { 0.03, 0.03, 0.04 }, { 0.12, 0.12, 0.13 }
 local width, height, foot = 0.52, 0.30, 0.05 -- m
 local front = -0.0185
@@ -15,6 +16,7 @@ end
 
 return object {
   type = "television", traits = { "aim" }, fixed = true, colour = frame,
+  place = places.beside_the_table { gap = 0.16, turn = deg(45), wide = 0.52 },
   shapes = {
     box { 0.20, 0.50, 0.75, at = { 0, 0, -0.375 }, colour = { 0.42, 0.30, 0.20 } },
     box { 0.13, 0.26, 0.008, at = { 0.01, 0, 0.004 } }, box { 0.03, 0.06, foot, at = { 0.01, 0, foot / 2 } },

@@ -1,11 +1,12 @@
 -- A small washing machine on a plinth; its round door opens towards -x. Its frame is below it, 0.75 m above the floor.
-local doors = require "worlds.lib.doors"
+local doors, places = require "worlds.lib.doors", require "worlds.lib.places"
 local white, glass, steel = { 0.93, 0.94, 0.95 }, { 0.20, 0.26, 0.32 }, { 0.70, 0.72, 0.75 }
 local depth, width, height, radius = 0.26, 0.36, 0.40, 0.13 -- m; radius: of the door
 local middle = 0.17 -- m, up to its middle
 
 return object {
   type = "furniture", traits = {}, fixed = true, colour = white,
+  place = places.round_the_table { gap = 0.14, turn = deg(45), lean = -0.16, wide = 0.36 },
   shapes = {
     box { depth, width, 0.75, at = { 0, 0, -0.375 }, colour = { 0.55, 0.56, 0.58 } }, -- what it stands on
     box { depth, width, height, at = { 0, 0, height / 2 } },

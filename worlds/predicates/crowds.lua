@@ -17,7 +17,7 @@ return predicate {
     if other == obj then return false end
     local length, width = w:size(obj)
     local tall = w:top(other) > (w:bottom(obj) + w:top(obj)) / 2 + below_palm
-    local room, grip, behind = 1, w:number(obj, "grip"), w:number(obj, "behind")
+    local room, grip, behind = 1.0, w:number(obj, "grip"), w:number(obj, "behind")
     for _, out in ipairs(tall and { -palm, -finger, finger, palm } or { -finger, finger }) do
       local x, y = 0, out
       if length < width then x, y = out, 0 end

@@ -10,7 +10,7 @@ local function shelf_spots(w, obj, shelf, rng)
   local deep, wide, high = w:size(region)
   local length, width = w:size(obj)
   local _, _, yaw = w:pose(obj):rpy()
-  local poses, to_front = {}, 0
+  local poses, to_front = {}, 0.0
   local _, _, into = frame:rpy()
   if held then
     most, turn = 60, 0.8
@@ -27,7 +27,7 @@ local function shelf_spots(w, obj, shelf, rng)
     if not held then room = 0.75 * room end -- so that it is easily taken off again
     local side = rng:between(-1, 1) * math.max(room, 0)
     local front = -deep / 2 + margin + half_x
-    local back = math.max(deep / 2 - half_x, 0) -- what is as deep as the shelf, turned, goes in its middle
+    local back = math.max(deep / 2 - half_x, 0.0) -- what is as deep as the shelf, turned, goes in its middle
     local spot = frame:along(math.min(front, back), side, w:below(obj) - high / 2 + 0.001)
     local x, y, z = spot:position()
     local free = true
@@ -76,6 +76,7 @@ local function handy(w, obj, box, spots)
     local x, y = inside:position()
     local _, _, yaw = inside:rpy()
     local off = (yaw + math.pi / 4) % (math.pi / 2) - math.pi / 4
+    ---@type number
     local less = math.max(1 - turn / (math.pi / 4), 0)
     if x <= back and x >= front and math.abs(y) <= side then kept[#kept + 1] = spot:rotated(0, 0, -less * off) end
   end

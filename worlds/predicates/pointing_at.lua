@@ -21,7 +21,7 @@ return predicate {
     return upright and math.abs(off) <= most, upright and most - math.abs(off) or math.min(0, most - math.abs(off))
   end,
   sample = function(w, obj, aim, rng) -- on the widest surface
-    local widest, most_area = nil, 0
+    local widest, most_area = "table", 0.0
     for _, surface in ipairs(w:objects("surface")) do
       local x, y = w:size(surface)
       if x * y > most_area then widest, most_area = surface, x * y end

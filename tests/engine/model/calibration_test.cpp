@@ -157,7 +157,7 @@ TEST_CASE("mounts that do not exist and matrices that are no rotations are refus
 }
 
 TEST_CASE("the camera file that the README shows is one") {
-  std::ifstream file(std::string(STAMPEDE_SOURCE_DIR) + "/scripting/README.md");
+  std::ifstream file(std::string(STAMPEDE_SOURCE_DIR) + "/scripting/LANGUAGE.md");
   const std::string readme{std::istreambuf_iterator<char>(file), {}};
   const std::size_t begin = readme.find("```json\n") + 8;
   const CalibrationFile shown(readme.substr(begin, readme.find("```", begin) - begin));

@@ -118,7 +118,7 @@ TEST_CASE("golden: fields") {
           .find("tasks/take.lua:5: objects.block.cuont: an entry has no field 'cuont'\n    did you mean 'count'?\n") ==
       0);
   CHECK(said("tasks/take.lua", "world = \"lab\"", "world = 7") ==
-        "tasks/take.lua:3: world: expects text, this is the number 7\n    such as world = \"tabletop\"\n");
+        "tasks/take.lua:3: world: expects text, this is the number 7\n    such as world = \"kitchen\"\n");
   CHECK(said("skills/pick.lua", "  label = \"take the {obj}\",\n", "") ==
         "skills/pick.lua:2: label: a skill needs the field 'label': what it does in words, with {params}\n"
         "    such as label = \"pick up the {obj}\"\n");

@@ -83,7 +83,7 @@ TEST_CASE("quantifiers keep types and traits") {
   REQUIRE(formula.kind == Formula::Kind::forall);
   CHECK(formula.variables[0] == Parameter{"x", "cube", {"movable"}});
   CHECK(formula.parts[0] == atom("on", {{true, "x"}, {false, "table"}}));
-  const Formula same = fixture.formula("is_not.same('a', 'b')");
+  const Formula same = fixture.formula("is_not(equal('a', 'b'))");
   REQUIRE(same.kind == Formula::Kind::negation);
   CHECK(same.parts[0].kind == Formula::Kind::equal);
 }

@@ -82,8 +82,8 @@ TEST_CASE("a function's parameters have types that editors complete") {
   CHECK_NOTHROW(Sandbox::compile(word_annotations(), "words.lua"));
   const std::string text = field_annotations();
   CHECK_NOTHROW(Sandbox::compile(text, "stampede.lua"));
-  CHECK(text.find("---@field holds? (fun(w: stampede.world_view, ...: any): any)") != std::string::npos);
-  CHECK(text.find("---@field run (fun(robot: stampede.robot_view, p: ") != std::string::npos);
+  CHECK(text.find("---@field holds? (fun(w: stampede.world_view, ...: any): any, any?)") != std::string::npos);
+  CHECK(text.find("---@field run? (fun(robot: stampede.robot_view, p: ") != std::string::npos);
 }
 
 TEST_CASE("predicates and skills of a library have their parameters, without the hand") {

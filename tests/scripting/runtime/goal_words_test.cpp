@@ -1,4 +1,5 @@
-// What goals say without saying it: the empty hand, what stays; and where on_table is.
+// What tasks say without saying it: the empty hand, what stays, their world, where furniture stands; names with an axis
+// in them; and where on_table is.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A task of the shipped world with these fields beside its world and sentences.
+// A task of the shipped world, which it need not name, with these fields beside its sentences.
 class Written {
  public:
   explicit Written(const std::string& fields) {
@@ -22,7 +23,7 @@ class Written {
     path_ = folder;
     fs::create_directories(path_ / "tasks");
     std::ofstream out(path_ / "tasks/written.lua");
-    out << "-- A task.\nreturn task {\n  world = \"tabletop\", instructions = { \"do it\" },\n";
+    out << "-- A task.\nreturn task {\n  instructions = { \"do it\" },\n";
     if (fields.find("objects = ") == std::string::npos)
       out << "  objects = { cup = { \"tumbler\" }, other = { \"cube\", count = 2 },\n"
              "    box = { \"lidded_box\", at = on_table { 0.2, 0 } } },\n";
@@ -31,8 +32,8 @@ class Written {
   ~Written() { fs::remove_all(path_); }
   Written(const Written&) = delete;
   Written& operator=(const Written&) = delete;
-  Task task() const {
-    EpisodeScripts scripts(Library::load({{STAMPEDE_SOURCE_DIR, path_}}), "written", "", 0);
+  Task task(const std::string& variation = "") const {
+    EpisodeScripts scripts(Library::load({{STAMPEDE_SOURCE_DIR, path_}}), "written", variation, 0);
     return scripts.task()(0);
   }
   std::string goal() const { return to_pddl(task().goal); }
@@ -151,4 +152,53 @@ TEST_CASE("colours that lie apart: as many as asked for, and nobody takes one fo
   CHECK(said("colours.apart(2)").empty());
   CHECK(said("colours.apart(30)").find("there are no 30 colours that far apart") != std::string::npos);
   CHECK(said("colours.apart()").find("colours.apart takes how many colours") != std::string::npos);
+}
+
+TEST_CASE("names, entries and colours with an axis in them are those of the variation, as a function of it would say") {
+  const std::string rest = "variations = { size = { 1, 2 }, colour = { \"red\", \"blue\" }, part = { \"lid\" } }, ";
+  const std::string box = "box = { \"lidded_box\", at = on_table { 0.2, 0 } }";
+  const Written named(rest + "objects = { cup = { \"tumbler\", colour = \"{colour}\", count = \"{size}\" }, " + box +
+                      ", other = { \"cube\", count = 3, colour = sample_of(colours.except(\"{colour}\"), 3) } }, " +
+                      "init = { is.on(\"cup*\", \"table\"), is.on(\"other*\", \"table\"), is.closed(\"box.{part}\") }, "
+                      "goal = { is.open(\"box.{part}\"), is.on(\"cup{size}\", \"table\"), stays(\"others\") }, "
+                      "subgoals = { { \"first\", is.open(\"box.{part}\"), \"open the {part}\" } }");
+  const Written computed(
+      rest + "objects = function(v) return { cup = { \"tumbler\", colour = v.colour, count = v.size }, " + box +
+      ", other = { \"cube\", count = 3, colour = sample_of(colours.except(v.colour), 3) } } end, " +
+      "init = { is.on(\"cup*\", \"table\"), is.on(\"other*\", \"table\"), is.closed(\"box.lid\") }, "
+      "goal = function(v) return { is.open(\"box.\" .. v.part), is.on(\"cup\" .. v.size, \"table\"), stays(\"others\") "
+      "} end");
+  CHECK(named.complaints().empty());
+  for (const char* variation : {"colour=red,part=lid,size=1", "colour=blue,part=lid,size=2"}) {
+    const Task one = named.task(variation), other = computed.task(variation);
+    CHECK(to_pddl(one.goal) == to_pddl(other.goal));
+    REQUIRE(one.subgoals.size() == 1);
+    CHECK(to_pddl(one.subgoals[0].formula) == "(open box--lid)");
+    CHECK(one.subgoals[0].sentence == "open the lid");
+    REQUIRE(one.scene.objects.size() == other.scene.objects.size());
+    for (std::size_t i = 0; i < one.scene.objects.size(); ++i)
+      CHECK(one.scene.objects[i].attributes == other.scene.objects[i].attributes);
+  }
+  const auto complaints = [&](const std::string& goal) {
+    return Written("variations = { size = { 1 } }, " + kInit + "goal = " + goal).complaints();
+  };
+  CHECK(complaints("is.on(\"cup\", \"table{sise}\")").find("'table{sise}': there is no axis 'sise'") !=
+        std::string::npos);
+}
+
+TEST_CASE("furniture stands where its file says, drawn as its entry would, unless the entry says another place") {
+  const auto stands = [](const std::string& entry) {
+    const Task task = Written("objects = { chest = { \"chest\"" + entry +
+                              " } }, init = { is.closed(\"chest.top_drawer\") }, goal = is.open(\"chest.top_drawer\")")
+                          .task();
+    return task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("chest"))].world_from_body;
+  };
+  const Transform own = stands("");
+  CHECK(
+      own.isApprox(stands(", place = require(\"worlds.lib.places\").round_the_table { gap = 0.12, turn = deg(22), wide "
+                          "= 0.26 }")));
+  CHECK(own.translation().z() == Approx(0.75));
+  CHECK(own.translation().head<2>().norm() > 0.4);
+  CHECK(stands(", at = on_table { 0.1, 0.2 }").translation().isApprox(Vector3(0.1, 0.2, 0.75)));
+  CHECK(stands(", place = { at = { 0.3, 0, 0.9 } }").translation().isApprox(Vector3(0.3, 0, 0.9)));
 }
