@@ -94,7 +94,25 @@ TEST_CASE("problems that cannot be read say where and why") {
   CHECK(problem_complaint("(:goal ())").find("the goal is empty") != std::string::npos);
   CHECK(problem_complaint("(:goal (and)) (:metric maximize (total-cost))").find("only (:metric minimize") !=
         std::string::npos);
+  CHECK(problem_complaint("(:goal (and) (and))").find("a goal is one formula\n    join the parts") !=
+        std::string::npos);
+  CHECK(problem_complaint("(:goal (and)) (:goal (and))").find("a second goal\n    join the two") != std::string::npos);
   CHECK(problem_complaint("(:goal (and))") == "no complaint");
+  const Domain priced = domain_from_pddl("(define (domain d) (:functions (total-cost) - number (far)))", "d");
+  const auto costly = [&](const std::string& init) {
+    return problem_from_pddl("(define (problem p) (:domain d) (:init " + init + ") (:goal (and)))", "p.pddl", priced);
+  };
+  CHECK(costly("(= (far) 3) (= (far) 3)").values == std::map<Fact, int>{{{"far", {}}, 3}});
+  CHECK_THROWS_WITH(costly("(= (far) 3) (= (far) 4)"), Catch::Contains("p.pddl:1:52: a second value of (far)"));
+  CHECK_THROWS_WITH(problem_from_pddl("(define)", "p", priced), Catch::Contains("expected (define (problem NAME)"));
+}
+
+TEST_CASE("plans that cannot be read say where and why") {
+  CHECK(plan_from_text("; first\n0.0: (pick cup table) ; then\n\n(wait)", "p") ==
+        Plan{{"pick", {"cup", "table"}}, {"wait", {}}});
+  CHECK_THROWS_WITH(plan_from_text("(wait)\n(pick cup", "p"), Catch::Contains("p:2:1: expected one (action argument"));
+  CHECK_THROWS_WITH(plan_from_text("pick cup)", "p"), Catch::Contains("p:1:1: expected one (action argument"));
+  CHECK_THROWS_WITH(plan_from_text("now (wait)", "p"), Catch::Contains("only a time may stand before a step"));
 }
 
 TEST_CASE("deep nesting is read up to a limit and refused beyond it, never a crash") {
@@ -167,6 +185,7 @@ TEST_CASE("a task-sized domain has what the task needs and gives the same plan")
   CHECK(small.predicate("painted") == nullptr);
   CHECK_FALSE(small.types.contains("brush"));
   CHECK(small.types.contains("cup"));
+  CHECK(small.types.contains("drawer"));  // which `clear` and the actions quantify over
   CHECK(solve(small, restricted(problem, small)).plan == solve(domain, problem).plan);
   const std::string text = to_pddl(restricted(problem, small), small);
   CHECK(problem_from_pddl(text, "again", domain_from_pddl(to_pddl(small), "small")) == restricted(problem, small));

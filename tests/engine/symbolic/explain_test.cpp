@@ -36,6 +36,19 @@ TEST_CASE("no plan: chains are followed to their end") {
         "because `open` needs (open chest.drawer), which nothing achieves");
 }
 
+TEST_CASE("no plan: long chains are told five links deep") {
+  std::string actions, predicates, expected = "(p0) cannot become true: ";
+  for (int i = 0; i < 9; ++i) {
+    const std::string has = std::to_string(i), wants = std::to_string(i + 1);
+    predicates += "(p" + has + ")";
+    if (i < 8) actions += "(:action a" + has + " :precondition (p" + wants + ") :effect (p" + has + "))";
+    if (i < 5) expected += "`a" + has + "` needs (p" + wants + "), which nothing achieves" + (i < 4 ? " because " : "");
+  }
+  const Domain domain = domain_from_pddl("(define (domain d) (:predicates " + predicates + ")" + actions + ")", "d");
+  const Problem problem = problem_from_pddl("(define (problem p) (:domain d) (:goal (p0)))", "p", domain);
+  CHECK(solve(domain, problem).explanation == expected);
+}
+
 TEST_CASE("no plan: objects of the wrong kind, and goals that exclude each other") {
   const Domain domain = test::kitchen();
   CHECK(why_not(domain, "(holding table)") ==

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/base/error.h"
+#include "engine/symbolic/instances.h"
 #include "kitchen.h"
 
 using namespace stampede;
@@ -91,6 +92,25 @@ TEST_CASE("unmet names each literal once, in seconds where there are many") {
   REQUIRE(texts.size() == 160'000);
   CHECK(texts.front() == "(near o1000 o1000)");
   CHECK(texts.back() == "(near o1399 o1399)");
+}
+
+TEST_CASE("instances are counted by type and trait, quantifiers in quantifiers multiplied, and limited") {
+  const Domain domain = domain_from_pddl("(define (domain d) (:types cup pan) (:predicates (old ?x) (p ?x ?y)))", "d");
+  std::vector<TypedObject> objects;
+  for (int i = 0; i < 500; ++i) objects.push_back({"c" + std::to_string(i), i < 400 ? "cup" : "pan"});
+  const Facts none;
+  const symbolic::View view{none, domain, objects};
+  CHECK(symbolic::instances_of({{"x", "cup", {}}, {"y", "pan", {}}}, view) == 40'000);
+  CHECK(symbolic::times(std::int64_t{1} << 40, std::int64_t{1} << 40) == 1'000'000'000'000'000'000);
+  CHECK(symbolic::times(3, 0) == 0);
+  const auto limited = [&](const std::string& text) {
+    symbolic::limit_instances(formula_from_pddl(text, "f"), view, "here");
+  };
+  CHECK_NOTHROW(limited("(and (forall (?x - cup ?y - cup) (p ?x ?y)) (forall (?x - cup ?y - cup) (p ?y ?x)))"));
+  CHECK_THROWS_WITH(limited("(forall (?x - cup) (exists (?y ?z) (p ?y ?z)))"),
+                    Catch::Contains("here: exists over ?x ?y ?z: 100,000,000 instances, at most 200,000"));
+  CHECK_THROWS_WITH(symbolic::limit_instances("action go", {{"x", "cup", {}}, {"y", "", {}}, {"z", "", {}}}, view, "f"),
+                    Catch::Contains("f: action go over ?x ?y ?z: 100,000,000 instances"));
 }
 
 TEST_CASE("effects read the state before, additions win over removals") {

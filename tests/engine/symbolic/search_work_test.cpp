@@ -189,6 +189,13 @@ std::string work_on(const Puzzle& puzzle) {
     }
     PlanLimits few;
     few.expansions = 2000;
+    for (const bool strict : {false, true}) {
+      Landmarks landmarks(task, heuristic.relaxation(), semantics.initial());
+      const SearchResult found = lazy_search(task, semantics, heuristic, few,
+                                             {semantics.initial(), task.goal, 0, 0, &landmarks, nullptr, strict});
+      line += ", by landmarks " + std::to_string(found.evaluated) + "/" + std::to_string(found.expanded) + " to " +
+              std::to_string(found.plan.size());
+    }
     const SearchResult wide = width_search(task, semantics, heuristic, few, {semantics.initial(), task.goal});
     line += ", by width " + std::to_string(wide.evaluated) + "/" + std::to_string(wide.expanded) + " to " +
             std::to_string(wide.plan.size());
