@@ -41,6 +41,8 @@ std::string cause_of(const Looked& looked) {
       return "without a straight way from the approach";
     case Looked::Fate::no_room:
       return "too wide for the place";
+    case Looked::Fate::no_follow:
+      return "without a way for the arm to go with it";
     case Looked::Fate::crowded:
       break;
   }
@@ -68,6 +70,25 @@ const Looked* nearest_miss(std::span<const Looked> looked) {
     if (nearest == nullptr || distance_of(one) < distance_of(*nearest)) nearest = &one;
   }
   return nearest;
+}
+
+const Looked* commonest_miss(std::span<const Looked> looked) {
+  const auto misses = [](const Looked& one) { return one.fate != Looked::Fate::usable; };
+  const bool of_best = std::ranges::any_of(looked, [&](const Looked& one) { return misses(one) && one.best; });
+  std::map<std::string, int> counts;
+  const Looked* commonest = nullptr;
+  for (const bool counting : {true, false})
+    for (const Looked& one : looked) {
+      if (!misses(one) || (of_best && !one.best)) continue;
+      if (counting) {
+        ++counts[cause_of(one)];
+        continue;
+      }
+      const int more = commonest == nullptr ? 1 : counts[cause_of(one)] - counts[cause_of(*commonest)];
+      const bool same = commonest != nullptr && cause_of(one) == cause_of(*commonest);
+      if (more > 0 || (same && distance_of(one) < distance_of(*commonest))) commonest = &one;
+    }
+  return commonest;
 }
 
 std::string Causes::text() const {

@@ -14,7 +14,8 @@ namespace stampede {
 
 struct Looked {
   // crowded: it would leave no room for a hand beside it. no_way: both ends are free, what is between is not.
-  enum class Fate { usable, touches, out_of_reach, no_way, no_room, crowded };
+  // no_follow: the arm could hold the part, but not go with it as far as it must.
+  enum class Fate { usable, touches, out_of_reach, no_way, no_room, crowded, no_follow };
   Fate fate = Fate::usable;
   Transform pose = Transform::Identity();  // of a grasp, world_from_tip; of a place, world_from_body
   double opening = 0;                      // of a grasp's hand, m
@@ -31,6 +32,9 @@ std::string miss_of(const Looked& looked);    // `touches pot by 2 mm`, `0.40 ra
 std::string amount_of(const Looked& looked);  // `2 mm`, `0.40 rad beyond panda_joint6's limit`; empty: not measured
 // The one that came closest to being usable, a radian taken for 0.3 m; null: nobody knows.
 const Looked* nearest_miss(std::span<const Looked> looked);
+// Of those that cannot be, and of these of the best where there are such: the nearest miss of the commonest cause, the
+// first of it where none was measured; null: there is none.
+const Looked* commonest_miss(std::span<const Looked> looked);
 
 // Counts by cause, most frequent first: `12 out of reach, 3 touch chest.top_drawer`.
 class Causes {

@@ -112,6 +112,7 @@ struct PredicateTraits {
   // all that end it, with the parameter that they move.
   std::vector<std::string> made_by = {};
   std::vector<std::pair<std::string, std::string>> moved_by = {};
+  bool sampled = true;  // it has a `sample`, which makes it
 };
 inline constexpr const char* kUnitOfJoint = "m or rad";  // that of the joint of the first argument
 
@@ -123,6 +124,7 @@ class Symbols {
   struct Value {
     bool holds = false;
     std::optional<double> margin;
+    bool asked_arm = false;  // what the arm can do was asked for, which takes long
   };
   // Of a basic or fixed predicate. Repeatable: reads the view only.
   virtual Value value(const Fact& fact, const WorldView& view) = 0;
@@ -132,8 +134,11 @@ class Symbols {
   // Ways to make the fact true, best or random first, at most `most`; empty when the predicate has no sample.
   virtual std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state,
                                         RandomKey key, int most) = 0;
-  // From now on places that sampling turns down are added there, for people; null: nobody asks.
+  // From now on places that sampling turns down, and grasps that keep a fact from holding, are added there, for people:
+  // that takes longer; null: nobody asks.
   virtual void watch(std::vector<Looked>* /*turned_down*/) {}
+  // Where the author asks for the fact: `tasks/stack.lua:8`; empty: not known.
+  virtual std::string asked_at(const Fact&) const { return {}; }
   class Watching {  // for a scope
    public:
     Watching(Symbols& symbols, std::vector<Looked>* turned_down) : symbols_(symbols) { symbols.watch(turned_down); }

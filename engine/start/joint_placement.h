@@ -1,4 +1,5 @@
-// Where to put a thing of which a start asks more than one thing: on a table and inside a zone, apart from another, …
+// Where to put a thing of which a start asks more than one thing: on a table and inside a zone, apart from another, in
+// reach, …
 #pragma once
 
 #include <functional>
@@ -21,10 +22,21 @@ struct PlacementAsked {
   const CollisionState* state = nullptr;   // likewise
 };
 
-// The first of `ways`, of more ways that its literals propose, and of places inside one thing put down on another, that
-// meets all that can be tested before anything is simulated. Nothing: none does, or there is nothing to test. The order
-// of literals does not matter to whether there is one.
-std::optional<Placement> joint_placement(const PlacementAsked& asked, const std::vector<Placement>& ways,
-                                         Symbols& symbols, RandomKey key);
+// A place that meets all that can be tested before anything is simulated; or else what most places failed of.
+struct JointPlacement {
+  std::optional<Placement> way;
+  std::optional<Literal> unmet;  // nothing: a way was found, or there is nothing to test, or nowhere to test it
+  std::optional<Placement> at;   // the last place that met all that was tested before this
+};
+
+// The first of `ways`, which were sampled for `first`, of more ways that its literals propose, those of small places
+// before those of what it only rests on, and of places inside one thing put down on another. The order of literals does
+// not matter to whether there is one. Each place is asked what is quick first: predicates in `slow`, which ask what the
+// arm can do and are added there as they are seen to, come last, and only so often.
+JointPlacement joint_placement(const PlacementAsked& asked, const Literal& first, const std::vector<Placement>& ways,
+                               Symbols& symbols, RandomKey key, std::set<std::string>& slow);
+
+// Does its foot come to the top of the other one, its middle above it?
+bool comes_to_rest_on(const WorldView& view, const std::string& thing, const std::string& below);
 
 }  // namespace stampede

@@ -1,7 +1,7 @@
 #include "engine/start/part_questions.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -32,6 +32,22 @@ std::optional<double> share_of(const WorldView& view, const std::string& part, c
   if (!numbers.contains(to) || !numbers.contains(number)) return std::nullopt;
   const double from = view.joint(part);
   return (numbers.at(number) - from) / (numbers.at(to) - from);
+}
+
+// That the arm can go with the part no further.
+Looked stopped_short(const WorldView& view, const std::string& part) {
+  Looked looked{Looked::Fate::no_follow, view.world_from(part)};
+  looked.opening = view.scene().robot.opening_max;
+  return looked;
+}
+
+// What keeps the arm from each grasp of a part; from those that it could take, that it cannot go with the part.
+void look_at_move(const WorldView& view, const CollisionState& space, const std::string& part,
+                  std::vector<Looked>& turned_down) {
+  for (Looked& one : look_at_grasps(grasp_query(view, space, part, RandomKey("can_move")), true)) {
+    if (one.fate == Looked::Fate::usable) one.fate = Looked::Fate::no_follow;
+    turned_down.push_back(std::move(one));
+  }
 }
 
 }  // namespace
@@ -87,18 +103,23 @@ std::optional<PartMove> part_move_to(const WorldView& view, const std::string& n
   return PartMove{std::move(way), view.joint(name), found->second};
 }
 
-bool can_grasp(const WorldView& view, const std::string& name, const std::string& before) {
+bool can_grasp(const WorldView& view, const std::string& name, const std::string& before,
+               std::vector<Looked>* turned_down) {
   const CollisionState space = space_behind(view, before);
   const World& world = view.world();
-  return std::ranges::all_of(std::array{"can_grasp", "again", "once more"}, [&](const char* draw) {
-    const auto grasps =
-        grasp_candidates({space, world, view.object(name), world.arm_position(), RandomKey(draw)}, kEnoughGrasps);
-    return grasps.size() == kEnoughGrasps;
-  });
+  const auto query = [&](const char* draw) {
+    return GraspQuery{space, world, view.object(name), world.arm_position(), RandomKey(draw)};
+  };
+  for (const char* draw : {"can_grasp", "again", "once more"}) {
+    if (grasp_candidates(query(draw), kEnoughGrasps).size() == kEnoughGrasps) continue;
+    if (turned_down != nullptr) std::ranges::move(look_at_grasps(query(draw), true), std::back_inserter(*turned_down));
+    return false;
+  }
+  return true;
 }
 
 bool can_move(const WorldView& view, const std::string& part, const std::string& to, const std::string& before,
-              const std::string& enough) {
+              const std::string& enough, std::vector<Looked>* turned_down) {
   constexpr int kMostGrips = 8;  // half of what a skill may take (worlds/lib/grips.lua): a start has something in hand
   constexpr double kSlack = 0.03;  // of the way: what a handle gives in the hand
   CollisionState space = space_behind(view, before);
@@ -119,9 +140,14 @@ bool can_move(const WorldView& view, const std::string& part, const std::string&
     const std::size_t wanted = grip == 0 ? kEnoughGrasps : 1;
     const auto found = grasps_to_go(grasp_query(view, there, part, RandomKey("can_move")), wanted,
                                     PartMove{rest_of(move->way, done), done, 1});
-    if (found.size() < wanted) return false;
+    if (found.size() < wanted) {
+      if (turned_down != nullptr && grip == 0) look_at_move(view, there, part, *turned_down);
+      if (turned_down != nullptr && grip > 0) turned_down->push_back(stopped_short(view, part));
+      return false;
+    }
     done = *found.front().reach;
   }
+  if (done < least && turned_down != nullptr) turned_down->push_back(stopped_short(view, part));
   return done >= least;
 }
 

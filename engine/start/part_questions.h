@@ -26,13 +26,16 @@ std::vector<GraspCandidate> grasps_to_go(const GraspQuery& query, int most, cons
 
 // Could the arm, from where it is, take the body or part with two of its grasps at least, nothing in the way, however
 // they are drawn? With `before`, a part that it is behind, open. As costly as looking for grasps: some milliseconds.
-bool can_grasp(const WorldView& view, const std::string& object, const std::string& before = {});
+// `turned_down`: where it cannot, each grasp and what keeps the arm from it are added there, which costs ten times
+// that.
+bool can_grasp(const WorldView& view, const std::string& object, const std::string& before = {},
+               std::vector<Looked>* turned_down = nullptr);
 // Could the arm, from where it is, take the part with two of its grasps at least and go with it, nothing in its way,
 // towards where its number `to` says, and with one grip after another, from wherever the last one ends, at least as
 // far as its number `enough` (by default `to`)? With `before`, a part that the way is behind, open. As costly as
-// looking for such grasps: up to a second each where there is none.
+// looking for such grasps: up to a second each where there is none. `turned_down`: as of can_grasp.
 bool can_move(const WorldView& view, const std::string& part, const std::string& to, const std::string& before = {},
-              const std::string& enough = {});
+              const std::string& enough = {}, std::vector<Looked>* turned_down = nullptr);
 
 // How a part moves from where its joint is to where its number `to` says, and is then let go; nothing: it has none.
 std::optional<PartMove> part_move_to(const WorldView& view, const std::string& name, const std::string& to);

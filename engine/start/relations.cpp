@@ -5,6 +5,7 @@
 
 #include "engine/model/operation.h"
 #include "engine/start/constraints.h"
+#include "engine/start/joint_placement.h"
 
 namespace stampede {
 namespace {
@@ -32,15 +33,6 @@ class Imagined {
   WorldView view_;
 };
 
-// Does its foot come to the top of the other one, its middle above it?
-bool rests_on(const WorldView& view, const std::string& thing, const std::string& below) {
-  constexpr double kGap_m = 0.005;
-  const Vector3 at = view.world_from(thing).translation();
-  const double top = view.top(below);
-  return std::abs(view.bottom(thing) - top) < kGap_m &&
-         view.box_distance(below, {at.x(), at.y(), (view.bottom(below) + top) / 2}) <= 0;
-}
-
 // Clearly so: a thing that is let go of comes to rest a little beside its place.
 bool clearly(const Literal& literal, Symbols& symbols, const WorldView& view) {
   constexpr double kSpare = 0.004;  // m or rad
@@ -58,7 +50,7 @@ class RelatedSearch {
   void sort_in(const std::vector<Placement>& ways, bool sampled_there) {
     for (const Placement& way : ways) {
       if (way.object != thing_ || !imagined_.put(way)) continue;
-      if (!sampled_there && !rests_on(imagined_.view(), thing_, on_.arguments.at(1))) continue;
+      if (!sampled_there && !comes_to_rest_on(imagined_.view(), thing_, on_.arguments.at(1))) continue;
       if (!meets_own(thing_)) continue;
       (later_than(thing_).empty() ? whole_ : own_).push_back(way);
     }
@@ -162,6 +154,42 @@ std::vector<Placement> related_placements(const std::vector<Literal>& asked, con
     if (!literal.negated && literal.fact.arguments.front() == on.arguments.front())
       search.sort_in(symbols.sample(literal.fact, view, space, key.with(to_text(literal.fact)), most), false);
   return search.take(key.with("next"));
+}
+
+std::optional<Literal> relation_without_room(const std::vector<Literal>& asked, const FactTracker& facts,
+                                             const WorldView& view, Symbols& symbols, RandomKey key) {
+  constexpr int kTried = 8;
+  Imagined imagined(view);
+  std::set<std::string> moved;
+  for (;;) {
+    const auto unmet = [&](const Literal& literal) {
+      return symbols.value(literal.fact, imagined.view()).holds == literal.negated;
+    };
+    std::set<std::string> waiting;
+    for (const Literal& literal : asked)
+      if (unmet(literal)) waiting.insert(literal.fact.arguments.front());
+    const auto next = std::ranges::find_if(waiting, [&](const std::string& thing) {
+      return std::ranges::all_of(asked, [&](const Literal& literal) {
+        const auto& names = literal.fact.arguments;
+        return names.front() != thing || std::none_of(names.begin() + 1, names.end(), [&](const std::string& other) {
+                 return waiting.contains(other);
+               });
+      });
+    });
+    if (next == waiting.end() || !moved.insert(*next).second) return std::nullopt;
+    const auto on = std::ranges::find_if(facts.facts(), [&](const Fact& fact) {
+      return fact.arguments.size() == 2 && fact.arguments.front() == *next &&
+             symbols.traits(fact.predicate).requires_pairs == Pairs::touching;
+    });
+    if (on == facts.facts().end()) return std::nullopt;
+    const auto ways =
+        related_placements(asked, *on, imagined.view(), imagined.space(), symbols, key.with(*next), kTried);
+    if (ways.empty() && moved.size() == 1) return std::nullopt;
+    if (ways.empty())
+      return *std::ranges::find_if(
+          asked, [&](const Literal& literal) { return literal.fact.arguments.front() == *next && unmet(literal); });
+    imagined.put(ways.front());
+  }
 }
 
 }  // namespace stampede

@@ -2,6 +2,7 @@
 // things (PredicateTraits::made_by).
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,5 +26,12 @@ std::vector<Literal> relations_asked(const Task& task, const FactTracker& facts)
 // sees it. Empty: there is none.
 std::vector<Placement> related_placements(const std::vector<Literal>& asked, const Fact& on, const WorldView& view,
                                           const CollisionState& space, Symbols& symbols, RandomKey key, int most);
+
+// The first of `asked` that cannot be made from what `view` sees by putting things elsewhere on what they are on, one
+// after the other, in a row of more than one: there is no room for all of it beside the table's edge, say. Nothing: all
+// can; or it is the first already, for which plans make room by moving what is in its way; or nobody knows (they go
+// round in a circle, or a thing is on nothing). Whether the arm gets there is not asked.
+std::optional<Literal> relation_without_room(const std::vector<Literal>& asked, const FactTracker& facts,
+                                             const WorldView& view, Symbols& symbols, RandomKey key);
 
 }  // namespace stampede

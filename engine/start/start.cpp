@@ -8,12 +8,14 @@
 #include "engine/base/error.h"
 #include "engine/model/camera.h"
 #include "engine/motion/looked.h"
-#include "engine/sim/overlap.h"
 #include "engine/start/altered_task.h"
 #include "engine/start/constraints.h"
+#include "engine/start/draft.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/joint_placement.h"
+#include "engine/start/refusals.h"
 #include "engine/start/relations.h"
+#include "engine/start/standing.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
@@ -21,10 +23,7 @@ namespace {
 
 constexpr double kLeastSettle = 0.25, kMostSettle = 3.0;  // s
 constexpr int kSamples = 8, kClutterSamples = 60;         // ways asked of one literal
-
-std::string text_of(const Literal& literal) {
-  return literal.negated ? "(not " + to_text(literal.fact) + ")" : to_text(literal.fact);
-}
+constexpr int kMostBack = 6, kMostBackOfAll = 60;         // things put elsewhere, in one draw and in all of them
 
 // Keeps things that have no place yet out of everyone's way; nothing is stepped while they are there.
 void park(Scene& scene, const std::vector<std::string>& unplaced) {
@@ -37,61 +36,6 @@ void park(Scene& scene, const std::vector<std::string>& unplaced) {
     offset += 10;
   }
 }
-
-JointVector arm_at_start(const Robot& robot) {
-  JointVector start(static_cast<Eigen::Index>(robot.arm.size()));
-  for (std::size_t i = 0; i < robot.arm.size(); ++i)
-    start[static_cast<Eigen::Index>(i)] = robot.body.parts[static_cast<std::size_t>(robot.arm[i])].joint.initial;
-  return start;
-}
-
-// One draw under construction: a scene, and a frozen world of it to ask.
-class Draft {
- public:
-  explicit Draft(Scene scene) : scene_(std::move(scene)) { rebuild(); }
-
-  const WorldView& view() const { return *view_; }
-  const CollisionState& collision_state() const { return *state_; }
-  Scene& scene() { return scene_; }
-
-  void place(const Placement& placement) {
-    const Object* thing = scene_.object(placement.object);
-    if (thing == nullptr) throw Error("", "sample placed '" + placement.object + "', which the scene does not have");
-    if (const double* position = std::get_if<double>(&placement.value)) {
-      auto& body = scene_.bodies[static_cast<std::size_t>(scene_.body_index(thing->body))];
-      body.parts[static_cast<std::size_t>(thing->part)].joint.initial = *position;
-      return rebuild();
-    }
-    const Transform& pose = std::get<Transform>(placement.value);
-    if (thing->kind == ObjectKind::region) {
-      Region& region = scene_.regions[static_cast<std::size_t>(scene_.region_index(thing->name))];
-      region.part_from_region = region.body.empty() ? pose : region.part_from_region;
-      return rebuild();
-    }
-    const int index = scene_.body_index(thing->body);
-    Body& body = scene_.bodies[static_cast<std::size_t>(index)];
-    body.world_from_body = pose;
-    if (!body.free || carries(body)) return rebuild();
-    world_->apply(operation::Place{index, pose});
-    state_->move_body(index, pose);
-  }
-
- private:
-  bool carries(const Body& body) const {  // another body is joined to it
-    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [&](const Body& other) { return other.joined_to == body.name; });
-  }
-
-  void rebuild() {
-    world_ = std::make_unique<World>(std::make_shared<const Scene>(scene_));
-    view_ = std::make_unique<WorldView>(*world_);
-    state_ = world_->collision_state();
-  }
-  Scene scene_;
-  std::unique_ptr<World> world_;
-  std::unique_ptr<WorldView> view_;
-  std::optional<CollisionState> state_;
-};
 
 // Does something of it swing or slide out?
 bool opens(const Scene& scene, const Object& object) {
@@ -131,87 +75,12 @@ double spare_room(const WorldView& view, const std::vector<std::string>& clutter
   return least;
 }
 
-bool joints_at_rest(const World& world) {
-  constexpr double kStill = 0.005;  // m/s or rad/s
-  for (std::size_t b = 0; b < world.scene().bodies.size(); ++b)
-    for (std::size_t p = 1; p < world.scene().bodies[b].parts.size(); ++p)
-      if (std::abs(world.joint_velocity({static_cast<int>(b), static_cast<int>(p)})) > kStill) return false;
-  return true;
-}
-
-bool all_at_rest(const WorldView& view) {
-  if (!joints_at_rest(view.world())) return false;
-  for (const Object& thing : view.scene().objects)
-    if (thing.kind == ObjectKind::body && !view.at_rest(thing.name)) {
-      const int body = view.scene().body_index(thing.body);
-      if (body >= 0 && view.scene().bodies[static_cast<std::size_t>(body)].free) return false;
-    }
-  return true;
-}
-
-// What keeps a draw from being a start: two things that lie in each other, or an arm that touches.
-struct Blocked {
-  std::string what;    // as it is told: `cabinet standing clear of table`
-  double depth = 0;    // m
-  std::string cure;    // empty: draw again
-  std::string moment;  // what would have to vary for it to go away: the same text, the same contact
-};
-
-// All that a body's parts are placed by, to the last bit.
-std::string placing_of(const Body& body) {
-  std::string bytes;
-  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
-  for (int i = 0; i < 16; ++i) add(body.world_from_body.matrix().data()[i]);
-  for (const Part& part : body.parts) add(part.joint.initial);
-  return bytes;
-}
-
-// The arm where it starts: against itself, and against all that stands or lies about.
-std::optional<Blocked> blocked_arm(const CollisionState& state, const Robot& robot) {
-  const JointVector start = arm_at_start(robot);
-  const std::optional<Overlap> deepest = deepest_overlap(state, start);
-  if (!deepest) return std::nullopt;
-  const std::string one = name_of_part(state.scene(), deepest->one),
-                    other = name_of_part(state.scene(), deepest->other);
-  Blocked blocked{"the arm being free where it starts: " + one + " touches " + other,
-                  deepest->depth,
-                  {},
-                  one + other + placing_of(robot.body)};
-  const auto link = [&](PartRef part) { return robot.body.parts[static_cast<std::size_t>(part.part)].name; };
-  if (deepest->other.on_robot() && deepest->one.on_robot())
-    blocked.cure = "where only their shapes say so: allowed = { { \"" + link(deepest->one) + "\", \"" +
-                   link(deepest->other) + "\" } } in worlds/robots/" + robot.name + ".lua; else another home or shape";
-  else
-    blocked.moment += placing_of(state.scene().body_at(deepest->other.body));
-  return blocked;
-}
-
-// Nothing lies in anything else: furniture in the table, things in each other. Before they have settled, free things
-// may: a cup is filled with beads in one place; and a hair deeper, for samplers put things a millimetre into what they
-// are to lie on.
-std::optional<Blocked> blocked_bodies(const CollisionState& state, bool settled) {
-  const double most_m = settled ? 0.001 : 0.0011;
-  const Scene& scene = state.scene();
-  std::vector<Overlap> all = overlapping_bodies(state, most_m);
-  if (!settled)
-    std::erase_if(all, [&](const Overlap& pair) {
-      return scene.body_at(pair.one.body).free && scene.body_at(pair.other.body).free;
-    });
-  if (all.empty()) return std::nullopt;
-  const Overlap& worst = all.front();
-  const std::string one = name_of_part(scene, worst.one), other = name_of_part(scene, worst.other);
-  return Blocked{other + " being clear of " + one,
-                 worst.depth,
-                 {},
-                 one + other + placing_of(scene.body_at(worst.one.body)) + placing_of(scene.body_at(worst.other.body))};
-}
-
 constexpr const char* kGoalHolds = "the goal not holding at the start";
 
 class StartMaker {
  public:
   StartMaker(const TaskDraw& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
-      : draw_task_(task), symbols_(symbols), options_(options), stop_(stop) {}
+      : draw_task_(task), symbols_(symbols), options_(options), stop_(stop), refusals_(symbols, options) {}
 
   PreparedStart make() {
     PreparedStart start;
@@ -237,78 +106,34 @@ class StartMaker {
 
  private:
   void say_why(PreparedStart& start) {
-    if (nothing_to_do()) {
+    if (nothing_to_do())
       start.detail = "the goal holds at the start already, in each of " + std::to_string(start.draws) +
                      " draws: init, or the goal, must leave something to do";
-      return;
-    }
-    for (const auto& [text, count] : failures_) {
-      start.detail += (start.detail.empty() ? "" : "; ") + text;
-      if (const auto blocked = blocked_.find(text); blocked != blocked_.end())
-        start.detail += blocked_text(blocked->second);
-      start.detail += " failed " + std::to_string(count) + (count == 1 ? " time" : " times");
-    }
-    if (nothing_varies()) start.detail += ": in each draw it is the same";
-    for (const auto& [text, blocked] : blocked_)
-      if (!blocked.cure.empty()) start.detail += "; " + blocked.cure;
-    for (auto& [text, impasse] : impasses_) tell(text, std::move(impasse), start.detail);
+    else
+      start.detail = refusals_.tell(task_, start.draws, nothing_varies());
   }
 
   // Every start that was drawn so far is the end too.
   bool nothing_to_do() const {
     constexpr int kEnough = 10;
-    const auto goal = failures_.find(kGoalHolds);
-    return goal != failures_.end() && failures_.size() == 1 && goal->second >= std::min(kEnough, options_.draws);
+    return refusals_.only(kGoalHolds) >= std::min(kEnough, options_.draws);
   }
 
   // Where what is in the way is the same each time, further draws are no use.
   bool nothing_varies() const {
     constexpr int kEnough = 3;
-    return same_moment_ >= std::min(kEnough, options_.draws);
+    return refusals_.same_moment() >= std::min(kEnough, options_.draws);
   }
 
-  static std::string blocked_text(const Blocked& blocked) {
-    const long depth_mm = std::max(1L, std::lround(1000 * blocked.depth));
-    return " (" + std::to_string(depth_mm) + " mm deep)";
-  }
-
-  void tell(const std::string& literal, Impasse impasse, const std::string& detail) const {
-    impasse.task = task_.name;
-    impasse.variation = task_.variation;
-    impasse.seed = options_.seed;
-    impasse.step = "init " + literal;
-    impasse.reason = Reason::init_impossible;
-    impasse.detail = detail;
-    options_.witness(impasse);
-  }
-
-  // No place for the literal's first argument: keeps the moment of the first such draw, and what all of them looked at.
-  bool refuse_place(const Draft& draft, const Literal& literal, const std::vector<Looked>& looked) {
-    constexpr std::size_t kMost = 1000;
-    const std::string text = text_of(literal);
-    if (!options_.witness) return refuse(text);
-    Impasse& impasse = impasses_[text];
-    if (++failures_[text] == 1) {
-      impasse.subject = subject(literal);
-      impasse.scene = std::make_shared<const Scene>(draft.view().scene());
-      impasse.state = initial_state(*impasse.scene);
-    }
-    impasse.draws = failures_[text];
-    if (impasse.looked.size() < kMost) impasse.looked.insert(impasse.looked.end(), looked.begin(), looked.end());
+  template <typename What>
+  bool refuse(const What& what) {
+    refusals_.add(what);
     return false;
   }
 
-  bool refuse(const std::string& what) {
-    ++failures_[what];
+  bool refuse_unmet(const Literal& literal, const Scene& scene) {
+    refusals_.add_unmet(literal, std::make_shared<const Scene>(scene), asked_by_author(literal));
     return false;
-  }
-
-  bool refuse(const Blocked& blocked) {
-    same_moment_ = blocked.moment == last_moment_ ? same_moment_ + 1 : 1;
-    last_moment_ = blocked.moment;
-    const auto [known, first] = blocked_.try_emplace(blocked.what, blocked);
-    known->second.depth = std::min(known->second.depth, blocked.depth);
-    return refuse(blocked.what);
   }
 
   bool try_draw(int draw, PreparedStart& start) {
@@ -317,9 +142,8 @@ class StartMaker {
     park(scene, task_.unplaced);
     Draft draft(std::move(scene));
     if (!place_all(draft, draw)) return false;
-    if (const auto unmet = unmet_condition(draft.view())) return refuse(*unmet);  // before anything is simulated
-    if (const auto blocked = blocked_arm(draft.collision_state(), draft.scene().robot)) return refuse(*blocked);
-    if (const auto blocked = blocked_bodies(draft.collision_state(), false)) return refuse(*blocked);
+    if (blocked_) return refuse(*blocked_);
+    ++moment_;
 
     World world(std::make_shared<const Scene>(draft.scene()));
     WorldView view(world);
@@ -382,17 +206,17 @@ class StartMaker {
   }
 
   // Leaves the first spot with enough room; where there is none, the roomiest that does for slim fingers.
-  // Those that have not even that go to `crowded`.
+  // Those that have not even that go to `crowded`, where somebody asks.
   void keep_clear(std::vector<Placement>& ways, const WorldView& view, const Literal& on,
-                  std::vector<Looked>& crowded) const {
+                  std::vector<Looked>* crowded) const {
     constexpr double kLeast = -0.04;  // m
     const Placement* best = nullptr;
     double most = kLeast;
     for (const Placement& way : ways) {
       const double room = spare_room(view, task_.clutter, on, way);
-      if (const auto* pose = std::get_if<Transform>(&way.value); room < kLeast && pose != nullptr && options_.witness) {
-        crowded.push_back({Looked::Fate::crowded, *pose});
-        crowded.back().missed_m = kLeast - room;
+      if (const auto* pose = std::get_if<Transform>(&way.value); room < kLeast && pose != nullptr && crowded) {
+        crowded->push_back({Looked::Fate::crowded, *pose});
+        crowded->back().missed_m = kLeast - room;
       }
       if (room < most) continue;
       best = &way;
@@ -418,64 +242,180 @@ class StartMaker {
     return body >= 0 && view.scene().bodies[static_cast<std::size_t>(body)].free;
   }
 
+  // What is still to be placed.
+  struct Placing {
+    std::vector<Literal> waiting;
+    std::vector<std::string> unplaced;
+    int number = 0;  // so many were sampled for
+  };
+  // Something that was placed: what there was to do before, and what takes it back.
+  struct Step {
+    Placing before;
+    Placement undo;
+  };
+  // Why it goes no further: no place for a literal's first argument, or a condition that is met nowhere, or is no
+  // longer.
+  struct Stuck {
+    enum class Of { place, condition, later } of;
+    Literal literal;
+    RandomKey key;                       // place: with which it was sampled
+    std::optional<Placement> undo = {};  // takes back where its thing was tried last
+  };
+
+  // Things are put one after the other. Where one finds no place, the one before that is in its way goes elsewhere.
   bool place_all(Draft& draft, int draw) {
     const RandomKey key = RandomKey("init").with(task_.name).with(task_.variation).with(options_.seed).with(draw);
     if (!choose_literals(draft, key.with("where"))) return false;
-    std::vector<std::string> unplaced = task_.unplaced;
-    unplaced.insert(unplaced.end(), replaced_.begin(), replaced_.end());
-    int number = 0;
-    std::vector<Literal> waiting_literals = literals_;
-    while (!waiting_literals.empty()) {
-      const auto next = next_to_place(waiting_literals, unplaced);
-      const Literal literal = *next;
-      waiting_literals.erase(next);
-      if (literal.negated) continue;
-      const bool clutter = is_clutter(subject(literal));
-      std::vector<Looked> looked;
-      const Symbols::Watching watching(symbols_, options_.witness ? &looked : nullptr);
-      auto ways = symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key.with(number++),
-                                  clutter ? kClutterSamples : kSamples);
-      if (clutter) keep_clear(ways, draft.view(), literal, looked);
-      const auto waiting = std::find(unplaced.begin(), unplaced.end(), subject(literal));
-      if (!clutter && waiting != unplaced.end() && is_free(draft.view(), subject(literal)))
-        if (const auto better = jointly(draft, subject(literal), unplaced, ways, key.with(number))) ways = {*better};
-      if (ways.empty()) {
-        if (waiting != unplaced.end()) return refuse_place(draft, literal, looked);
-        continue;  // nothing to place: the literal is only tested
-      }
-      const bool joint = std::holds_alternative<double>(ways.front().value);
-      if (!joint && waiting == unplaced.end()) continue;
-      draft.place(ways.front());
-      if (waiting != unplaced.end()) unplaced.erase(waiting);
+    Placing placing{literals_, task_.unplaced};
+    placing.unplaced.insert(placing.unplaced.end(), replaced_.begin(), replaced_.end());
+    steps_.clear();
+    ++moment_;
+    RandomKey own = key;
+    for (int back = 1;; ++back) {
+      const std::optional<Stuck> stuck = place_rest(draft, placing, own);
+      if (!stuck) return true;
+      if (back > kMostBack || !go_back(draft, placing, *stuck)) return refuse_stuck(draft, *stuck);
+      own = key.with("back").with(back);
     }
-    if (unplaced.empty()) return true;
+  }
+
+  std::optional<Stuck> place_rest(Draft& draft, Placing& placing, RandomKey key) {
+    while (!placing.waiting.empty())
+      if (auto stuck = place_next(draft, placing, key)) return stuck;
+    demand_none(placing.unplaced);
+    blocked_ = blocked_arm(draft.collision_state(), draft.scene().robot);
+    if (!blocked_) blocked_ = blocked_bodies(draft.collision_state(), false);
+    if (blocked_) return std::nullopt;
+    if (const auto unmet = unmet_condition(draft.view())) return Stuck{Stuck::Of::later, *unmet, key};
+    return std::nullopt;
+  }
+
+  std::optional<Stuck> place_next(Draft& draft, Placing& placing, RandomKey key) {
+    Placing before = placing;
+    const auto next = next_to_place(placing.waiting, placing.unplaced);
+    const Literal literal = *next;
+    placing.waiting.erase(next);
+    if (literal.negated) return std::nullopt;
+    const bool clutter = is_clutter(subject(literal));
+    const RandomKey own = key.with(placing.number++);
+    auto ways = sample(draft, literal, own, nullptr);
+    const auto waiting = std::find(placing.unplaced.begin(), placing.unplaced.end(), subject(literal));
+    const bool waits = waiting != placing.unplaced.end();
+    std::optional<Placement> undo;
+    JointPlacement joint;
+    if (!clutter && waits && is_free(draft.view(), subject(literal))) {
+      joint = jointly(draft, literal, placing, ways, key.with(placing.number), undo);
+      if (joint.way) ways = {*joint.way};
+      if (joint.unmet && start_only(joint.unmet->fact.predicate)) {
+        draft.place(*joint.at);
+        return Stuck{Stuck::Of::condition, *joint.unmet, own, undo};
+      }
+    }
+    if (ways.empty() && waits) return Stuck{Stuck::Of::place, literal, own, undo};
+    if (ways.empty()) return std::nullopt;  // nothing to place: the literal is only tested
+    if (!waits && !std::holds_alternative<double>(ways.front().value)) return std::nullopt;
+    if (!joint.way) ++moment_;
+    const Placement last = draft.place(ways.front());
+    steps_.push_back({std::move(before), undo && undo->object == last.object ? *undo : last});
+    if (waits) placing.unplaced.erase(waiting);
+    return std::nullopt;
+  }
+
+  // `looked`: where to add the ways that are turned down; null: nobody asks.
+  std::vector<Placement> sample(const Draft& draft, const Literal& literal, RandomKey key,
+                                std::vector<Looked>* looked) {
+    const Symbols::Watching watching(symbols_, looked);
+    const bool clutter = is_clutter(subject(literal));
+    auto ways =
+        symbols_.sample(literal.fact, draft.view(), draft.collision_state(), key, clutter ? kClutterSamples : kSamples);
+    if (clutter) keep_clear(ways, draft.view(), literal, looked);
+    return ways;
+  }
+
+  void demand_none(std::vector<std::string> unplaced) const {
     std::erase_if(unplaced, [&](const std::string& name) {  // `where` spoke of them, but without a sample
       return std::find(replaced_.begin(), replaced_.end(), name) != replaced_.end();
     });
-    if (unplaced.empty()) return true;
+    if (unplaced.empty()) return;
     throw Error("task " + task_.name, "no literal of init places '" + unplaced.front() + "'",
                 "add a literal such as is.on(\"" + unplaced.front() + "\", \"table\") to init, or give it `at`");
   }
 
   // The way that meets all that is asked of the thing and can be tested by now, if that is more than one literal.
-  std::optional<Placement> jointly(Draft& draft, const std::string& thing, const std::vector<std::string>& unplaced,
-                                   const std::vector<Placement>& ways, RandomKey key) {
+  // `undo` takes back where ways were tried.
+  JointPlacement jointly(Draft& draft, const Literal& literal, const Placing& placing,
+                         const std::vector<Placement>& ways, RandomKey key, std::optional<Placement>& undo) {
+    const std::string& thing = subject(literal);
+    ++moment_;
     PlacementAsked asked{thing,
                          {},
                          {},
-                         [&](const Placement& way) { draft.place(way); },
+                         [&](const Placement& way) {
+                           const Placement before = draft.place(way);
+                           if (!undo) undo = before;
+                         },
                          [&]() -> const WorldView& { return draft.view(); },
                          &draft.collision_state()};
-    for (const Literal& literal : literals_) {
-      const auto& arguments = literal.fact.arguments;
+    for (const Literal& one : literals_) {
+      const auto& arguments = one.fact.arguments;
       const bool ready = std::ranges::none_of(arguments, [&](const std::string& name) {
-        return name != thing && std::ranges::find(unplaced, name) != unplaced.end();
+        return name != thing && std::ranges::find(placing.unplaced, name) != placing.unplaced.end();
       });
       if (!ready || std::ranges::find(arguments, thing) == arguments.end()) continue;
-      asked.literals.push_back(literal);
-      if (start_only(literal.fact.predicate)) asked.conditions.insert(literal.fact.predicate);
+      asked.literals.push_back(one);
+      if (start_only(one.fact.predicate)) asked.conditions.insert(one.fact.predicate);
     }
-    return joint_placement(asked, ways, symbols_, key);
+    JointPlacement joint = joint_placement(asked, literal, ways, symbols_, key, slow_);
+    if (joint.way)
+      for (const Literal& one : asked.literals) met_at_[text_of(one)] = moment_;
+    return joint;
+  }
+
+  // Takes back what stands in the way of what is stuck, and all that was placed after it. False: there is no such
+  // thing, or it was done often enough.
+  bool go_back(Draft& draft, Placing& placing, const Stuck& stuck) {
+    const std::size_t to = step_to_redo(draft, stuck);
+    if (to == steps_.size() || backs_ == kMostBackOfAll) return false;
+    ++backs_;
+    ++moment_;
+    if (stuck.undo) draft.place(*stuck.undo);
+    for (; steps_.size() > to; steps_.pop_back()) {
+      draft.place(steps_.back().undo);
+      placing = std::move(steps_.back().before);
+    }
+    return true;
+  }
+
+  // The last that a condition names; of what was met until something came after it, the nearest of that; where there is
+  // no place, the last. None: the number of steps.
+  std::size_t step_to_redo(const Draft& draft, const Stuck& stuck) const {
+    const std::size_t none = steps_.size();
+    if (stuck.of == Stuck::Of::place) return none == 0 ? none : none - 1;
+    std::size_t named = none;
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+      if (std::ranges::any_of(stuck.literal.fact.arguments, [&](const std::string& name) {
+            return name == steps_[i].undo.object || name.starts_with(steps_[i].undo.object + ".");
+          }))
+        named = i;
+    if (named == none || stuck.of == Stuck::Of::condition) return named;
+    const auto at = [&](const std::string& name) -> Vector3 { return draft.view().world_from(name).translation(); };
+    std::size_t nearest = none;
+    double least = 0;
+    for (std::size_t i = named + 1; i < steps_.size(); ++i) {
+      const double way = (at(steps_[i].undo.object) - at(steps_[named].undo.object)).norm();
+      if (nearest == none || way < least) nearest = i, least = way;
+    }
+    return nearest;
+  }
+
+  bool refuse_stuck(Draft& draft, const Stuck& stuck) {
+    if (stuck.of != Stuck::Of::place) return refuse_unmet(stuck.literal, draft.scene());
+    if (stuck.undo) draft.place(*stuck.undo);
+    std::vector<Looked> looked;
+    sample(draft, stuck.literal, stuck.key, &looked);
+    refusals_.add_no_place(stuck.literal, std::make_shared<const Scene>(draft.view().scene()),
+                           asked_by_author(stuck.literal), looked);
+    return false;
   }
 
   // The first literal whose other arguments have their places; the first of all where each waits for another.
@@ -502,11 +442,25 @@ class StartMaker {
     names.merge(named_by(task_, symbols_));
     return names;
   }
-  // The first of them that is not met.
-  std::optional<std::string> unmet_condition(const WorldView& view) {
-    for (const Literal& literal : literals_)
-      if (start_only(literal.fact.predicate) && symbols_.value(literal.fact, view).holds == literal.negated)
-        return text_of(literal);
+  // Is it the task's own, whose line is known? One of `--where` is not.
+  bool asked_by_author(const Literal& literal) const {
+    return !options_.where || std::ranges::any_of(task_.init, [&](const Literal& own) {
+      return own.fact == literal.fact && own.negated == literal.negated;
+    });
+  }
+
+  // The first condition that is not met, of those that are quickly asked first. What was met since the last thing was
+  // placed is not asked again.
+  std::optional<Literal> unmet_condition(const WorldView& view) {
+    for (const bool slow : {false, true})
+      for (const Literal& literal : literals_) {
+        const std::string& predicate = literal.fact.predicate;
+        if (!start_only(predicate) || slow_.contains(predicate) != slow) continue;
+        if (const auto met = met_at_.find(text_of(literal)); met != met_at_.end() && met->second == moment_) continue;
+        const Symbols::Value value = symbols_.value(literal.fact, view);
+        if (value.holds == literal.negated) return literal;
+        if (value.asked_arm && !slow) slow_.insert(predicate), met_at_[text_of(literal)] = moment_;
+      }
     return std::nullopt;
   }
 
@@ -514,7 +468,7 @@ class StartMaker {
   std::string moving(const WorldView& view) {
     FactTracker tracker(symbols_, view, asked());
     tracker.begin(tracker.read_all(view));
-    if (const auto unmet = unmet_condition(view)) return *unmet + " and coming to rest";
+    if (const auto unmet = unmet_condition(view)) return text_of(*unmet) + " and coming to rest";
     for (const Literal& literal : literals_)
       if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
         return text_of(literal) + " and coming to rest";
@@ -525,10 +479,10 @@ class StartMaker {
     FactTracker tracker(symbols_, view, asked());
     auto values = tracker.read_all(view);
     tracker.begin(values);
-    if (const auto unmet = unmet_condition(view)) return refuse(*unmet);
+    if (const auto unmet = unmet_condition(view)) return refuse_unmet(*unmet, scene_as_it_is(view));
     for (const Literal& literal : literals_)
       if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
-        return refuse(text_of(literal));
+        return refuse_unmet(literal, scene_as_it_is(view));
     if (where_ && !holds(*where_, tracker.facts(), symbols_.domain(), tracker.objects()))
       return refuse(failing_parts(*where_, tracker.facts(), symbols_.domain(), tracker.objects()).front());
     tracker.look(view);
@@ -537,6 +491,9 @@ class StartMaker {
     if (holds(task_.goal, tracker.facts(), symbols_.domain(), tracker.objects()) &&
         (!task_.also || task_.also(with_facts)))
       return refuse(kGoalHolds);
+    const RandomKey key = RandomKey("room").with(task_.name).with(task_.variation).with(options_.seed);
+    if (const auto out = relation_without_room(relations_asked(task_, tracker), tracker, view, symbols_, key))
+      return refuse("room for what the goal asks, " + text_of(*out) + ",");
     start.scene = std::make_shared<const Scene>(scene_as_it_is(view));
     start.values = std::move(values);
     start.history = view.history();
@@ -551,11 +508,13 @@ class StartMaker {
   std::vector<Literal> literals_;      // of this draw: what is to be made true, and tested
   std::vector<std::string> replaced_;  // things with a place of their own, which `where` gives another
   std::optional<Formula> where_;
-  std::map<std::string, int> failures_;
-  std::map<std::string, Blocked> blocked_;   // by what is told of it: the shallowest
-  std::string last_moment_;                  // of the last draw that was blocked
-  int same_moment_ = 0;                      // so many were blocked in the same way, one after the other
-  std::map<std::string, Impasse> impasses_;  // of literals, where somebody asks
+  std::vector<Step> steps_;            // of this draw
+  std::optional<Blocked> blocked_;     // this draw, once all is placed
+  std::set<std::string> slow_;         // predicates that ask what the arm can do
+  int moment_ = 0;                     // other than before whenever something was moved
+  std::map<std::string, int> met_at_;  // moments at which a condition was met
+  int backs_ = 0;
+  Refusals refusals_;
 };
 
 }  // namespace

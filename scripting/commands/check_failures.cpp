@@ -44,6 +44,7 @@ void FailedSteps::add(const Impasse& impasse) {
   const bool in_vain = impasse.reason == Reason::no_grasp || impasse.reason == Reason::no_placement ||
                        impasse.reason == Reason::init_impossible;
   if (!in_vain) return;  // something was found, and failed later
+  if (impasse.reason == Reason::init_impossible && impasse.looked.empty()) ++step.details[impasse.detail];
   step.looked += static_cast<std::int64_t>(impasse.looked.size());
   for (const Looked& one : impasse.looked) {
     auto& [count, nearest] = step.causes[cause_of(one)];
@@ -78,7 +79,8 @@ void FailedSteps::draw(const std::filesystem::path& folder, const OutputRules& r
   if (fault) throw Error(folder.string(), "the folder cannot be made: " + fault.message(), "name another one");
   FileNames names;
   for (auto& [key, step] : steps_) {
-    if (!step.first) continue;
+    const bool nothing_to_show = step.first && step.first->reason == Reason::init_impossible && step.looked == 0;
+    if (!step.first || nothing_to_show) continue;
     const auto& [task, what, reason] = key;
     const std::filesystem::path file = folder / (names.take(plain(task + " " + what + " " + reason)) + ".png");
     draw_impasse(*step.first, file, rules);
@@ -89,7 +91,8 @@ void FailedSteps::draw(const std::filesystem::path& folder, const OutputRules& r
 // Counted over all tries where candidates were looked at; else what was said most often.
 std::string FailedSteps::why(const Step& step) const {
   if (!step.causes.empty()) {
-    const bool grasps = step.first->reason == Reason::no_grasp;
+    const auto of_hand = [](const Looked& one) { return one.opening > 0; };
+    const bool grasps = step.first->reason == Reason::no_grasp || (step.nearest && of_hand(*step.nearest));
     std::vector<std::pair<std::string, std::pair<std::int64_t, std::optional<Looked>>>> sorted(step.causes.begin(),
                                                                                                step.causes.end());
     std::stable_sort(sorted.begin(), sorted.end(),

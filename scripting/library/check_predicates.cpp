@@ -105,6 +105,7 @@ PredicateTraits traits_of(const Definition& definition) {
   traits.requires_pairs = required_pairs(definition);
   traits.only_named = node["only_named"].boolean;
   traits.made_by = texts_of(node["made_by"]);
+  traits.sampled = node["sample"].present();
   for (const char* field : {"only_named", "made_by"})
     if (node[field].present() && kind_of(node) != PredicateKind::basic)
       definition.complain(field, "only a predicate whose `holds` is read all the time has it",

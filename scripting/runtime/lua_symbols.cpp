@@ -68,18 +68,22 @@ Symbols::Value LuaSymbols::value(const Fact& fact, const WorldView& view) {
   throw Error("predicate " + fact.predicate, "has no 'holds', and is neither a trait nor an attribute");
 }
 
-Error LuaSymbols::asked_by_task(const Fact& fact, const Error& error) const {
+std::string LuaSymbols::asked_at(const Fact& fact) const {
   const ScriptFile* file = tests_.library()->file(DefinitionKind::task, task_);
   const int line = file == nullptr ? 0 : line_of_atom(file->source, fact.predicate, fact.arguments);
-  if (line == 0) return error;
-  return Error(file->shown_path + ":" + std::to_string(line),
-               to_text(fact) + ": " + (error.where().empty() ? "" : error.where() + ": ") + error.message(),
+  return line == 0 ? std::string() : file->shown_path + ":" + std::to_string(line);
+}
+
+Error LuaSymbols::asked_by_task(const Fact& fact, const Error& error) const {
+  const std::string place = asked_at(fact);
+  if (place.empty()) return error;
+  return Error(place, to_text(fact) + ": " + (error.where().empty() ? "" : error.where() + ": ") + error.message(),
                error.hint());
 }
 
 Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView& view) {
   ScriptState& scripts = tests_.get();
-  const ViewScope scope(scripts.view, view);
+  const ViewScope scope(scripts.view, view, nullptr, 0, turned_down_);
   lua_State* const state = scripts.lua();
   lua_rawgeti(state, LUA_REGISTRYINDEX, function);
   lua_rawgeti(state, LUA_REGISTRYINDEX, scripts.view_reference());
@@ -92,6 +96,7 @@ Symbols::Value LuaSymbols::call(int function, const Fact& fact, const WorldView&
   Value value;
   value.holds = lua_toboolean(state, -2) != 0;
   if (lua_type(state, -1) == LUA_TNUMBER) value.margin = lua_tonumber(state, -1);
+  value.asked_arm = scripts.view.asked_arm;
   lua_pop(state, 2);
   return value;
 }

@@ -27,6 +27,7 @@ class LuaSymbols : public Symbols {
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
                                 int most) override;
   void watch(std::vector<Looked>* turned_down) override { turned_down_ = turned_down; }
+  std::string asked_at(const Fact& fact) const override;
 
  private:
   // A predicate's function, as registry reference; 0: it has none.

@@ -80,16 +80,25 @@ std::string optional_name(lua_State* state, int index) {
   return lua_isnoneornil(state, index) ? std::string() : std::string(check_text(state, index));
 }
 
+// Notes that the arm is asked. Result: where to add what it is kept from; null: nobody wants to know.
+std::vector<Looked>* ask_arm(lua_State* state) {
+  ViewContext& context = **static_cast<ViewContext**>(luaL_checkudata(state, 1, kViewType));
+  context.asked_arm = true;
+  return context.space == nullptr ? context.turned_down : nullptr;  // a sample tells of places
+}
+
 int can_grasp(lua_State* state) {
+  const WorldView& view = view_of(state);
   const std::string thing(check_text(state, 2)), before = optional_name(state, 3);
-  lua_pushboolean(state, stampede::can_grasp(view_of(state), thing, before) ? 1 : 0);
+  lua_pushboolean(state, stampede::can_grasp(view, thing, before, ask_arm(state)) ? 1 : 0);
   return 1;
 }
 
 int can_move(lua_State* state) {
+  const WorldView& view = view_of(state);
   const std::string part(check_text(state, 2)), to(check_text(state, 3));
   const std::string before = optional_name(state, 4), enough = optional_name(state, 5);
-  lua_pushboolean(state, stampede::can_move(view_of(state), part, to, before, enough) ? 1 : 0);
+  lua_pushboolean(state, stampede::can_move(view, part, to, before, enough, ask_arm(state)) ? 1 : 0);
   return 1;
 }
 

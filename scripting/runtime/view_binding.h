@@ -17,12 +17,15 @@ namespace stampede {
 // only: a script that keeps `w` for later gets an error, never another moment's world.
 struct ViewContext {
   const WorldView* view = nullptr;
-  const CollisionState* space = nullptr;       // while sampling
-  int most = 0;                                // samples asked for
-  std::vector<Looked>* turned_down = nullptr;  // while sampling, where somebody asks: places that cannot be
-  bool facts = false;                          // may the facts be read? Not by predicates: facts are made of these
-  std::string hand;                            // `panda.hand`
-  const Numbers* numbers = nullptr;            // what is declared of things' numbers
+  const CollisionState* space = nullptr;  // while sampling
+  int most = 0;                           // samples asked for
+  // Where somebody asks: while sampling, places that cannot be; else grasps that keep the arm from what it is asked
+  // for.
+  std::vector<Looked>* turned_down = nullptr;
+  bool asked_arm = false;            // what the arm can do was asked for in this scope
+  bool facts = false;                // may the facts be read? Not by predicates: facts are made of these
+  std::string hand;                  // `panda.hand`
+  const Numbers* numbers = nullptr;  // what is declared of things' numbers
 };
 
 // Sets a context for a scope. Scopes nest.
@@ -35,6 +38,7 @@ class ViewScope {
     context.space = space;
     context.most = most;
     context.turned_down = turned_down;
+    context.asked_arm = false;
     context.facts = false;
   }
   enum class Facts { readable };
@@ -44,6 +48,7 @@ class ViewScope {
     context_.space = before_.space;
     context_.most = before_.most;
     context_.turned_down = before_.turned_down;
+    context_.asked_arm = before_.asked_arm;
     context_.facts = before_.facts;
   }
   ViewScope(const ViewScope&) = delete;
@@ -57,12 +62,13 @@ class ViewScope {
           space(context.space),
           most(context.most),
           turned_down(context.turned_down),
+          asked_arm(context.asked_arm),
           facts(context.facts) {}
     const WorldView* view;
     const CollisionState* space;
     int most;
     std::vector<Looked>* turned_down;
-    bool facts;
+    bool asked_arm, facts;
   } before_;
 };
 

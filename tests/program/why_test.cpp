@@ -108,6 +108,52 @@ TEST_CASE("a start that cannot be made: which literal, what is in the way, and a
   CHECK(pictures_in(mine / "why") == 1);
 }
 
+TEST_CASE(
+    "a condition of init that is never met: its line, what keeps the arm away, the cure, and ghosts of the hand") {
+  const Folder mine;
+  put_task(mine, "far = { \"tray\", at = { 0.75, 0, 0.75 } }, a = { \"cube\", at = { 0.75, 0, 0.7702 } }",
+           "is.reachable(\"a\")", "is.lifted(\"a\")");
+  const Said said = why(mine, {"--pictures", mine / "why"});
+  INFO(said.out << said.err);
+  CHECK(said.code == kNo);
+  CHECK(says(said.err, "tasks/t.lua:5: (reachable a) failed 100 times"));
+  CHECK(says(said.err, "out of reach ("));
+  CHECK(says(said.err, "; bring a nearer to panda"));
+  CHECK(says(said.err, "init (reachable a)"));
+  CHECK(says(said.err, " grasps: "));
+  CHECK(pixels_like(load_image(mine / "why/t-init-reachable-a-init_impossible.png"), 107, 112, 122) > 150);
+}
+
+TEST_CASE("a condition that something else stands in the way of: by how much, without a picture") {
+  const Folder mine;
+  put_task(mine, "a = " + kCube + ", b = { \"cube\", at = { 0.25, 0.1, 0.7702 } }", "is.spaced(\"a\", \"b\")",
+           "is.lifted(\"a\")");
+  const Said said = why(mine, {"--pictures", mine / "why"});
+  INFO(said.out << said.err);
+  CHECK(says(said.err, "(spaced a b) failed 100 times, by 20 mm at least"));
+  CHECK(pictures_in(mine / "why") == 0);
+}
+
+TEST_CASE("what an own predicate's sample does wrong, and what nothing makes, is told at the line that asks for it") {
+  const Folder mine;
+  put(mine, "worlds/predicates/beside_itself.lua",
+      "-- Draws nonsense.\nreturn predicate {\n  params = { \"obj: movable\", \"below: support\" },\n"
+      "  label = \"the {obj} is beside itself on the {below}\",\n  holds = function() return true end,\n"
+      "  sample = function(w, obj) return w:size(obj) + nil end,\n}\n");
+  put_task(mine, "a = { \"cube\" }", "is.beside_itself(\"a\", \"table\")", "is.lifted(\"a\")");
+  const Said wrong = why(mine);
+  INFO(wrong.out << wrong.err);
+  CHECK(says(wrong.out + wrong.err, "tasks/t.lua:5: (beside_itself a table): worlds/predicates/beside_itself.lua:6"));
+  put(mine, "worlds/predicates/polished.lua",
+      "-- Never so.\nreturn predicate {\n  params = { \"obj: movable\" }, label = \"the {obj} is polished\",\n"
+      "  holds = function() return false end,\n}\n");
+  put_task(mine, "a = " + kCube, "is.polished(\"a\")", "is.lifted(\"a\")");
+  const Said nothing = why(mine);
+  INFO(nothing.out << nothing.err);
+  CHECK(says(nothing.err,
+             "tasks/t.lua:5: (polished a) failed 100 times; nothing makes it so: 'polished' has no `sample`"));
+}
+
 TEST_CASE("a step that found a grasp and failed after that: green ghosts of the hand") {
   const Folder mine;
   put(mine, "skills/give_up.lua",

@@ -191,3 +191,34 @@ TEST_CASE("the plan's own domain says who makes a relation and who ends it") {
   CHECK(asked.front().fact == Fact{"left_of", {"red_cube", "blue_cube"}});
   CHECK_FALSE(asked.front().negated);
 }
+
+TEST_CASE("a start leaves room for the relations that the goal asks for") {
+  EpisodeScripts scripts(spatial(), "in_a_row", "", 1);
+  const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), {});
+  REQUIRE(start.reason == Reason::none);
+  const auto without_room = [&](double green_y) {
+    Scene scene = *start.scene;
+    const double y_of[] = {green_y, 0.1, 0.2};
+    const char* names[] = {"green_cube", "blue_cube", "red_cube"};
+    for (int i = 0; i < 3; ++i) {
+      Body& cube = scene.bodies[static_cast<std::size_t>(scene.body_index(names[i]))];
+      cube.world_from_body = translation(0.25, y_of[i], cube.world_from_body.translation().z());
+    }
+    World world(std::make_shared<const Scene>(scene));
+    for (int i = 0; i < 60; ++i) world.step();
+    world.close_window();
+    const WorldView view(world);
+    FactTracker facts(scripts.symbols(), view, named_by(start.task, scripts.symbols()));
+    facts.begin(facts.read_all(view));
+    return relation_without_room(relations_asked(start.task, facts), facts, view, scripts.symbols(), RandomKey("test"));
+  };
+  World world(start.scene);
+  const double side = WorldView(world).size("table").y() / 2;
+  const auto at_the_edge = without_room(0.035 - side);
+  REQUIRE(at_the_edge);
+  CHECK(at_the_edge->fact == Fact{"left_of", {"blue_cube", "green_cube"}});
+  CHECK_FALSE(without_room(0));
+  const EpisodeRecord once_without_room = run_spatial("in_a_row", "", 525);
+  INFO(verdict(once_without_room));
+  CHECK(once_without_room.outcome == Outcome::success);
+}

@@ -13,6 +13,7 @@ return predicate {
   params = { "other", "obj: movable" },
   label = "the {other} leaves no room for a hand around the {obj}",
   start_only = true,
+  margin_unit = "m", -- how much more room there would have to be
   holds = function(w, other, obj)
     if other == obj then return false end
     local length, width = w:size(obj)
@@ -26,6 +27,6 @@ return predicate {
     if tall and behind > 0 then
       for _, y in ipairs { -palm, 0, palm } do room = math.min(room, gap(w, other, obj, grip - behind, y) - 0.04) end
     end
-    return room < 0, -room -- m
+    return room < 0, -room
   end,
 }
