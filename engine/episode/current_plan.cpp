@@ -78,8 +78,10 @@ AssumingPlan CurrentPlan::ask_planner() const {
   AssumingPlan found = plan(false);
   if (!found.outcome.solved && relates())
     if (AssumingPlan other = plan(true); other.outcome.solved) found = std::move(other);  // the other thing makes room
+  std::string& explanation = found.outcome.explanation;
+  if (!found.outcome.solved) explanation += why_not_assumed(not_assumed(rollout_.facts()), explanation);
   if (!found.outcome.solved && rollout_.task().empty_hand)
-    found.outcome.explanation += "; the hand must be empty at the end, unless the task says hand = \"any\"";
+    explanation += "; the hand must be empty at the end, unless the task says hand = \"any\"";
   return found;
 }
 

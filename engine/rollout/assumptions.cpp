@@ -1,6 +1,7 @@
 #include "engine/rollout/assumptions.h"
 
 #include <algorithm>
+#include <map>
 
 namespace stampede {
 namespace {
@@ -42,19 +43,48 @@ Facts needed(PlanningTask planning, const Plan& plan, Facts assumed) {
   return assumed;
 }
 
+// Things of which something is known that could change, and what that is.
+std::map<std::string, Fact> placed_by(const FactTracker& facts) {
+  std::map<std::string, Fact> placed;
+  for (const Fact& fact : facts.known_basic()) {
+    const Predicate* predicate = facts.domain().predicate(fact.predicate);
+    if (predicate == nullptr || predicate->kind != PredicateKind::basic) continue;
+    for (const std::string& thing : fact.arguments) placed.emplace(thing, fact);
+  }
+  return placed;
+}
+
 }  // namespace
 
 Facts conceivable(const FactTracker& facts) {
-  std::set<std::string> placed;
-  for (const Fact& fact : facts.known_basic()) {
-    const Predicate* predicate = facts.domain().predicate(fact.predicate);
-    if (predicate != nullptr && predicate->kind == PredicateKind::basic)
-      placed.insert(fact.arguments.begin(), fact.arguments.end());
-  }
+  const std::map<std::string, Fact> placed = placed_by(facts);
   Facts found;
   for (Fact& fact : facts.never_seen())
     if (!fact.arguments.empty() && !placed.contains(fact.arguments.front())) found.insert(std::move(fact));
   return found;
+}
+
+std::vector<NotAssumed> not_assumed(const FactTracker& facts) {
+  const std::map<std::string, Fact> placed = placed_by(facts);
+  std::vector<NotAssumed> found;
+  for (Fact& fact : facts.never_seen()) {
+    const auto known = fact.arguments.empty() ? placed.end() : placed.find(fact.arguments.front());
+    if (known != placed.end()) found.push_back({std::move(fact), known->second});
+  }
+  return found;
+}
+
+std::string why_not_assumed(const std::vector<NotAssumed>& facts, const std::string& explanation) {
+  std::string text;
+  std::set<std::string> told;
+  for (const auto& [fact, known] : facts) {
+    const std::string missed = "(" + fact.predicate + " " + fact.arguments.front();
+    if (explanation.find(missed) == std::string::npos || !told.insert(missed).second) continue;
+    text += "; nobody can see whether " + to_text(fact) + ", but it is not assumed, for " + to_text(known) +
+            " is known of '" + fact.arguments.front() +
+            "': where nobody can see that either, the task says so in `observable`";
+  }
+  return text;
 }
 
 void keep_known(Problem& problem, const FactTracker& facts, const Facts& assumed) {

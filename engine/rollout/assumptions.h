@@ -11,6 +11,14 @@ namespace stampede {
 // What may be assumed: facts that nobody could see so far, of things of which nothing is known that could change.
 Facts conceivable(const FactTracker& facts);
 
+// What nobody could see so far and is not assumed all the same, for something else is known of its first thing.
+struct NotAssumed {
+  Fact fact, known;
+};
+std::vector<NotAssumed> not_assumed(const FactTracker& facts);
+// Those that an explanation misses, why there is no plan: `; nobody can see whether (lies_at ball place1), but …`.
+std::string why_not_assumed(const std::vector<NotAssumed>& facts, const std::string& explanation);
+
 // The start of `problem` as it is known, with what of `assumed` may still be so.
 void keep_known(Problem& problem, const FactTracker& facts, const Facts& assumed);
 

@@ -32,9 +32,9 @@ std::vector<const ScriptFile*> named_files(const Library& library, const std::ve
 
 // NAMES given: only complaints about these files, about what they use, and about no file at all.
 std::vector<Error> wanted_complaints(const Library& library, const std::vector<Error>& all,
-                                     const std::vector<std::string>& names) {
+                                     const std::vector<std::string>& names,
+                                     const std::vector<const ScriptFile*>& used) {
   if (names.empty()) return all;
-  const std::vector<const ScriptFile*> used = library.used_by(named_files(library, names));
   const std::vector<const ScriptFile*> known = named_files(library, {});
   const auto about = [](const std::vector<const ScriptFile*>& files, const Error& error) {
     return std::any_of(files.begin(), files.end(), [&](const ScriptFile* file) { return is_about(error, *file); });
@@ -200,19 +200,25 @@ ExitCode do_check(const Arguments& arguments, Console& console) {
   const std::vector<std::string>& names = arguments.list("NAMES");
   auto library = Library::load(roots_of(arguments), all, names);
   check_names(*library, names, all);
-  bool usable = all.empty();
-  if (!usable) {
-    try {
-      library = load_usable_library(arguments);
-      usable = true;
-    } catch (const LibraryError&) {  // in what all files share: said already
-    }
+  std::vector<Error> shared;  // mistakes in what all files share
+  try {
+    if (!all.empty()) library = load_usable_library(arguments);
+  } catch (const LibraryError& errors) {
+    shared = errors.errors();
   }
-  std::vector<Error> complaints = wanted_complaints(*library, all, names);
-  if (usable) {
+  std::vector<const ScriptFile*> used;
+  if (!names.empty()) used = library->used_by(named_files(*library, names));
+  std::vector<Error> complaints = wanted_complaints(*library, all, names, used);
+  if (!shared.empty() && !names.empty()) complaints = shared;  // as a run says
+  if (shared.empty()) {
     BuiltCheck built{named_files(*library, names), names.empty() ? kBuiltOfAll : kBuiltOfNamed, console.stop};
     std::erase_if(built.files, [&](const ScriptFile* file) { return library->file(file->kind, file->name) != file; });
-    for (const Error& remark : check_built(library, built, complaints)) console.err << remark.what() << "\n";
+    if (!names.empty())
+      for (const ScriptFile* skill : library->files(DefinitionKind::skill)) used.push_back(skill);  // any plan's
+    std::vector<Error> remarks = wanted_complaints(*library, library->remarks(), names, used);
+    for (Error& remark : check_built(library, built, complaints)) remarks.push_back(std::move(remark));
+    for (const Error& remark : remarks) console.err << remark.what() << "\n";
+    if (!names.empty()) tell_left_out(*library, used, console);
   }
   if (complaints.empty()) complaints = sentence_mistakes(library, names);
   const bool physics = arguments.flag("--physics");

@@ -9,6 +9,7 @@
 
 #include "engine/model/kinematics.h"
 #include "engine/motion/looked.h"
+#include "engine/sim/overlap.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/source_lines.h"
 #include "scripting/runtime/assets.h"
@@ -259,8 +260,48 @@ class Builds {
       const Task drawn = scripts.task()(0);
       if (i == 0) check_fits(scripts, drawn, file, complaints_);
       if (i == 0) simulate(drawn.scene);
+      if (complaints_.size() == before) check_apart(scripts, drawn, file);
     }
   }
+
+  // Things that do not move, each of which lies in the other in all of some draws: no start is made of that.
+  void check_apart(EpisodeScripts& scripts, const Task& drawn, const ScriptFile& file) {
+    std::vector<Overlap> always = fixed_overlaps(drawn.scene);
+    for (int draw = 1; draw < kDrawsApart && !always.empty(); ++draw) {
+      const std::vector<Overlap> now = fixed_overlaps(scripts.task()(draw).scene);
+      std::erase_if(always, [&](const Overlap& one) {
+        return std::ranges::none_of(now, [&](const Overlap& other) { return of_same(one, other); });
+      });
+    }
+    for (const Overlap& one : always) {
+      const Body *first = &drawn.scene.body_at(one.one.body), *second = &drawn.scene.body_at(one.other.body);
+      if (second->fixture) std::swap(first, second);
+      add(Error(place_in(file, "objects." + second->name),
+                fmt::format("'{}' and '{}' stand in one place, {:.0f} mm deep in each other, and neither moves",
+                            second->name, first->name, 1000 * one.depth),
+                "no start can be made of that: move one of them, at = on_table { x, y }"));
+    }
+  }
+
+  static std::vector<Overlap> fixed_overlaps(const Scene& scene) {
+    if (std::ranges::none_of(scene.bodies, [](const Body& body) { return !body.free && !body.fixture; })) return {};
+    const auto shared = std::make_shared<const Scene>(scene);
+    const std::vector<Overlap> found = overlapping_bodies(World(shared).collision_state(), kTouchingBodies);
+    std::vector<Overlap> kept;  // of the parts of two bodies the deepest, which comes first
+    for (const Overlap& pair : found) {
+      const bool moves = shared->body_at(pair.one.body).free || shared->body_at(pair.other.body).free;
+      if (!moves && std::ranges::none_of(kept, [&](const Overlap& other) { return of_same(pair, other); }))
+        kept.push_back(pair);
+    }
+    return kept;
+  }
+
+  static bool of_same(const Overlap& one, const Overlap& other) {
+    return one.one.body == other.one.body && one.other.body == other.other.body;
+  }
+
+  static constexpr int kDrawsApart = 8;
+  static constexpr double kTouchingBodies = 0.0011;  // m: what a start may have, see blocked_bodies
 
   std::shared_ptr<const Library> library_;
   const BuiltCheck& asked_;

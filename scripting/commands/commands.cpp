@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "engine/base/processor.h"
 #include "scripting/library/roots.h"
@@ -57,6 +58,13 @@ std::shared_ptr<const Library> load_library(const Arguments& arguments) { return
 
 std::shared_ptr<const Library> load_usable_library(const Arguments& arguments) {
   return Library::load_usable(roots_of(arguments));
+}
+
+void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console) {
+  for (const ScriptFile& file : library.left_out())
+    if (std::ranges::find(told, &file) == told.end())
+      console.err << fmt::format("{} has mistakes, so nothing here uses it; `stampede check {}` names them\n",
+                                 file.shown_path, file.name);
 }
 
 }  // namespace stampede::program

@@ -62,7 +62,9 @@ ExitCode plan_task(const Arguments& arguments, Console& console) {
     console.out << bddl_of(arguments, *library, question, prepared.scripts().symbols().domain(), job.task);
     return kDone;
   }
-  const FoundPlans found = plans_for(arguments, question);
+  FoundPlans found = plans_for(arguments, question);
+  std::string& explanation = found.outcome.explanation;
+  if (!found.outcome.solved) explanation += why_not_assumed(question.not_assumed, explanation);
   const bool pddl = arguments.flag("--pddl") || arguments.flag("--task-sized");
   const PlanNames names = pddl ? PlanNames::pddl : PlanNames::ours;
   PddlTexts texts;

@@ -96,9 +96,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
   };
   settings.remark = [&](const Error& remark) { console.err << remark.what() << "\n"; };
-  for (const ScriptFile& file : library->left_out())
-    console.err << fmt::format("{} has mistakes, so nothing here uses it; `stampede check {}` names them\n",
-                               file.shown_path, file.name);
+  tell_left_out(*library, {}, console);
   std::optional<PolicyRun> policy;
   if (acting) {
     settings.helpers = std::exchange(settings.workers, 1) - 1;  // one program acts

@@ -133,7 +133,7 @@ std::string symbol(std::string_view name, const std::vector<Parameter>& paramete
     arguments += (first ? "" : ", ") + one.name + (!call ? ": string" : first ? ": string|table" : "?: string");
     std::string type = one.type;
     for (const std::string& trait : one.traits) type += (type.empty() ? "" : " & ") + trait;
-    types += (first ? "" : ", ") + one.name + ": " + (type.empty() ? "anything" : type);
+    types += (first ? "" : ", ") + one.name + (type.empty() ? "" : ": " + type);
   }
   return "---@field " + std::string(name) + " fun(" + arguments +
          "): " + (call ? "stampede.call" : "stampede.literal") + "  " + std::string(label) +

@@ -37,6 +37,7 @@ std::shared_ptr<Library> build_library(const Roots& roots, std::vector<Error>& c
   check_objects(draft);
   check_worlds(draft);
   read_skills(draft);
+  check_rivals(draft);
   read_words(draft);
   read_tasks(draft, options);
   check_scripts(draft);

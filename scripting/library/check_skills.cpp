@@ -93,7 +93,42 @@ class SkillReader {
       if (effect.present()) action.effects = effects_from(effect, context("effect"));
     });
     action.may_equal = read_may_equal();
-    if (sound) domain_.actions.push_back(std::move(action));
+    if (!sound) return;
+    check_hand(action, prefix + "effect");
+    domain_.actions.push_back(std::move(action));
+  }
+
+  bool is_held(const std::string& predicate) const {
+    const auto& all = draft_.vocabulary().predicate_traits;
+    const auto found = all.find(predicate);
+    return found != all.end() && found->second.requires_pairs == Pairs::held;
+  }
+
+  bool asks_for_held(const Formula& formula) const {
+    if (formula.kind == Formula::Kind::atom) return is_held(formula.predicate);
+    return formula.kind == Formula::Kind::conjunction &&
+           std::ranges::any_of(formula.parts, [&](const Formula& part) { return asks_for_held(part); });
+  }
+
+  // Taking something ends `hand_empty`, letting go of it makes that true: who forgets it has plans that take two
+  // things.
+  void check_hand(const Action& action, const std::string& path) const {
+    if (domain_.predicate("hand_empty") == nullptr) return;
+    bool takes = false, lets_go = false, full = false, empty = false;
+    for (const Effect& effect : action.effects) {
+      const Predicate* predicate = domain_.predicate(effect.predicate);
+      const bool of_hand = predicate != nullptr && hand_position(predicate->parameters, domain_) >= 0;
+      if (effect.predicate == "hand_empty") (effect.negated ? full : empty) = true;
+      if (!is_held(effect.predicate) || effect.when.kind != Formula::Kind::always) continue;
+      takes |= !effect.negated;
+      lets_go |= effect.negated && of_hand && effect.forall.empty();
+    }
+    if (takes && !full && !asks_for_held(action.precondition))
+      definition_.complain(path, "it takes something into the hand, and does not say that this is no longer empty",
+                           "add is_not.hand_empty()");
+    if (lets_go && !takes && !empty)
+      definition_.complain(path, "it lets go of what the hand holds, and does not say that this is empty then",
+                           "add is.hand_empty()");
   }
 
   std::vector<std::pair<std::string, std::string>> read_may_equal() const {
@@ -151,8 +186,39 @@ class SkillReader {
       effect.terms.push_back({true, k == argument ? moved : other.name});
       if (k != argument) effect.forall.push_back(other);
     }
-    effect.when = atom(effect.predicate, effect.terms);
+    std::vector<Formula> when = {atom(effect.predicate, effect.terms)};
+    for (std::size_t k = 0; k < effect.terms.size(); ++k)
+      if (k != argument) when.push_back(negation(load_of(effect.terms[k], effect.terms[argument])));
+    effect.when = conjunction(std::move(when));
     return effect;
+  }
+
+  // Does it lie on or in the thing, or on or in what does so? Then it goes along with it.
+  Formula load_of(const Term& load, const Term& thing) const {
+    const Term between{true, "what_bears_it"};
+    Formula on_another;
+    on_another.kind = Formula::Kind::exists;
+    on_another.variables = {{between.name, "", {}}};
+    on_another.parts = {conjunction({lies_on(load, between), lies_on(between, thing)})};
+    return disjunction({lies_on(load, thing), std::move(on_another)});
+  }
+
+  Formula lies_on(const Term& load, const Term& thing) const {
+    const auto known = [&](const char* name) {
+      const Predicate* predicate = domain_.predicate(name);
+      return predicate != nullptr && predicate->parameters.size() == 2;
+    };
+    std::vector<Formula> ways;
+    if (known("on")) ways.push_back(atom("on", {load, thing}));
+    if (!known("inside")) return disjunction(std::move(ways));
+    const Term space{true, "space_of_it"};
+    Formula in_part;
+    in_part.kind = Formula::Kind::exists;
+    in_part.variables = {{space.name, "", {}}};
+    in_part.parts = {conjunction({atom("part_of", {space, thing}), atom("inside", {load, space})})};
+    ways.push_back(atom("inside", {load, thing}));
+    ways.push_back(std::move(in_part));
+    return disjunction(std::move(ways));
   }
 
   LibraryDraft& draft_;

@@ -128,6 +128,29 @@ class VariationCheck {
   std::map<std::string, Value> fields_;
 };
 
+// Predicates of which the task says what can be seen: facts that are read from the world as it is.
+std::set<std::string> hiding_in(LibraryDraft& draft, const Definition& definition) {
+  const Domain& domain = draft.vocabulary().domain;
+  std::set<std::string> hiding;
+  for (const auto& [name, sees] : definition.node["observable"].fields) {
+    const std::string path = "observable." + name;
+    const Predicate* predicate = domain.predicate(name);
+    if (predicate == nullptr)
+      definition.complain_unknown(path, "predicate", name, names_of(domain.predicates));
+    else if (predicate->kind == PredicateKind::derived)
+      definition.complain(path, "'" + name + "' is derived: what can be seen of it follows from what it is derived of",
+                          "say it of these");
+    else if (predicate->kind == PredicateKind::start)
+      definition.complain(path, "'" + name + "' is only asked of starts and is no fact", "leave it out");
+    else
+      hiding.insert(name);
+    if (!sees.is_function() && !(sees.kind == Value::Kind::boolean && !sees.boolean))
+      definition.complain(path, "expects function(w, …) or false, this is " + sees.type_name(),
+                          name + " = function(w, …) return … end");
+  }
+  return hiding;
+}
+
 // What is the same in all variations.
 Library::TaskInfo info_of(LibraryDraft& draft, const Definition& definition) {
   const Value& node = definition.node;
@@ -149,6 +172,7 @@ Library::TaskInfo info_of(LibraryDraft& draft, const Definition& definition) {
                         did_you_mean(hand.text, {"any", "empty"}));
   info.hand = hand_of(info.world, draft);
   info.skills = chosen_skills(draft, definition, info.world);
+  info.hiding = hiding_in(draft, definition);
   info.instructions = sentences(node["instructions"]);
   return info;
 }

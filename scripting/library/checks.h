@@ -19,7 +19,8 @@ void define_predicates(LibraryDraft& draft);   // traits, derived formulas
 void check_objects(LibraryDraft& draft);
 void check_worlds(LibraryDraft& draft);
 void read_skills(LibraryDraft& draft);
-void read_words(LibraryDraft& draft);  // with nouns of types and objects, and verbs of skills
+void check_rivals(LibraryDraft& draft);  // skills that could take another's place in any plan: remarks
+void read_words(LibraryDraft& draft);    // with nouns of types and objects, and verbs of skills
 void read_tasks(LibraryDraft& draft, const BuilderOptions& options);
 void check_scripts(LibraryDraft& draft);
 void make_domains(LibraryDraft& draft);  // chosen_skills.cpp: one for each choice of skills

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "scripting/library/definitions.h"
@@ -50,6 +52,19 @@ int set_metatable(lua_State* state) {
   return 1;
 }
 
+// Upvalue: the axes, by name.
+int unknown_axis(lua_State* state) {
+  lua_pushvalue(state, 2);
+  if (lua_type(state, 2) != LUA_TSTRING || lua_rawget(state, lua_upvalueindex(1)) != LUA_TNIL) return 0;
+  std::vector<std::string> axes;
+  for (lua_pushnil(state); lua_next(state, lua_upvalueindex(1)) != 0; lua_pop(state, 1))
+    axes.emplace_back(lua_tostring(state, -2));
+  std::sort(axes.begin(), axes.end());
+  const std::string name = lua_tostring(state, 2);
+  const std::string cure = axes.empty() ? "the task declares no variations" : did_you_mean(name, axes);
+  throw std::runtime_error("the variations have no axis '" + name + "': " + cure);
+}
+
 // Arguments: bytecode, whether there is a predicate hand_empty, then the modules of colours.
 int run_prelude(lua_State* state) {
   const auto* bytecode = static_cast<const std::string*>(lua_touserdata(state, 1));
@@ -60,7 +75,13 @@ int run_prelude(lua_State* state) {
     lua_getglobal(state, "require");
     lua_pushvalue(state, module);
     lua_call(state, 1, 1);
-    luaL_argexpected(state, lua_istable(state, -1), 1, "worlds/colours.lua returns a table of colours by name");
+    if (!lua_istable(state, -1)) {
+      std::string path = lua_tostring(state, module);
+      std::replace(path.begin(), path.end(), '.', '/');
+      lua_pushfstring(state, "%s.lua:1: it returns a %s, not a table of colours by name", path.c_str(),
+                      luaL_typename(state, -1));
+      return lua_error(state);
+    }
     for (lua_pushnil(state); lua_next(state, -2) != 0;) {
       lua_pushvalue(state, -2);
       lua_insert(state, -2);
@@ -99,6 +120,34 @@ std::string home_of(DefinitionKind kind) { return std::string(to_string(kind)); 
 
 }  // namespace
 
+void name_axes(lua_State* state, int variation, int variations) {
+  variation = lua_absindex(state, variation);
+  variations = lua_absindex(state, variations);
+  const auto add_names = [&](int table, int to) {
+    for (lua_pushnil(state); lua_next(state, table) != 0; lua_pop(state, 1)) {
+      if (lua_type(state, -2) != LUA_TSTRING) continue;
+      lua_pushvalue(state, -2);
+      lua_pushboolean(state, 1);
+      lua_rawset(state, to);
+    }
+  };
+  lua_newtable(state);
+  const int meta = lua_gettop(state);
+  lua_newtable(state);
+  const int axes = lua_gettop(state);
+  if (lua_istable(state, variations)) {
+    add_names(variations, axes);
+    const auto count = static_cast<lua_Integer>(lua_rawlen(state, variations));  // a list: some may lack an axis
+    for (lua_Integer i = 1; i <= count; ++i) {
+      if (lua_rawgeti(state, variations, i) == LUA_TTABLE) add_names(lua_gettop(state), axes);
+      lua_pop(state, 1);
+    }
+  }
+  lua_pushcclosure(state, lua_function<unknown_axis>, 1);
+  lua_setfield(state, meta, "__index");
+  lua_setmetatable(state, variation);
+}
+
 struct DefinitionState::Impl {
   std::shared_ptr<const Library> library;
   Sandbox sandbox;
@@ -117,6 +166,7 @@ DefinitionState::DefinitionState(std::shared_ptr<const Library> library, const S
   lua_pushboolean(lua, impl_->library->file(DefinitionKind::predicate, "hand_empty") != nullptr);
   int modules = 0;
   for (const ScriptFile* file : impl_->library->files(DefinitionKind::colours)) {
+    if (file->bytecode.empty()) continue;  // it has its own complaint
     std::string name = file->shown_path.substr(0, file->shown_path.rfind('.'));
     std::replace(name.begin(), name.end(), '/', '.');
     lua_pushlstring(lua, name.data(), name.size());

@@ -33,4 +33,8 @@ class DefinitionState {
   std::vector<std::string> extending_;  // skills or predicates, by those that extend them
 };
 
+// The table at `variation`, what a task's functions see of one, knows the axes of the task's `variations` (at the other
+// index): one that no variation has is an error that names the nearest. Call it inside a protected call.
+void name_axes(lua_State* state, int variation, int variations);
+
 }  // namespace stampede

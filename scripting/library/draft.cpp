@@ -75,6 +75,8 @@ LibraryDraft::LibraryDraft(const Roots& roots, std::vector<Error>& complaints, c
   });
 }
 
+void LibraryDraft::remark(const Error& remark) { Complaints(library_->remarks_).add(remark); }
+
 void LibraryDraft::read_definitions() {
   for (const ScriptFile& file : files()) {
     if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::module || file.bytecode.empty()) continue;

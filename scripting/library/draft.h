@@ -82,6 +82,7 @@ class LibraryDraft {
   const std::vector<ScriptFile>& files() const { return library_->files_; }
   Complaints& complaints() { return complaints_; }
   NumberTable& numbers() { return numbers_; }
+  void remark(const Error& remark);  // on what is no mistake; each once
 
   // Runs each file but modules and types.
   void read_definitions();

@@ -46,24 +46,26 @@ std::string description_of(const std::string& source) {
   return line;
 }
 
-// Regular files that really lie inside the root: a link out of it is no file of ours.
-std::vector<fs::path> lua_files(const fs::path& root, const char* folder, std::vector<Error>& complaints) {
+std::vector<fs::path> lua_files(const fs::path& root, const char* folder) {
   std::vector<fs::path> found;
   std::error_code code;
   const fs::path start = root / folder;
   if (!fs::is_directory(start, code)) return found;
-  const fs::path inside = fs::canonical(root, code);
-  for (fs::recursive_directory_iterator entry(start, code), end; !code && entry != end; entry.increment(code)) {
-    if (entry->path().extension() != ".lua" || !entry->is_regular_file(code)) continue;
-    const fs::path real = fs::canonical(entry->path(), code);
-    if (std::mismatch(inside.begin(), inside.end(), real.begin(), real.end()).first != inside.end()) {
-      complaints.emplace_back(entry->path().string(), "a link that leads out of its root", "copy the file instead");
-      continue;
-    }
-    found.push_back(entry->path());
-  }
+  for (fs::recursive_directory_iterator entry(start, code), end; !code && entry != end; entry.increment(code))
+    if (entry->path().extension() == ".lua" && entry->is_regular_file(code)) found.push_back(entry->path());
   std::sort(found.begin(), found.end());
   return found;
+}
+
+// What lies outside, behind a link, is not read.
+std::string source_of(const fs::path& real_root, const fs::path& path, const std::string& shown) {
+  std::error_code code;
+  const fs::path real = fs::canonical(path, code);
+  if (std::mismatch(real_root.begin(), real_root.end(), real.begin(), real.end()).first != real_root.end())
+    throw Error(shown, "a link that leads out of its root", "copy the file instead");
+  std::string source = stampede::read_file(path, kLargest);
+  require_text(source, shown);
+  return source;
 }
 
 // A file of a later root replaces one of the same name, but its types, colours and words add to those of the roots
@@ -83,31 +85,32 @@ void stand_beside(const fs::path& root, const std::map<std::string, ScriptFile>&
   }
 }
 
-void read_file(const fs::path& root, const fs::path& path, std::map<std::string, ScriptFile>& files,
+struct Folder {  // a root
+  std::size_t place;
+  fs::path path, real_path;  // as it was named; without links
+};
+
+// One that cannot be read is a file without a text: what is wrong with it is a mistake of that file alone.
+void read_file(const Folder& folder, const fs::path& path, std::map<std::string, ScriptFile>& files,
                std::vector<Error>& complaints) {
+  const auto& [place, root, real_root] = folder;
   ScriptFile file;
   file.path = path;
+  file.root = place;
   file.shown_path = path.lexically_relative(root).generic_string();
   file.kind = kind_of(file.shown_path);
   file.name = path.stem().string();
   if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.kind == DefinitionKind::words)
     stand_beside(root, files, file);
   try {
-    file.source = stampede::read_file(path, kLargest);
-    require_text(file.source, file.shown_path);
-  } catch (const Error& error) {
-    complaints.emplace_back(error.where() == path.string() ? file.shown_path : error.where(), error.message(),
-                            error.hint());
-    return;
-  }
-  file.description = description_of(file.source);
-  file.hash = content_hash(file.source);
-  try {
+    file.source = source_of(real_root, path, file.shown_path);
+    file.description = description_of(file.source);
+    file.hash = content_hash(file.source);
     file.bytecode = Sandbox::compile(file.source, file.shown_path);
   } catch (const Error& error) {
     if (is_about(error, file))
       complaints.push_back(error);
-    else  // Lua's own limits have no place
+    else  // its path as it was opened, or none: Lua's own limits have no place
       complaints.emplace_back(file.shown_path, error.message(),
                               error.message() == "C stack overflow"
                                   ? "its brackets and blocks are nested too deep: at most 200"
@@ -147,16 +150,17 @@ std::string_view to_string(DefinitionKind kind) {
 
 std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints) {
   std::map<std::string, ScriptFile> files;
-  for (const fs::path& root : roots.folders) {
+  for (std::size_t place = 0; place < roots.folders.size(); ++place) {
+    const fs::path& root = roots.folders[place];
     std::error_code code;
     if (!fs::is_directory(root, code)) {
       complaints.emplace_back(root.string(), "is not a folder",
                               "--root and --path take folders with tasks, skills and worlds");
       continue;
     }
-    for (const char* folder : {"tasks", "skills", "worlds"}) {
-      for (const fs::path& path : lua_files(root, folder, complaints)) read_file(root, path, files, complaints);
-    }
+    const Folder folder{place, root, fs::canonical(root, code)};
+    for (const char* home : {"tasks", "skills", "worlds"})
+      for (const fs::path& path : lua_files(root, home)) read_file(folder, path, files, complaints);
   }
   std::vector<ScriptFile> result;
   for (auto& [path, file] : files) result.push_back(std::move(file));

@@ -79,7 +79,12 @@ class Reader {
       effects(one_item(node), result, inner, depth + 1);
       for (std::size_t i = 0; i < inner.forall.size(); ++i) scope_.pop_back();
     } else {
-      fail("an effect is a literal, when or forall, this is " + node.type_name(), {});
+      const bool counts = tag == "at_least" || tag == "any_of" || tag == "any_order" || tag == "exists";
+      fail("an effect is a literal, when or forall, this is " + (counts ? tag : node.type_name()),
+           counts
+               ? "a plan has to know what holds afterwards, and this leaves open which: a predicate of its own counts, "
+                 "such as is.poured(\"obj\", \"box\"), and its `holds` looks how many they are"
+               : "");
     }
   }
 
@@ -252,7 +257,8 @@ class Reader {
       return;
     }
     if (trait != domain_.traits.end()) return;
-    std::vector<std::string> known = domain_.traits;
+    std::vector<std::string> known;
+    if (node.items.size() < 2) known = domain_.traits;  // which are said of one thing
     for (const Predicate& predicate : domain_.predicates) known.push_back(predicate.name);
     std::string hint = did_you_mean(name, known);
     if (hint.empty()) hint = alike(name, known);
@@ -691,7 +697,9 @@ Parameter parameter_from(const std::string& text, const Domain& domain, const st
     } else {
       std::vector<std::string> known = domain.traits;
       for (const auto& [type, parent] : domain.types) known.push_back(type);
-      throw Error(place, "'" + word + "' is neither a type nor a trait", did_you_mean(word, known));
+      const bool all = word == "anything" || word == "any" || word == "object";
+      throw Error(place, "'" + word + "' is neither a type nor a trait",
+                  all ? "a parameter of any thing says none: \"" + parameter.name + "\"" : did_you_mean(word, known));
     }
   }
   return parameter;

@@ -39,7 +39,7 @@ namespace {
 
 bool is_shared(const ScriptFile& file) {
   return file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours ||
-         file.kind == DefinitionKind::words || file.replaces;
+         file.kind == DefinitionKind::words;
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct ScriptFile {
   std::string description;  // its first comment line
   std::string source, bytecode, hash;
   bool replaces = false;  // a file of an earlier root
+  std::size_t root = 0;   // its place in Roots::folders
 };
 
 // Its place is the file, or a line of it.
@@ -64,12 +65,13 @@ class Library {
                                              const std::vector<std::string>& tasks = {});
 
   // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see
-  // require_sound. What every task shares must be right: types, colours, and what replaces a file of an earlier root.
+  // require_sound. What every task shares must be right: types, colours and words.
   static std::shared_ptr<const Library> load_usable(const Roots& roots);
   // Throws LibraryError with the complaints about these files and what they use, if there are any.
   void require_sound(const std::vector<const ScriptFile*>& files) const;
   // These files and those that they name, and so on: objects, worlds, robots, predicates, skills, modules. Of a task
-  // without steps also skills that were left out and that alone could make true what the task speaks of.
+  // without steps also skills that were left out and that alone could make true what the task speaks of, or that stand
+  // in the place of an earlier root's.
   std::vector<const ScriptFile*> used_by(const std::vector<const ScriptFile*>& files) const;
   const std::vector<ScriptFile>& left_out() const { return left_out_; }
 
@@ -90,6 +92,7 @@ class Library {
   const SkillInfo* skill(std::string_view name) const;
   const std::shared_ptr<const English>& english() const { return vocabulary_.english; }
   const Numbers& numbers() const { return vocabulary_.numbers; }
+  const std::vector<Error>& remarks() const { return remarks_; }  // on what is no mistake, and perhaps not meant
 
   struct TaskInfo {
     std::string name, world, description;
@@ -98,6 +101,7 @@ class Library {
     std::vector<std::string> variation_texts;                    // canonical: `colour=red,height=3`; `` for none
     std::vector<std::string> instructions;
     std::vector<std::string> skills;  // that replace others here, by name
+    std::set<std::string> hiding;     // predicates of which it says what can be seen
     bool is_imported = false;         // from a problem in another language, which it holds
   };
   const TaskInfo* task(std::string_view name) const;
@@ -120,6 +124,7 @@ class Library {
   std::vector<ScriptFile> files_;
   std::vector<ScriptFile> left_out_;            // have mistakes
   std::vector<std::vector<Error>> complaints_;  // about them and about tasks; first causes, then what comes of them
+  std::vector<Error> remarks_;
   Vocabulary vocabulary_;
 };
 

@@ -457,14 +457,23 @@ end
 function words.on_table(fields, ...)
   if type(fields) ~= "table" then fields = { fields, ... } end
   if #fields < 2 or #fields > 3 then say("on_table takes x and y, and how far above the table: on_table { 0.2, 0.1 }") end
+  for i = 1, #fields do
+    local draws = type(fields[i]) == "table" and type(fields[i].tag) == "string"
+    if type(fields[i]) ~= "number" and not draws then
+      say("on_table: value %d is a %s, it takes numbers in m: on_table { 0.2, 0.1 }", i, type(fields[i]))
+    end
+  end
   return { tag = "on_table", line = here(), fields[1], fields[2], fields[3] }
 end
 
 local draw = {} -- the metatable of draws: who reckons with one is told what it is
-for _, operator in ipairs { "__add", "__sub", "__mul", "__div", "__mod", "__pow", "__idiv", "__unm", "__concat", "__lt", "__le" } do
+for _, operator in ipairs { "__add", "__sub", "__mul", "__div", "__mod", "__pow", "__idiv", "__unm", "__concat", "__lt", "__le", "__len" } do
   draw[operator] = function(a, b)
     local word = type(a) == "table" and a.tag or b.tag
-    say("%s(…) has no value yet: it is drawn in each episode, anew wherever it stands. Reckon with its bounds: between(low + 0.1, high + 0.1)", word)
+    local cure = word == "between" and "Reckon with its bounds: between(low + 0.1, high + 0.1)"
+      or string.format("Reckon with each of its values before it draws: %s(each(list, function(x) return x + 0.1 end)%s)", word,
+        word == "sample_of" and ", n" or "")
+    say("%s(…) has no value yet: it is drawn in each episode, anew wherever it stands. %s", word, cure)
   end
 end
 local function drawn(fields) return setmetatable(fields, draw) end

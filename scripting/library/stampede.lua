@@ -10,6 +10,7 @@
 ---@field init? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  what holds at the start, in the order in which it is made true; formulas such as exists are met by drawing (default {})
 ---@field told? stampede.formula[]|stampede.formula|fun(v: table<string, any>): any  facts of the start that the sentences tell, where nobody can see them: plans need not search (default {})
 ---@field goal stampede.formula|stampede.formula[]|fun(v: table<string, any>): any  what must hold at the end
+---@field observable? table  by predicate, what of its facts can be seen here, beside what its file says: function(w, …), or false: nothing (default {})
 ---@field hand? string  at the end: empty, or any; what the goal says of the hand or of things held goes before it (default empty)
 ---@field skills? string[]  skills that extend or replace others, for this task (default {})
 ---@field steps? stampede.call[]|stampede.call|fun(v: table<string, any>): any  the skills to execute, instead of a plan

@@ -60,6 +60,7 @@ void TaskFormulas::check_init() {
     if (beginning.constraint) check_whole(*beginning.constraint);
     for (const Literal& literal : beginning.literals) {
       check_literal(literal);
+      if (!literal.negated) said_of_start_.insert(literal.fact);
       placed.push_back(placed_by(literal));
     }
   });
@@ -89,7 +90,51 @@ void TaskFormulas::check_told() {
 
 void TaskFormulas::check_goal(const Value& goal) {
   where_.field = "goal";
-  draft_.complaints().guarded([&] { check_whole(formula_from(goal, where_)); });
+  draft_.complaints().guarded([&] {
+    check_whole(formula_from(goal, where_));
+    check_order(stages_from(goal, where_));
+    check_fingers(goal);
+  });
+}
+
+// Of a robot that holds nothing, nothing held is asked.
+void TaskFormulas::check_fingers(const Value& goal) {
+  const Definition* world = draft_.find(DefinitionKind::world, definition_.node["world"].text);
+  const std::string robot =
+      world == nullptr || world->node["robot"].items.empty() ? "" : world->node["robot"].items[0].text;
+  const Definition* found = draft_.find(DefinitionKind::robot, robot);
+  if (found != nullptr && texts_of(found->node["fingers"]).empty() && asks_for_held(goal, where_))
+    definition_.complain("goal", "it asks for something held, and the robot '" + robot + "' has no fingers",
+                         "fingers = { \"left\", \"right\" } in " + found->file->shown_path + ", or another goal");
+}
+
+namespace {
+
+// Facts that literals ask for, in order.
+void facts_in(const Formula& formula, std::vector<Fact>& facts) {
+  if (formula.kind == Formula::Kind::atom) facts.push_back({formula.predicate, names_of(formula.terms)});
+  if (formula.kind == Formula::Kind::conjunction)
+    for (const Formula& part : formula.parts) facts_in(part, facts);
+}
+
+}  // namespace
+
+// A part is met when all of it holds: one of several that have yet to come true may do so before its turn.
+void TaskFormulas::check_order(const std::vector<Formula>& stages) {
+  std::set<Fact> before = said_of_start_;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    std::vector<Fact> asked, fresh;
+    facts_in(stages[i], asked);
+    for (const Fact& fact : asked)
+      if (fact.predicate != "hand_empty" && before.insert(fact).second) fresh.push_back(fact);
+    if (i == 0 || fresh.size() < 2) continue;
+    std::string texts;
+    for (const Fact& fact : fresh) texts += (texts.empty() ? "" : " or ") + to_text(fact);
+    draft_.remark(Error(definition_.place("goal"),
+                        "goal: " + texts + " may come true before the parts of in_order that stand before it: part " +
+                            std::to_string(i + 1) + " is met when all of it holds",
+                        "what is to wait for its turn is a part by itself"));
+  }
 }
 
 void TaskFormulas::check_subgoals(const Value& subgoals) {

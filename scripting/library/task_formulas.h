@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ class TaskFormulas {
   void check_init();
   void check_told();
   void check_goal(const Value& goal);
+  void check_order(const std::vector<Formula>& stages);
+  void check_fingers(const Value& goal);
   void check_subgoals(const Value& subgoals);
   void check_steps(const Value& steps);
   void check_step(const Value& call);
@@ -41,6 +44,7 @@ class TaskFormulas {
   const std::map<std::string, Value>& fields_;
   const SceneOutline& scene_;
   FormulaContext where_;
+  std::set<Fact> said_of_start_;
 };
 
 }  // namespace stampede

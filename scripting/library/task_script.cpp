@@ -42,10 +42,11 @@ void push_node(lua_State* state, const Value& node) {
   }
 }
 
+// Arguments: the variation as a Value, the task's `variations`.
 int push_protected(lua_State* state) {
-  const auto* node = static_cast<const Value*>(lua_touserdata(state, 1));
-  lua_settop(state, 0);
-  push_node(state, *node);
+  push_node(state, *static_cast<const Value*>(lua_touserdata(state, 1)));
+  name_axes(state, 3, 2);
+  lua_settop(state, 3);
   return 1;
 }
 
@@ -118,10 +119,12 @@ std::vector<Value> TaskScript::product(const Value& axes) const {
 void TaskScript::push_function(const char* field, const Value& variation) {
   lua_State* lua = state_.state();
   state_.push(DefinitionKind::task, definition_.file->name);
-  lua_getfield(lua, -1, field);
+  const int task = lua_gettop(lua);
+  lua_getfield(lua, task, field);
   lua_pushcfunction(lua, lua_function<push_protected>);
   lua_pushlightuserdata(lua, const_cast<Value*>(&variation));
-  state_.sandbox().call(1, 1);
+  lua_getfield(lua, task, "variations");
+  state_.sandbox().call(2, 1);
 }
 
 bool TaskScript::keeps(const Value& variation) {

@@ -58,6 +58,19 @@ bool achieved(const Domain& domain, const std::string& name) {
   });
 }
 
+// Of what was left out: what stands in the place of an earlier root's file, and what names such a one and so cannot be
+// read. A plan without it would be another than its author's library makes.
+std::vector<const ScriptFile*> missed_in(const std::vector<ScriptFile>& left_out) {
+  std::vector<const ScriptFile*> missed;
+  for (const ScriptFile& file : left_out)
+    if (file.replaces) missed.push_back(&file);
+  for (std::size_t i = 0; i < missed.size(); ++i)
+    for (const ScriptFile& file : left_out)
+      if (std::ranges::find(missed, &file) == missed.end() && names(mentions_in(file.source), *missed[i]))
+        missed.push_back(&file);
+  return missed;
+}
+
 }  // namespace
 
 std::vector<const ScriptFile*> Library::used_by(const std::vector<const ScriptFile*>& files) const {
@@ -73,6 +86,8 @@ std::vector<const ScriptFile*> Library::used_by(const std::vector<const ScriptFi
       if (names(mentions, *file)) add(file);
     if (used[i]->kind != DefinitionKind::task || mentions.fields.contains("steps")) continue;
     // Its plan may use every skill. One that could not be read is missed where nothing else makes true what is asked.
+    for (const ScriptFile* file : missed_in(left_out_))
+      if (file->kind == DefinitionKind::skill) add(file);
     for (const std::string& predicate : mentions.after_is) {
       if (achieved(vocabulary_.domain, predicate)) continue;
       for (const ScriptFile& file : left_out_)

@@ -34,7 +34,7 @@ function all_of(...) end
 ---@return stampede.formula
 function any_of(...) end
 
--- One after the other, each when those before it have held
+-- A whole goal: a part is met when all of it holds, parts have to be met in this order, and at the end all of them hold
 ---@param ... stampede.formula|stampede.formula[]
 ---@return stampede.formula
 function in_order(...) end

@@ -341,6 +341,7 @@ std::string in_place_of(std::string_view name) {
       {"next", "pairs goes through a table"},
       {"os", "a script knows no clock and no files: w:time() is the episode's"},
       {"pcall", "a mistake ends the script; robot:fail(\"why\") gives a skill up"},
+      {"random", kDraws},
       {"print", "a script prints nothing: error(\"what\") says it with its line"},
       {"unpack", "write table.unpack"},
   };

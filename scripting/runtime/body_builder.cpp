@@ -119,7 +119,8 @@ class Builder {
     if (body.free && fields["urdf"].present()) weigh(fields, body);
     check_size(fields, body);
     if (body.free && !(body.parts[0].mass > 0)) {
-      throw Error(fields.place, "'" + source_.name + "' can move, so it needs a mass", "mass = 0.1 (kg)");
+      const std::string& place = fields["mass"].present() ? fields["mass"].place : fields.place;
+      throw Error(place, "'" + source_.name + "' can move, so it needs a mass", "mass = 0.1 (kg)");
     }
     name_things(fields, body);
     result_.body = std::move(body);

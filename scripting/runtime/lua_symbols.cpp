@@ -40,12 +40,15 @@ PredicateTraits LuaSymbols::traits(const std::string& predicate) const {
   return found == all.end() ? PredicateTraits{} : found->second;
 }
 
+// Functions of another state are void.
+void LuaSymbols::forget_void() {
+  if (generation_ == tests_.generation()) return;
+  for (Functions* functions : {&holds_, &observable_, &seen_in_task_}) functions->clear();
+  generation_ = tests_.generation();
+}
+
 int LuaSymbols::function_of(Functions& known, const char* field, const std::string& predicate) {
-  if (generation_ != tests_.generation()) {
-    holds_.clear();
-    observable_.clear();
-    generation_ = tests_.generation();
-  }
+  forget_void();
   const auto found = known.find(predicate);
   if (found != known.end()) return found->second;
   const bool scripted = tests_.library()->file(DefinitionKind::predicate, predicate) != nullptr;
@@ -54,10 +57,36 @@ int LuaSymbols::function_of(Functions& known, const char* field, const std::stri
   return function;
 }
 
+bool LuaSymbols::can_hide(const std::string& predicate) const {
+  return tests_.library()->can_hide(predicate) || hidden_by_task(predicate);
+}
+
+bool LuaSymbols::hidden_by_task(const std::string& predicate) const {
+  const Library::TaskInfo* task = tests_.library()->task(task_);
+  return task != nullptr && task->hiding.contains(predicate);
+}
+
+// `observable = false`: never.
 bool LuaSymbols::observable(const Fact& fact, const WorldView& view) {
-  if (!can_hide(fact.predicate)) return true;
-  const int function = function_of(observable_, "observable", fact.predicate);
-  return function != 0 && call(function, fact, view).holds;  // `observable = false`: never
+  const auto sees = [&](int function) { return function != 0 && call(function, fact, view).holds; };
+  if (tests_.library()->can_hide(fact.predicate) && !sees(function_of(observable_, "observable", fact.predicate)))
+    return false;
+  return !hidden_by_task(fact.predicate) || sees(seen_in_task(fact.predicate));
+}
+
+int LuaSymbols::seen_in_task(const std::string& predicate) {
+  forget_void();
+  if (const auto known = seen_in_task_.find(predicate); known != seen_in_task_.end()) return known->second;
+  ScriptState& scripts = tests_.get();
+  int function = 0;
+  scripts.protect([&](lua_State* state) {
+    scripts.definitions().push(DefinitionKind::task, task_);
+    lua_getfield(state, -1, "observable");
+    lua_getfield(state, -1, predicate.c_str());
+    if (lua_isfunction(state, -1)) function = scripts.keep();
+  });
+  seen_in_task_.emplace(predicate, function);
+  return function;
 }
 
 Symbols::Value LuaSymbols::value(const Fact& fact, const WorldView& view) {

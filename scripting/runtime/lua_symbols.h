@@ -20,8 +20,8 @@ class LuaSymbols : public Symbols {
   PredicateTraits traits(const std::string& predicate) const override;
   // Traits and attributes are read from the scene's objects, all else by the predicate's `holds`.
   Value value(const Fact& fact, const WorldView& view) override;
-  // A predicate hides where its file says `observable`, which is then asked of a fact at a moment.
-  bool can_hide(const std::string& predicate) const override { return tests_.library()->can_hide(predicate); }
+  // A predicate hides where its file or the task says `observable`, which are then asked of a fact at a moment.
+  bool can_hide(const std::string& predicate) const override;
   bool observable(const Fact& fact, const WorldView& view) override;
   // A sample depends on its arguments only: each has a fresh state, or one in which no other sample has left anything.
   std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
@@ -33,6 +33,9 @@ class LuaSymbols : public Symbols {
   // A predicate's function, as registry reference; 0: it has none.
   using Functions = std::unordered_map<std::string, int>;  // looked up only
   int function_of(Functions& known, const char* field, const std::string& predicate);
+  void forget_void();
+  bool hidden_by_task(const std::string& predicate) const;
+  int seen_in_task(const std::string& predicate);  // the task's own function, or 0
   Value call(int function, const Fact& fact, const WorldView& view);
 
   struct Sampler {  // a predicate's `sample` in a state of its own
@@ -49,7 +52,7 @@ class LuaSymbols : public Symbols {
   std::string task_;
   const Domain& domain_;
   std::unordered_map<std::string, Sampler> samplers_;  // as good as fresh
-  Functions holds_, observable_;
+  Functions holds_, observable_, seen_in_task_;
   int generation_ = -1;
   std::vector<Looked>* turned_down_ = nullptr;
 };

@@ -3,6 +3,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
+#include "scripting/library/definitions.h"
 #include "scripting/library/value.h"
 
 namespace stampede {
@@ -51,6 +52,7 @@ void push_variation(lua_State* state, int task, const std::map<std::string, std:
     }
     lua_setfield(state, variation, axis.c_str());
   }
+  name_axes(state, variation, variations);
   lua_settop(state, variation);
 }
 

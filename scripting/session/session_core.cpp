@@ -355,6 +355,7 @@ TaskPlan SessionCore::plan(const std::string& task, const EpisodeRequest& reques
     return plan;
   }
   plan = told(question.said ? *question.said : solve(question.asked.domain, question.asked.problem));
+  if (!plan.found) plan.explanation += why_not_assumed(question.not_assumed, plan.explanation);
   PddlTexts texts = pddl_of(question, prepared.scripts().symbols().domain(), false);
   plan.domain = std::move(texts.domain);
   plan.problem = std::move(texts.problem);

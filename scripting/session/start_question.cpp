@@ -1,6 +1,5 @@
 #include "scripting/session/start_question.h"
 
-#include "engine/rollout/assumptions.h"
 #include "engine/start/altered_task.h"
 #include "engine/start/relations.h"
 #include "engine/start/start.h"
@@ -21,6 +20,7 @@ void ask_what_is_known(const Task& task, const FactTracker& facts, std::int64_t 
   }
   keep_known(question.asked.problem, facts, question.assumed);
   keep_known(question.plain, facts, question.assumed);
+  question.not_assumed = not_assumed(facts);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/rollout/assumptions.h"
 #include "engine/start/abstract_state.h"
 #include "engine/start/planning.h"
 #include "engine/start/start.h"
@@ -18,6 +19,7 @@ struct StartQuestion {
   PlanningTask asked;  // with the goal's order
   Problem plain;       // of the world's own domain
   Facts assumed;       // in both: what nobody can see and the plan rests on
+  std::vector<NotAssumed> not_assumed;
   AbstractState state;
   std::string beside_goal;
   std::vector<std::string> instructions;

@@ -132,6 +132,24 @@ TEST_CASE("what a robot's file names and its URDF has not is said with line and 
   }
 }
 
+TEST_CASE("a robot without fingers is sound, and nothing held is asked of it") {
+  const Folder mine;
+  put(mine, "worlds/robots/arm.urdf", arm_urdf());
+  put(mine, "worlds/robots/arm.lua", arm_lua("  fingers = { \"l\", \"r\" },\n  pads = { \"left\", \"right\" },\n", ""));
+  put(mine, "worlds/cell.lua",
+      "-- A cell.\nreturn world {\n  robot = { \"arm\" },\n  fixtures = { table = { \"work_table\" } },\n}\n");
+  put_task(mine, "move", "is.on(\"b\", \"table\")", "cube", "cell");
+  CHECK(check(mine, {"arm"}).code == kDone);
+  CHECK(check(mine, {"move"}).code == kDone);
+  put_task(mine, "take", "is.holding(\"b\")", "cube", "cell");
+  const Said said = check(mine, {"take"});
+  INFO(all(said));
+  CHECK(said.code == kBadInput);
+  CHECK(says(said.out,
+             "tasks/take.lua:6: goal: it asks for something held, and the robot 'arm' has no fingers\n"
+             "    fingers = { \"left\", \"right\" } in worlds/robots/arm.lua, or another goal"));
+}
+
 TEST_CASE("what a world mounts on its robot is there, whether a task uses the world or not") {
   const Folder mine;
   put(mine, "worlds/robots/arm.urdf", arm_urdf());
@@ -195,6 +213,71 @@ TEST_CASE("mistakes of a task's own predicate and skill are its own, other tasks
 
   put(mine, "skills/pick.lua", "-- Take it.\nreturn skill {\n");  // stands in the place of everybody's
   CHECK(run_one(mine, "take").code == kBadInput);
+}
+
+TEST_CASE("only what a task uses must be right: a broken file beside it is told, and does not stop it") {
+  const auto beside = [](const std::string& name, const std::string& text) {
+    const Folder mine;
+    put_task(mine, "take");
+    put(mine, name, text);
+    for (const Said& said : {check(mine, {"take"}), run_one(mine, "take")}) {
+      INFO(name << "\n" << all(said));
+      CHECK(said.code == kDone);
+      CHECK(says(said.err, name + " has mistakes, so nothing here uses it"));
+    }
+  };
+  beside("worlds/objects/mug.lua", "-- In the place of everybody's.\nreturn object { type = \"mgu\" }\n");
+  beside("worlds/objects/own.lua", "-- Mine.\nreturn object {\n");
+  beside("worlds/lib/own.lua", "return {\n");
+  beside("tasks/picture.lua", "\xff\xfe no text");
+  const Folder mine;
+  put_task(mine, "take");
+  std::filesystem::create_symlink(kRoot + std::string("/README.md"), mine / "tasks/linked.lua");
+  CHECK(check(mine, {"take"}).code == kDone);
+  CHECK(run_one(mine, "take").code == kDone);
+  CHECK(says(check(mine).out, "tasks/linked.lua: a link that leads out of its root"));
+}
+
+TEST_CASE(
+    "a skill that could take the library's place in any plan is remarked on, also beside a task that does not name "
+    "it") {
+  const Folder mine;
+  put_task(mine, "take");
+  const auto grab = [&](const std::string& type) {
+    put(mine, "skills/grab.lua",
+        "-- Grab it.\nreturn skill {\n  params = { \"obj: " + type + "\" },\n  precondition = { is.hand_empty() },\n" +
+            "  effect = { is.holding(\"obj\"), is.lifted(\"obj\"), is_not.hand_empty() },\n  label = \"grab the "
+            "{obj}\",\n" +
+            "  run = function(robot, p, c) robot:close_hand(p.obj) end,\n}\n");
+    return check(mine, {"take"});
+  };
+  const Said said = grab("movable");
+  INFO(all(said));
+  CHECK(said.code == kDone);
+  CHECK(says(said.err, "skills/grab.lua:4: precondition: 'grab' may be done wherever 'pick' may"));
+  CHECK_FALSE(says(grab("cup").err, "'grab'"));
+}
+
+TEST_CASE("`check` of a task refuses what `run` refuses: what all share, and what stands in the place of others") {
+  const auto both = [](const std::string& name, const std::string& text, const std::string& told,
+                       const std::string& object = "cube") {
+    const Folder mine;
+    put_task(mine, "take", "is.holding(\"b\")", object);
+    put(mine, name, text);
+    for (const Said& said : {check(mine, {"take"}), run_one(mine, "take")}) {
+      INFO(name << "\n" << all(said));
+      CHECK(said.code == kBadInput);
+      CHECK(says(all(said), told));
+      CHECK(says(all(said), "1 mistake"));
+    }
+  };
+  both("worlds/types.lua", "-- Mine.\nreturn { types = { own = { parent = \"nope\" } } }\n",
+       "/worlds/types.lua:2: types.own: its parent 'nope' is not a type");
+  both("worlds/colours.lua", "-- Mine.\nreturn { own = \n", "/worlds/colours.lua:3: unexpected symbol");
+  both("worlds/colours.lua", "-- Mine.\nreturn 7\n",
+       "/worlds/colours.lua:1: it returns a number, not a table of colours by name");
+  both("worlds/objects/mug.lua", "-- A mug.\nreturn object {\n", "worlds/objects/mug.lua:3: unexpected symbol", "mug");
+  both("skills/pick.lua", "-- Take it.\nreturn skill {\n", "skills/pick.lua:3: unexpected symbol");
 }
 
 TEST_CASE("inertias that no body has are put right with a remark, whatever the body") {

@@ -3,6 +3,7 @@
 
 #include "engine/record/observation.h"
 #include "engine/render/renderer.h"
+#include "engine/start/effects.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;
@@ -46,6 +47,28 @@ TEST_CASE("a fact that ends when a thing is moved is deleted by skills that know
   const EffectRecord ends{{"guards", {"guard", "rear"}}, true};
   CHECK(std::count(first->declared_effects.begin(), first->declared_effects.end(), ends) == 1);
   CHECK(first->effect_held == true);
+}
+
+TEST_CASE("a fact that ends when a thing is moved goes on between the thing and its own load") {
+  const Action* pick = authors()->domain_of("take_the_guarded").action("wary_pick");
+  REQUIRE(pick != nullptr);
+  const std::vector<TypedObject> objects = {{"tray", "thing"},  {"tin", "thing"},     {"bean", "thing"},
+                                            {"hold", "region"}, {"table", "fixture"}, {"panda.hand", "hand"}};
+  const auto ends = [&](Facts before) {
+    before.insert({"guards", {"bean", "tray"}});
+    for (const char* thing : {"tray", "tin", "bean"}) before.insert({"movable", {thing}});
+    const std::vector<Literal> effects = ground_effects(*pick, {"tray", "table", "panda.hand"}, before,
+                                                        authors()->domain_of("take_the_guarded"), objects);
+    return std::ranges::any_of(effects, [](const Literal& one) {
+      return one.negated && one.fact == Fact{"guards", {"bean", "tray"}};
+    });
+  };
+  CHECK(ends({}));
+  CHECK(ends({{"on", {"bean", "table"}}}));
+  CHECK_FALSE(ends({{"on", {"bean", "tray"}}}));
+  CHECK_FALSE(ends({{"part_of", {"hold", "tray"}}, {"inside", {"bean", "hold"}}}));
+  CHECK_FALSE(ends({{"on", {"tin", "tray"}}, {"on", {"bean", "tin"}}}));  // on what is on it
+  CHECK(ends({{"part_of", {"hold", "tin"}}, {"inside", {"bean", "hold"}}}));
 }
 
 TEST_CASE("formulas name parts of variables, and part_of relates them") {

@@ -71,3 +71,14 @@ TEST_CASE("what is known goes first, and what makes no plan is not assumed") {
     CHECK_FALSE(none.outcome.explanation.empty());
   }
 }
+
+TEST_CASE("why a fact that nobody can see is not assumed: something else is known of its thing, and a plan misses it") {
+  const std::vector<NotAssumed> facts = {{{"in", {"key", "high"}}, {"on", {"key", "table"}}},
+                                         {{"in", {"key", "low"}}, {"on", {"key", "table"}}},
+                                         {{"in", {"coin", "low"}}, {"on", {"coin", "table"}}}};
+  CHECK(why_not_assumed(facts, "(have key) cannot become true: `take` needs (in key ?b), which nothing achieves") ==
+        "; nobody can see whether (in key high), but it is not assumed, for (on key table) is known of 'key': where "
+        "nobody can see that either, the task says so in `observable`");
+  CHECK(why_not_assumed(facts, "(open low) cannot become true").empty());
+  CHECK(why_not_assumed({}, "`take` needs (in key ?b)").empty());
+}

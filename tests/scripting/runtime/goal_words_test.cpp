@@ -133,7 +133,7 @@ TEST_CASE("on_table is the top of the world's table") {
   };
   CHECK(at("at = on_table { 0.2, 0, 0.1 }").complaints().empty());
   CHECK(at("at = on_table { 0.2 }").complaints().find("on_table takes x and y") != std::string::npos);
-  CHECK(at("at = on_table { 0.2, \"left\" }").complaints().find("box.at") != std::string::npos);
+  CHECK(at("at = on_table { 0.2, \"left\" }").complaints().find("on_table: value 2 is a string") != std::string::npos);
   CHECK(at("at = { 0, 0, 0.7 }, yaw = on_table { 0.2, 0 }").complaints().find("box.yaw") != std::string::npos);
 }
 
