@@ -3,7 +3,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 
 namespace stampede {
 namespace {
