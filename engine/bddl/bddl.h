@@ -96,8 +96,4 @@ void check_bddl(const BddlProblem& problem);
 // Throws Error as check_bddl does.
 std::string to_bddl(const BddlProblem& problem);
 
-// BEHAVIOR: `cabinet.n.01_*` becomes as many instances as the scene has in that room.
-// `count`: category -> instances in the room of the wildcard, those with a number included. Throws Error for too few.
-BddlProblem with_wildcards(BddlProblem problem, const std::map<std::string, int>& count);
-
 }  // namespace stampede

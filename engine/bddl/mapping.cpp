@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/error.h"
 #include "engine/bddl/words.h"
 #include "engine/symbolic/pddl_text.h"
@@ -9,17 +10,8 @@
 namespace stampede {
 
 std::string_view to_string(BddlMeaning meaning) {
-  switch (meaning) {
-    case BddlMeaning::equal:
-      return "equal";
-    case BddlMeaning::stronger:
-      return "stronger";
-    case BddlMeaning::weaker:
-      return "weaker";
-    case BddlMeaning::incomparable:
-      return "incomparable";
-  }
-  return "";
+  constexpr std::array<std::string_view, 4> kNames{"equal", "stronger", "weaker", "incomparable"};
+  return enum_name(kNames, meaning);
 }
 
 BddlMeaning opposite(BddlMeaning meaning) {

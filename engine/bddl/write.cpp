@@ -196,34 +196,4 @@ std::string to_bddl(const BddlProblem& problem) {
   return text + init_text(problem) + goal_text(problem) + ")\n";
 }
 
-BddlProblem with_wildcards(BddlProblem problem, const std::map<std::string, int>& count) {
-  for (BddlGroup& group : problem.objects) {
-    const std::string wildcard = group.names.empty() ? "" : group.names.back();
-    if (!symbolic::is_wildcard(wildcard)) continue;
-    group.names.pop_back();
-    const auto found = count.find(group.category);
-    const auto given = static_cast<int>(group.names.size());
-    const int all = found == count.end() ? 0 : found->second;
-    if (all < given || all == 0) {
-      throw Error("BDDL problem " + problem.name,
-                  "the room has " + std::to_string(all) + " of `" + group.category + "`, at least " +
-                      std::to_string(std::max(given, 1)) + " are needed",
-                  "take another scene");
-    }
-    std::vector<std::string> added;
-    for (int i = given + 1; i <= all; ++i) added.push_back(group.category + "_" + std::to_string(i));
-    group.names.insert(group.names.end(), added.begin(), added.end());
-    const auto at = std::find_if(problem.init.begin(), problem.init.end(), [&](const BddlLiteral& literal) {
-      return literal.atom.predicate == "inroom" && literal.atom.arguments.at(0) == wildcard;
-    });
-    if (at == problem.init.end()) continue;
-    const Fact room = at->atom;
-    auto next = problem.init.erase(at);
-    for (const std::string& name : added) {
-      next = problem.init.insert(next, {{"inroom", {name, room.arguments.at(1)}}, false}) + 1;
-    }
-  }
-  return problem;
-}
-
 }  // namespace stampede

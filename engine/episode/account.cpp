@@ -61,17 +61,6 @@ EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptio
   return record;
 }
 
-void describe_scene(const Scene& scene, EpisodeRecord& record) {
-  record.world = scene.world;
-  record.physics_hz = scene.physics_hz;
-  record.frame_hz = scene.frame_hz;
-  record.scene_document = scene_to_document(scene);
-  record.objects = scene.objects;
-  record.cameras = scene.cameras;
-  record.masks = mask_key(scene);
-  record.hands = {scene.robot.name + "." + scene.robot.hand};
-}
-
 void describe_beginning(const Rollout& rollout, EpisodeRecord& record) {
   const FactTracker& facts = rollout.facts();
   const Scene& scene = rollout.view().scene();

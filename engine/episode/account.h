@@ -10,9 +10,9 @@ namespace stampede {
 // The key of all draws of one purpose.
 RandomKey draw_key(const char* purpose, const EpisodeRecord& record);
 
-// Task, seed, options, sentences; then the scene that was made; then the world as it begins, in words and as PDDL.
+// Task, seed, options, sentences; after the scene (engine/record/scene_record.h) the world as it begins, in words and
+// as PDDL.
 EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptions& options);
-void describe_scene(const Scene& scene, EpisodeRecord& record);
 void describe_beginning(const Rollout& rollout, EpisodeRecord& record);
 
 // All that the rollout holds goes into the record. `plan`: the text of its document of that kind, where it has one.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/episode/account.h"
 #include "engine/rollout/agent_action.h"
@@ -86,11 +87,9 @@ void Acting::look_at_hand() {
 
 std::optional<ActionRefusal> Acting::begin_skill(const AgentAction& action, StepResult& result) {
   const Domain& domain = rollout.domain();
-  if (domain.action(action.skill) == nullptr) {
-    std::vector<std::string> names;
-    for (const Action& one : domain.actions) names.push_back(one.name);
-    return ActionRefusal{"there is no skill '" + action.skill + "'", did_you_mean(action.skill, names)};
-  }
+  if (domain.action(action.skill) == nullptr)
+    return ActionRefusal{"there is no skill '" + action.skill + "'",
+                         did_you_mean(action.skill, names_of(domain.actions))};
   SkillRequest request;
   request.step = {action.skill, action.arguments};
   request.set_by = ChosenBy::agent;

@@ -5,10 +5,12 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/episode/account.h"
 #include "engine/episode/acting.h"
 #include "engine/episode/dense_reward.h"
+#include "engine/record/scene_record.h"
 #include "engine/rollout/agent_action.h"
 #include "engine/start/altered_task.h"
 #include "engine/symbolic/pddl.h"
@@ -407,9 +409,7 @@ const std::vector<std::string>& ChannelValue::texts() const {
 const ChannelValue& EnvironmentObservation::operator[](std::string_view name) const {
   for (const ChannelValue& one : channels)
     if (one.name == name) return one;
-  std::vector<std::string> names;
-  for (const ChannelValue& one : channels) names.push_back(one.name);
-  throw Error("channel '" + std::string(name) + "'", "it was not asked for", did_you_mean(name, names));
+  throw Error("channel '" + std::string(name) + "'", "it was not asked for", did_you_mean(name, names_of(channels)));
 }
 
 }  // namespace stampede

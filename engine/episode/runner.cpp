@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/episode/account.h"
 #include "engine/episode/drivers.h"
+#include "engine/record/scene_record.h"
 #include "engine/start/altered_task.h"
 #include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"

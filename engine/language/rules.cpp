@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "engine/base/enum_names.h"
+
 namespace stampede {
 namespace {
 
@@ -15,7 +17,7 @@ std::array<std::span<const Rule>, 3> all_rules() { return {word_rules(), thing_r
 
 }  // namespace
 
-std::string_view to_string(Rejection reason) { return kRejections.at(static_cast<std::size_t>(reason)); }
+std::string_view to_string(Rejection reason) { return enum_name(kRejections, reason); }
 
 int most_words(Grain grain) { return grain == Grain::goal ? 40 : grain == Grain::steps ? 80 : 120; }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/error.h"
 
 namespace stampede {
@@ -11,8 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "catalogues hold little-endian numbers");
 constexpr std::uint8_t kVersion = 1;
-constexpr ControllerKind kControllers[] = {ControllerKind::joint_position, ControllerKind::joint_impedance,
-                                           ControllerKind::cartesian_impedance};
+constexpr std::array<std::string_view, 3> kControllers{"joint_position", "joint_impedance", "cartesian_impedance"};
 
 class ByteWriter {
  public:
@@ -189,28 +189,10 @@ Operation operation_from_bytes(std::string_view kind, std::string_view bytes) {
   return operation;
 }
 
-std::string_view to_string(ControllerKind kind) {
-  switch (kind) {
-    case ControllerKind::joint_position:
-      return "joint_position";
-    case ControllerKind::joint_impedance:
-      return "joint_impedance";
-    case ControllerKind::cartesian_impedance:
-      break;
-  }
-  return "cartesian_impedance";
-}
-
+std::string_view to_string(ControllerKind kind) { return enum_name(kControllers, kind); }
 std::optional<ControllerKind> controller_from(std::string_view name) {
-  for (const ControllerKind kind : kControllers)
-    if (to_string(kind) == name) return kind;
-  return std::nullopt;
+  return enum_from<ControllerKind>(kControllers, name);
 }
-
-std::vector<std::string> controller_names() {
-  std::vector<std::string> names;
-  for (const ControllerKind kind : kControllers) names.emplace_back(to_string(kind));
-  return names;
-}
+std::vector<std::string> controller_names() { return {kControllers.begin(), kControllers.end()}; }
 
 }  // namespace stampede

@@ -5,12 +5,15 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/error.h"
 #include "engine/geometry/hull.h"
 #include "engine/model/inertials.h"
 
 namespace stampede {
 namespace {
+
+constexpr std::array<std::string_view, 4> kObjectKinds{"body", "part", "region", "hand"};
 
 template <typename Named>
 int index_of(const std::vector<Named>& list, std::string_view name) {
@@ -115,25 +118,8 @@ void grow_by_shape(std::array<Vector3, 2>& bounds, const Shape& shape) {
 
 }  // namespace
 
-std::string_view to_string(ObjectKind kind) {
-  switch (kind) {
-    case ObjectKind::body:
-      return "body";
-    case ObjectKind::part:
-      return "part";
-    case ObjectKind::region:
-      return "region";
-    case ObjectKind::hand:
-      return "hand";
-  }
-  return "";
-}
-
-std::optional<ObjectKind> object_kind_from(std::string_view name) {
-  for (const ObjectKind kind : {ObjectKind::body, ObjectKind::part, ObjectKind::region, ObjectKind::hand})
-    if (to_string(kind) == name) return kind;
-  return std::nullopt;
-}
+std::string_view to_string(ObjectKind kind) { return enum_name(kObjectKinds, kind); }
+std::optional<ObjectKind> object_kind_from(std::string_view name) { return enum_from<ObjectKind>(kObjectKinds, name); }
 
 int Body::part_index(std::string_view part_name) const { return index_of(parts, part_name); }
 int Scene::body_index(std::string_view body) const { return index_of(bodies, body); }

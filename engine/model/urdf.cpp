@@ -400,13 +400,4 @@ UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope) {
   return UrdfReader(file, scope, *model).read();
 }
 
-Body body_from_urdf(const std::filesystem::path& file) {
-  Body body = read_urdf(file).body;
-  for (Part& part : body.parts) {
-    std::erase_if(part.shapes, [](const Shape& shape) { return shape.kind == ShapeKind::mesh; });
-    for (Shape& shape : part.shapes) shape.texture.clear();
-  }
-  return body;
-}
-
 }  // namespace stampede

@@ -25,7 +25,4 @@ struct UrdfBody {
 UrdfBody read_urdf(const std::filesystem::path& file);
 UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope);
 
-// The body for physics: as read_urdf, without drawn meshes and textures.
-Body body_from_urdf(const std::filesystem::path& file);
-
 }  // namespace stampede

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/model/body_tree.h"
 #include "engine/motion/checker.h"
 #include "engine/motion/route.h"
 #include "engine/sim/collision_query.h"
@@ -235,12 +236,9 @@ bool free_at_end(const CollisionState& state, const JointVector& start, const Pa
 std::vector<PartRef> with_mounted(const Scene& scene, PartRef part) {
   std::vector<PartRef> parts{part};
   if (part.body < 0) return parts;
-  const std::vector<Part>& all = scene.bodies[static_cast<std::size_t>(part.body)].parts;
-  for (int i = part.part + 1; i < static_cast<int>(all.size()); ++i) {
-    int above = all[static_cast<std::size_t>(i)].parent;
-    while (above > part.part) above = all[static_cast<std::size_t>(above)].parent;
-    if (above == part.part) parts.push_back({part.body, i});
-  }
+  const Body& body = scene.bodies[static_cast<std::size_t>(part.body)];
+  for (int i = part.part + 1; i < static_cast<int>(body.parts.size()); ++i)
+    if (hangs_on(body, i, part.part)) parts.push_back({part.body, i});
   return parts;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/model/operation.h"
 
@@ -138,11 +139,9 @@ std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints) {
 
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces) {
   const ActionSpace* space = named_space(spaces, action.space);
-  if (space == nullptr) {
-    std::vector<std::string> names;
-    for (const ActionSpace& one : spaces) names.push_back(one.name);
-    return ActionRefusal{"there is no action space '" + action.space + "'", did_you_mean(action.space, names)};
-  }
+  if (space == nullptr)
+    return ActionRefusal{"there is no action space '" + action.space + "'",
+                         did_you_mean(action.space, names_of(spaces))};
   if (action.frame != "world" && action.frame != "tool")
     return ActionRefusal{"there is no frame of reference '" + action.frame + "'", "say world or tool"};
   if (auto refusal = mistake_in_values(action, *space)) return refusal;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/geometry/transform.h"
 #include "engine/record/arrays.h"
@@ -66,9 +67,7 @@ const ArrayColumn* EpisodeArrays::find(std::string_view name) const {
 
 const ArrayColumn& EpisodeArrays::column(std::string_view name) const {
   if (const ArrayColumn* found = find(name)) return *found;
-  std::vector<std::string> names;
-  for (const ArrayColumn& column : columns) names.push_back(column.name);
-  throw Error(std::string(name), "there is no such column here", did_you_mean(name, names));
+  throw Error(std::string(name), "there is no such column here", did_you_mean(name, names_of(columns)));
 }
 
 ArrayColumn EpisodeArrays::pose_in(const std::string& object, const std::string& reference) const {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/text.h"
 
 namespace stampede {
@@ -84,12 +86,9 @@ void each_option(Visit&& visit) {
 
 }  // namespace
 
-std::string_view to_string(WhichFrames value) { return kWhichNames.at(static_cast<std::size_t>(value)); }
-
+std::string_view to_string(WhichFrames value) { return enum_name(kWhichNames, value); }
 std::optional<WhichFrames> which_frames_from(std::string_view text) {
-  for (std::size_t i = 0; i < kWhichNames.size(); ++i)
-    if (kWhichNames[i] == text) return static_cast<WhichFrames>(i);
-  return std::nullopt;
+  return enum_from<WhichFrames>(kWhichNames, text);
 }
 
 std::map<std::string, std::string> ObservationChoice::as_text() const {
@@ -113,8 +112,7 @@ bool asks_for_channel(const Observation& observation, std::string_view name) {
 }
 
 std::vector<std::string> channel_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Sensor& sensor : scene.sensors) names.push_back(sensor.name);
+  std::vector<std::string> names = names_of(scene.sensors);
   names.emplace_back(kMargins);
   return names;
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/model/camera.h"
 #include "engine/record/encode_queue.h"
@@ -16,12 +17,9 @@ namespace {
 constexpr int kMostPixels = 4096;
 
 int camera_index(const Scene& scene, const std::string& name) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
     if (scene.cameras[i].name == name) return static_cast<int>(i);
-    names.push_back(scene.cameras[i].name);
-  }
-  throw Error("camera '" + name + "'", "the scene has no such camera", did_you_mean(name, names));
+  throw Error("camera '" + name + "'", "the scene has no such camera", did_you_mean(name, names_of(scene.cameras)));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "engine/record/record.h"
 
+#include "engine/base/enum_names.h"
+
 namespace stampede {
 namespace {
 
@@ -14,50 +16,43 @@ constexpr std::array<std::string_view, 8> kDocumentKinds{"pddl_domain", "pddl_pr
                                                          "bddl_libero", "bddl_behavior"};
 constexpr std::array<std::string_view, 2> kSplits{"train", "test"};
 
-template <typename Enumeration, std::size_t N>
-std::optional<Enumeration> value_of(const std::array<std::string_view, N>& names, std::string_view name) {
-  for (std::size_t i = 0; i < N; ++i)
-    if (names[i] == name) return static_cast<Enumeration>(i);
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::string_view to_string(Outcome outcome) { return outcome == Outcome::success ? "success" : "failure"; }
 
-std::string_view to_string(ChosenBy value) { return kChosenBy.at(static_cast<std::size_t>(value)); }
-std::optional<ChosenBy> chosen_by_from(std::string_view name) { return value_of<ChosenBy>(kChosenBy, name); }
+std::string_view to_string(ChosenBy value) { return enum_name(kChosenBy, value); }
+std::optional<ChosenBy> chosen_by_from(std::string_view name) { return enum_from<ChosenBy>(kChosenBy, name); }
 
-std::string_view to_string(SegmentKind kind) { return kSegmentKinds.at(static_cast<std::size_t>(kind)); }
+std::string_view to_string(SegmentKind kind) { return enum_name(kSegmentKinds, kind); }
 std::optional<SegmentKind> segment_kind_from(std::string_view name) {
-  return value_of<SegmentKind>(kSegmentKinds, name);
+  return enum_from<SegmentKind>(kSegmentKinds, name);
 }
 
-std::string_view to_string(Labeller value) { return kLabellers.at(static_cast<std::size_t>(value)); }
-std::optional<Labeller> labeller_from(std::string_view name) { return value_of<Labeller>(kLabellers, name); }
+std::string_view to_string(Labeller value) { return enum_name(kLabellers, value); }
+std::optional<Labeller> labeller_from(std::string_view name) { return enum_from<Labeller>(kLabellers, name); }
 
-std::string_view to_string(LanguageSource source) { return kLanguageSources.at(static_cast<std::size_t>(source)); }
+std::string_view to_string(LanguageSource source) { return enum_name(kLanguageSources, source); }
 std::optional<LanguageSource> language_source_from(std::string_view name) {
-  return value_of<LanguageSource>(kLanguageSources, name);
+  return enum_from<LanguageSource>(kLanguageSources, name);
 }
 
-std::string_view to_string(LanguageGrain grain) { return kLanguageGrains.at(static_cast<std::size_t>(grain)); }
+std::string_view to_string(LanguageGrain grain) { return enum_name(kLanguageGrains, grain); }
 std::optional<LanguageGrain> language_grain_from(std::string_view name) {
-  return value_of<LanguageGrain>(kLanguageGrains, name);
+  return enum_from<LanguageGrain>(kLanguageGrains, name);
 }
 
-std::string_view to_string(LanguageLevel level) { return kLanguageLevels.at(static_cast<std::size_t>(level)); }
+std::string_view to_string(LanguageLevel level) { return enum_name(kLanguageLevels, level); }
 std::optional<LanguageLevel> language_level_from(std::string_view name) {
-  return value_of<LanguageLevel>(kLanguageLevels, name);
+  return enum_from<LanguageLevel>(kLanguageLevels, name);
 }
 
-std::string_view to_string(DocumentKind kind) { return kDocumentKinds.at(static_cast<std::size_t>(kind)); }
+std::string_view to_string(DocumentKind kind) { return enum_name(kDocumentKinds, kind); }
 std::optional<DocumentKind> document_kind_from(std::string_view name) {
-  return value_of<DocumentKind>(kDocumentKinds, name);
+  return enum_from<DocumentKind>(kDocumentKinds, name);
 }
 
-std::string_view to_string(Split split) { return kSplits.at(static_cast<std::size_t>(split)); }
-std::optional<Split> split_from(std::string_view name) { return value_of<Split>(kSplits, name); }
+std::string_view to_string(Split split) { return enum_name(kSplits, split); }
+std::optional<Split> split_from(std::string_view name) { return enum_from<Split>(kSplits, name); }
 
 const std::string* document_of(const EpisodeRecord& episode, DocumentKind kind) {
   for (const DocumentRecord& one : episode.documents)

@@ -1,8 +1,8 @@
 #include "engine/render/renderer.h"
 
-#include <algorithm>
 #include <array>
 
+#include "engine/base/enum_names.h"
 #include "engine/render/osmesa_renderer.h"
 #include "engine/render/software_renderer.h"
 
@@ -51,13 +51,8 @@ class ChosenRenderer : public Renderer {
 
 }  // namespace
 
-std::string_view to_string(DrawnBy value) { return kDrawnBy.at(static_cast<std::size_t>(value)); }
-
-std::optional<DrawnBy> drawn_by_from(std::string_view name) {
-  const auto found = std::find(kDrawnBy.begin(), kDrawnBy.end(), name);
-  if (found == kDrawnBy.end()) return std::nullopt;
-  return static_cast<DrawnBy>(found - kDrawnBy.begin());
-}
+std::string_view to_string(DrawnBy value) { return enum_name(kDrawnBy, value); }
+std::optional<DrawnBy> drawn_by_from(std::string_view name) { return enum_from<DrawnBy>(kDrawnBy, name); }
 
 std::unique_ptr<Renderer> make_renderer() { return std::make_unique<ChosenRenderer>(); }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
 #include "engine/model/camera.h"
 #include "engine/record/observation.h"
@@ -12,12 +13,6 @@
 
 namespace stampede {
 namespace {
-
-std::vector<std::string> names_of(const std::vector<Camera>& cameras) {
-  std::vector<std::string> names;
-  for (const Camera& camera : cameras) names.push_back(camera.name);
-  return names;
-}
 
 const Camera& named_camera(const std::vector<Camera>& cameras, const std::string& name) {
   const auto camera = std::find_if(cameras.begin(), cameras.end(), [&](const Camera& one) { return one.name == name; });

@@ -11,9 +11,6 @@
 
 namespace stampede {
 
-// All that can move, the robot's first.
-std::vector<JointName> joints_of(const Scene& scene);
-
 // What a frame observes; the runner records with it and the replayer compares with it.
 class FrameReader {
  public:

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
-#include "engine/rollout/recorder.h"
+#include "engine/record/scene_record.h"
 #include "stampede/environment.h"
 
 namespace stampede {

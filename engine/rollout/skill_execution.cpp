@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/names.h"
 #include "engine/base/stopping.h"
+#include "engine/base/text.h"
 #include "engine/rollout/agent_action.h"
 #include "engine/rollout/blockers.h"
 #include "engine/rollout/call_motion.h"
@@ -22,12 +24,6 @@ constexpr int kCallsPerSkill = 200;  // a skill that asks for more is a runaway
 
 std::string text_of(const EffectRecord& effect) {
   return effect.negated ? "(not " + to_text(effect.fact) + ")" : to_text(effect.fact);
-}
-
-std::string names_of(const std::vector<Parameter>& parameters) {
-  std::string text;
-  for (const Parameter& parameter : parameters) text += (text.empty() ? "" : ", ") + parameter.name;
-  return text;
 }
 
 }  // namespace
@@ -51,7 +47,7 @@ std::optional<Error> SkillExecution::mistake_in(const SkillRequest& request) con
     return Error(name,
                  "takes " + std::to_string(action->parameters.size()) + " arguments, was given " +
                      std::to_string(arguments.size()),
-                 "they are: " + names_of(action->parameters));
+                 "they are: " + joined(names_of(action->parameters)));
   const auto& objects = rollout_.facts().objects();
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const auto is_it = [&](const TypedObject& object) { return object.name == arguments[i]; };

@@ -23,7 +23,7 @@ ChannelValue list_of(std::vector<Value> values) {
   return value;
 }
 
-std::vector<std::string> names_of(const std::vector<PlanStep>& steps) {
+std::vector<std::string> texts_of(const std::vector<PlanStep>& steps) {
   std::vector<std::string> names;
   for (const PlanStep& step : steps) names.push_back(to_text(Fact{step.action, step.arguments}));
   return names;
@@ -71,7 +71,7 @@ std::span<const SymbolChannels::Channel> SymbolChannels::all() {
          const std::vector<std::uint8_t>& mask = of.feasible();
          for (std::size_t i = 0; i < mask.size(); ++i)
            if (mask[i] != 0) list.push_back(of.skills_[i]);
-         return list_of(names_of(list));
+         return list_of(texts_of(list));
        }},
       {"pddl", [](SymbolChannels& of) { return list_of(std::vector<std::string>{of.pddl()}); }},
       {"sentences", [](SymbolChannels& of) { return list_of(of.sentences()); }},
@@ -216,7 +216,7 @@ std::vector<std::string> SymbolChannels::plan() {
         if (options_.planner) return options_.planner(planning.domain, planning.problem);
         return solve_drawn(planning.domain, planning.problem, {}, key("plan"));
       });
-  return plan_ = names_of(found.outcome.plan);
+  return plan_ = texts_of(found.outcome.plan);
 }
 
 std::string SymbolChannels::pddl() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/model/body_tree.h"
 #include "engine/sim/collision_query.h"
 #include "engine/sim/configuration_checker.h"
 
@@ -48,13 +49,10 @@ void CollisionState::move_body(int body, const Transform& world_from_body) {
 
 template <typename Use>
 void CollisionState::each_piece_on(PartRef part, const Use& use) {
-  const std::vector<Part>& parts = scene().bodies.at(static_cast<std::size_t>(part.body)).parts;
+  const Body& body = scene().bodies.at(static_cast<std::size_t>(part.body));
   const CollisionModel::Range range = model_->body_pieces[static_cast<std::size_t>(part.body)];
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    int above = model_->bodies[i].part.part;
-    while (above > 0 && above != part.part) above = std::max(0, parts[static_cast<std::size_t>(above)].parent);
-    if (above == part.part) use(i);
-  }
+  for (std::size_t i = range.begin; i < range.end; ++i)
+    if (hangs_on(body, model_->bodies[i].part.part, part.part)) use(i);
 }
 
 template <typename Use>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/model/body_tree.h"
 #include "engine/sim/world.h"
 
 namespace stampede {
@@ -33,11 +34,7 @@ std::vector<Borne> loads(const World& world) {
 
 std::vector<int> borne_by(const Scene& scene, const std::vector<Borne>& loads, PartRef part) {
   const auto hangs_on_it = [&](PartRef one) {
-    if (one.body != part.body) return false;
-    const std::vector<Part>& parts = scene.body_at(one.body).parts;
-    while (one.part > 0 && one.part != part.part)
-      one.part = std::max(0, parts[static_cast<std::size_t>(one.part)].parent);
-    return one.part == part.part;
+    return one.body == part.body && hangs_on(scene.body_at(one.body), one.part, part.part);
   };
   std::vector<int> found;
   for (bool more = true; more;) {

@@ -4,12 +4,16 @@
 #include <array>
 #include <sstream>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/hash.h"
 #include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {
 namespace {
+
+constexpr std::array<std::string_view, 3> kOnFailure{"undo", "stop", "recover"};
+constexpr std::array<std::string_view, 3> kBehaviours{"plan", "random_skills", "random_applicable"};
 
 // All but what it reads.
 std::string text_of(const SensorEntry& entry) {
@@ -47,34 +51,11 @@ std::string text_of(const Randomisation& ranges) {
 
 }  // namespace
 
-std::string_view to_string(OnFailure value) {
-  switch (value) {
-    case OnFailure::undo:
-      return "undo";
-    case OnFailure::stop:
-      return "stop";
-    case OnFailure::recover:
-      return "recover";
-  }
-  return "undo";
-}
+std::string_view to_string(OnFailure value) { return enum_name(kOnFailure, value); }
+std::optional<OnFailure> on_failure_from(std::string_view text) { return enum_from<OnFailure>(kOnFailure, text); }
 
-std::optional<OnFailure> on_failure_from(std::string_view text) {
-  for (const OnFailure value : {OnFailure::undo, OnFailure::stop, OnFailure::recover})
-    if (to_string(value) == text) return value;
-  return std::nullopt;
-}
-
-std::string_view to_string(Behaviour value) {
-  constexpr std::array<std::string_view, 3> kNames{"plan", "random_skills", "random_applicable"};
-  return kNames.at(static_cast<std::size_t>(value));
-}
-
-std::optional<Behaviour> behaviour_from(std::string_view text) {
-  for (const Behaviour value : {Behaviour::plan, Behaviour::random_skills, Behaviour::random_applicable})
-    if (to_string(value) == text) return value;
-  return std::nullopt;
-}
+std::string_view to_string(Behaviour value) { return enum_name(kBehaviours, value); }
+std::optional<Behaviour> behaviour_from(std::string_view text) { return enum_from<Behaviour>(kBehaviours, text); }
 
 std::map<std::string, std::string> RunOptions::as_text() const {
   std::map<std::string, std::string> text = {{"on_failure", std::string(to_string(on_failure))},

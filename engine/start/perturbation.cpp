@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
@@ -13,6 +14,8 @@
 namespace stampede {
 namespace {
 
+constexpr std::array<std::string_view, 7> kAxisNames{"layout", "camera",  "start", "sentence",
+                                                     "light",  "texture", "noise"};
 constexpr double kStrongest = 10;
 
 // Of strength 1.
@@ -121,24 +124,16 @@ std::vector<std::string> some_things(const Scene& scene, double share, RandomKey
 
 }  // namespace
 
-std::string_view to_string(PerturbationAxis axis) {
-  constexpr std::array<std::string_view, 7> kNames{"layout", "camera",  "start", "sentence",
-                                                   "light",  "texture", "noise"};
-  return kNames.at(static_cast<std::size_t>(axis));
-}
+std::string_view to_string(PerturbationAxis axis) { return enum_name(kAxisNames, axis); }
 
 Perturbation perturbation_from(const std::string& text, const std::string& where) {
   Perturbation perturbation;
   for (const std::string& part : split(text, ',')) {
     const std::size_t equals = part.find('=');
     const std::string name = part.substr(0, equals);
-    std::vector<std::string> known;
-    const PerturbationAxis* found = nullptr;
-    for (const PerturbationAxis& axis : kPerturbationAxes) {
-      known.emplace_back(to_string(axis));
-      if (known.back() == name) found = &axis;
-    }
-    if (found == nullptr) throw Error(where, "there is no axis '" + name + "'", did_you_mean(name, known));
+    const auto found = enum_from<PerturbationAxis>(kAxisNames, name);
+    if (!found)
+      throw Error(where, "there is no axis '" + name + "'", did_you_mean(name, {kAxisNames.begin(), kAxisNames.end()}));
     double strength = 1;
     if (equals != std::string::npos) {
       const char *begin = part.data() + equals + 1, *end = part.data() + part.size();

@@ -524,8 +524,4 @@ PreparedStart prepare_start(const TaskDraw& task, Symbols& symbols, const RunOpt
   return StartMaker(task, symbols, options, stop).make();
 }
 
-Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options) {
-  return prepare_start(altered(task, symbols, options), symbols, options);
-}
-
 }  // namespace stampede

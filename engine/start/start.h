@@ -15,7 +15,6 @@ struct Start {
   std::shared_ptr<const Scene> scene;
   int draws = 0;
 };
-Start make_start(const TaskDraw& task, Symbols& symbols, const RunOptions& options);
 
 // With what was read in the world it settled in.
 struct PreparedStart : Start {

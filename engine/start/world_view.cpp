@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/geometry/corners.h"
 #include "engine/motion/candidates.h"
 #include "engine/sim/load.h"
 
@@ -24,10 +26,8 @@ using Bounds = std::array<Vector3, 2>;
 
 Bounds world_bounds(const Transform& world_from_part, const Vector3& low, const Vector3& high) {
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 local(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
-                        corner & 4 ? high.z() : low.z());
-    const Vector3 point = world_from_part * local;
+  for (const Vector3& corner : box_corners(low, high)) {
+    const Vector3 point = world_from_part * corner;
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
   }
@@ -80,11 +80,9 @@ int WorldView::body_of(const Object& thing) const {
 
 const Object& WorldView::object(std::string_view name) const {
   const auto found = index_.find(name);
-  if (found == index_.end()) {
-    std::vector<std::string> names;
-    for (const Object& object : scene().objects) names.push_back(object.name);
-    throw Error("", "the scene has no object '" + std::string(name) + "'", did_you_mean(name, names));
-  }
+  if (found == index_.end())
+    throw Error("", "the scene has no object '" + std::string(name) + "'",
+                did_you_mean(name, names_of(scene().objects)));
   return scene().objects[static_cast<std::size_t>(found->second)];
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 
 namespace stampede::symbolic {
 namespace {
@@ -13,12 +14,6 @@ std::string with_commas(std::int64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
   return text;
-}
-
-std::vector<std::string> names_of(const std::vector<Parameter>& variables) {
-  std::vector<std::string> names;
-  for (const Parameter& one : variables) names.push_back(one.name);
-  return names;
 }
 
 void limit(const Formula& formula, const View& view, std::int64_t outer, std::vector<std::string>& names,

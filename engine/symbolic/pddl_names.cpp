@@ -3,6 +3,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/names.h"
 #include "engine/symbolic/pddl_text.h"
 #include "engine/symbolic/task_planner.h"
 
@@ -53,13 +54,6 @@ class NameCheck {
  private:
   std::string where_;
 };
-
-template <typename Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return names;
-}
 
 }  // namespace
 

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "engine/base/names.h"
+#include "engine/base/naming.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
 #include "engine/model/camera.h"
 #include "scripting/commands/picture_options.h"
-#include "scripting/library/naming.h"
 
 namespace stampede::program {
 namespace {

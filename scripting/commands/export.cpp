@@ -61,7 +61,7 @@ CommandRow export_command() {
       "skill, with the facts that held there, the plan that was executed from there on, and how the episode "
       "ended. bddl: the problem of a frame in the words of LIBERO or BEHAVIOR; comments say whether a word means "
       "the same there, and what a dialect cannot say is left out with the reason. index.csv and index.json list "
-      "all files. recording: the form in which recordings of real robots come in (scripting/recording/README.md), with "
+      "all files. recording: the form in which recordings of real robots come in (db/recording/README.md), with "
       "the pictures that are stored: one episode in FOLDER itself, several each in FOLDER/episode_000001 and so on; "
       "FOLDER must be new or empty. The exit code is 1 when nothing could be written.",
       {{"WHAT", "pddl, bddl or recording", true, false}, {"FILE", "the catalogue", true, false}},

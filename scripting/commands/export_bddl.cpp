@@ -3,11 +3,11 @@
 #include <ostream>
 #include <set>
 
+#include "db/stored_episode.h"
 #include "engine/base/file_name.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/export_kinds.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
-#include "scripting/session/stored_episode.h"
 #include "scripting/session/stored_symbols.h"
 
 namespace stampede::program {

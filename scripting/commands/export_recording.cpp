@@ -1,12 +1,12 @@
 // Episodes as recording folders: the form in which recordings of real robots come in.
-#include "scripting/recording/export_recording.h"
+#include "db/recording/export_recording.h"
 
 #include <fmt/format.h>
 
 #include <ostream>
 
+#include "db/stored_episode.h"
 #include "scripting/commands/export_kinds.h"
-#include "scripting/session/stored_episode.h"
 
 namespace stampede::program {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "db/catalogue_writer.h"
 #include "engine/base/names.h"
+#include "engine/base/naming.h"
 #include "engine/base/nearest.h"
 #include "engine/base/temporary_folder.h"
 #include "engine/base/text_file.h"
@@ -15,7 +16,6 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
 #include "scripting/library/editor_files.h"
-#include "scripting/library/naming.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
@@ -263,7 +263,7 @@ CommandRow import_command() {
       "import",
       "Make recordings of a real robot episodes, or a BDDL problem of LIBERO or BEHAVIOR a task",
       "recording FOLDER…: each folder with a recording.json becomes an episode with source `real` "
-      "(scripting/recording/README.md); one that is there already is not added again. labels FILE CATALOGUE: what "
+      "(db/recording/README.md); one that is there already is not added again. labels FILE CATALOGUE: what "
       "people or models say happens in a real episode takes the place of its labels of the same sort. "
       "PROBLEM.bddl: a task, run, and judged by their rule and by ours. The task's file goes to tasks/ under the last "
       "--path, or under --root where there is none; it keeps the "

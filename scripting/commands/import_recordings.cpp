@@ -4,13 +4,14 @@
 #include <ostream>
 
 #include "db/catalogue.h"
+#include "db/recording/import_recording.h"
+#include "db/recording/label_file.h"
+#include "db/recording/recording_file.h"
 #include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
+#include "scripting/commands/recording_stage.h"
 #include "scripting/program/json_text.h"
-#include "scripting/recording/import_recording.h"
-#include "scripting/recording/label_file.h"
-#include "scripting/recording/recording_file.h"
 
 namespace stampede::program {
 namespace {
@@ -25,10 +26,10 @@ struct Imported {
   std::vector<std::string> notes;
 };
 
-Imported import_one(const std::string& folder, Catalogue& catalogue, const std::shared_ptr<const Library>& library,
+Imported import_one(const std::string& folder, Catalogue& catalogue, const RecordingStager& stager,
                     const ImportOptions& options) {
   const StoredRecording stored =
-      store_recording(folder, library, options, catalogue, {STAMPEDE_VERSION, numerics_probe()});
+      store_recording(folder, stager, options, catalogue, {STAMPEDE_VERSION, numerics_probe()});
   const EpisodeRecord& record = stored.episode;
   Imported one;
   one.folder = folder;
@@ -88,7 +89,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
   if (arguments.has("--frame-hz"))
     options.frame_hz = static_cast<int>(in_range(arguments, "--frame-hz", 1, kMostFrameHz));
   if (arguments.has("--world")) options.world = arguments.text("--world");
-  const auto library = load_usable_library(arguments);
+  const RecordingStager stager = stager_of(load_usable_library(arguments));
   const std::filesystem::path out = arguments.text("--out");
   const bool is_new = !std::filesystem::exists(out);
   Catalogue catalogue = Catalogue::write(out, Journal::in_place);
@@ -96,7 +97,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
   try {
     for (const std::string& folder : folders) {
       if (console.stopped()) break;
-      all.push_back(import_one(folder, catalogue, library, options));
+      all.push_back(import_one(folder, catalogue, stager, options));
       if (!arguments.flag("--json")) print(all.back(), console);
     }
   } catch (const std::exception&) {  // a mistake, or an end that was asked for

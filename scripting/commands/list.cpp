@@ -5,11 +5,11 @@
 
 #include "db/table_text.h"
 #include "engine/base/names.h"
+#include "engine/base/naming.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/object_sheet.h"
 #include "scripting/commands/object_table.h"
 #include "scripting/commands/render_output.h"
-#include "scripting/library/naming.h"
 #include "scripting/runtime/object_scene.h"
 #include "scripting/session/episode_job.h"
 

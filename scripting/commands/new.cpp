@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <ostream>
 
+#include "engine/base/naming.h"
 #include "engine/base/text_file.h"
 #include "scripting/commands/commands.h"
 #include "scripting/library/editor_files.h"
 #include "scripting/library/library.h"
-#include "scripting/library/naming.h"
 #include "scripting/library/new_robot.h"
 #include "scripting/program/json_text.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/corners.h"
 #include "engine/model/camera.h"
 #include "engine/render/renderer.h"
 #include "scripting/commands/render_output.h"
@@ -23,9 +24,7 @@ struct Bounds {
     upper = upper.cwiseMax(point);
   }
   void add(const Transform& pose, const Vector3& low, const Vector3& high) {
-    for (int corner = 0; corner < 8; ++corner)
-      add(pose *
-          Vector3(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(), corner & 4 ? low.z() : high.z()));
+    for (const Vector3& corner : box_corners(low, high)) add(pose * corner);
   }
 };
 

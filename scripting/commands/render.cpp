@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <ostream>
@@ -21,6 +23,29 @@ std::int64_t episode_number(const std::string& text);
 namespace {
 
 namespace fs = std::filesystem;
+
+// The file that counts: later roots win. Empty when there is none.
+fs::path file_in(const Roots& roots, const std::string& shown_path) {
+  fs::path found;
+  for (const fs::path& folder : roots.folders) {
+    std::error_code error;
+    if (fs::is_regular_file(folder / shown_path, error)) found = folder / shown_path;
+  }
+  return found;
+}
+
+// Files whose text the catalogue has otherwise than the roots (those that are in both), by their shown paths.
+std::vector<std::string> changed_scripts(const EpisodeRecord& episode, const Roots& roots) {
+  std::vector<std::string> changed;
+  for (const DefinitionRecord& definition : episode.definitions) {
+    const fs::path path = file_in(roots, definition.path);
+    if (path.empty()) continue;
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (text != definition.source) changed.push_back(definition.path);
+  }
+  return changed;
+}
 
 // What --frames says: a word, or numbers and spans of numbers.
 struct FrameChoice {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "db/catalogue.h"
+#include "db/stored_episode.h"
 #include "engine/base/output_file.h"
 #include "engine/render/canvas.h"
 #include "engine/render/renderer.h"
 #include "scripting/commands/render_shots.h"
-#include "scripting/session/stored_episode.h"
 
 namespace stampede::program {
 

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "db/recording/overlay.h"
 #include "engine/base/file_name.h"
 #include "engine/base/nearest.h"
 #include "engine/base/output_file.h"
@@ -14,7 +15,6 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/program/json_text.h"
-#include "scripting/recording/overlay.h"
 
 namespace stampede::program {
 namespace {

@@ -1,8 +1,8 @@
 // An episode as a film maker sees it: stretches with one camera each, the one that sees most of what happens there.
 #pragma once
 
+#include "db/stored_episode.h"
 #include "engine/render/renderer.h"
-#include "scripting/session/stored_episode.h"
 
 namespace stampede::program {
 

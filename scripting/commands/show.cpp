@@ -5,12 +5,12 @@
 #include <set>
 
 #include "db/catalogue.h"
+#include "db/stored_episode.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/timeline.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
-#include "scripting/session/stored_episode.h"
 #include "scripting/session/stored_symbols.h"
 
 namespace stampede::program {

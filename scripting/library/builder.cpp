@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/naming.h"
 #include "scripting/library/checks.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/naming.h"
 #include "scripting/library/fields.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {

@@ -1,9 +1,9 @@
 // Tasks: what is the same in all variations, and a few or many of these.
 #include <algorithm>
 
+#include "engine/base/naming.h"
 #include "engine/bddl/bddl.h"
 #include "scripting/library/checks.h"
-#include "scripting/library/naming.h"
 #include "scripting/library/task_formulas.h"
 #include "scripting/library/task_script.h"
 

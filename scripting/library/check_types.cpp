@@ -2,8 +2,8 @@
 // { cube = "block" }; traits by name or as a list.
 #include <algorithm>
 
+#include "engine/base/naming.h"
 #include "scripting/library/checks.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {

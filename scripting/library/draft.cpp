@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scripting/library/lua_value.h"
 #include "scripting/library/scene_outline.h"
 #include "scripting/library/source_lines.h"
 

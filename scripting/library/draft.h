@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/value.h"
 #include "scripting/library/definitions.h"
 #include "scripting/library/fields.h"
 #include "scripting/library/formula_reader.h"
 #include "scripting/library/library.h"
 #include "scripting/library/name_lists.h"
-#include "scripting/library/value.h"
 
 namespace stampede {
 

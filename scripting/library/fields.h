@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scripting/library/value.h"
+#include "engine/geometry/value.h"
 
 namespace stampede {
 

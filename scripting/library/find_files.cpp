@@ -2,6 +2,7 @@
 #include <cctype>
 #include <map>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/hash.h"
 #include "engine/base/read_file.h"
 #include "engine/base/utf8.h"
@@ -123,29 +124,9 @@ void read_file(const Folder& folder, const fs::path& path, std::map<std::string,
 }  // namespace
 
 std::string_view to_string(DefinitionKind kind) {
-  switch (kind) {
-    case DefinitionKind::task:
-      return "task";
-    case DefinitionKind::skill:
-      return "skill";
-    case DefinitionKind::predicate:
-      return "predicate";
-    case DefinitionKind::object:
-      return "object";
-    case DefinitionKind::world:
-      return "world";
-    case DefinitionKind::robot:
-      return "robot";
-    case DefinitionKind::types:
-      return "types";
-    case DefinitionKind::colours:
-      return "colours";
-    case DefinitionKind::words:
-      return "words";
-    case DefinitionKind::module:
-      return "module";
-  }
-  return {};
+  constexpr std::array<std::string_view, 10> kNames{"task",  "skill", "predicate", "object", "world",
+                                                    "robot", "types", "colours",   "words",  "module"};
+  return enum_name(kNames, kind);
 }
 
 std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints) {

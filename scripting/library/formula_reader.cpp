@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/naming.h"
 #include "engine/base/text.h"
 #include "engine/model/scene.h"
 #include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/geometry/value.h"
 #include "engine/start/interfaces.h"
-#include "scripting/library/value.h"
 
 namespace stampede {
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/names.h"    // names_of, keys_of
 #include "engine/base/nearest.h"  // did_you_mean
-#include "scripting/library/value.h"
+#include "engine/geometry/value.h"
 
 namespace stampede {
 

@@ -1,5 +1,5 @@
+#include "engine/base/naming.h"
 #include "scripting/library/library.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 

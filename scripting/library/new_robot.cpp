@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/geometry/corners.h"
 #include "engine/model/kinematics.h"
 #include "engine/model/urdf.h"
 
@@ -91,10 +92,7 @@ double reach_along_z(const Part& part, const Transform& frame_from_part) {
   if (part.shapes.empty()) return frame_from_part.translation().z();
   const auto [low, high] = bounding_box(part);
   double most = -1e9;
-  for (int corner = 0; corner < 8; ++corner)
-    most = std::max(most, (frame_from_part * Vector3(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
-                                                     corner & 4 ? low.z() : high.z()))
-                              .z());
+  for (const Vector3& corner : box_corners(low, high)) most = std::max(most, (frame_from_part * corner).z());
   return most;
 }
 

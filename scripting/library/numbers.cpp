@@ -6,8 +6,8 @@
 #include <array>
 #include <numbers>
 
+#include "engine/base/naming.h"
 #include "scripting/library/draft.h"
-#include "scripting/library/naming.h"
 
 namespace stampede {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/value.h"
 #include "scripting/library/fields.h"
-#include "scripting/library/value.h"
 
 namespace stampede {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "scripting/library/lua_value.h"
 #include "scripting/lua/binding.h"
 
 namespace stampede {

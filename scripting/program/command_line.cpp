@@ -10,11 +10,11 @@
 #include <ostream>
 
 #include "engine/base/error.h"
+#include "engine/base/naming.h"
 #include "engine/base/output_file.h"
 #include "engine/base/stopping.h"
 #include "engine/base/text.h"
 #include "scripting/library/library.h"
-#include "scripting/library/naming.h"
 #include "scripting/program/help.h"
 #include "scripting/program/json_text.h"
 #include "scripting/program/printable_stream.h"

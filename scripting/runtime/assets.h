@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/value.h"
 #include "engine/model/urdf.h"
-#include "scripting/library/value.h"
 
 namespace stampede {
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 #include "scripting/lua/sandbox.h"
 
 namespace stampede {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/value.h"
 #include "engine/model/scene.h"
-#include "scripting/library/value.h"
 #include "scripting/runtime/assets.h"
 
 namespace stampede {

@@ -5,6 +5,7 @@
 #include <lua.hpp>
 
 #include "engine/base/utf8.h"
+#include "scripting/library/lua_value.h"
 #include "scripting/runtime/pose_binding.h"
 
 namespace stampede {

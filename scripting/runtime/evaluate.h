@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/base/random.h"
-#include "scripting/library/value.h"
+#include "engine/geometry/value.h"
 
 struct lua_State;
 

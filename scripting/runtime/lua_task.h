@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/library/value.h"
+#include "engine/geometry/value.h"
 #include "scripting/runtime/assets.h"
 #include "scripting/runtime/job.h"
 #include "scripting/runtime/script_state.h"

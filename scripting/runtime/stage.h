@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/base/random.h"
+#include "engine/geometry/value.h"
 #include "scripting/library/library.h"
-#include "scripting/library/value.h"
 
 namespace stampede {
 

@@ -3,8 +3,9 @@
 #include <lua.hpp>
 
 #include "engine/base/names.h"
+#include "engine/base/naming.h"
 #include "scripting/library/formula_reader.h"
-#include "scripting/library/naming.h"
+#include "scripting/library/lua_value.h"
 #include "scripting/runtime/task_reader.h"
 
 namespace stampede {

@@ -4,7 +4,7 @@
 
 #include "engine/base/error.h"
 #include "scripting/library/definitions.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 
 namespace stampede {
 namespace {

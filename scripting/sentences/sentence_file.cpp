@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 #include "engine/base/read_file.h"
 #include "engine/base/read_json.h"
@@ -83,14 +82,21 @@ class Reader {
     return *grain;
   }
 
+  // Of an entry that has these fields beside.
+  SentenceRequest request_from(const json& one, std::vector<std::string> fields) const {
+    SentenceRequest request;
+    request.level = level_of(one);
+    fields.insert(fields.end(), {"level", "of", "grain", "model", "prompt"});
+    only(one, fields);
+    request.of = text_of(one, "of");
+    request.grain = grain_of(one);
+    request.model = text_of(one, "model");
+    request.prompt = text_of(one, "prompt");
+    return request;
+  }
+
   AskedFor asked_from(const json& one) const {
-    AskedFor asked;
-    asked.level = level_of(one);
-    only(one, {"level", "of", "grain", "model", "prompt", "count", "refused"});
-    asked.of = text_of(one, "of");
-    asked.grain = grain_of(one);
-    asked.model = text_of(one, "model");
-    asked.prompt = text_of(one, "prompt");
+    AskedFor asked{request_from(one, {"count", "refused"}), 0, {}};
     if (one.contains("count")) asked.count = count_of(one["count"], "count");
     if (!one.contains("refused")) return asked;
     if (!one["refused"].is_object()) fail(line_, "'refused' is no object", "write it as { \"reason\": 1 }");
@@ -108,15 +114,8 @@ class Reader {
                                              text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
       from = at;
     }
-    StoredSentence sentence;
-    sentence.line = line_;
-    sentence.text = text_of(one, "text");
-    sentence.level = level_of(one);
-    only(one, {"text", "level", "of", "grain", "model", "prompt", "checks"});
-    sentence.of = text_of(one, "of");
-    sentence.grain = grain_of(one);
-    sentence.model = text_of(one, "model");
-    sentence.prompt = text_of(one, "prompt");
+    const std::string said = text_of(one, "text");
+    StoredSentence sentence{request_from(one, {"text", "checks"}), said, {}, line_};
     for (const json& check : list_of(one, "checks")) {
       if (!check.is_string()) fail(line_, "'checks' is no list of texts", "write it as [\"words\"]");
       sentence.checks.push_back(check);
@@ -128,8 +127,16 @@ class Reader {
   int line_ = 1;
 };
 
-// Keys in our order, on one line.
-std::string line_of(const std::vector<std::pair<const char*, json>>& fields) {
+using Fields = std::vector<std::pair<const char*, json>>;
+
+// Keys in our order, on one line: those of the request between the others.
+std::string line_of(Fields fields, const SentenceRequest& request, const Fields& last) {
+  fields.insert(fields.end(), {{"level", to_string(request.level)},
+                               {"of", request.of},
+                               {"grain", to_string(request.grain)},
+                               {"model", request.model},
+                               {"prompt", request.prompt}});
+  fields.insert(fields.end(), last.begin(), last.end());
   std::string line = "{";
   for (const auto& [name, value] : fields)
     line += (line.size() > 1 ? ", \"" : "\"") + std::string(name) +
@@ -168,30 +175,16 @@ SentenceFile read_sentence_file(const std::filesystem::path& path, const std::st
 
 void write_sentence_file(const SentenceFile& file, const std::filesystem::path& path) {
   SentenceFile sorted = file;
-  const auto key = [](const auto& one) { return std::tie(one.level, one.of, one.grain, one.model, one.prompt); };
-  std::stable_sort(sorted.asked.begin(), sorted.asked.end(),
-                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  std::stable_sort(sorted.sentences.begin(), sorted.sentences.end(),
-                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  const auto before = [](const SentenceRequest& a, const SentenceRequest& b) { return a < b; };
+  std::stable_sort(sorted.asked.begin(), sorted.asked.end(), before);
+  std::stable_sort(sorted.sentences.begin(), sorted.sentences.end(), before);
   std::string text =
       "{\n  \"version\": " + std::to_string(kSentenceFileVersion) + ",\n  \"task\": " + json(file.task).dump();
   text += ",\n  \"asked\": " + list_text(sorted.asked, [](const AskedFor& one) {
-            return line_of({{"level", to_string(one.level)},
-                            {"of", one.of},
-                            {"grain", to_string(one.grain)},
-                            {"model", one.model},
-                            {"prompt", one.prompt},
-                            {"count", one.count},
-                            {"refused", one.refused}});
+            return line_of({}, one, {{"count", one.count}, {"refused", one.refused}});
           });
   text += ",\n  \"sentences\": " + list_text(sorted.sentences, [](const StoredSentence& one) {
-            return line_of({{"text", one.text},
-                            {"level", to_string(one.level)},
-                            {"of", one.of},
-                            {"grain", to_string(one.grain)},
-                            {"model", one.model},
-                            {"prompt", one.prompt},
-                            {"checks", one.checks}});
+            return line_of({{"text", one.text}}, one, {{"checks", one.checks}});
           });
   write_text_file(path, text + "\n}\n");
 }

@@ -8,7 +8,7 @@
 #include "engine/base/names.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/definitions.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/runtime/object_scene.h"
 

@@ -7,8 +7,8 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/names.h"
+#include "engine/base/naming.h"
 #include "engine/base/text.h"
-#include "scripting/library/naming.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/bddl_task_file.h"
 #include "scripting/session/made_sentences.h"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "db/stored_episode.h"
 #include "engine/render/point_cloud.h"
 #include "engine/start/abstract_state.h"
 #include "scripting/session/render_thread.h"
-#include "scripting/session/stored_episode.h"
 
 namespace stampede {
 namespace {

@@ -59,7 +59,7 @@ Robot panda_robot(const Transform& world_from_base) {
   constexpr double pi = std::numbers::pi;
   Robot robot;
   robot.name = "panda";
-  robot.body = body_from_urdf(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.urdf");
+  robot.body = read_urdf(STAMPEDE_SOURCE_DIR "/worlds/robots/panda.urdf").body;
   robot.body.world_from_body = world_from_base;
   for (std::size_t i = 0; i < 7; ++i) {
     const int index = robot.body.part_index("link" + std::to_string(i + 1));

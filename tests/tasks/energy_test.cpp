@@ -5,7 +5,7 @@
 #include "engine/base/random.h"
 #include "engine/sim/collision_state.h"
 #include "engine/sim/world.h"
-#include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

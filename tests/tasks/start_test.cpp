@@ -1,5 +1,4 @@
 // Starts that formulas in `init` draw: the same as --where, written in the task.
-#include "engine/start/start.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>
@@ -7,6 +6,7 @@
 
 #include "engine/start/abstract_state.h"
 #include "engine/start/part_questions.h"
+#include "tests/support/make_start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

@@ -7,7 +7,7 @@
 #include "engine/model/scene_poses.h"
 #include "engine/render/renderer.h"
 #include "engine/start/fact_tracker.h"
-#include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;

@@ -63,6 +63,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"engine/record", {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/symbolic"}},
     {"db", {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/symbolic", "engine/record"}},
     {"db/research", {"engine/base", "engine/symbolic", "engine/learning", "db"}},
+    {"db/recording", {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/record", "db"}},
     {"engine/start",
      {"engine/base", "engine/geometry", "engine/model", "engine/render", "engine/sim", "engine/motion",
       "engine/symbolic", "engine/record"}},
@@ -78,8 +79,8 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 
 // Rooms in one line: each may include all before it, and what is left of the first.
 const std::vector<std::string> kScripting = {"scripting/lua",     "scripting/library",   "scripting/runtime",
-                                             "scripting/session", "scripting/sentences", "scripting/recording",
-                                             "scripting/program", "scripting/commands"};
+                                             "scripting/session", "scripting/sentences", "scripting/program",
+                                             "scripting/commands"};
 
 std::map<std::string, std::set<std::string>> all_arrows() {
   std::map<std::string, std::set<std::string>> arrows = kArrows;
@@ -91,7 +92,8 @@ std::map<std::string, std::set<std::string>> all_arrows() {
   }
   // The catalogue, and episodes that run, are known from the session on; the sandbox knows nothing but errors.
   for (const char* room : {"scripting/library", "scripting/runtime"})
-    for (const char* later : {"db", "db/research", "engine/rollout", "engine/episode"}) arrows[room].erase(later);
+    for (const char* later : {"db", "db/recording", "db/research", "engine/rollout", "engine/episode"})
+      arrows[room].erase(later);
   arrows["scripting/lua"] = {"engine/base"};
   return arrows;
 }

@@ -30,8 +30,7 @@ BddlMapping kitchen_mapping() {
 }
 
 BddlTask kitchen_task(const std::string& goal) {
-  return from_bddl(with_wildcards(read_bddl(kitchen_with_goal(goal), "k").problem, {{"cabinet.n.01", 1 + 1}}),
-                   kitchen_mapping());
+  return from_bddl(kitchen_of(kitchen_with_goal(goal)), kitchen_mapping());
 }
 
 bool ours(const BddlTask& task, const Facts& facts) { return holds(task.goal, facts, {}, {}); }
@@ -148,7 +147,7 @@ TEST_CASE("forn is written out as exactly n") {
 TEST_CASE("forpairs is a matching for us, and the star is where the verdicts differ") {
   const std::string goal =
       "(forpairs (?apple.n.01 - apple.n.01) (?bowl.n.01 - bowl.n.01) (nextto ?apple.n.01 ?bowl.n.01))";
-  const BddlProblem problem = with_wildcards(read_bddl(kitchen_with_goal(goal), "k").problem, {{"cabinet.n.01", 1}});
+  const BddlProblem problem = kitchen_of(kitchen_with_goal(goal));
   const BddlTask task = from_bddl(problem, kitchen_mapping());
   CHECK(task.goal.parts.size() == 6);  // 3! matchings
   int differ = 0;
@@ -195,7 +194,7 @@ TEST_CASE("what we cannot say is refused with the reason") {
   CHECK_THAT(kitchen_task("(forn (5) " + apple + " (cooked ?apple.n.01))").refusal, Contains("can never hold"));
   BddlMapping poor = kitchen_mapping();
   poor.categories.resize(poor.categories.size() - 2);
-  const BddlProblem p = with_wildcards(read_bddl(kClearKitchen, "k").problem, {{"cabinet.n.01", 1}});
+  const BddlProblem p = kitchen_of(kClearKitchen);
   CHECK_THAT(from_bddl(p, poor).refusal, Contains("no object of ours stands for `apple.n.01`, `bowl.n.01`"));
   BddlProblem many =
       read_bddl(kitchen_with_goal("(forpairs " + apple + bowl + " (nextto ?apple.n.01 ?bowl.n.01))"), "k").problem;

@@ -88,6 +88,12 @@ inline std::string kitchen_with_goal(const std::string& goal) {
   return kitchen.substr(0, kitchen.find("(:goal")) + "(:goal " + goal + "))";
 }
 
+// Reads a kitchen, with the instance written out that its wildcard stands for.
+inline stampede::BddlProblem kitchen_of(std::string text) {
+  for (std::size_t at = 0; (at = text.find("_*", at)) != std::string::npos;) text.replace(at, 2, "_2");
+  return stampede::read_bddl(text, "k").problem;
+}
+
 inline std::string complaint(const std::string& text) {
   try {
     stampede::read_bddl(text, "desk.bddl");

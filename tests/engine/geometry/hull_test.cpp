@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/random.h"
+#include "engine/geometry/corners.h"
 
 using namespace stampede;
 
@@ -43,7 +44,7 @@ bool closed(const Hull& hull) {
 TEST_CASE("a cube's hull has its 8 corners, whatever lies inside, on its faces or twice") {
   std::vector<Vector3> points{{0.5, 0.5, 0.5}, {0.5, 0.5, 1}, {0, 0.5, 0}};
   for (int twice = 0; twice < 2; ++twice)
-    for (int i = 0; i < 8; ++i) points.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+    for (const Vector3& corner : box_corners(Vector3::Zero(), Vector3::Ones())) points.push_back(corner);
   const auto hull = convex_hull(points);
   REQUIRE(hull);
   CHECK(hull->points.size() == 8);

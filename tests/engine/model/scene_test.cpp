@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "engine/geometry/corners.h"
 
 using namespace stampede;
 
@@ -89,9 +90,7 @@ TEST_CASE("a box as a hull weighs like the box, wherever it stands and however i
   const Vector3 size(0.1, 0.2, 0.3);
   Shape solid = box(size), hull;
   hull.kind = ShapeKind::hull;
-  for (int corner = 0; corner < 8; ++corner)
-    hull.points.push_back(
-        size.cwiseProduct(Vector3(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5)));
+  for (const Vector3& corner : box_corners(-size / 2, size / 2)) hull.points.push_back(corner);
   solid.part_from_shape = hull.part_from_shape = translation(3, -2, 1) * rotation_rpy(0.3, 0.5, -1);
   const Part a = weighed({solid}, 2), b = weighed({hull}, 2);
   CHECK((a.centre_of_mass - Vector3(3, -2, 1)).norm() < 1e-12);

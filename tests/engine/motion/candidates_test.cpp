@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/geometry/corners.h"
 #include "engine/motion/candidate_shapes.h"
 #include "tests/engine/motion/cluttered.h"
 
@@ -16,9 +17,7 @@ Shape make_shape(ShapeKind kind, double radius, double length, const Vector3& si
   shape.length = length;
   shape.size = size;
   if (kind == ShapeKind::hull)
-    for (int corner = 0; corner < 8; ++corner)
-      shape.points.emplace_back((corner & 1 ? 0.5 : -0.5) * size.x(), (corner & 2 ? 0.5 : -0.5) * size.y(),
-                                (corner & 4 ? 0.5 : -0.5) * size.z());
+    for (const Vector3& corner : box_corners(-size / 2, size / 2)) shape.points.push_back(corner);
   return shape;
 }
 

@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/model/camera.h"
 #include "engine/render/png.h"
-#include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/start/planning.h"
-#include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

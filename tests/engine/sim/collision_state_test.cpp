@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "engine/geometry/corners.h"
 #include "engine/sim/configuration_checker.h"
 #include "engine/sim/convex.h"
 #include "tests/engine/sim/sim_scenes.h"
@@ -53,8 +54,8 @@ TEST_CASE("a box and the hull of its corners agree", "[sim]") {
   Random random(RandomKey("box and hull"));
   Shape hull_shape;
   hull_shape.kind = ShapeKind::hull;
-  for (int i = 0; i < 8; ++i)
-    hull_shape.points.push_back({i & 1 ? 0.1 : -0.1, i & 2 ? 0.05 : -0.05, i & 4 ? 0.15 : -0.15});
+  for (const Vector3& corner : box_corners({-0.1, -0.05, -0.15}, {0.1, 0.05, 0.15}))
+    hull_shape.points.push_back(corner);
   const Convex hull(hull_shape), box(box_shape({0.2, 0.1, 0.3}));
   Shape rod;
   rod.kind = ShapeKind::cylinder;

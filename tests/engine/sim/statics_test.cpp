@@ -1,6 +1,7 @@
 // Resting bodies: what Newton says of their contact forces, and stacks that stand.
 #include <catch2/catch.hpp>
 
+#include "engine/geometry/corners.h"
 #include "tests/engine/sim/sim_scenes.h"
 
 using namespace stampede;
@@ -55,8 +56,8 @@ TEST_CASE("shapes rest at their height: hulls and cones do not grow by their mar
   Body hull = box_body("hull", Vector3::Constant(0.04), {0.4, 0.2, 0.021}, 0.1);
   Shape& points = hull.parts[0].shapes[0];
   points.kind = ShapeKind::hull;
-  for (int i = 0; i < 8; ++i)
-    points.points.push_back({i & 1 ? 0.02 : -0.02, i & 2 ? 0.02 : -0.02, i & 4 ? 0.02 : -0.02});
+  for (const Vector3& corner : box_corners(Vector3::Constant(-0.02), Vector3::Constant(0.02)))
+    points.points.push_back(corner);
   Body cone = box_body("cone", Vector3::Constant(0.04), {0.6, 0.2, 0.031}, 0.1);
   Shape& round = cone.parts[0].shapes[0];
   round.kind = ShapeKind::cone;

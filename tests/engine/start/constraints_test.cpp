@@ -5,8 +5,8 @@
 
 #include "engine/base/error.h"
 #include "engine/start/fact_tracker.h"
-#include "engine/start/start.h"
 #include "engine/symbolic/pddl.h"
+#include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

@@ -6,7 +6,7 @@
 #include "engine/model/masks.h"
 #include "engine/model/scene_poses.h"
 #include "engine/render/renderer.h"
-#include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

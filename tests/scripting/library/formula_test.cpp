@@ -5,7 +5,7 @@
 #include "scripting/library/definitions.h"
 #include "scripting/library/formula_reader.h"
 #include "scripting/library/library.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 
 using namespace stampede;
 

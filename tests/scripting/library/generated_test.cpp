@@ -8,7 +8,6 @@
 #include "scripting/library/annotations.h"
 #include "scripting/library/fields.h"
 #include "scripting/library/library.h"
-#include "scripting/library/naming.h"
 #include "scripting/library/source_lines.h"
 
 using namespace stampede;
@@ -59,19 +58,6 @@ TEST_CASE("new files pass the check beside ours") {
   CHECK(complaints.empty());
   fs::remove_all(root);
   CHECK_THROWS_WITH(new_file(DefinitionKind::task, "end"), Catch::Contains("reserved") && Catch::Contains("end_it"));
-}
-
-TEST_CASE("names: distance, neighbours, proposals") {
-  CHECK(edit_distance("object", "objects") == 1);
-  CHECK(edit_distance("cuont", "count") == 1);  // a swap of neighbours
-  CHECK(edit_distance("", "abc") == 3);
-  CHECK(nearest("wrold", {"world", "word", "goal"}) == "world");
-  CHECK_FALSE(nearest("zzz", {"world"}).has_value());
-  CHECK(proposed_name("MyTask 2") == "my_task_2");
-  CHECK(proposed_name("3d") == "my_3d");
-  CHECK(proposed_name("when") == "when_it");
-  CHECK(proposed_name("cup", {"cup", "cup_2"}) == "cup_3");
-  CHECK_FALSE(name_fault(proposed_name("Ünicode!")).has_value());
 }
 
 TEST_CASE("lines of fields are those of the source") {

@@ -3,7 +3,7 @@
 #include <lua.hpp>
 
 #include "scripting/library/definitions.h"
-#include "scripting/library/value.h"
+#include "scripting/library/lua_value.h"
 #include "scripting/runtime/episode_scripts.h"
 
 using namespace stampede;

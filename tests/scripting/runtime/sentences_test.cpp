@@ -6,8 +6,8 @@
 #include "engine/episode/runner.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/language.h"
-#include "engine/start/start.h"
 #include "scripting/runtime/episode_scripts.h"
+#include "tests/support/make_start.h"
 
 using namespace stampede;
 

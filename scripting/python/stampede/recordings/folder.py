@@ -1,4 +1,4 @@
-"""Writes recording folders, which `stampede import recording` reads (scripting/recording/README.md)."""
+"""Writes recording folders, which `stampede import recording` reads (db/recording/README.md)."""
 
 from __future__ import annotations
 
