@@ -1,5 +1,5 @@
-// Plans whose later steps are known to the earlier ones: what is filled is shut again, things are taken so that they can
-// be put where the plan puts them.
+// Plans whose later steps are known to the earlier ones: what is filled is shut again, things are taken so that they
+// can be put where the plan puts them.
 #include <catch2/catch.hpp>
 
 #include "tests/tasks/run_task.h"

@@ -1,7 +1,7 @@
 -- Strokes that slide an object along a surface to a goal: side by side, so that it does not turn.
 local strokes = {}
 
-local worth = 0.2 -- a third stroke is, where hand and object stay so much further from the edge; 1 is from there to the middle
+local worth = 0.02 -- a third stroke is, where hand and object stay so much further from the edge; 1 is from there to the middle
 
 -- The level axes of the object, and how far it reaches along each.
 local function sides(w, obj)

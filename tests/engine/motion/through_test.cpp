@@ -162,8 +162,9 @@ TEST_CASE("what follows is to be free and in reach: before the arm moves, it is 
   const CollisionState state = world.collision_state();
   const Transform grasp = above(0.5, 0, 0.1);
   const auto plan = [&](const std::function<Transform(double)>& way) {
-    const std::vector<ToolPiece> pieces{{.world_from_tip = [&](double share) { return way(0.1 * share); }},
-                                        {.world_from_tip = [&](double share) { return way(0.1 + 0.9 * share); }}};
+    std::vector<ToolPiece> pieces(2);
+    pieces[0].world_from_tip = [&](double share) { return way(0.1 * share); };
+    pieces[1].world_from_tip = [&](double share) { return way(0.1 + 0.9 * share); };
     return plan_through({state, state.arm().home(), {}, RandomKey("then")}, {{"goal", grasp}}, {.pieces = &pieces});
   };
   const auto arc = [&](double angle) {  // about an upright line between arm and target

@@ -6,7 +6,7 @@ return task {
   variations = { thing = { "tuna_can", "money", "steak" } },
   objects = function(v)
     return {
-      microwave = { "microwave", place = places.left_or_behind { gap = 0.13, turn = deg(16), lean = -0.14 } },
+      microwave = { "microwave", place = places.behind_the_table { gap = 0.13, turn = deg(22), wide = 0.36 } },
       item = { v.thing },
     }
   end,
