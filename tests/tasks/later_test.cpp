@@ -15,14 +15,13 @@ std::shared_ptr<const Library> later() {
   return shared;
 }
 
-// The way down of the hand that took the item, -1 from straight above.
+// The way down of the hand that took the item, which lay flat: -1 from straight above.
 double down_at_grasp(const EpisodeRecord& episode) {
-  const auto took = std::find_if(episode.segments.begin(), episode.segments.end(), [](const SegmentRecord& one) {
-    return one.kind == SegmentKind::skill && one.skill == "pick";
-  });
-  REQUIRE(took != episode.segments.end());
-  const Pose& tip = episode.frames[static_cast<std::size_t>(took->end_frame)].hands[0].tip;
-  return to_transform(tip).linear().col(2).z();
+  for (const SegmentRecord& segment : episode.segments)
+    for (const ParameterRecord& one : segment.parameters)
+      if (segment.skill == "pick" && one.name == "grasp")
+        return (Quaternion(one.values[6], one.values[3], one.values[4], one.values[5]) * Vector3::UnitZ()).z();
+  return 0;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "engine/start/start.h"
 #include "tests/tasks/run_task.h"
 
 using namespace stampede;
